@@ -1,0 +1,321 @@
+//! Where in the file did this value stand: JSON with the place of every value.
+//!
+//! `serde_json` checks the grammar and reads the scalars; this module keeps each value as the
+//! slice of text it came from, so that an error can name file, line and column.
+
+use std::collections::HashSet;
+use std::fmt;
+use std::path::Path;
+
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_json::value::RawValue;
+
+use crate::error::{Complaint, Error, Place, Result, nearest};
+use crate::units::{self, Quantity};
+
+/// The text of one input file, a byte-order mark removed.
+pub(crate) struct Document {
+    pub file: String,
+    pub text: String,
+}
+
+impl Document {
+    /// Reads a file as UTF-8.
+    pub fn read(path: &Path) -> Result<Self> {
+        let read = |source| Error::Read { path: path.to_owned(), source };
+        let bytes = std::fs::read(path).map_err(read)?;
+        let file = path.display().to_string();
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self::new(file, &text)),
+            Err(error) => {
+                let before = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(&error.as_bytes()[..before]).into_owned();
+                let document = Self { file, text };
+                let place = document.place(before);
+                let complaint = Complaint::new("", "bytes that are not text", "UTF-8 text");
+                Err(Error::Input { place, complaint })
+            }
+        }
+    }
+
+    pub fn new(file: String, text: &str) -> Self {
+        Self { file, text: text.trim_start_matches('\u{feff}').to_owned() }
+    }
+
+    /// The value of the whole document.
+    pub fn root(&self) -> Result<Node<'_>> {
+        if self.text.trim().is_empty() {
+            return Err(self.error(0, Complaint::new("", "an empty file", "a JSON object")));
+        }
+        match serde_json::from_str::<&RawValue>(&self.text) {
+            Ok(raw) => Ok(Node { document: self, path: String::new(), raw: raw.get() }),
+            Err(error) => {
+                let place =
+                    Place { file: self.file.clone(), line: error.line(), column: error.column() };
+                let said = error.to_string();
+                let said = said.split(" at line ").next().unwrap_or("broken JSON").to_owned();
+                let complaint = Complaint::new("", said, "JSON");
+                Err(Error::Input { place, complaint })
+            }
+        }
+    }
+
+    /// An error at a byte offset of the text.
+    pub fn error(&self, offset: usize, complaint: Complaint) -> Error {
+        Error::Input { place: self.place(offset), complaint }
+    }
+
+    fn place(&self, offset: usize) -> Place {
+        let before = &self.text[..offset];
+        let line = 1 + before.bytes().filter(|b| *b == b'\n').count();
+        let start = before.rfind('\n').map_or(0, |at| at + 1);
+        Place { file: self.file.clone(), line, column: 1 + before[start..].chars().count() }
+    }
+}
+
+/// One JSON value and where it stands.
+#[derive(Clone)]
+pub(crate) struct Node<'a> {
+    document: &'a Document,
+    /// Path from the root, such as `profile.x[3]`.
+    pub path: String,
+    raw: &'a str,
+}
+
+impl<'a> Node<'a> {
+    /// An error about this value, in the words given.
+    pub fn error(&self, found: impl fmt::Display, expected: impl Into<String>) -> Error {
+        self.complain(Complaint::new("", found, expected))
+    }
+
+    /// An error about this value; the path is filled in where the complaint has none.
+    pub fn complain(&self, mut complaint: Complaint) -> Error {
+        if complaint.field.is_empty() {
+            complaint.field.clone_from(&self.path);
+        }
+        // Both are slices of the same text, so the difference of addresses is the offset.
+        let offset = self.raw.as_ptr() as usize - self.document.text.as_ptr() as usize;
+        self.document.error(offset, complaint)
+    }
+
+    /// The value itself, shortened, to be shown in a message.
+    pub fn shown(&self) -> String {
+        let kind = match self.raw.as_bytes().first() {
+            Some(b'{') => return "an object".into(),
+            Some(b'[') => return "a list".into(),
+            _ => self.raw,
+        };
+        match kind.char_indices().nth(40) {
+            Some((end, _)) => format!("{}…", &kind[..end]),
+            None => kind.to_owned(),
+        }
+    }
+
+    fn wrong(&self, expected: impl Into<String>) -> Error {
+        self.error(self.shown(), expected)
+    }
+
+    /// The members of an object; a key that is not in `known` is an error with a hint.
+    pub fn object(&self, known: &[&str]) -> Result<Object<'a>> {
+        let entries: Entries = serde_json::from_str(self.raw).map_err(|_| self.wrong("an object"))?;
+        let mut members = Vec::with_capacity(entries.0.len());
+        let mut seen = HashSet::new();
+        for (key, raw) in entries.0 {
+            let path = if self.path.is_empty() { key.clone() } else { format!("{}.{key}", self.path) };
+            let node = Node { document: self.document, path, raw: raw.get() };
+            if !known.contains(&key.as_str()) {
+                let hint = match nearest(&key, known) {
+                    Some(name) => format!("\"{name}\" (did you mean that?)"),
+                    None => format!("one of {}", known.join(", ")),
+                };
+                return Err(node.error(format!("unknown key \"{key}\""), hint));
+            }
+            if !seen.insert(key.clone()) {
+                return Err(node.error(format!("key \"{key}\" a second time"), "it once"));
+            }
+            members.push((key, node));
+        }
+        Ok(Object { node: self.clone(), members })
+    }
+
+    pub fn is_object(&self) -> bool {
+        self.raw.starts_with('{')
+    }
+
+    pub fn is_string(&self) -> bool {
+        self.raw.starts_with('"')
+    }
+
+    /// A text.
+    pub fn string(&self) -> Result<String> {
+        serde_json::from_str(self.raw).map_err(|_| self.wrong("a text in quotes"))
+    }
+
+    /// One of a closed set of words.
+    pub fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
+        let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
+        let expected = format!("one of {}", names.join(", "));
+        let word = self.string().map_err(|_| self.wrong(expected.clone()))?;
+        match choices.iter().find(|c| c.0 == word) {
+            Some((_, choice)) => Ok(*choice),
+            None => Err(self.wrong(match nearest(&word, &names) {
+                Some(name) => format!("{expected} (did you mean {name}?)"),
+                None => expected,
+            })),
+        }
+    }
+
+    /// A pure number, such as a ratio.
+    pub fn number(&self) -> Result<f64> {
+        match serde_json::from_str::<f64>(self.raw) {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(self.wrong("a finite number")),
+        }
+    }
+
+    /// A number in SI, or a text with a unit.
+    pub fn quantity(&self, quantity: Quantity) -> Result<f64> {
+        self.scaled(quantity, 1.0)
+    }
+
+    /// As [`Self::quantity`], bare numbers times `unit`.
+    fn scaled(&self, quantity: Quantity, unit: f64) -> Result<f64> {
+        if let Ok(text) = serde_json::from_str::<String>(self.raw) {
+            return units::parse(&text, quantity).map_err(|complaint| self.complain(complaint));
+        }
+        match serde_json::from_str::<f64>(self.raw) {
+            Ok(value) if (value * unit).is_finite() => Ok(value * unit),
+            _ => Err(self.wrong(quantity.expected())),
+        }
+    }
+
+    /// A list of quantities, bare numbers times `unit`.
+    pub fn quantities(&self, quantity: Quantity, unit: f64) -> Result<Vec<f64>> {
+        // The fast way for a million stations; anything unusual goes item by item.
+        if let Ok(values) = serde_json::from_str::<Vec<f64>>(self.raw) {
+            if values.iter().all(|v| (v * unit).is_finite()) {
+                return Ok(values.into_iter().map(|v| v * unit).collect());
+            }
+        }
+        self.items()?.iter().map(|item| item.scaled(quantity, unit)).collect()
+    }
+
+    /// The items of a list.
+    pub fn items(&self) -> Result<Vec<Node<'a>>> {
+        let raws: Vec<&RawValue> =
+            serde_json::from_str(self.raw).map_err(|_| self.wrong("a list [ … ]"))?;
+        let item = |(k, raw): (usize, &&'a RawValue)| Node {
+            document: self.document,
+            path: format!("{}[{k}]", self.path),
+            raw: raw.get(),
+        };
+        Ok(raws.iter().enumerate().map(item).collect())
+    }
+
+    /// Item `k` of a list that [`Self::items`] accepts, else the list itself.
+    pub fn item(&self, k: usize) -> Node<'a> {
+        self.items().ok().and_then(|items| items.get(k).cloned()).unwrap_or_else(|| self.clone())
+    }
+}
+
+/// The members of one JSON object, in the order of the file.
+pub(crate) struct Object<'a> {
+    pub node: Node<'a>,
+    members: Vec<(String, Node<'a>)>,
+}
+
+impl<'a> Object<'a> {
+    pub fn get(&self, key: &str) -> Option<&Node<'a>> {
+        self.members.iter().find(|(name, _)| name == key).map(|(_, node)| node)
+    }
+
+    /// A member that must be there; `expected` says what it would be.
+    pub fn require(&self, key: &str, expected: &str) -> Result<&Node<'a>> {
+        self.get(key).ok_or_else(|| self.node.error(format!("no \"{key}\""), expected))
+    }
+
+    /// The one member of a set of alternatives that is there, if any; two are an error.
+    pub fn one_of(&self, keys: &[&'static str]) -> Result<Option<(&'static str, &Node<'a>)>> {
+        let mut found = None;
+        for &key in keys {
+            match (found, self.get(key)) {
+                (None, Some(node)) => found = Some((key, node)),
+                (Some((first, _)), Some(node)) => {
+                    let both = format!("both \"{first}\" and \"{key}\"");
+                    return Err(node.error(both, "one of them"));
+                }
+                (_, None) => {}
+            }
+        }
+        Ok(found)
+    }
+
+    pub fn number(&self, key: &str) -> Result<Option<f64>> {
+        self.get(key).map(Node::number).transpose()
+    }
+
+    pub fn quantity(&self, key: &str, quantity: Quantity) -> Result<Option<f64>> {
+        self.get(key).map(|node| node.quantity(quantity)).transpose()
+    }
+
+    pub fn string(&self, key: &str) -> Result<Option<String>> {
+        self.get(key).map(Node::string).transpose()
+    }
+}
+
+/// An object as its keys and raw values, duplicates kept for us to find.
+struct Entries<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'de: 'a, 'a> Deserialize<'de> for Entries<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        struct Members;
+        impl<'de> Visitor<'de> for Members {
+            type Value = Entries<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(
+                self,
+                mut map: A,
+            ) -> std::result::Result<Self::Value, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry::<String, &RawValue>()? {
+                    entries.push(entry);
+                }
+                Ok(Entries(entries))
+            }
+        }
+        deserializer.deserialize_map(Members)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_names_file_line_column_and_field() {
+        let text = "\u{feff}{\r\n  \"é\": 1,\r\n  \"a\": { \"b\": [1, \"2 lbf\"] }\r\n}";
+        let document = Document::new("bat.json".into(), text);
+        let root = document.root().unwrap().object(&["é", "a"]).unwrap();
+        let list = root.get("a").unwrap().object(&["b"]).unwrap().get("b").unwrap().clone();
+        let said = list.quantities(Quantity::Mass, 1.0).unwrap_err().to_string();
+        assert!(said.starts_with("bat.json:3:20: a.b[1]: found unit \"lbf\""), "{said}");
+    }
+
+    #[test]
+    fn broken_json_is_placed_where_it_breaks() {
+        let document = Document::new("bat.json".into(), "{\n \"a\": 1,,\n}");
+        let said = document.root().err().unwrap().to_string();
+        assert!(said.starts_with("bat.json:2:9: "), "{said}");
+    }
+
+    #[test]
+    fn duplicate_and_unknown_keys_are_told() {
+        let document = Document::new("f".into(), "{\"density\": 1, \"density\": 2}");
+        let said = document.root().unwrap().object(&["density"]).err().unwrap().to_string();
+        assert!(said.contains("a second time"), "{said}");
+        let said = document.root().unwrap().object(&["densities"]).err().unwrap().to_string();
+        assert!(said.contains("did you mean that"), "{said}");
+    }
+}

@@ -1,0 +1,148 @@
+//! What a caller can get wrong, and what to say.
+//!
+//! Every message is written for the person at the terminal: where, what was found,
+//! what was expected, what to do.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// The result of everything here that can fail.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Everything a caller can cause; a bug in this crate panics instead.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file that could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read { path: PathBuf, source: std::io::Error },
+
+    /// A file or stream that could not be written; nothing half-written is left behind.
+    #[error("cannot write {}: {source}", path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+
+    /// Something in an input file is wrong.
+    #[error("{place}: {complaint}")]
+    Input { place: Place, complaint: Complaint },
+
+    /// A value given directly, on the command line or by a program, is wrong.
+    #[error("{0}")]
+    Value(Complaint),
+
+    /// Part of the bat format or of the command line that this version does not handle yet.
+    #[error("{what} is not supported yet: {advice}")]
+    NotYet { what: String, advice: &'static str },
+
+    /// The iteration stopped before every wanted mode had converged.
+    #[error(
+        "{converged} of {wanted} modes converged in {steps} Lanczos steps; \
+         ask for fewer modes or report this bat"
+    )]
+    NotConverged { wanted: usize, converged: usize, steps: usize },
+
+    /// A mesh that cannot hold what was asked of it.
+    #[error("{wanted} bending modes need at least {least} elements, {found} were asked for")]
+    TooFewElements { wanted: usize, least: usize, found: usize },
+
+    /// A problem too large for the solver that was asked for.
+    #[error("the dense solver takes at most {most} elements, this mesh has {found}: use --solver statics")]
+    TooLarge { most: usize, found: usize },
+}
+
+impl Error {
+    /// A wrong value of a named quantity, for values that come from no file.
+    pub fn value(
+        field: impl Into<String>,
+        found: impl fmt::Display,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self::Value(Complaint::new(field, found, expected))
+    }
+}
+
+/// A place in an input file; line and column count from 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    pub file: String,
+    pub line: usize,
+    pub column: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.file, self.line, self.column)
+    }
+}
+
+/// What is wrong with one value: the field, what was found, what was expected.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Complaint {
+    /// Path of the field, such as `profile.x[3]`; empty for the whole document.
+    pub field: String,
+    pub found: String,
+    pub expected: String,
+}
+
+impl Complaint {
+    pub fn new(
+        field: impl Into<String>,
+        found: impl fmt::Display,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self { field: field.into(), found: found.to_string(), expected: expected.into() }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if !self.field.is_empty() {
+            write!(f, "{}: ", self.field)?;
+        }
+        write!(f, "found {}, expected {}", self.found, self.expected)
+    }
+}
+
+/// The nearest of `names` to a misspelt `word`, if one is near enough to be meant.
+///
+/// Nearness is the number of single-character edits (Levenshtein's distance), at most
+/// a third of the longer word, or two words that differ by case and separators only.
+pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
+    let plain = |s: &str| s.to_lowercase().replace(['_', '-', ' '], "");
+    let word = plain(word);
+    names
+        .iter()
+        .map(|name| (edits(&word, &plain(name)), *name))
+        .filter(|(d, name)| 3 * d <= word.chars().count().max(name.chars().count()))
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, name)| name)
+}
+
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_word_finds_its_neighbour_and_a_strange_one_none() {
+        let keys = ["youngs_modulus", "density", "shear_modulus"];
+        assert_eq!(nearest("young_modulus", &keys), Some("youngs_modulus"));
+        assert_eq!(nearest("Density", &keys), Some("density"));
+        assert_eq!(nearest("youngsModulus", &keys), Some("youngs_modulus"));
+        assert_eq!(nearest("colour", &keys), None);
+        assert_eq!(nearest("", &keys), None);
+    }
+}

@@ -1,0 +1,10 @@
+pub mod error;
+pub mod units;
+pub mod quadrature;
+pub mod material;
+mod pchip;
+pub mod profile;
+pub mod bat;
+mod document;
+mod station_table;
+mod bat_file;

@@ -1,0 +1,333 @@
+//! What is the cross-section at `x`: outer and inner radius along the bat.
+
+use crate::error::{Complaint, Error, Result};
+use crate::pchip;
+
+/// How the radius runs between stations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Monotone cubic of Fritsch and Butland, split at steps.
+    Pchip,
+    /// Straight lines.
+    Linear,
+    /// The value of a station holds until the next; the last station only closes the bat.
+    Constant,
+}
+
+/// Stations along the axis, from the knob: position, outer and inner radius (m).
+///
+/// Two stations at the same `x` are a step: the first is the value to its left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    pub x: Vec<f64>,
+    pub outer: Vec<f64>,
+    /// Inner radius at each station, 0 where the bat is solid.
+    pub inner: Vec<f64>,
+    pub interpolation: Interpolation,
+}
+
+/// A stretch of the bat where both radii are one cubic each, in Bernstein form.
+///
+/// With `s` from 0 to 1 along the stretch, `r(s) = Σ bᵢ Bᵢ(s)`, `Bᵢ` the cubic Bernstein
+/// polynomials. All `bᵢ` of a monotone cubic between radii are positive, so nothing cancels,
+/// not even at the thin end of a 1:10 000 cone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// Where it begins and how long it is (m).
+    pub start: f64,
+    pub length: f64,
+    pub outer: [f64; 4],
+    pub inner: [f64; 4],
+    /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
+    pub degree: usize,
+}
+
+/// The outer and inner radius (m) at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    pub outer: f64,
+    pub inner: f64,
+}
+
+impl Section {
+    /// Area `π(r² − rᵢ²)` in m².
+    #[inline]
+    pub fn area(self) -> f64 {
+        let (r, ri) = (self.outer, self.inner);
+        std::f64::consts::PI * (r - ri) * (r + ri)
+    }
+
+    /// Second moment of area about a diameter, `π/4 (r⁴ − rᵢ⁴)`, in m⁴.
+    #[inline]
+    pub fn second_moment(self) -> f64 {
+        let (r, ri) = (self.outer, self.inner);
+        self.area() * (r * r + ri * ri) / 4.0
+    }
+}
+
+/// The shape of a bat, checked: positive length, positive wall, radius 0 at most at an end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    pub pieces: Vec<Piece>,
+    /// The stations it was made from, knob first.
+    pub stations: Stations,
+}
+
+impl Profile {
+    /// The profile through the stations.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station.
+    pub fn new(stations: Stations) -> Result<Self> {
+        check_positions(&stations.x)?;
+        check_radii(&stations)?;
+        let stations = match stations.interpolation {
+            Interpolation::Constant => held(&stations)?,
+            _ => stations,
+        };
+        let pieces = pieces(&stations)?;
+        pieces.iter().try_for_each(|piece| check_wall(piece, &stations))?;
+        Ok(Self { pieces, stations })
+    }
+
+    /// From the knob end to the tip (m).
+    pub fn length(&self) -> f64 {
+        *self.stations.x.last().expect("a profile has stations")
+    }
+
+    /// The same shape turned end for end.
+    pub fn reversed(mut self) -> Self {
+        let length = self.length();
+        let Stations { x, outer, inner, .. } = &mut self.stations;
+        x.iter_mut().for_each(|x| *x = length - *x);
+        [x, outer, inner].into_iter().for_each(|column| column.reverse());
+        self.pieces.reverse();
+        let starts = self.stations.x.windows(2).filter(|w| w[0] != w[1]).map(|w| w[0]);
+        for (piece, start) in self.pieces.iter_mut().zip(starts) {
+            piece.start = start;
+            piece.outer.reverse();
+            piece.inner.reverse();
+        }
+        self
+    }
+
+    /// The section at `x`; at a step, the one to its right. `x` outside is taken to the near end.
+    pub fn at(&self, x: f64) -> Section {
+        let k = self.pieces.partition_point(|piece| piece.start <= x).max(1) - 1;
+        let piece = &self.pieces[k];
+        piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
+    }
+}
+
+impl Piece {
+    /// The section at `s` in [0, 1] along the piece.
+    pub fn at(&self, s: f64) -> Section {
+        Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
+    }
+
+    /// The part from `s0` to `s1` as a piece of its own, by de Casteljau's subdivision.
+    #[inline]
+    pub fn part(&self, s0: f64, s1: f64) -> Piece {
+        if self.degree == 0 {
+            let (start, length) = (self.start + self.length * s0, self.length * (s1 - s0));
+            return Piece { start, length, ..self.clone() };
+        }
+        Piece {
+            start: self.start + self.length * s0,
+            length: self.length * (s1 - s0),
+            outer: subdivide(&self.outer, s0, s1),
+            inner: if self.inner[0] == 0.0 && self.inner == [0.0; 4] {
+                [0.0; 4]
+            } else {
+                subdivide(&self.inner, s0, s1)
+            },
+            degree: self.degree,
+        }
+    }
+}
+
+fn check_positions(x: &[f64]) -> Result<()> {
+    if x.len() < 2 {
+        return Err(Error::value("x", format!("{} station(s)", x.len()), "two stations at least"));
+    }
+    if x[0] != 0.0 {
+        let expected = "0: positions count from the end named in \"measured_from\"";
+        return Err(Error::value("x[0]", format!("{} m", x[0]), expected));
+    }
+    for k in 1..x.len() {
+        if x[k] < x[k - 1] || !x[k].is_finite() {
+            let expected = format!("a position beyond station {} at {} m", k - 1, x[k - 1]);
+            return Err(Error::value(format!("x[{k}]"), format!("{} m", x[k]), expected));
+        }
+        if k > 1 && x[k] == x[k - 2] {
+            let expected = "two stations at most at one place (left and right of a step)";
+            return Err(Error::value(format!("x[{k}]"), format!("a third at {} m", x[k]), expected));
+        }
+    }
+    let last = x.len() - 1;
+    if x[last] == 0.0 {
+        return Err(Error::value(format!("x[{last}]"), "a bat of no length", "a length above 0"));
+    }
+    if x[1] == 0.0 || x[last - 1] == x[last] {
+        let k = if x[1] == 0.0 { 1 } else { last };
+        let expected = "a step inside the bat: at an end only one value can hold";
+        return Err(Error::value(format!("x[{k}]"), format!("a step at {} m", x[k]), expected));
+    }
+    Ok(())
+}
+
+fn check_radii(stations: &Stations) -> Result<()> {
+    let last = stations.x.len() - 1;
+    for (k, (&r, &ri)) in stations.outer.iter().zip(&stations.inner).enumerate() {
+        let at_end = k == 0 || k == last;
+        let shown = |v: f64| format!("{v} m");
+        if !(r > 0.0 || r == 0.0 && at_end) || !r.is_finite() {
+            let expected = if r == 0.0 {
+                "a radius above 0 (only an end of the bat may come to a point)"
+            } else {
+                "a radius above 0"
+            };
+            return Err(Error::value(format!("outer[{k}]"), shown(r), expected));
+        }
+        if !(ri >= 0.0 && ri.is_finite()) {
+            return Err(Error::value(format!("inner[{k}]"), shown(ri), "0 or more"));
+        }
+        if ri >= r && !(r == 0.0 && ri == 0.0) {
+            let expected = format!("less than the outer radius there, {r} m");
+            return Err(Error::value(format!("inner[{k}]"), shown(ri), expected));
+        }
+    }
+    Ok(())
+}
+
+/// `constant` stations written out as steps, each value at both ends of its stretch.
+fn held(stations: &Stations) -> Result<Stations> {
+    let mut steps = Stations {
+        x: vec![],
+        outer: vec![],
+        inner: vec![],
+        interpolation: Interpolation::Linear,
+    };
+    let (x, outer, inner) = (&stations.x, &stations.outer, &stations.inner);
+    for k in 0..x.len() - 1 {
+        if x[k] == x[k + 1] {
+            // A step written out by the user: its left value must be the one that holds there.
+            if outer[k] != outer[k - 1] || inner[k] != inner[k - 1] {
+                let expected = format!("the {} m that station {} holds up to here", outer[k - 1], k - 1);
+                return Err(Error::value(format!("outer[{k}]"), format!("{} m", outer[k]), expected));
+            }
+            continue;
+        }
+        if outer[k] == 0.0 {
+            let expected = "a radius above 0: it holds to the next station";
+            return Err(Error::value(format!("outer[{k}]"), "0 m", expected));
+        }
+        for at in [x[k], x[k + 1]] {
+            steps.x.push(at);
+            steps.outer.push(outer[k]);
+            steps.inner.push(inner[k]);
+        }
+    }
+    Ok(steps)
+}
+
+/// One piece per interval between stations, steps left out.
+fn pieces(stations: &Stations) -> Result<Vec<Piece>> {
+    let Stations { x, outer, inner, interpolation } = stations;
+    let mut pieces = Vec::with_capacity(x.len());
+    let mut first = 0;
+    while first < x.len() {
+        let steps = (first + 1..x.len()).find(|&k| x[k] == x[k - 1]);
+        let end = steps.unwrap_or(x.len());
+        if end - first < 2 {
+            let expected = "another station between two steps";
+            return Err(Error::value(format!("x[{first}]"), format!("{} m", x[first]), expected));
+        }
+        let run = first..end;
+        let bezier = |y: &[f64]| match interpolation {
+            Interpolation::Pchip => cubics(&x[run.clone()], &y[run.clone()]),
+            _ => lines(&y[run.clone()]),
+        };
+        for (k, (outer, inner)) in bezier(outer).into_iter().zip(bezier(inner)).enumerate() {
+            let k = first + k;
+            let flat = |b: &[f64; 4]| b.iter().all(|v| *v == b[0]);
+            let degree = match interpolation {
+                _ if flat(&outer) && flat(&inner) => 0,
+                Interpolation::Pchip => 3,
+                _ => 1,
+            };
+            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], outer, inner, degree });
+        }
+        first = end;
+    }
+    Ok(pieces)
+}
+
+/// Bernstein coefficients of the monotone cubic on each interval, `y ± h y′/3` in the middle.
+fn cubics(x: &[f64], y: &[f64]) -> Vec<[f64; 4]> {
+    let d = pchip::slopes(x, y);
+    (0..x.len() - 1)
+        .map(|k| {
+            let (h, low, high) = (x[k + 1] - x[k], y[k].min(y[k + 1]), y[k].max(y[k + 1]));
+            // Between the stations' values in exact arithmetic; the clamp removes the rounding.
+            let first = (y[k] + h * d[k] / 3.0).clamp(low, high);
+            let second = (y[k + 1] - h * d[k + 1] / 3.0).clamp(low, high);
+            [y[k], first, second, y[k + 1]]
+        })
+        .collect()
+}
+
+fn lines(y: &[f64]) -> Vec<[f64; 4]> {
+    let line = |a: f64, b: f64| {
+        if a == b { [a; 4] } else { [a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b] }
+    };
+    y.windows(2).map(|w| line(w[0], w[1])).collect()
+}
+
+/// The wall must not vanish between stations either, where two cubics may cross.
+fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
+    let wall: [f64; 4] = std::array::from_fn(|i| piece.outer[i] - piece.inner[i]);
+    if wall[1] > 0.0 && wall[2] > 0.0 {
+        return Ok(());
+    }
+    let step = |i: usize| wall[i + 1] - wall[i];
+    // Wall thickness is least where its derivative, a quadratic in Bernstein form, is 0.
+    let (a, b, c) = (step(0) - 2.0 * step(1) + step(2), step(1) - step(0), step(0));
+    let root = (b * b - a * c).max(0.0).sqrt();
+    let places = [(-b + root) / a, (-b - root) / a, -c / (2.0 * b)];
+    for s in places.into_iter().filter(|s| *s > 0.0 && *s < 1.0) {
+        if bernstein(&wall, s) <= 0.0 {
+            let x = piece.start + s * piece.length;
+            let k = stations.x.partition_point(|at| *at <= piece.start) - 1;
+            let found = format!("a wall that vanishes beyond it, at {x} m");
+            let expected = "inner radius below outer radius there too: add a station";
+            return Err(Error::Value(Complaint::new(format!("inner[{k}]"), found, expected)));
+        }
+    }
+    Ok(())
+}
+
+/// `Σ bᵢ Bᵢ(s)`, by de Casteljau's corner cutting.
+fn bernstein(b: &[f64; 4], s: f64) -> f64 {
+    blossom(b, s, s, s)
+}
+
+/// The polar form of a cubic: multi-affine, symmetric, equal to the cubic on the diagonal.
+#[inline]
+fn blossom(b: &[f64; 4], s: f64, t: f64, u: f64) -> f64 {
+    let cut = |a: f64, b: f64, s: f64| (1.0 - s) * a + s * b;
+    let (c0, c1, c2) = (cut(b[0], b[1], s), cut(b[1], b[2], s), cut(b[2], b[3], s));
+    cut(cut(c0, c1, t), cut(c1, c2, t), u)
+}
+
+/// Bernstein coefficients of the same cubic between `s0` and `s1`.
+#[inline]
+fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
+    [
+        blossom(b, s0, s0, s0),
+        blossom(b, s0, s0, s1),
+        blossom(b, s0, s1, s1),
+        blossom(b, s1, s1, s1),
+    ]
+}
