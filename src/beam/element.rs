@@ -1,0 +1,190 @@
+//! What one element stores: strain energy and kinetic energy of a cubic deflection.
+//!
+//! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the
+//! unknowns are strains: the curvature is `θ′ = c₀ P₀ + c₁ P₁`, and slope and deflection follow
+//! by integration from the left end,
+//!
+//! ```text
+//! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫θ,   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
+//! ```
+//!
+//! That is the cubic Hermite space seen from its strains; [`Element::hermite`] gives the usual
+//! matrices of `[w₁, θ₁, w₂, θ₂]` as a change of basis of the same two blocks.
+
+use crate::bat::Bat;
+use crate::beam::mesh;
+use crate::quadrature::gauss;
+
+/// Strain unknowns of an element: the coefficients of `P₀` and `P₁` in its curvature.
+pub const STRAINS: usize = 2;
+
+const THIRD: f64 = 1.0 / 3.0;
+const FIFTH: f64 = 0.2;
+
+/// A 4 × 4 matrix of Hermite unknowns `[w₁, θ₁, w₂, θ₂]`.
+pub type Matrix4 = [[f64; 4]; 4];
+
+/// The energies of one element.
+#[derive(Debug, Clone, Copy)]
+pub struct Element {
+    /// Length h (m).
+    pub length: f64,
+    /// Position of the middle from the knob end (m).
+    pub middle: f64,
+    /// Inverse of the Cholesky factor of the strains' stiffness `D = L Lᵀ`, as
+    /// `[1/L₀₀, −L₁₀/(L₀₀ L₁₁), 1/L₁₁]`.
+    pub inverse: [f64; 3],
+    /// Mass `∫ρA P_k P_l dx` (kg), `k ≥ l`, row by row.
+    pub mass: [f64; 10],
+}
+
+/// `w₀ … w₃`: a deflection on an element in Legendre polynomials (m).
+pub type Deflection = [f64; 4];
+
+impl Element {
+    /// The deflection with strains `c` of an element whose left end is at `w` with slope `theta`.
+    #[inline(always)]
+    pub fn deflection(&self, c: [f64; 2], w: f64, theta: f64) -> Deflection {
+        let half = 0.5 * self.length;
+        let (t1, t2) = (half * c[0], half * c[1] * THIRD);
+        let t0 = theta + (t1 - t2);
+        [w + half * (t0 - t1 * THIRD), half * (t0 - t2 * FIFTH), half * t1 * THIRD, half * t2 * FIFTH]
+    }
+
+    /// By how much slope and deflection grow along the element: `h c₀` and `h θ̄`.
+    #[inline(always)]
+    pub fn growth(&self, c: [f64; 2], theta: f64) -> (f64, f64) {
+        let h = self.length;
+        (h * c[0], h * (theta + 0.5 * h * (c[0] - c[1] * THIRD)))
+    }
+
+    /// Loads `f_k = ∫ρA P_k w dx` that the inertia of a deflection makes (times ω²).
+    #[inline(always)]
+    pub fn load(&self, w: &Deflection) -> Deflection {
+        let m = &self.mass;
+        [
+            m[0] * w[0] + m[1] * w[1] + m[3] * w[2] + m[6] * w[3],
+            m[1] * w[0] + m[2] * w[1] + m[4] * w[2] + m[7] * w[3],
+            m[3] * w[0] + m[4] * w[1] + m[5] * w[2] + m[8] * w[3],
+            m[6] * w[0] + m[7] * w[1] + m[8] * w[2] + m[9] * w[3],
+        ]
+    }
+
+    /// The adjoint of [`Self::deflection`] and [`Self::growth`]: from loads on the element and
+    /// the shear and bending moment beyond it, those at its left end and the load on its strains.
+    #[inline(always)]
+    pub fn resultants(&self, f: &Deflection, shear: f64, bending: f64) -> (f64, f64, [f64; 2]) {
+        let (h, half) = (self.length, 0.5 * self.length);
+        let t0 = h * shear + half * (f[0] + f[1]);
+        let t1 = half * (f[2] - f[0]) * THIRD;
+        let t2 = half * (f[3] - f[1]) * FIFTH;
+        (f[0], t0, [h * bending + half * (t0 + t1), half * (t2 - t0) * THIRD])
+    }
+
+    /// `L⁻ᵀ q`: strains from energy-scaled strains, `½ qᵀq = ½ cᵀD c`.
+    #[inline(always)]
+    pub fn strains(&self, q: [f64; 2]) -> [f64; 2] {
+        let [i00, i10, i11] = self.inverse;
+        [i00 * q[0] + i10 * q[1], i11 * q[1]]
+    }
+
+    /// `L⁻¹ s`: the adjoint of [`Self::strains`].
+    #[inline(always)]
+    pub fn scaled(&self, s: [f64; 2]) -> [f64; 2] {
+        let [i00, i10, i11] = self.inverse;
+        [i00 * s[0], i10 * s[0] + i11 * s[1]]
+    }
+
+    /// `Lᵀ c`: energy-scaled strains from strains.
+    pub fn energy_scaled(&self, c: [f64; 2]) -> [f64; 2] {
+        let [i00, i10, i11] = self.inverse;
+        let q1 = c[1] / i11;
+        [(c[0] - i10 * q1) / i00, q1]
+    }
+
+    /// Strains of the Hermite unknowns: mean curvature `(θ₂ − θ₁)/h` and its slope
+    /// `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h`.
+    pub fn strains_of_hermite(&self, u: [f64; 4]) -> [f64; 2] {
+        let h = self.length;
+        let chord = (u[2] - u[0]) / h;
+        [(u[3] - u[1]) / h, 3.0 * ((u[1] - chord) + (u[3] - chord)) / h]
+    }
+
+    /// Stiffness and mass for the Hermite unknowns `[w₁, θ₁, w₂, θ₂]`.
+    pub fn hermite(&self) -> (Matrix4, Matrix4) {
+        let unit = |i: usize| std::array::from_fn(|j| f64::from(u8::from(i == j)));
+        let strain: [[f64; 2]; 4] =
+            std::array::from_fn(|i| self.energy_scaled(self.strains_of_hermite(unit(i))));
+        let shape: [Deflection; 4] = std::array::from_fn(|i| {
+            let u = unit(i);
+            self.deflection(self.strains_of_hermite(u), u[0], u[1])
+        });
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum();
+        let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| dot(&strain[i], &strain[j])));
+        let mass = std::array::from_fn(|i| {
+            let load = self.load(&shape[i]);
+            std::array::from_fn(|j| dot(&load, &shape[j]))
+        });
+        (stiffness, mass)
+    }
+}
+
+/// One quadrature point: values of the Bernstein polynomials for the radii, and the weight
+/// times the products `P_k P_l`, `k ≥ l`, for the integrals.
+struct Point {
+    bernstein: [f64; 4],
+    products: [f64; 10],
+}
+
+/// The quadrature of an element whose radii are of that degree, exact.
+///
+/// `∫ρA P₃²` has degree `2d + 6` and `∫EI P₁²` degree `4d + 2`; `n` points do `2n − 1`.
+fn points(degree: usize) -> Vec<Point> {
+    let count = (degree + 4).max(2 * degree + 2);
+    let point = |(s, weight): (f64, f64)| {
+        let (t, xi) = (1.0 - s, 2.0 * s - 1.0);
+        let legendre =
+            [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
+        let pairs = (0..4).flat_map(|k| (0..=k).map(move |l| (k, l)));
+        let mut products = [0.0; 10];
+        for (product, (k, l)) in products.iter_mut().zip(pairs) {
+            *product = weight * legendre[k] * legendre[l];
+        }
+        Point { bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s], products }
+    };
+    gauss(count).into_iter().map(point).collect()
+}
+
+/// All elements of a mesh.
+pub fn elements(bat: &Bat, mesh: &mesh::Mesh) -> Vec<Element> {
+    static RULES: std::sync::LazyLock<[Vec<Point>; 3]> =
+        std::sync::LazyLock::new(|| [points(0), points(1), points(3)]);
+    let rules = &*RULES;
+    let element = |e: &mesh::Element| {
+        let piece = &bat.profile.pieces[e.piece];
+        let rule = &rules[piece.degree.min(2)];
+        energies(bat, &piece.part(e.from, e.to), e, rule)
+    };
+    mesh.elements.iter().map(element).collect()
+}
+
+/// `D_jk = ∫EI P_j P_k dx`, factored, and `∫ρA P_k P_l dx`.
+#[inline]
+fn energies(bat: &Bat, piece: &crate::profile::Piece, e: &mesh::Element, rule: &[Point]) -> Element {
+    let (mut d, mut mass) = ([0.0; 3], [0.0; 10]);
+    for point in rule {
+        let radius =
+            |b: &[f64; 4]| b.iter().zip(&point.bernstein).map(|(b, v)| b * v).sum::<f64>();
+        let section =
+            crate::profile::Section { outer: radius(&piece.outer), inner: radius(&piece.inner) };
+        let stiffness = e.length * bat.bending_stiffness(section);
+        let per_length = e.length * bat.mass_per_length(section);
+        d.iter_mut().zip(&point.products).for_each(|(d, p)| *d += stiffness * p);
+        mass.iter_mut().zip(&point.products).for_each(|(m, p)| *m += per_length * p);
+    }
+    let i00 = 1.0 / d[0].sqrt();
+    let l10 = d[1] * i00;
+    let i11 = 1.0 / (d[2] - l10 * l10).sqrt();
+    let inverse = [i00, -l10 * i00 * i11, i11];
+    Element { length: e.length, middle: e.start + 0.5 * e.length, inverse, mass }
+}

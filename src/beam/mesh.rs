@@ -1,0 +1,115 @@
+//! Where are the elements: stretches of the bat, none across a station or a step.
+
+use crate::bat::Bat;
+
+/// One element: a part of one piece of the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Element {
+    /// Index of the piece of the profile it lies in.
+    pub piece: usize,
+    /// Where in the piece it begins and ends, both in [0, 1].
+    pub from: f64,
+    pub to: f64,
+    /// Position of its left end from the knob end (m).
+    pub start: f64,
+    /// Length h (m).
+    pub length: f64,
+}
+
+/// The elements of a bat from knob to tip, equal in length within each piece of the profile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    pub elements: Vec<Element>,
+    /// Number of elements in each piece.
+    pub counts: Vec<usize>,
+}
+
+impl Mesh {
+    /// About `wanted` elements spread by length: exactly that many if there are no more pieces
+    /// than that, else one per piece.
+    pub fn along(bat: &Bat, wanted: usize) -> Self {
+        let lengths: Vec<f64> = bat.profile.pieces.iter().map(|piece| piece.length).collect();
+        Self::with_counts(bat, spread(&lengths, wanted))
+    }
+
+    /// A mesh with that many elements in each piece of the profile.
+    pub fn with_counts(bat: &Bat, counts: Vec<usize>) -> Self {
+        let mut elements = Vec::with_capacity(counts.iter().sum());
+        for (k, (piece, &count)) in bat.profile.pieces.iter().zip(&counts).enumerate() {
+            let at = |j: usize| j as f64 / count as f64;
+            elements.extend((0..count).map(|j| Element {
+                piece: k,
+                from: at(j),
+                to: at(j + 1),
+                start: piece.start + piece.length * at(j),
+                length: piece.length / count as f64,
+            }));
+        }
+        Self { elements, counts }
+    }
+
+    /// Every element cut in two.
+    pub fn finer(&self, bat: &Bat) -> Self {
+        Self::with_counts(bat, self.counts.iter().map(|count| 2 * count).collect())
+    }
+
+    /// Every two elements made one, if each piece has an even number of them.
+    pub fn coarser(&self, bat: &Bat) -> Option<Self> {
+        let even = self.counts.iter().all(|count| count % 2 == 0);
+        even.then(|| Self::with_counts(bat, self.counts.iter().map(|count| count / 2).collect()))
+    }
+
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Whether there is no element; a mesh of a bat has one at least.
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty()
+    }
+
+    /// Positions of the nodes, one more than elements (m).
+    pub fn nodes(&self) -> Vec<f64> {
+        let last = self.elements.last().map(|e| e.start + e.length);
+        self.elements.iter().map(|e| e.start).chain(last).collect()
+    }
+}
+
+/// `total` elements over pieces of these lengths, the longest element as short as can be.
+fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
+    let counts = |size: f64| -> Vec<usize> {
+        lengths.iter().map(|length| ((length / size).ceil() as usize).clamp(1, total.max(1))).collect()
+    };
+    let whole: f64 = lengths.iter().sum();
+    // Bisect on the element size; too many elements below, few enough above.
+    let (mut low, mut high) = (0.5 * whole / total.max(1) as f64, 2.0 * whole);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if counts(middle).iter().sum::<usize>() > total { low = middle } else { high = middle }
+    }
+    let mut counts = counts(high);
+    // Pieces of equal length leave a remainder: one more for the longest elements.
+    let missing = total.saturating_sub(counts.iter().sum());
+    let mut order: Vec<usize> = (0..lengths.len()).collect();
+    let size = |k: usize, counts: &[usize]| lengths[k] / counts[k] as f64;
+    order.sort_by(|&a, &b| size(b, &counts).total_cmp(&size(a, &counts)));
+    order.iter().cycle().take(missing).for_each(|&k| counts[k] += 1);
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_are_spread_by_length_and_none_is_lost() {
+        assert_eq!(spread(&[1.0], 7), [7]);
+        assert_eq!(spread(&[1.0, 3.0], 8), [2, 6]);
+        assert_eq!(spread(&[1.0, 1.0, 1.0], 2), [1, 1, 1]);
+        for total in 3..40 {
+            assert_eq!(spread(&[0.3, 0.3, 0.3], total).iter().sum::<usize>(), total);
+            assert_eq!(spread(&[0.01, 2.0, 0.4], total).iter().sum::<usize>(), total);
+        }
+    }
+}

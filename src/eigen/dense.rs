@@ -1,0 +1,41 @@
+//! All eigenpairs of a small pencil, by faer's dense algorithms: the outside check.
+
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, Par, Side};
+use nalgebra_sparse::CscMatrix;
+
+/// Eigenvalues of `K x = λ M x`, rising, with `xᵀMx = 1`, or None where a factorisation fails.
+///
+/// `K + σM = L Lᵀ` with σ of the size of the lowest wanted λ, then the symmetric problem
+/// `L⁻¹ M L⁻ᵀ z = z/(λ + σ)`, `x = L⁻ᵀ z √(λ + σ)`. The wanted pairs are then the largest, which
+/// matters: faer's divide and conquer, used beyond 128 unknowns, is accurate relative to the
+/// largest eigenvalue only, and `L⁻¹ K L⁻ᵀ` of a beam of 264 elements came back with a first
+/// frequency of twice its value. What remains is the error of factoring `K`, about `ε n⁴`.
+pub fn generalized(
+    k: &CscMatrix<f64>,
+    m: &CscMatrix<f64>,
+    shift: f64,
+) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    let n = k.nrows();
+    let (mut shifted, mut reduced) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
+    k.triplet_iter().for_each(|(i, j, v)| shifted[(i, j)] += *v);
+    m.triplet_iter().for_each(|(i, j, v)| {
+        shifted[(i, j)] += shift * v;
+        reduced[(i, j)] = *v;
+    });
+    let factor = shifted.llt(Side::Lower).ok()?;
+    let lower = factor.L();
+    solve_lower_triangular_in_place(lower, reduced.as_mut(), Par::Seq);
+    let mut reduced = reduced.transpose().to_owned();
+    solve_lower_triangular_in_place(lower, reduced.as_mut(), Par::Seq);
+    let eigen = reduced.self_adjoint_eigen(Side::Lower).ok()?;
+    let mut vectors = eigen.U().to_owned();
+    solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
+    let inverses: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    // faer's values rise, so the lowest frequencies stand last.
+    let column = |j: usize| (0..n).map(|i| vectors[(i, j)] / inverses[j].sqrt()).collect();
+    let lambda = |j: usize| 1.0 / inverses[j] - shift;
+    Some(((0..n).rev().map(lambda).collect(), (0..n).rev().map(column).collect()))
+}

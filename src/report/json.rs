@@ -1,0 +1,245 @@
+//! The JSON files: modes and hits, in SI, the unit in every key's name.
+//!
+//! Numbers are written in the shortest form that reads back to the same bits; there is never a
+//! NaN or an infinity. What does not exist is null.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::collision::hit::{Impact, Model, Outcome, Scene};
+use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::modes::Mode;
+use crate::plan::{Solution, Solver};
+use crate::profile::Interpolation;
+use crate::report::ignored;
+
+/// Which samples of the shapes to write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShapePoints {
+    /// At every node of the mesh.
+    Nodes,
+    /// At that many even points from end to end.
+    Even(usize),
+}
+
+/// The `sweetspot-modes/1` document; `timing` only if wanted.
+pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) -> Value {
+    let places = places(bat, solution, points);
+    let modes: Vec<Value> = solution.modes.iter().map(|m| mode(bat, m, &places)).collect();
+    let mut document = json!({
+        "format": "sweetspot-modes/1",
+        "generator": generator(),
+        "bat": resolved(bat),
+        "summary": summary(bat),
+        "model": {
+            "theory": "euler-bernoulli",
+            "elements": solution.elements,
+            "degree": 3,
+            "solver": solver_name(solution.solver),
+            "degrees_of_freedom": 2 * (solution.elements + 1),
+            "tolerance_met": solution.met,
+            "ignored": ignored(bat, solution),
+        },
+        "rigid_modes": 2,
+        "modes": modes,
+    });
+    if timing {
+        document["timing"] = json!({
+            "plan_s": solution.timing.plan.as_secs_f64(),
+            "assemble_s": solution.timing.assemble.as_secs_f64(),
+            "solve_s": solution.timing.solve.as_secs_f64(),
+        });
+    }
+    document
+}
+
+/// The name that the command line and the files use.
+pub fn solver_name(solver: Solver) -> &'static str {
+    match solver {
+        Solver::Statics => "statics",
+        Solver::Dense => "dense",
+    }
+}
+
+fn generator() -> Value {
+    json!({ "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") })
+}
+
+fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
+    let along = |f: &dyn Fn(f64) -> f64| places.iter().map(|x| f(*x)).collect::<Vec<f64>>();
+    json!({
+        "order": mode.order,
+        "frequency_hz": mode.frequency(),
+        "omega_rad_s": mode.omega,
+        "damping_ratio": 0.5 * bat.material.loss_factor,
+        "modal_mass_kg": mode.modal_mass,
+        "nodes_m": mode.nodes,
+        "error": {
+            "discretization": mode.error.discretization,
+            "round_off": mode.error.round_off,
+            "residual": mode.error.residual,
+            "nodes_m": mode.error.nodes,
+            "modal_mass": mode.error.modal_mass,
+        },
+        "shape": {
+            "x_m": places,
+            "deflection": along(&|x| mode.shape.deflection(x)),
+            "rotation": along(&|x| mode.shape.rotation(x)),
+        },
+    })
+}
+
+fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
+    match (points, solution.modes.first()) {
+        (ShapePoints::Nodes, Some(mode)) => mode.shape.mesh_nodes(),
+        (ShapePoints::Nodes, None) | (ShapePoints::Even(0), _) => vec![],
+        (ShapePoints::Even(1), _) => vec![0.0],
+        (ShapePoints::Even(n), _) => {
+            (0..n).map(|k| bat.length() * k as f64 / (n - 1) as f64).collect()
+        }
+    }
+}
+
+/// The bat as it was understood: SI, defaults filled in, a bat file in its own right.
+fn resolved(bat: &Bat) -> Value {
+    let (material, stations) = (&bat.material, &bat.profile.stations);
+    let mut numbers = json!({
+        "density": material.density,
+        "youngs_modulus": material.youngs_modulus,
+        "loss_factor": material.loss_factor,
+    });
+    match (material.poisson_ratio, material.shear_modulus) {
+        (Some(nu), _) => numbers["poisson_ratio"] = json!(nu),
+        (None, Some(g)) => numbers["shear_modulus"] = json!(g),
+        _ => {}
+    }
+    if let Some(kappa) = material.shear_coefficient {
+        numbers["shear_coefficient"] = json!(kappa);
+    }
+    let interpolation =
+        if stations.interpolation == Interpolation::Pchip { "pchip" } else { "linear" };
+    let mut profile = json!({
+        "interpolation": interpolation,
+        "unit": "m",
+        "x": stations.x,
+        "radius": stations.outer,
+    });
+    if stations.inner.iter().any(|r| *r > 0.0) {
+        profile["inner_radius"] = json!(stations.inner);
+    }
+    let mut resolved = json!({
+        "format": "sweetspot-bat/1",
+        "name": bat.name,
+        "source": bat.source,
+        "material": numbers,
+        "profile": profile,
+    });
+    if let Some(mass) = bat.weighed_mass {
+        resolved["weighed"] = json!({ "mass": mass });
+    }
+    resolved
+}
+
+fn summary(bat: &Bat) -> Value {
+    let inertia = bat.inertia();
+    json!({
+        "length_m": bat.length(),
+        "mass_kg": inertia.mass,
+        "balance_point_m": inertia.balance_point,
+        "inertia_balance_kg_m2": inertia.about_balance,
+        "pivot_m": STANDARD_PIVOT,
+        "inertia_pivot_kg_m2": inertia.about(STANDARD_PIVOT),
+        "center_of_percussion_m": inertia.center_of_percussion(STANDARD_PIVOT),
+    })
+}
+
+/// The `sweetspot-hit/1` document.
+pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &SweetSpot) -> Value {
+    let ball = &scene.ball;
+    json!({
+        "format": "sweetspot-hit/1",
+        "generator": generator(),
+        "model": model_name(model),
+        "scene": {
+            "bat_pivot_m": scene.pivot,
+            "swing_rad_s": scene.swing,
+            "ball": {
+                "name": ball.name,
+                "source": ball.source,
+                "mass_kg": ball.mass,
+                "radius_m": ball.radius,
+                "stiffness": ball.stiffness,
+                "exponent": ball.exponent,
+                "cor": ball.cor,
+            },
+            "ball_speed_m_s": scene.ball_speed,
+            "cor": scene.cor,
+        },
+        "impacts": impacts.iter().map(|i| impact(bat, i)).collect::<Vec<_>>(),
+        "sweet_spot": {
+            "exit_speed_max": spot.exit_speed_max.map(peak),
+            "vibration_min": spot.vibration_min.map(peak),
+            "node_mode_1_m": spot.node_mode_1,
+            "node_mode_2_m": spot.node_mode_2,
+            "center_of_percussion_m": spot.center_of_percussion,
+            "zone_m": spot.zone,
+        },
+    })
+}
+
+/// The name that the command line and the files use.
+pub fn model_name(model: Model) -> &'static str {
+    match model {
+        Model::Rigid => "rigid",
+        Model::EnergyLoss(_) => "energy-loss",
+    }
+}
+
+fn peak(peak: Peak) -> Value {
+    json!({ "x_m": peak.x, "value": peak.value })
+}
+
+fn impact(bat: &Bat, impact: &Impact) -> Value {
+    let outcome = impact.outcome.as_ref();
+    let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
+    let energy = outcome.map(|o| EnergyJson {
+        initial: o.energy.initial,
+        ball: o.energy.ball,
+        bat_rigid: o.energy.bat_rigid,
+        vibration: o.energy.vibration(),
+        vibration_by_mode: &o.energy.vibration_by_mode,
+        dissipated_ball: o.energy.dissipated_ball,
+        dissipated_damping: 0.0,
+        imbalance: o.energy.imbalance(),
+    });
+    json!({
+        "x_m": impact.x,
+        "from_tip_m": bat.length() - impact.x,
+        "bat_speed_m_s": impact.bat_speed,
+        "exit_speed_m_s": number(&|o| o.exit_speed),
+        "rigid_exit_speed_m_s": impact.rigid_exit_speed,
+        "impulse_n_s": number(&|o| o.impulse),
+        "contact_time_s": null,
+        "peak_force_n": null,
+        "collision_efficiency": number(&|o| o.collision_efficiency),
+        "bbcor": number(&|o| o.bbcor),
+        "bbcor_pivoted": number(&|o| o.bbcor_pivoted),
+        "modes_used": outcome.map(|o| o.energy.vibration_by_mode.len()),
+        "flags": impact.flags,
+        "energy_j": energy,
+        "error": { "exit_speed": number(&|o| o.error) },
+    })
+}
+
+#[derive(Serialize)]
+struct EnergyJson<'a> {
+    initial: f64,
+    ball: f64,
+    bat_rigid: f64,
+    vibration: f64,
+    vibration_by_mode: &'a [f64],
+    dissipated_ball: f64,
+    dissipated_damping: f64,
+    imbalance: f64,
+}

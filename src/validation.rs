@@ -1,0 +1,242 @@
+//! Known answers, and whether the program reproduces them.
+//!
+//! The cases are data, in the folder `validation/`, and travel with the program.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::error::{Error, Result};
+use crate::plan::{Request, Solution, solve};
+use crate::units::ounce_square_inches;
+
+/// One bat and what is known about it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    pub format: String,
+    pub name: String,
+    /// Where the expected numbers come from.
+    pub source: String,
+    bat: Value,
+    solve: Solve,
+    checks: Vec<Check>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Solve {
+    modes: usize,
+    tolerance: Option<f64>,
+    elements: Option<usize>,
+}
+
+/// One known number.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    quantity: Known,
+    mode: Option<usize>,
+    node: Option<usize>,
+    pub expected: f64,
+    relative: Option<f64>,
+    absolute: Option<f64>,
+    /// Why the tolerance is what it is.
+    pub note: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Known {
+    FrequencyHz,
+    NodeM,
+    ModalMassKg,
+    MassKg,
+    BalancePointM,
+    InertiaBalanceKgM2,
+    #[serde(rename = "inertia_pivot_kg_m2")]
+    InertiaPivotKgM2,
+    CenterOfPercussionM,
+    InertiaPivotOzIn2,
+}
+
+/// A known number beside ours.
+#[derive(Debug, Clone)]
+pub struct Row {
+    pub case: String,
+    pub quantity: String,
+    pub expected: f64,
+    pub found: f64,
+    /// In the sense of the tolerance: relative, or absolute in the quantity's unit.
+    pub error: f64,
+    pub tolerance: f64,
+    pub relative: bool,
+}
+
+impl Row {
+    /// Whether the error is within the tolerance; NaN is not.
+    pub fn passes(&self) -> bool {
+        self.error <= self.tolerance
+    }
+}
+
+/// The cases that travel with the program: file name and text.
+pub const CASES: &[(&str, &str)] = &[
+    ("cone_1_10", include_str!("../validation/cone_1_10.json")),
+    ("cone_1_2p64", include_str!("../validation/cone_1_2p64.json")),
+    ("dowel", include_str!("../validation/dowel.json")),
+    ("hermite_01", include_str!("../validation/hermite_01.json")),
+    ("hermite_02", include_str!("../validation/hermite_02.json")),
+    ("hermite_04", include_str!("../validation/hermite_04.json")),
+    ("hermite_08", include_str!("../validation/hermite_08.json")),
+    ("hermite_16", include_str!("../validation/hermite_16.json")),
+    ("hermite_32", include_str!("../validation/hermite_32.json")),
+    ("hermite_64", include_str!("../validation/hermite_64.json")),
+    ("house_reference", include_str!("../validation/house_reference.json")),
+    ("northwestern_aluminium", include_str!("../validation/northwestern_aluminium.json")),
+    ("northwestern_wood", include_str!("../validation/northwestern_wood.json")),
+    ("northwestern_wood_misprint", include_str!("../validation/northwestern_wood_misprint.json")),
+    ("r161_nathan", include_str!("../validation/r161_nathan.json")),
+    ("r161_reference", include_str!("../validation/r161_reference.json")),
+    ("r161_slices", include_str!("../validation/r161_slices.json")),
+    ("step_1_3", include_str!("../validation/step_1_3.json")),
+    ("thomson_table", include_str!("../validation/thomson_table.json")),
+    ("torpedo_reference", include_str!("../validation/torpedo_reference.json")),
+    ("torpedo_slices", include_str!("../validation/torpedo_slices.json")),
+];
+
+/// The bats that travel with the program: path and text.
+pub const BATS: &[(&str, &str)] = &[
+    ("meshes/cone.json", include_str!("../meshes/cone.json")),
+    ("meshes/dowel.json", include_str!("../meshes/dowel.json")),
+    ("meshes/house.json", include_str!("../meshes/house.json")),
+    ("meshes/northwestern_aluminium.json", include_str!("../meshes/northwestern_aluminium.json")),
+    ("meshes/northwestern_wood.json", include_str!("../meshes/northwestern_wood.json")),
+    ("meshes/r161.json", include_str!("../meshes/r161.json")),
+    ("meshes/torpedo.json", include_str!("../meshes/torpedo.json")),
+];
+
+/// One of the bats that travel with the program.
+///
+/// # Errors
+///
+/// [`Error::Value`] if there is none of that name.
+pub fn bundled_bat(path: &str) -> Result<Bat> {
+    let (_, text) = BATS
+        .iter()
+        .find(|(name, _)| *name == path)
+        .ok_or_else(|| Error::value("bat", path, "a bat that travels with the program"))?;
+    Bat::from_text(path, text, Path::new(""))
+}
+
+/// Runs one case: a row for every known number.
+///
+/// # Errors
+///
+/// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
+pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
+    let case: Case = serde_json::from_str(text)
+        .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))?;
+    if case.format != "sweetspot-validation/1" {
+        return Err(Error::value(name, &case.format, "\"sweetspot-validation/1\""));
+    }
+    let bat = match &case.bat {
+        Value::String(path) => bundled_bat(path)?,
+        inline => Bat::from_text(name, &inline.to_string(), Path::new(""))?,
+    };
+    let request = Request {
+        modes: case.solve.modes,
+        tolerance: case.solve.tolerance.unwrap_or(Request::default().tolerance),
+        elements: case.solve.elements,
+        ..Request::default()
+    };
+    let solution = solve(&bat, &request)?;
+    let rows = case.checks.iter().map(|check| row(name, check, &bat, &solution)).collect();
+    Ok((case, rows))
+}
+
+fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution) -> Row {
+    // A case that asks for what is not there gets NaN, which passes no test.
+    let found = found(check, bat, solution).unwrap_or(f64::NAN);
+    let relative = check.relative.is_some();
+    let scale = if relative { check.expected.abs() } else { 1.0 };
+    Row {
+        case: case.to_owned(),
+        quantity: label(check),
+        expected: check.expected,
+        found,
+        error: (found - check.expected).abs() / scale,
+        tolerance: check.relative.or(check.absolute).unwrap_or(0.0),
+        relative,
+    }
+}
+
+fn found(check: &Check, bat: &Bat, solution: &Solution) -> Option<f64> {
+    let mode = || solution.modes.get(check.mode?.checked_sub(1)?);
+    let inertia = bat.inertia();
+    match check.quantity {
+        Known::FrequencyHz => Some(mode()?.frequency()),
+        Known::NodeM => mode()?.nodes.get(check.node?.checked_sub(1)?).copied(),
+        Known::ModalMassKg => Some(mode()?.modal_mass),
+        Known::MassKg => Some(inertia.mass),
+        Known::BalancePointM => Some(inertia.balance_point),
+        Known::InertiaBalanceKgM2 => Some(inertia.about_balance),
+        Known::InertiaPivotKgM2 => Some(inertia.about(STANDARD_PIVOT)),
+        Known::InertiaPivotOzIn2 => Some(ounce_square_inches(inertia.about(STANDARD_PIVOT))),
+        Known::CenterOfPercussionM => inertia.center_of_percussion(STANDARD_PIVOT),
+    }
+}
+
+fn label(check: &Check) -> String {
+    let mode = check.mode.unwrap_or(0);
+    match check.quantity {
+        Known::FrequencyHz => format!("f{mode} Hz"),
+        Known::NodeM => format!("mode {mode} node {} m", check.node.unwrap_or(0)),
+        Known::ModalMassKg => format!("mode {mode} mass kg"),
+        Known::MassKg => "mass kg".into(),
+        Known::BalancePointM => "balance point m".into(),
+        Known::InertiaBalanceKgM2 => "I balance kg m²".into(),
+        Known::InertiaPivotKgM2 => "I 6 in kg m²".into(),
+        Known::InertiaPivotOzIn2 => "I 6 in oz in²".into(),
+        Known::CenterOfPercussionM => "percussion m".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names of the JSON files of a folder of the package.
+    fn files(folder: &str) -> Vec<String> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let names = std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name());
+        let names = names.map(|name| name.into_string().unwrap());
+        let mut names: Vec<String> = names.filter(|name| name.ends_with(".json")).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn every_file_of_the_folders_travels_with_the_program() {
+        let cases: Vec<String> = CASES.iter().map(|(name, _)| format!("{name}.json")).collect();
+        assert_eq!(cases, files("validation"));
+        let bats: Vec<String> = BATS.iter().map(|(name, _)| name.replace("meshes/", "")).collect();
+        assert_eq!(bats, files("meshes"));
+    }
+
+    #[test]
+    fn a_wrong_answer_and_a_missing_one_do_not_pass() {
+        let row = |found: f64| Row {
+            case: String::new(),
+            quantity: String::new(),
+            expected: 1.0,
+            found,
+            error: (found - 1.0).abs(),
+            tolerance: 0.1,
+            relative: true,
+        };
+        assert!(row(1.05).passes() && !row(1.2).passes() && !row(f64::NAN).passes());
+    }
+}

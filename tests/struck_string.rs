@@ -1,0 +1,100 @@
+//! The damped string of `examples/struck_string.rs`: modes against travelling fronts.
+
+#[path = "../examples/struck_string.rs"]
+mod struck_string;
+
+use struck_string::{Blow, DampedString, example};
+
+/// Places and times (in lengths, and periods of `2l/v`) at least 0.04 l from every front.
+const CALM: [(f64, f64); 6] = [
+    (0.6, 0.11),
+    (0.6, 0.31),
+    (0.35, 0.2),
+    (0.9, 0.52),
+    (0.6, 1.31),
+    (0.1, 2.6),
+];
+
+/// A string whose first mode has the damping ratio `first`.
+fn damped(first: f64) -> DampedString {
+    let mut string = example();
+    string.damping *= first / string.mode(1).damping_ratio;
+    string
+}
+
+/// A first mode that swings, one that is critical, one that creeps while the higher ones swing.
+#[test]
+fn the_sum_of_modes_is_the_pair_of_damped_fronts() {
+    for ratio in [0.0, 0.1, 0.7, 1.0, 1.5] {
+        let string = damped(ratio);
+        let period = 2.0 * string.length / string.wave_speed();
+        let unit = 0.5 / (string.line_mass * string.wave_speed());
+        for (x, t) in CALM {
+            let (x, t) = (x * string.length, t * period);
+            let blow = Blow {
+                at: string.length / 4.0,
+                impulse: 1.0,
+            };
+            let sum = string.by_modes(4000, blow, x, t, true);
+            let error = (sum - string.by_fronts(blow, x, t)) / unit;
+            // The fade leaves exp(−36 (n/N)⁸) ripples of wavelength l/N, dead 0.04 l from a front.
+            assert!(error.abs() < 1e-9, "{ratio} {x} {t}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_sharply_cut_sum_misses_by_one_over_the_number_of_modes() {
+    let string = damped(0.1);
+    let period = 2.0 * string.length / string.wave_speed();
+    let unit = 0.5 / (string.line_mass * string.wave_speed());
+    for count in [100, 1000, 10_000] {
+        for (x, t) in CALM {
+            let (x, t) = (x * string.length, t * period);
+            let blow = Blow {
+                at: string.length / 4.0,
+                impulse: 1.0,
+            };
+            let sum = string.by_modes(count, blow, x, t, false);
+            let error = (sum - string.by_fronts(blow, x, t)) / unit;
+            assert!(
+                error.abs() * (count as f64) < 10.0,
+                "{count} {x} {t}: {error:e}"
+            );
+        }
+    }
+}
+
+/// The first 25 terms of `Σ 2J/(ρ l ω_d) sin(nπa/l) sin(nπx/l) e^(−bt) sin ω_d t`, summed once by a
+/// separate script in exact (`fsum`) addition, for the example's string and an impulse of 0.01 N s.
+#[test]
+fn twenty_five_modes_give_the_reference_sum() {
+    let string = example();
+    let blow = Blow {
+        at: string.length / 4.0,
+        impulse: 0.01,
+    };
+    let known = [
+        (0.6, 0.002, 8.360_072_556_344_002e-4),
+        (0.35, 0.005, 1.192_216_309_017_102_7e-4),
+        (0.9, 0.011, -7.404_982_422_823_904e-5),
+    ];
+    for (x, t, sum) in known {
+        let ours = string.by_modes(25, blow, x * string.length, t, false);
+        // Round-off: 25 terms of at most 1e-2 m.
+        assert!((ours - sum).abs() < 1e-16 * 25.0, "{x} {t}: {ours:e}");
+    }
+}
+
+#[test]
+fn the_damping_ratio_falls_as_the_frequency_rises() {
+    let string = damped(0.1);
+    for n in 1..=10 {
+        assert!((string.mode(n).damping_ratio * n as f64 - 0.1).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn the_example_runs_and_finds_itself_right() {
+    struck_string::main();
+}
