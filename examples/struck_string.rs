@@ -41,11 +41,7 @@ impl DampedString {
     pub fn mode(&self, n: usize) -> Oscillator {
         let omega = n as f64 * PI / self.length * self.wave_speed();
         let damping_ratio = self.damping / (2.0 * self.line_mass * omega);
-        Oscillator {
-            omega,
-            damping_ratio,
-            mass: self.line_mass * self.length / 2.0,
-        }
+        Oscillator { omega, damping_ratio, mass: self.line_mass * self.length / 2.0 }
     }
 
     fn shape(&self, n: usize, x: f64) -> f64 {
@@ -75,18 +71,13 @@ impl DampedString {
         let (v, b) = (self.wave_speed(), self.damping / (2.0 * self.line_mass));
         let endless = |source: f64| {
             let square = t * t - ((x - source) / v).powi(2);
-            if square > 0.0 {
-                bessel_i0(b * square.sqrt())
-            } else {
-                0.0
-            }
+            if square > 0.0 { bessel_i0(b * square.sqrt()) } else { 0.0 }
         };
         let reach = (v * t / (2.0 * self.length)).ceil() as i32 + 1;
         let images = -reach..=reach;
         let period = |k: i32| 2.0 * f64::from(k) * self.length;
-        let sum: f64 = images
-            .map(|k| endless(period(k) + blow.at) - endless(period(k) - blow.at))
-            .sum();
+        let sum: f64 =
+            images.map(|k| endless(period(k) + blow.at) - endless(period(k) - blow.at)).sum();
         blow.impulse / (2.0 * self.line_mass * v) * (-b * t).exp() * sum
     }
 }
@@ -109,51 +100,25 @@ fn bessel_i0(x: f64) -> f64 {
 /// A guitar's low string, damped so that its first mode loses nearly a half in a period.
 pub fn example() -> DampedString {
     let (length, tension, line_mass) = (0.65, 80.0, 6.8e-3);
-    let undamped = DampedString {
-        length,
-        tension,
-        line_mass,
-        damping: 0.0,
-    };
-    DampedString {
-        damping: 2.0 * line_mass * 0.1 * undamped.mode(1).omega,
-        ..undamped
-    }
+    let undamped = DampedString { length, tension, line_mass, damping: 0.0 };
+    DampedString { damping: 2.0 * line_mass * 0.1 * undamped.mode(1).omega, ..undamped }
 }
 
 pub fn main() {
     let string = example();
-    let blow = Blow {
-        at: string.length / 4.0,
-        impulse: 0.01,
-    };
+    let blow = Blow { at: string.length / 4.0, impulse: 0.01 };
     let x = 0.6 * string.length;
     let period = 2.0 * string.length / string.wave_speed();
-    println!(
-        "String struck at l/4, displacement at 0.6 l in mm (period {:.3} ms)\n",
-        period * 1e3
-    );
+    println!("String struck at l/4, displacement at 0.6 l in mm (period {:.3} ms)\n", period * 1e3);
     println!("   t/period   10 modes  100 modes   smoothed   closed form");
     for step in 1..=10 {
         let t = 0.1 * period * f64::from(step);
-        let (few, more) = (
-            string.by_modes(10, blow, x, t, false),
-            string.by_modes(100, blow, x, t, false),
-        );
-        let (smooth, exact) = (
-            string.by_modes(1000, blow, x, t, true),
-            string.by_fronts(blow, x, t),
-        );
-        print!(
-            "{:>11.2} {:>10.4} {:>10.4}",
-            t / period,
-            few * 1e3,
-            more * 1e3
-        );
+        let (few, more) =
+            (string.by_modes(10, blow, x, t, false), string.by_modes(100, blow, x, t, false));
+        let (smooth, exact) =
+            (string.by_modes(1000, blow, x, t, true), string.by_fronts(blow, x, t));
+        print!("{:>11.2} {:>10.4} {:>10.4}", t / period, few * 1e3, more * 1e3);
         println!(" {:>10.4} {:>13.4}", smooth * 1e3, exact * 1e3);
-        assert!(
-            (smooth - exact).abs() < 1e-9,
-            "modes and fronts disagree at {t} s"
-        );
+        assert!((smooth - exact).abs() < 1e-9, "modes and fronts disagree at {t} s");
     }
 }

@@ -11,8 +11,16 @@ use crate::station_table::Table;
 use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
-    "format", "name", "source", "material", "profile", "weighed", "regions", "attachments",
-    "supports", "grip",
+    "format",
+    "name",
+    "source",
+    "material",
+    "profile",
+    "weighed",
+    "regions",
+    "attachments",
+    "supports",
+    "grip",
 ];
 /// Keys of the format that this version does not model; refused, never ignored.
 const NOT_YET: &[&str] = &["regions", "attachments", "supports", "grip"];
@@ -174,14 +182,13 @@ fn profile(node: &Node, folder: &Path) -> Result<Profile> {
                 }
             }
             let path = folder.join(node.string()?);
-            Table::from_csv(&path, unit)
-                .map_err(|error| match error {
-                    Error::Read { source, .. } => node.error(
-                        format!("{}, which cannot be read ({source})", path.display()),
-                        "a CSV file, sought from the folder of this one",
-                    ),
-                    other => other,
-                })?
+            Table::from_csv(&path, unit).map_err(|error| match error {
+                Error::Read { source, .. } => node.error(
+                    format!("{}, which cannot be read ({source})", path.display()),
+                    "a CSV file, sought from the folder of this one",
+                ),
+                other => other,
+            })?
         }
         None => Table::from_json(object, unit)?,
     };

@@ -117,11 +117,13 @@ impl<'a> Node<'a> {
 
     /// The members of an object; a key that is not in `known` is an error with a hint.
     pub fn object(&self, known: &[&str]) -> Result<Object<'a>> {
-        let entries: Entries = serde_json::from_str(self.raw).map_err(|_| self.wrong("an object"))?;
+        let entries: Entries =
+            serde_json::from_str(self.raw).map_err(|_| self.wrong("an object"))?;
         let mut members = Vec::with_capacity(entries.0.len());
         let mut seen = HashSet::new();
         for (key, raw) in entries.0 {
-            let path = if self.path.is_empty() { key.clone() } else { format!("{}.{key}", self.path) };
+            let path =
+                if self.path.is_empty() { key.clone() } else { format!("{}.{key}", self.path) };
             let node = Node { document: self.document, path, raw: raw.get() };
             if !known.contains(&key.as_str()) {
                 let hint = match nearest(&key, known) {
@@ -140,10 +142,6 @@ impl<'a> Node<'a> {
 
     pub fn is_object(&self) -> bool {
         self.raw.starts_with('{')
-    }
-
-    pub fn is_string(&self) -> bool {
-        self.raw.starts_with('"')
     }
 
     /// A text.
@@ -260,6 +258,104 @@ impl<'a> Object<'a> {
 
     pub fn string(&self, key: &str) -> Result<Option<String>> {
         self.get(key).map(Node::string).transpose()
+    }
+}
+
+/// A table of numbers: the columns of a CSV file in SI, and where each row stands.
+///
+/// The header names the columns and gives their units (`x_in,diameter_in`); lines that begin
+/// with `#` are comments.
+pub(crate) struct Csv {
+    columns: Vec<(&'static str, Vec<f64>)>,
+    /// Byte offset of the header, and of each row.
+    pub header: usize,
+    pub rows: Vec<usize>,
+}
+
+impl Csv {
+    /// Reads columns whose names are among `keys`; one without a unit is times `unit`.
+    pub fn read(
+        document: &Document,
+        keys: &[&'static str],
+        quantity: Quantity,
+        unit: f64,
+    ) -> Result<Self> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(document.text.as_bytes());
+        let wrong = |offset: usize, field: &str, found: String, expected: String| {
+            document.error(offset, Complaint::new(field, found, expected))
+        };
+        let offset =
+            |record: &csv::StringRecord| record.position().map_or(0, |p| p.byte() as usize);
+        let mut records = reader.records();
+        let Some(Ok(names)) = records.next() else {
+            let expected = format!("a header of {} and their units", keys.join(", "));
+            return Err(wrong(0, "", "no header".into(), expected));
+        };
+        let header = offset(&names);
+        let mut scales: Vec<(&'static str, f64)> = Vec::new();
+        for name in &names {
+            let (key, scale) = column(name, keys, quantity, unit)
+                .map_err(|complaint| document.error(header, complaint))?;
+            if scales.iter().any(|(other, _)| *other == key) {
+                let found = format!("column \"{key}\" a second time");
+                return Err(wrong(header, "header", found, "it once".into()));
+            }
+            scales.push((key, scale));
+        }
+        let mut columns: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
+        let mut rows = Vec::new();
+        for record in records {
+            let record =
+                record.map_err(|e| wrong(header, "", e.to_string(), "rows of numbers".into()))?;
+            let at = offset(&record);
+            if record.len() != scales.len() {
+                let found = format!("{} cells in this row", record.len());
+                return Err(wrong(at, "", found, format!("{}, as in the header", scales.len())));
+            }
+            for ((cell, (key, scale)), (_, values)) in record.iter().zip(&scales).zip(&mut columns)
+            {
+                match cell.parse::<f64>() {
+                    Ok(v) if (v * scale).is_finite() => values.push(v * scale),
+                    _ => return Err(wrong(at, key, format!("\"{cell}\""), "a number".into())),
+                }
+            }
+            rows.push(at);
+        }
+        Ok(Self { columns, header, rows })
+    }
+
+    pub fn column(&self, key: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|(name, _)| *name == key).map(|(_, values)| values.as_slice())
+    }
+}
+
+/// Key and factor to SI of a header cell such as `diameter_in`.
+fn column(
+    name: &str,
+    keys: &[&'static str],
+    quantity: Quantity,
+    unit: f64,
+) -> std::result::Result<(&'static str, f64), Complaint> {
+    // Longer keys first, so that none is taken for the beginning of another.
+    let known = keys.iter().filter(|key| {
+        name.strip_prefix(**key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    });
+    let Some(&key) = known.max_by_key(|key| key.len()) else {
+        let stem = name.rsplit_once('_').map_or(name, |(stem, _)| stem);
+        let hint = nearest(stem, keys).map_or(String::new(), |n| format!(" (did you mean {n}?)"));
+        let expected = format!("{} with a unit, as in x_in{hint}", keys.join(", "));
+        return Err(Complaint::new("header", format!("column \"{name}\""), expected));
+    };
+    match name[key.len()..].strip_prefix('_') {
+        Some(unit) => units::factor(unit, quantity)
+            .map(|scale| (key, scale))
+            .map_err(|complaint| Complaint { field: "header".into(), ..complaint }),
+        None => Ok((key, unit)),
     }
 }
 

@@ -102,20 +102,8 @@ impl UniformMode {
         };
         let free = matches!(ends, Ends::FreeFree | Ends::FreePinned);
         let ends_near = if free { size } else { -size };
-        let far = if ends == Ends::ClampedFree {
-            (-s, size)
-        } else {
-            (s, ends_near)
-        };
-        Self {
-            beta_l,
-            order,
-            share,
-            cosine,
-            sine,
-            ends_near,
-            far,
-        }
+        let far = if ends == Ends::ClampedFree { (-s, size) } else { (s, ends_near) };
+        Self { beta_l, order, share, cosine, sine, ends_near, far }
     }
 
     /// `W` at `x` in [0, 1].
@@ -171,8 +159,7 @@ impl UniformMode {
         }
         // Held at both ends: the antinode nearest the clamp, before the first node, is the highest.
         let until = self.nodes().first().copied().unwrap_or(0.99);
-        self.deflection(bisect(|x| self.slope(x), 0.01 * until, until))
-            .abs()
+        self.deflection(bisect(|x| self.slope(x), 0.01 * until, until)).abs()
     }
 }
 
@@ -184,11 +171,7 @@ fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
         if middle <= low || middle >= high {
             return middle;
         }
-        if (f(middle) > 0.0) == rising {
-            high = middle
-        } else {
-            low = middle
-        }
+        if (f(middle) > 0.0) == rising { high = middle } else { low = middle }
     }
 }
 
@@ -292,10 +275,7 @@ mod tests {
             for x in [0.0, 0.2, 0.5, 0.7, 1.0] {
                 let y: f64 = b * x;
                 let hyperbolic = y.sinh() + y.sin() + alpha * (y.cosh() + y.cos());
-                assert!(
-                    (wpi_shape(n, x) - hyperbolic).abs() < 1e-15 * b.exp(),
-                    "{n} {x}"
-                );
+                assert!((wpi_shape(n, x) - hyperbolic).abs() < 1e-15 * b.exp(), "{n} {x}");
             }
         }
         // α₁² = 1.0359360, α₂² = 0.9984472
@@ -316,17 +296,9 @@ mod tests {
         };
         let ounces = dowel.mass() / pound * 16.0;
         assert!((ounces - 29.997_532_759_892_77).abs() < 1e-13);
-        let known = [
-            238.907_031_026_809_53,
-            658.556_430_642_325_6,
-            1_291.033_917_466_125,
-        ];
+        let known = [238.907_031_026_809_53, 658.556_430_642_325_6, 1_291.033_917_466_125];
         for (n, f) in known.into_iter().enumerate() {
-            assert!(
-                (dowel.frequency(FreeFree, n + 1) / f - 1.0).abs() < 1e-14,
-                "mode {}",
-                n + 1
-            );
+            assert!((dowel.frequency(FreeFree, n + 1) / f - 1.0).abs() < 1e-14, "mode {}", n + 1);
         }
         assert!((dowel.modal_mass(FreeFree, 7) / dowel.mass() - 0.25).abs() < 1e-14);
         assert!((dowel.inertia() - 0.049_790_4).abs() < 1e-7);

@@ -45,7 +45,9 @@ pub enum Error {
     TooFewElements { wanted: usize, least: usize, found: usize },
 
     /// A problem too large for the solver that was asked for.
-    #[error("the dense solver takes at most {most} elements, this mesh has {found}: use --solver statics")]
+    #[error(
+        "the dense solver takes at most {most} elements, this mesh has {found}: use --solver statics"
+    )]
     TooLarge { most: usize, found: usize },
 }
 

@@ -168,7 +168,9 @@ mod tests {
 
     #[test]
     fn impossible_values_are_named() {
-        for (density, modulus) in [(0.0, 1e10), (-1.0, 1e10), (f64::NAN, 1e10), (600.0, f64::INFINITY)] {
+        for (density, modulus) in
+            [(0.0, 1e10), (-1.0, 1e10), (f64::NAN, 1e10), (600.0, f64::INFINITY)]
+        {
             assert!(Material::new(density, modulus).is_err(), "{density} {modulus}");
         }
     }

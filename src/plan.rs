@@ -235,7 +235,13 @@ fn rayleigh_defect(statics: &Statics, strains: &[f64], lambda: f64) -> f64 {
 }
 
 /// Errors from the difference of two meshes, `share` of it for the one that is reported.
-fn certified(main: Answer, other: Answer, share: f64, request: &Request, timing: Timing) -> Solution {
+fn certified(
+    main: Answer,
+    other: Answer,
+    share: f64,
+    request: &Request,
+    timing: Timing,
+) -> Solution {
     let mut modes = main.modes;
     for (mode, other) in modes.iter_mut().zip(&other.modes) {
         let relative = |a: f64, b: f64| share * (a / b - 1.0).abs();
@@ -252,7 +258,8 @@ fn certified(main: Answer, other: Answer, share: f64, request: &Request, timing:
             ..mode.error
         };
     }
-    let within = |mode: &Mode| mode.error.discretization + mode.error.round_off <= request.tolerance;
+    let within =
+        |mode: &Mode| mode.error.discretization + mode.error.round_off <= request.tolerance;
     Solution {
         met: modes.iter().all(within),
         modes,

@@ -162,7 +162,11 @@ fn check_positions(x: &[f64]) -> Result<()> {
         }
         if k > 1 && x[k] == x[k - 2] {
             let expected = "two stations at most at one place (left and right of a step)";
-            return Err(Error::value(format!("x[{k}]"), format!("a third at {} m", x[k]), expected));
+            return Err(Error::value(
+                format!("x[{k}]"),
+                format!("a third at {} m", x[k]),
+                expected,
+            ));
         }
     }
     let last = x.len() - 1;
@@ -203,19 +207,20 @@ fn check_radii(stations: &Stations) -> Result<()> {
 
 /// `constant` stations written out as steps, each value at both ends of its stretch.
 fn held(stations: &Stations) -> Result<Stations> {
-    let mut steps = Stations {
-        x: vec![],
-        outer: vec![],
-        inner: vec![],
-        interpolation: Interpolation::Linear,
-    };
+    let mut steps =
+        Stations { x: vec![], outer: vec![], inner: vec![], interpolation: Interpolation::Linear };
     let (x, outer, inner) = (&stations.x, &stations.outer, &stations.inner);
     for k in 0..x.len() - 1 {
         if x[k] == x[k + 1] {
             // A step written out by the user: its left value must be the one that holds there.
             if outer[k] != outer[k - 1] || inner[k] != inner[k - 1] {
-                let expected = format!("the {} m that station {} holds up to here", outer[k - 1], k - 1);
-                return Err(Error::value(format!("outer[{k}]"), format!("{} m", outer[k]), expected));
+                let expected =
+                    format!("the {} m that station {} holds up to here", outer[k - 1], k - 1);
+                return Err(Error::value(
+                    format!("outer[{k}]"),
+                    format!("{} m", outer[k]),
+                    expected,
+                ));
             }
             continue;
         }
@@ -324,10 +329,5 @@ fn blossom(b: &[f64; 4], s: f64, t: f64, u: f64) -> f64 {
 /// Bernstein coefficients of the same cubic between `s0` and `s1`.
 #[inline]
 fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
-    [
-        blossom(b, s0, s0, s0),
-        blossom(b, s0, s0, s1),
-        blossom(b, s0, s1, s1),
-        blossom(b, s1, s1, s1),
-    ]
+    [blossom(b, s0, s0, s0), blossom(b, s0, s0, s1), blossom(b, s0, s1, s1), blossom(b, s1, s1, s1)]
 }

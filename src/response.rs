@@ -44,22 +44,13 @@ impl Oscillator {
         // `s`, `ṡ`, and `ṡ + 2ζω s` in a form of its own, as the sum cancels when over-damped.
         let (s, s_dot, c) = if zeta < 1.0 || omega == 0.0 {
             let decay = (-zeta * omega * t).exp();
-            let s = decay
-                * if root > 0.0 {
-                    (root * t).sin() / root
-                } else {
-                    t
-                };
+            let s = decay * if root > 0.0 { (root * t).sin() / root } else { t };
             let cos = decay * (root * t).cos();
             (s, cos - zeta * omega * s, cos + zeta * omega * s)
         } else {
             let fast = zeta * omega + root;
             let slow = omega * omega / fast;
-            let spread = if root > 0.0 {
-                -(-2.0 * root * t).exp_m1() / (2.0 * root)
-            } else {
-                t
-            };
+            let spread = if root > 0.0 { -(-2.0 * root * t).exp_m1() / (2.0 * root) } else { t };
             let s = (-slow * t).exp() * spread;
             let end = (-fast * t).exp();
             (s, end - slow * s, end + fast * s)
@@ -90,10 +81,7 @@ pub fn rigid_pair(x: &[f64], masses: &[f64]) -> [Vec<f64>; 2] {
 /// `I_nm = Σ_i μ_i φ_n(x_i) φ_m(x_i)`: modal masses on the diagonal, and beside it what
 /// orthogonality or the sampling leaves.
 pub fn orthogonality(masses: &[f64], shapes: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    shapes
-        .iter()
-        .map(|a| shapes.iter().map(|b| dot(masses, a, b)).collect())
-        .collect()
+    shapes.iter().map(|a| shapes.iter().map(|b| dot(masses, a, b)).collect()).collect()
 }
 
 /// `A_n = Σ_i μ_i w₀(x_i) φ_n(x_i) / I_nn`: how much of each mode is in the shape `w0`.
@@ -103,10 +91,7 @@ pub fn orthogonality(masses: &[f64], shapes: &[Vec<f64>]) -> Vec<Vec<f64>> {
 /// Chapter 2 and Fig. 9 of the WPI report (named in [`crate::dowel::wpi_alpha`]), which leaves out the
 /// rigid pair: its sum then tends to `w₀` less its rigid part.
 pub fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
-    shapes
-        .iter()
-        .map(|shape| dot(masses, shape, w0) / dot(masses, shape, shape))
-        .collect()
+    shapes.iter().map(|shape| dot(masses, shape, w0) / dot(masses, shape, shape)).collect()
 }
 
 /// `q_n(t) = J φ_n(a) h_n(t)`: each mode's displacement after an impulse `J` (N s) at `a`.
@@ -114,20 +99,14 @@ pub fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
 /// `shape_at_a` holds `φ_n(a)`. With the shapes at `x` this is the response `w(x, t)`; its velocity
 /// at `t = 0` is a series that does not converge, for a force that lasts no time has no finite power.
 pub fn struck(modes: &[Oscillator], shape_at_a: &[f64], impulse: f64, t: f64) -> Vec<f64> {
-    modes
-        .iter()
-        .zip(shape_at_a)
-        .map(|(m, phi)| impulse * phi * m.impulse_response(t))
-        .collect()
+    modes.iter().zip(shape_at_a).map(|(m, phi)| impulse * phi * m.impulse_response(t)).collect()
 }
 
 /// `w_N(x_i) = Σ_{n ≤ N} q_n φ_n(x_i)`; entry `N − 1` is the sum of the first `N` modes.
 pub fn partial_sums(shapes: &[Vec<f64>], amplitudes: &[f64]) -> Vec<Vec<f64>> {
     let mut sum = vec![0.0; shapes.first().map_or(0, Vec::len)];
     let add = |(shape, amplitude): (&Vec<f64>, &f64)| {
-        sum.iter_mut()
-            .zip(shape)
-            .for_each(|(w, phi)| *w += amplitude * phi);
+        sum.iter_mut().zip(shape).for_each(|(w, phi)| *w += amplitude * phi);
         sum.clone()
     };
     shapes.iter().zip(amplitudes).map(add).collect()
@@ -136,19 +115,12 @@ pub fn partial_sums(shapes: &[Vec<f64>], amplitudes: &[f64]) -> Vec<Vec<f64>> {
 /// `max_i |w_{N+1}(x_i) − w_N(x_i)|` for successive partial sums: what one more mode still changes.
 pub fn largest_steps(sums: &[Vec<f64>]) -> Vec<f64> {
     let step = |(a, b): (&f64, &f64)| (b - a).abs();
-    sums.windows(2)
-        .map(|w| w[0].iter().zip(&w[1]).map(step).fold(0.0, f64::max))
-        .collect()
+    sums.windows(2).map(|w| w[0].iter().zip(&w[1]).map(step).fold(0.0, f64::max)).collect()
 }
 
 /// `Σ μ a b`.
 fn dot(masses: &[f64], a: &[f64], b: &[f64]) -> f64 {
-    masses
-        .iter()
-        .zip(a)
-        .zip(b)
-        .map(|((mass, a), b)| mass * a * b)
-        .sum()
+    masses.iter().zip(a).zip(b).map(|((mass, a), b)| mass * a * b).sum()
 }
 
 #[cfg(test)]
@@ -157,11 +129,7 @@ mod tests {
     use crate::dowel::{Ends, UniformMode, beta_l};
 
     fn oscillator(damping_ratio: f64) -> Oscillator {
-        Oscillator {
-            omega: 50.0,
-            damping_ratio,
-            mass: 2.0,
-        }
+        Oscillator { omega: 50.0, damping_ratio, mass: 2.0 }
     }
 
     fn grid(cells: usize) -> Vec<f64> {
@@ -170,9 +138,7 @@ mod tests {
 
     fn free_free(x: &[f64], count: usize) -> Vec<Vec<f64>> {
         let sample = |mode: UniformMode| x.iter().map(|&x| mode.deflection(x)).collect();
-        (1..=count)
-            .map(|n| sample(UniformMode::new(Ends::FreeFree, n)))
-            .collect()
+        (1..=count).map(|n| sample(UniformMode::new(Ends::FreeFree, n))).collect()
     }
 
     /// `q̈ + 2ζω q̇ + ω² q = 0`, with derivatives by central differences (error h²/6 × ω³ and ω⁴ q).
@@ -189,10 +155,7 @@ mod tests {
                 let forces = 2.0 * zeta * 50.0 * v + 2500.0 * q;
                 let scale = 1.0 + 2.0 * zeta;
                 assert!((rate(0) - v).abs() < 1e-5 * scale.powi(2), "{zeta} {t}");
-                assert!(
-                    (rate(1) + forces).abs() < 1e-3 * scale.powi(3),
-                    "{zeta} {t}"
-                );
+                assert!((rate(1) + forces).abs() < 1e-3 * scale.powi(3), "{zeta} {t}");
             }
         }
     }
@@ -204,26 +167,16 @@ mod tests {
         let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
         close(impulse(0.0), (50.0 * t).sin() / 100.0);
         close(impulse(1.0), t * (-50.0 * t).exp() / 2.0);
-        close(
-            impulse(1.25),
-            (-62.5 * t).exp() * (37.5 * t).sinh() / (2.0 * 37.5),
-        );
+        close(impulse(1.25), (-62.5 * t).exp() * (37.5 * t).sinh() / (2.0 * 37.5));
         assert!((impulse(1.0 - 1e-12) / impulse(1.0 + 1e-12) - 1.0).abs() < 1e-11);
         // Very heavy damping creeps at ω/(2ζ) without overflow or lost digits.
-        close(
-            oscillator(1e6).free(1.0, 0.0, 4e4)[0],
-            (-1.0_f64).exp() * (1.0 + 0.0),
-        );
+        close(oscillator(1e6).free(1.0, 0.0, 4e4)[0], (-1.0_f64).exp() * (1.0 + 0.0));
     }
 
     #[test]
     fn a_rigid_motion_never_stops() {
         for damping_ratio in [0.0, 0.5, 1.0, 3.0] {
-            let rigid = Oscillator {
-                omega: 0.0,
-                damping_ratio,
-                mass: 4.0,
-            };
+            let rigid = Oscillator { omega: 0.0, damping_ratio, mass: 4.0 };
             assert_eq!(rigid.impulse_response(6.0), 1.5);
             assert_eq!(rigid.free(1.0, 2.0, 3.0), [7.0, 2.0]);
         }
@@ -249,15 +202,9 @@ mod tests {
     fn with_the_rigid_pair_the_expansion_returns_the_shape_and_without_it_not() {
         let x = grid(4000);
         let masses = trapezoid_masses(&x, &vec![1.0; x.len()]);
-        let w0: Vec<f64> = x
-            .iter()
-            .map(|x| 0.1 * (std::f64::consts::PI * x).sin())
-            .collect();
+        let w0: Vec<f64> = x.iter().map(|x| 0.1 * (std::f64::consts::PI * x).sin()).collect();
         let bending = free_free(&x, 40);
-        let all: Vec<_> = rigid_pair(&x, &masses)
-            .into_iter()
-            .chain(bending.clone())
-            .collect();
+        let all: Vec<_> = rigid_pair(&x, &masses).into_iter().chain(bending.clone()).collect();
         let miss = |shapes: &[Vec<f64>]| {
             let sums = partial_sums(shapes, &expansion(&masses, shapes, &w0));
             largest_steps(&[sums.last().unwrap().clone(), w0.clone()])[0]
@@ -277,24 +224,14 @@ mod tests {
         let shapes: Vec<_> = rigid_pair(&x, &masses).into_iter().chain(bending).collect();
         let inertias = orthogonality(&masses, &shapes);
         let omega = |n: usize| {
-            if n < 2 {
-                0.0
-            } else {
-                beta_l(Ends::FreeFree, n - 1).powi(2)
-            }
+            if n < 2 { 0.0 } else { beta_l(Ends::FreeFree, n - 1).powi(2) }
         };
         let modes: Vec<_> = (0..shapes.len())
-            .map(|n| Oscillator {
-                omega: omega(n),
-                damping_ratio: 0.0,
-                mass: inertias[n][n],
-            })
+            .map(|n| Oscillator { omega: omega(n), damping_ratio: 0.0, mass: inertias[n][n] })
             .collect();
         let struck_at: Vec<f64> = shapes.iter().map(|shape| shape[1400]).collect();
         for t in [0.01, 0.4, 3.0] {
-            let w = partial_sums(&shapes, &struck(&modes, &struck_at, 5.0, t))
-                .pop()
-                .unwrap();
+            let w = partial_sums(&shapes, &struck(&modes, &struck_at, 5.0, t)).pop().unwrap();
             let moment: f64 = masses.iter().zip(&w).map(|(mass, w)| mass * w).sum();
             assert!((moment / (5.0 * t) - 1.0).abs() < 1e-4, "{t}: {moment}");
         }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::document::{Document, Node, Object};
-use crate::error::{Complaint, Error, Result, nearest};
+use crate::document::{Csv, Document, Node, Object};
+use crate::error::{Complaint, Error, Result};
 use crate::profile::{Interpolation, Stations};
-use crate::units::{self, Quantity};
+use crate::units::Quantity;
 
 const OUTER: [&str; 2] = ["radius", "diameter"];
 const INNER: [&str; 3] = ["inner_radius", "inner_diameter", "wall_thickness"];
@@ -27,14 +27,7 @@ pub(crate) struct Table<'a> {
 /// Where the values stand: members of a JSON object, or cells of a CSV file.
 enum Places<'a> {
     Json(Object<'a>),
-    Csv(CsvCells),
-}
-
-struct CsvCells {
-    document: Document,
-    /// Column number of each key, and the byte offset of each row.
-    columns: Vec<&'static str>,
-    rows: Vec<usize>,
+    Csv { document: Document, rows: Vec<usize> },
 }
 
 impl<'a> Table<'a> {
@@ -69,55 +62,31 @@ impl<'a> Table<'a> {
     /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
     pub fn from_csv(path: &Path, unit: f64) -> Result<Table<'static>> {
         let document = Document::read(path)?;
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .flexible(true)
-            .has_headers(false)
-            .from_reader(document.text.as_bytes());
-        let mut records = reader.records();
-        let broken = |offset: usize, found: String, expected: &str| {
-            document.error(offset, Complaint::new("", found, expected))
+        let keys: Vec<&'static str> = ["x"].into_iter().chain(OUTER).chain(INNER).collect();
+        let csv = Csv::read(&document, &keys, Quantity::Length, unit)?;
+        let header = |found: String, expected: &str| {
+            Err(document.error(csv.header, Complaint::new("header", found, expected)))
         };
-        let header = match records.next() {
-            Some(Ok(header)) => header,
-            _ => return Err(broken(0, "no header".into(), "a header such as x_in,diameter_in")),
-        };
-        let start = header.position().map_or(0, |p| p.byte() as usize);
-        let scales = header_columns(&header, unit).map_err(|(found, expected)| {
-            document.error(start, Complaint::new("header", found, expected))
-        })?;
-        let mut values = vec![Vec::new(); scales.len()];
-        let mut rows = Vec::new();
-        for record in records {
-            let record = record.map_err(|e| broken(start, e.to_string(), "rows of numbers"))?;
-            let offset = record.position().map_or(0, |p| p.byte() as usize);
-            if record.len() != scales.len() {
-                let found = format!("{} cells in this row", record.len());
-                return Err(broken(offset, found, &format!("{}, as in the header", scales.len())));
+        for role in [&OUTER[..], &INNER[..]] {
+            let there: Vec<&str> =
+                role.iter().filter(|key| csv.column(key).is_some()).copied().collect();
+            if let [first, second, ..] = there[..] {
+                return header(format!("columns \"{first}\" and \"{second}\""), "one of them");
             }
-            for ((cell, (key, scale)), column) in record.iter().zip(&scales).zip(&mut values) {
-                match cell.parse::<f64>() {
-                    Ok(v) if (v * scale).is_finite() => column.push(v * scale),
-                    _ => {
-                        let complaint = Complaint::new(*key, format!("\"{cell}\""), "a number");
-                        return Err(document.error(offset, complaint));
-                    }
-                }
-            }
-            rows.push(offset);
         }
-        let columns: Vec<&'static str> = scales.iter().map(|s| s.0).collect();
-        let mut take = |keys: &[&str]| {
-            let k = columns.iter().position(|key| keys.contains(key))?;
-            Some(Column { key: columns[k], values: std::mem::take(&mut values[k]) })
+        let take = |keys: &[&'static str]| {
+            let key = keys.iter().find(|key| csv.column(key).is_some())?;
+            Some(Column { key, values: csv.column(key)?.to_vec() })
         };
-        let missing = |what: &str| broken(start, format!("no {what} column"), "x and radius or diameter");
-        let x = take(&["x"]).ok_or_else(|| missing("x"))?;
-        let outer = take(&OUTER).ok_or_else(|| missing("radius or diameter"))?;
+        let (Some(x), Some(outer)) = (take(&["x"]), take(&OUTER)) else {
+            return header(
+                "a column missing".into(),
+                "x and radius or diameter, as in x_in,diameter_in",
+            );
+        };
         let inner = take(&INNER);
-        let places = Places::Csv(CsvCells { document, columns, rows });
-        Ok(Table { x, outer, inner, places })
+        let rows = csv.rows;
+        Ok(Table { x, outer, inner, places: Places::Csv { document, rows } })
     }
 
     /// Radii from whatever columns there are.
@@ -171,44 +140,11 @@ impl<'a> Table<'a> {
                 complaint.field.clear();
                 node.complain(complaint)
             }
-            Places::Csv(cells) => {
+            Places::Csv { document, rows } => {
                 complaint.field = key.to_owned();
-                let row = index.and_then(|k| cells.rows.get(k)).copied().unwrap_or(0);
-                debug_assert!(cells.columns.contains(&key));
-                cells.document.error(row, complaint)
+                let row = index.and_then(|k| rows.get(k)).copied().unwrap_or(0);
+                document.error(row, complaint)
             }
         }
     }
-}
-
-/// Key and factor to metres of each header cell; found and expected where one is wrong.
-fn header_columns(
-    header: &csv::StringRecord,
-    unit: f64,
-) -> std::result::Result<Vec<(&'static str, f64)>, (String, String)> {
-    let keys: Vec<&'static str> = ["x"].into_iter().chain(OUTER).chain(INNER).collect();
-    let expected = || format!("{} and a unit, as in x_in,diameter_in", keys.join(", "));
-    let mut columns: Vec<(&'static str, f64)> = Vec::new();
-    for cell in header {
-        let known = keys.iter().rev().find(|key| {
-            cell.strip_prefix(**key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
-        });
-        let Some(&key) = known else {
-            let hint = nearest(cell, &keys).map_or(String::new(), |n| format!(" (did you mean {n}?)"));
-            return Err((format!("column \"{cell}\"{hint}"), expected()));
-        };
-        let same_role = |other: &&'static str| {
-            **other == *key
-                || [&OUTER[..], &INNER[..]].iter().any(|s| s.contains(other) && s.contains(&key))
-        };
-        if let Some((other, _)) = columns.iter().find(|(other, _)| same_role(&other)) {
-            return Err((format!("columns \"{other}\" and \"{key}\""), "one of them".into()));
-        }
-        let scale = match cell[key.len()..].strip_prefix('_') {
-            Some(name) => units::factor(name, Quantity::Length).map_err(|c| (c.found, c.expected))?,
-            None => unit,
-        };
-        columns.push((key, scale));
-    }
-    Ok(columns)
 }

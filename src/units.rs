@@ -171,8 +171,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 ///
 /// As [`parse`].
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
-    let (factor, dimension) = product(unit)
-        .map_err(|found| Complaint::new("", found, quantity.expected()))?;
+    let (factor, dimension) =
+        product(unit).map_err(|found| Complaint::new("", found, quantity.expected()))?;
     if dimension == quantity.facts().1 {
         return Ok(factor);
     }
@@ -227,10 +227,8 @@ fn product(unit: &str) -> Result<(f64, Dimension), String> {
         let symbol = part.trim_end_matches(['*', '·', ' ', '/']);
         if !symbol.is_empty() {
             let (base, power) = power(symbol)?;
-            let (_, factor, dims) = SYMBOLS
-                .iter()
-                .find(|(name, ..)| *name == base)
-                .ok_or_else(|| unknown(base))?;
+            let (_, factor, dims) =
+                SYMBOLS.iter().find(|(name, ..)| *name == base).ok_or_else(|| unknown(base))?;
             total *= factor.powi(sign * i32::from(power));
             for (sum, d) in dimension.iter_mut().zip(dims) {
                 *sum += sign as i8 * power * d;

@@ -6,14 +6,8 @@ mod struck_string;
 use struck_string::{Blow, DampedString, example};
 
 /// Places and times (in lengths, and periods of `2l/v`) at least 0.04 l from every front.
-const CALM: [(f64, f64); 6] = [
-    (0.6, 0.11),
-    (0.6, 0.31),
-    (0.35, 0.2),
-    (0.9, 0.52),
-    (0.6, 1.31),
-    (0.1, 2.6),
-];
+const CALM: [(f64, f64); 6] =
+    [(0.6, 0.11), (0.6, 0.31), (0.35, 0.2), (0.9, 0.52), (0.6, 1.31), (0.1, 2.6)];
 
 /// A string whose first mode has the damping ratio `first`.
 fn damped(first: f64) -> DampedString {
@@ -31,10 +25,7 @@ fn the_sum_of_modes_is_the_pair_of_damped_fronts() {
         let unit = 0.5 / (string.line_mass * string.wave_speed());
         for (x, t) in CALM {
             let (x, t) = (x * string.length, t * period);
-            let blow = Blow {
-                at: string.length / 4.0,
-                impulse: 1.0,
-            };
+            let blow = Blow { at: string.length / 4.0, impulse: 1.0 };
             let sum = string.by_modes(4000, blow, x, t, true);
             let error = (sum - string.by_fronts(blow, x, t)) / unit;
             // The fade leaves exp(−36 (n/N)⁸) ripples of wavelength l/N, dead 0.04 l from a front.
@@ -51,16 +42,10 @@ fn a_sharply_cut_sum_misses_by_one_over_the_number_of_modes() {
     for count in [100, 1000, 10_000] {
         for (x, t) in CALM {
             let (x, t) = (x * string.length, t * period);
-            let blow = Blow {
-                at: string.length / 4.0,
-                impulse: 1.0,
-            };
+            let blow = Blow { at: string.length / 4.0, impulse: 1.0 };
             let sum = string.by_modes(count, blow, x, t, false);
             let error = (sum - string.by_fronts(blow, x, t)) / unit;
-            assert!(
-                error.abs() * (count as f64) < 10.0,
-                "{count} {x} {t}: {error:e}"
-            );
+            assert!(error.abs() * (count as f64) < 10.0, "{count} {x} {t}: {error:e}");
         }
     }
 }
@@ -70,10 +55,7 @@ fn a_sharply_cut_sum_misses_by_one_over_the_number_of_modes() {
 #[test]
 fn twenty_five_modes_give_the_reference_sum() {
     let string = example();
-    let blow = Blow {
-        at: string.length / 4.0,
-        impulse: 0.01,
-    };
+    let blow = Blow { at: string.length / 4.0, impulse: 0.01 };
     let known = [
         (0.6, 0.002, 8.360_072_556_344_002e-4),
         (0.35, 0.005, 1.192_216_309_017_102_7e-4),

@@ -25,21 +25,13 @@ impl Reference {
     fn read(name: &str) -> Self {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/wpi");
         let text = std::fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap();
-        let mut lines = text
-            .lines()
-            .map(|line| line.split(',').map(String::from).collect::<Vec<_>>());
-        Self {
-            columns: lines.next().unwrap(),
-            rows: lines.collect(),
-        }
+        let mut lines =
+            text.lines().map(|line| line.split(',').map(String::from).collect::<Vec<_>>());
+        Self { columns: lines.next().unwrap(), rows: lines.collect() }
     }
 
     fn column(&self, name: &str) -> Vec<&str> {
-        let at = self
-            .columns
-            .iter()
-            .position(|column| column == name)
-            .unwrap();
+        let at = self.columns.iter().position(|column| column == name).unwrap();
         self.rows.iter().map(|row| row[at].as_str()).collect()
     }
 }
@@ -47,9 +39,7 @@ impl Reference {
 /// Half a unit of the last digit of `text`, as in `1.06e-05` or `1.035942`.
 fn half_unit(text: &str) -> f64 {
     let (digits, exponent) = text.split_once('e').unwrap_or((text, "0"));
-    let decimals = digits
-        .split_once('.')
-        .map_or(0, |(_, decimals)| decimals.len());
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     0.5 * 10_f64.powi(exponent.parse::<i32>().unwrap() - decimals as i32)
 }
 
@@ -90,21 +80,12 @@ fn hold_all(ours: &Table, step: usize, tolerance: f64) {
 /// Holds `column` to the printed digits wherever the reference says that they hold.
 fn hold_printed(ours: &Table, column: &str) -> usize {
     let reference = Reference::read(ours.name);
-    let (printed, holds) = (
-        reference.column("printed"),
-        reference.column("printed_holds"),
-    );
+    let (printed, holds) = (reference.column("printed"), reference.column("printed_holds"));
     let cells = ours.column(column).into_iter().zip(printed).zip(holds);
-    let held = cells
-        .filter(|(_, holds)| *holds == "1")
-        .map(|((value, text), _)| {
-            let error = value - text.parse::<f64>().unwrap();
-            assert!(
-                error.abs() <= half_unit(text) * 1.000_001,
-                "{} {text}: {value:e}",
-                ours.name
-            );
-        });
+    let held = cells.filter(|(_, holds)| *holds == "1").map(|((value, text), _)| {
+        let error = value - text.parse::<f64>().unwrap();
+        assert!(error.abs() <= half_unit(text) * 1.000_001, "{} {text}: {value:e}", ours.name);
+    });
     held.count()
 }
 
@@ -137,11 +118,7 @@ fn the_orthogonality_matrix_is_the_printed_one_up_to_its_noise() {
     assert_eq!(hold_printed(&ours, "trapezoid"), 18);
     // The script's hyperbolic form differs by rounding noise: α, near −1, is off by ε/2 and leaves
     // ε/4 e^(bX) of its growing part, which meets an end value 2 over a length 1/b; twice that.
-    let (clean, raw, m) = (
-        ours.column("trapezoid"),
-        ours.column("script_form"),
-        ours.column("m"),
-    );
+    let (clean, raw, m) = (ours.column("trapezoid"), ours.column("script_form"), ours.column("m"));
     let b = vibration::roots().column("exact");
     for (row, (clean, raw)) in clean.iter().zip(raw).enumerate() {
         let b = b[m[row] as usize - 1];
@@ -152,9 +129,7 @@ fn the_orthogonality_matrix_is_the_printed_one_up_to_its_noise() {
 
 /// What the script's shapes lose to cancellation in the sum of 1, 2, … 9 modes, as measured: it grows
 /// like e^b, by 23 from mode to mode, unless the seventh root's own error leads.
-const NOISE: [f64; 9] = [
-    0.0, 0.0, 2e-14, 2e-13, 2e-12, 1.2e-11, 6e-10, 2.5e-9, 1.6e-8,
-];
+const NOISE: [f64; 9] = [0.0, 0.0, 2e-14, 2e-13, 2e-12, 1.2e-11, 6e-10, 2.5e-9, 1.6e-8];
 
 #[test]
 fn the_series_of_the_initial_shape_is_the_printed_one_up_to_its_noise() {
@@ -205,12 +180,7 @@ fn the_summary_of_figure_18_is_the_reference_one() {
     for column in &ours.columns {
         let place = column.contains("X_peak") || column.contains("shift");
         let at_place = column == "velocity_drop_at_rigid_peak";
-        hold(
-            &ours,
-            column,
-            1,
-            if place || at_place { 3e-8 } else { 1e-13 },
-        );
+        hold(&ours, column, 1, if place || at_place { 3e-8 } else { 1e-13 });
     }
 }
 
@@ -221,11 +191,7 @@ fn the_claims_stand_or_fall_as_told() {
     let near = |value: f64, told: f64, unit: f64| assert!((value - told).abs() <= unit, "{value}");
     near(claims::mean(of("relative_shift")), 0.1077, 5e-5);
     near(claims::mean(of("shift_in_L")), 0.0728, 5e-5);
-    near(
-        claims::mean(of("ball_energy_drop_peak_to_peak")),
-        0.1819,
-        5e-5,
-    );
+    near(claims::mean(of("ball_energy_drop_peak_to_peak")), 0.1819, 5e-5);
     near(claims::mean(of("velocity_drop_peak_to_peak")), 0.096, 5e-4);
     assert!(of("X_peak_vib").iter().all(|x| *x < claims::barrel_node(1)));
     near(claims::unconverged(1), 0.052, 5e-4);
@@ -233,30 +199,14 @@ fn the_claims_stand_or_fall_as_told() {
     near(claims::unconverged(4), 0.085, 5e-4);
     near(claims::as_printed(50.0, 1.0), 1.545, 5e-4);
     near(claims::gaining_share(), 0.42, 5e-3);
-    near(
-        claims::dowel().frequency(sweetspot::dowel::Ends::FreeFree, 1),
-        238.907,
-        5e-4,
-    );
-    assert!(
-        claims::claims(&summary)
-            .iter()
-            .chain(&claims::corrections(&summary))
-            .all(told)
-    );
+    near(claims::dowel().frequency(sweetspot::dowel::Ends::FreeFree, 1), 238.907, 5e-4);
+    assert!(claims::claims(&summary).iter().chain(&claims::corrections(&summary)).all(told));
 }
 
 fn told(claim: &claims::Claim) -> bool {
-    let claims::Claim {
-        claim,
-        printed,
-        ours,
-        verdict,
-    } = claim;
+    let claims::Claim { claim, printed, ours, verdict } = claim;
     let told = [claim, verdict].iter().all(|text| !text.is_empty());
-    told && [ours.as_str(), printed]
-        .iter()
-        .all(|text| !text.contains("NaN"))
+    told && [ours.as_str(), printed].iter().all(|text| !text.contains("NaN"))
 }
 
 /// No mode shakes the ball at its own node, so there the curves of figure 17 touch.
@@ -275,13 +225,7 @@ fn curves_of_figure_17_touch_at_the_nodes() {
 fn every_figure_is_written_under_its_own_name() {
     let tables: Vec<_> = vibration::all().into_iter().chain(hit::all()).collect();
     for table in &tables {
-        assert!(
-            tables
-                .iter()
-                .filter(|other| other.name == table.name)
-                .count()
-                == 1
-        );
+        assert!(tables.iter().filter(|other| other.name == table.name).count() == 1);
         let csv = table.csv();
         assert_eq!(csv.lines().count(), table.rows.len() + 1);
         assert!(!csv.contains("NaN"));

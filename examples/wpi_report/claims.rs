@@ -14,23 +14,14 @@ pub struct Claim {
 }
 
 fn line(claim: &'static str, printed: &'static str, ours: String, verdict: &'static str) -> Claim {
-    Claim {
-        claim,
-        printed,
-        ours,
-        verdict,
-    }
+    Claim { claim, printed, ours, verdict }
 }
 
 /// A column of the figure 18 summary for ten modes, by swing speed.
 pub fn ten_modes(summary: &Table, column: &str) -> [f64; 3] {
     let (modes, values) = (summary.column("modes"), summary.column(column));
-    let picked: Vec<f64> = modes
-        .iter()
-        .zip(values)
-        .filter(|(n, _)| **n == 10.0)
-        .map(|(_, v)| v)
-        .collect();
+    let picked: Vec<f64> =
+        modes.iter().zip(values).filter(|(n, _)| **n == 10.0).map(|(_, v)| v).collect();
     [picked[0], picked[1], picked[2]]
 }
 
@@ -40,10 +31,7 @@ pub fn mean(values: [f64; 3]) -> f64 {
 
 fn percents(values: [f64; 3]) -> String {
     let [a, b, c] = values.map(|v| 100.0 * v);
-    format!(
-        "{a:.2}, {b:.2}, {c:.2} %, mean {:.2} %",
-        100.0 * mean(values)
-    )
+    format!("{a:.2}, {b:.2}, {c:.2} %, mean {:.2} %", 100.0 * mean(values))
 }
 
 /// The claims about the sweet spot and the loss, at 40, 50 and 60 rad/s.
@@ -59,24 +47,14 @@ pub fn claims(summary: &Table) -> Vec<Claim> {
             percents(of("relative_shift")),
             "reproduced, as their mean",
         ),
-        line(
-            "the same in units of L",
-            "",
-            percents(of("shift_in_L")),
-            "smaller by a third",
-        ),
+        line("the same in units of L", "", percents(of("shift_in_L")), "smaller by a third"),
         line(
             "energy drop: ball's kinetic energy, peak to peak",
             "20 %",
             percents(of("ball_energy_drop_peak_to_peak")),
             "roughly",
         ),
-        line(
-            "mean drop of speed, X ≥ 0.135",
-            "",
-            percents(of("mean_velocity_drop")),
-            "roughly",
-        ),
+        line("mean drop of speed, X ≥ 0.135", "", percents(of("mean_velocity_drop")), "roughly"),
         line(
             "drop of speed, peak to peak",
             "",
@@ -122,26 +100,15 @@ pub fn claims(summary: &Table) -> Vec<Claim> {
 
 /// The node of mode `n` nearest the barrel end.
 pub fn barrel_node(n: usize) -> f64 {
-    UniformMode::new(Ends::FreeFree, n)
-        .nodes()
-        .last()
-        .copied()
-        .unwrap_or(f64::NAN)
+    UniformMode::new(Ends::FreeFree, n).nodes().last().copied().unwrap_or(f64::NAN)
 }
 
 /// `max |w₁₀ − w₁₀₀| / max |w₁₀₀|` of figure 11.
 pub fn unconverged(eighths: u32) -> f64 {
     let table = vibration::struck_sums(eighths);
     let (ten, hundred) = (table.column("modes10"), table.column("modes100"));
-    let largest = hundred
-        .iter()
-        .copied()
-        .fold(0.0, |a: f64, b| a.max(b.abs()));
-    let step = ten
-        .iter()
-        .zip(&hundred)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max);
+    let largest = hundred.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let step = ten.iter().zip(&hundred).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     step / largest
 }
 
@@ -167,11 +134,7 @@ pub fn gaining_share() -> f64 {
     let x = grid(1000);
     let shapes = sampled(&x, 10);
     let e_v = |i: usize| -> f64 {
-        shapes
-            .iter()
-            .enumerate()
-            .map(|(n, w)| w[i] / ((2 * n + 3) as f64).powi(2))
-            .sum()
+        shapes.iter().enumerate().map(|(n, w)| w[i] / ((2 * n + 3) as f64).powi(2)).sum()
     };
     (0..x.len()).filter(|&i| e_v(i) < 0.0).count() as f64 / x.len() as f64
 }
@@ -205,10 +168,7 @@ pub fn corrections(summary: &Table) -> Vec<Claim> {
         line(
             "peak of Eq. 1-7 as printed (50 rad/s)",
             "",
-            format!(
-                "at the tip, {:.3} of the incoming speed",
-                as_printed(50.0, 1.0)
-            ),
+            format!("at the tip, {:.3} of the incoming speed", as_printed(50.0, 1.0)),
             "misprint; the script is right",
         ),
         line(

@@ -20,13 +20,7 @@ const LENGTH: f64 = 33.0;
 const PIVOT: f64 = 2.5;
 
 pub fn all() -> Vec<Table> {
-    vec![
-        rigid_speeds(),
-        rigid_energies(),
-        mode_sums(),
-        three_speeds(),
-        summary(),
-    ]
+    vec![rigid_speeds(), rigid_energies(), mode_sums(), three_speeds(), summary()]
 }
 
 /// Exit speed over incoming speed for a stiff uniform rod of six ball masses, struck at `x` (in L).
@@ -36,14 +30,8 @@ pub fn rigid(omega: f64, x: f64) -> f64 {
         balance_point: LENGTH / 2.0,
         inertia: 6.0 * BALL_MASS * LENGTH.powi(2) / 12.0,
     };
-    let ball = Incoming {
-        mass: BALL_MASS,
-        velocity: -INCOMING,
-        restitution: 0.5,
-    };
-    bat.strike(bat.swung(omega, PIVOT), ball, x * LENGTH)
-        .ball_velocity
-        / INCOMING
+    let ball = Incoming { mass: BALL_MASS, velocity: -INCOMING, restitution: 0.5 };
+    bat.strike(bat.swung(omega, PIVOT), ball, x * LENGTH).ball_velocity / INCOMING
 }
 
 /// `E_v` with the script's constants at every `x`, for the given numbers of modes.
@@ -51,10 +39,7 @@ pub fn vibrations(x: &[f64], counts: &[usize]) -> Vec<Vec<f64>> {
     let shapes = sampled(x, counts.iter().copied().max().unwrap_or(0));
     let at = |i: usize| {
         let shape: Vec<f64> = shapes.iter().map(|w| w[i]).collect();
-        counts
-            .iter()
-            .map(|&n| EnergyLoss::default().vibration(&shape[..n]))
-            .collect()
+        counts.iter().map(|&n| EnergyLoss::default().vibration(&shape[..n])).collect()
     };
     (0..x.len()).map(at).collect()
 }
@@ -71,22 +56,14 @@ fn rigid_curve(omega: f64, x: &[f64]) -> Vec<f64> {
 /// [`with_loss`] of `count` modes at every `x`.
 pub fn curve(omega: f64, x: &[f64], count: usize) -> Vec<f64> {
     let losses = vibrations(x, &[count]);
-    x.iter()
-        .zip(losses)
-        .map(|(&x, e_v)| with_loss(omega, x, e_v[0]))
-        .collect()
+    x.iter().zip(losses).map(|(&x, e_v)| with_loss(omega, x, e_v[0])).collect()
 }
 
 /// Figure 1.
 pub fn rigid_speeds() -> Table {
     let x = grid(1000);
     let curves = OMEGAS.map(|omega| rigid_curve(omega, &x));
-    Table::of_curves(
-        "fig01_rigid_speed",
-        "X,omega40,omega50,omega60",
-        &x,
-        &curves,
-    )
+    Table::of_curves("fig01_rigid_speed", "X,omega40,omega50,omega60", &x, &curves)
 }
 
 /// Figure 16: the ball's change of kinetic energy, rigid, in slug in²/s², and for 50 rad/s in J.
@@ -97,11 +74,7 @@ pub fn rigid_energies() -> Table {
         vec![x, slow, middle, fast, middle * JOULE]
     };
     let header = "X,omega40,omega50,omega60,omega50_joule";
-    Table::new(
-        "fig16_rigid_energy",
-        header,
-        grid(1000).into_iter().map(row).collect(),
-    )
+    Table::new("fig16_rigid_energy", header, grid(1000).into_iter().map(row).collect())
 }
 
 /// Figure 17: no, one, two and ten modes at 50 rad/s.
@@ -109,12 +82,7 @@ pub fn mode_sums() -> Table {
     let x = grid(1000);
     let mut curves = vec![rigid_curve(50.0, &x)];
     curves.extend([1, 2, 10].map(|count| curve(50.0, &x, count)));
-    Table::of_curves(
-        "fig17_mode_sums",
-        "X,rigid,modes1,modes2,modes10",
-        &x,
-        &curves,
-    )
+    Table::of_curves("fig17_mode_sums", "X,rigid,modes1,modes2,modes10", &x, &curves)
 }
 
 /// Figure 18: ten modes at three swing speeds.
@@ -138,25 +106,16 @@ pub fn summary() -> Table {
     let losses = vibrations(&x, &COUNTS);
     let case = |omega: f64, k: usize| {
         let rigid = rigid_curve(omega, &x);
-        let with: Vec<_> = x
-            .iter()
-            .zip(&losses)
-            .map(|(&x, e_v)| with_loss(omega, x, e_v[k]))
-            .collect();
+        let with: Vec<_> =
+            x.iter().zip(&losses).map(|(&x, e_v)| with_loss(omega, x, e_v[k])).collect();
         let mut row = vec![omega, COUNTS[k] as f64];
         row.extend(peaks(omega, COUNTS[k], x[highest(&with)]));
         row.extend(averages(&rigid, &with));
         row.push(x[with.iter().rposition(|v| v.is_nan()).unwrap_or(0)]);
         row
     };
-    let rows = OMEGAS
-        .iter()
-        .flat_map(|&omega| (0..COUNTS.len()).map(move |k| (omega, k)));
-    Table::new(
-        "fig18_summary",
-        SUMMARY,
-        rows.map(|(omega, k)| case(omega, k)).collect(),
-    )
+    let rows = OMEGAS.iter().flat_map(|&omega| (0..COUNTS.len()).map(move |k| (omega, k)));
+    Table::new("fig18_summary", SUMMARY, rows.map(|(omega, k)| case(omega, k)).collect())
 }
 
 /// Place and height of both peaks, the shift between them and the drop, by several measures.
@@ -169,28 +128,12 @@ fn peaks(omega: f64, count: usize, near: f64) -> [f64; 9] {
     let drop_there = 1.0 - soft(x_rigid) / v_rigid;
     let drops = [1.0 - ratio, 1.0 - ratio * ratio, drop_there];
     let [a, b, c] = drops;
-    [
-        x_rigid,
-        v_rigid,
-        x_soft,
-        v_soft,
-        shift,
-        shift / x_rigid,
-        a,
-        b,
-        c,
-    ]
+    [x_rigid, v_rigid, x_soft, v_soft, shift, shift / x_rigid, a, b, c]
 }
 
 /// Mean local drop, drop of the mean speed and of the mean energy, least and largest drop.
 fn averages(rigid: &[f64], with: &[f64]) -> [f64; 5] {
-    let pairs = || {
-        rigid
-            .iter()
-            .zip(with)
-            .skip(1350)
-            .filter(|(_, v)| !v.is_nan())
-    };
+    let pairs = || rigid.iter().zip(with).skip(1350).filter(|(_, v)| !v.is_nan());
     let drops: Vec<_> = pairs().map(|(r, v)| 1.0 - v / r).collect();
     let mean = drops.iter().sum::<f64>() / drops.len() as f64;
     let lost = |power| {
@@ -213,11 +156,7 @@ fn peak(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     while high - low > 1e-9 {
         let (left, right) = (high - golden * (high - low), low + golden * (high - low));
-        if f(left) > f(right) {
-            high = right
-        } else {
-            low = left
-        }
+        if f(left) > f(right) { high = right } else { low = left }
     }
     (low + high) / 2.0
 }

@@ -26,22 +26,13 @@ fn main() -> io::Result<()> {
 
     let summary = hit::summary();
     print("The report's claims", &claims::claims(&summary));
-    print(
-        "The report's numbers, corrected",
-        &claims::corrections(&summary),
-    );
+    print("The report's numbers, corrected", &claims::corrections(&summary));
     Ok(())
 }
 
 fn print(title: &str, claims: &[Claim]) {
     println!("\n{title}");
-    for Claim {
-        claim,
-        printed,
-        ours,
-        verdict,
-    } in claims
-    {
+    for Claim { claim, printed, ours, verdict } in claims {
         println!("\n  {claim}");
         if !printed.is_empty() {
             println!("    printed  {printed}");

@@ -10,20 +10,13 @@ pub struct Table {
 
 impl Table {
     pub fn new(name: &'static str, columns: &str, rows: Vec<Vec<f64>>) -> Self {
-        Self {
-            name,
-            columns: columns.split(',').map(String::from).collect(),
-            rows,
-        }
+        Self { name, columns: columns.split(',').map(String::from).collect(), rows }
     }
 
     /// A curve per column over `x`, which becomes the first one.
     pub fn of_curves(name: &'static str, columns: &str, x: &[f64], curves: &[Vec<f64>]) -> Self {
-        let row = |(i, x): (usize, &f64)| {
-            [*x].into_iter()
-                .chain(curves.iter().map(|c| c[i]))
-                .collect()
-        };
+        let row =
+            |(i, x): (usize, &f64)| [*x].into_iter().chain(curves.iter().map(|c| c[i])).collect();
         Self::new(name, columns, x.iter().enumerate().map(row).collect())
     }
 
@@ -37,11 +30,7 @@ impl Table {
     /// Comma separated, one header line; no value is an empty cell.
     pub fn csv(&self) -> String {
         let cell = |v: &f64| {
-            if v.is_nan() {
-                String::new()
-            } else {
-                format!("{v:?}")
-            }
+            if v.is_nan() { String::new() } else { format!("{v:?}") }
         };
         let line = |row: &Vec<f64>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
         self.columns.join(",") + "\n" + &self.rows.iter().map(line).collect::<String>()

@@ -16,19 +16,8 @@ const CELLS: usize = 1000;
 pub const STRUCK_AT: f64 = 0.7;
 
 pub fn all() -> Vec<Table> {
-    let mut tables = vec![
-        roots(),
-        frequency_curves(),
-        shapes(),
-        nodes(),
-        orthogonality_table(),
-    ];
-    tables.extend([
-        initial_shape(),
-        partial_sums_in_time(),
-        partial_sum_steps(),
-        coefficients(),
-    ]);
+    let mut tables = vec![roots(), frequency_curves(), shapes(), nodes(), orthogonality_table()];
+    tables.extend([initial_shape(), partial_sums_in_time(), partial_sum_steps(), coefficients()]);
     tables.extend([released_over_time(), struck_at_two_times(), end_point()]);
     tables.extend(EIGHTHS.map(struck_sums));
     tables
@@ -50,11 +39,7 @@ pub fn sampled(x: &[f64], count: usize) -> Vec<Vec<f64>> {
 /// `W_n` as the report's script writes it. The hyperbolic functions are `e^b` large and cancel, so
 /// the last digits, and from mode 9 on the fourth, are rounding noise that differs by machine.
 pub fn script_shape(n: usize, x: f64) -> f64 {
-    let b = if n < 7 {
-        b(n)
-    } else {
-        (2 * n + 1) as f64 * PI / 2.0
-    };
+    let b = if n < 7 { b(n) } else { (2 * n + 1) as f64 * PI / 2.0 };
     let alpha = (b.sinh() - b.sin()) / (b.cos() - b.cosh());
     (b * x).sinh() + (b * x).sin() + alpha * ((b * x).cosh() + (b * x).cos())
 }
@@ -63,11 +48,7 @@ pub fn script_shape(n: usize, x: f64) -> f64 {
 pub fn roots() -> Table {
     let asymptote = |n: usize| (2 * n + 1) as f64 * PI / 2.0;
     let row = |n| vec![n as f64, b(n), asymptote(n), b(n) - asymptote(n)];
-    Table::new(
-        "fig04_roots",
-        "n,exact,asymptote,difference",
-        (1..=9).map(row).collect(),
-    )
+    Table::new("fig04_roots", "n,exact,asymptote,difference", (1..=9).map(row).collect())
 }
 
 /// Figure 4, the two curves that meet at the roots.
@@ -76,22 +57,13 @@ pub fn frequency_curves() -> Table {
         let b = f64::from(i) * 0.05;
         vec![b, b.cos(), 1.0 / b.cosh()]
     };
-    Table::new(
-        "fig04_curves",
-        "betaL,cos,sech",
-        (0..=620).map(row).collect(),
-    )
+    Table::new("fig04_curves", "betaL,cos,sech", (0..=620).map(row).collect())
 }
 
 /// Figure 5.
 pub fn shapes() -> Table {
     let x = grid(CELLS);
-    Table::of_curves(
-        "fig05_modes",
-        &format!("X{}", numbered("W", 9)),
-        &x,
-        &sampled(&x, 9),
-    )
+    Table::of_curves("fig05_modes", &format!("X{}", numbered("W", 9)), &x, &sampled(&x, 9))
 }
 
 /// The nodes of figure 5.
@@ -102,11 +74,7 @@ pub fn nodes() -> Table {
         row.resize(11, f64::NAN);
         row
     };
-    Table::new(
-        "fig05_nodes",
-        &format!("n{}", numbered("node", 10)),
-        (1..=9).map(row).collect(),
-    )
+    Table::new("fig05_nodes", &format!("n{}", numbered("node", 10)), (1..=9).map(row).collect())
 }
 
 /// Figure 6: `∫ W_n W_m dX` by the report's trapezoid rule and exactly.
@@ -114,49 +82,28 @@ pub fn orthogonality_table() -> Table {
     let x = grid(CELLS);
     let masses = trapezoid_masses(&x, &vec![1.0; x.len()]);
     let clean = orthogonality(&masses, &sampled(&x, 9));
-    let raw: Vec<Vec<f64>> = (1..=9)
-        .map(|n| x.iter().map(|&x| script_shape(n, x)).collect())
-        .collect();
+    let raw: Vec<Vec<f64>> =
+        (1..=9).map(|n| x.iter().map(|&x| script_shape(n, x)).collect()).collect();
     let raw = orthogonality(&masses, &raw);
     let exact = |n, m| if n == m { wpi_alpha(n).powi(2) } else { 0.0 };
     let row = |n: usize, m: usize| {
-        vec![
-            n as f64,
-            m as f64,
-            clean[n - 1][m - 1],
-            exact(n, m),
-            raw[n - 1][m - 1],
-        ]
+        vec![n as f64, m as f64, clean[n - 1][m - 1], exact(n, m), raw[n - 1][m - 1]]
     };
-    let rows = (1..=9)
-        .flat_map(|n| (n..=9).map(move |m| row(n, m)))
-        .collect();
-    Table::new(
-        "fig06_orthogonality",
-        "n,m,trapezoid,exact,script_form",
-        rows,
-    )
+    let rows = (1..=9).flat_map(|n| (n..=9).map(move |m| row(n, m))).collect();
+    Table::new("fig06_orthogonality", "n,m,trapezoid,exact,script_form", rows)
 }
 
 /// Figure 7: the initial shape of the script, and the other one of the text (`x` in inches).
 pub fn initial_shape() -> Table {
     let row = |x: f64| vec![x, 0.1 * (PI * x).sin(), 0.1 * (33.0 * x / (2.0 * PI)).sin()];
-    Table::new(
-        "fig07_initial_shape",
-        "X,script,text",
-        grid(CELLS).into_iter().map(row).collect(),
-    )
+    Table::new("fig07_initial_shape", "X,script,text", grid(CELLS).into_iter().map(row).collect())
 }
 
 /// `A_n` of the script's initial shape by its trapezoid rule, rigid part left out as there.
 fn trapezoid_coefficients() -> Vec<f64> {
     let x = grid(CELLS);
     let w0: Vec<f64> = x.iter().map(|x| 0.1 * (PI * x).sin()).collect();
-    expansion(
-        &trapezoid_masses(&x, &vec![1.0; x.len()]),
-        &sampled(&x, 9),
-        &w0,
-    )
+    expansion(&trapezoid_masses(&x, &vec![1.0; x.len()]), &sampled(&x, 9), &w0)
 }
 
 /// The same integrals in closed form: by parts, `(b⁴ − π⁴) ∫ sin πX W dX = −π³ (W(0) + W(1))`.
@@ -172,20 +119,13 @@ fn exact_coefficients() -> Vec<f64> {
 pub fn coefficients() -> Table {
     let (trapezoid, exact) = (trapezoid_coefficients(), exact_coefficients());
     let row = |n: usize| vec![n as f64, trapezoid[n - 1], exact[n - 1]];
-    Table::new(
-        "fig09_coefficients",
-        "n,trapezoid,exact",
-        (1..=9).map(row).collect(),
-    )
+    Table::new("fig09_coefficients", "n,trapezoid,exact", (1..=9).map(row).collect())
 }
 
 /// Mode `n`: unit mass per length, so `∫ W_n² dX = α_n²` is the modal mass.
 fn modes(count: usize) -> Vec<Oscillator> {
-    let mode = |n| Oscillator {
-        omega: b(n).powi(2),
-        damping_ratio: 0.0,
-        mass: wpi_alpha(n).powi(2),
-    };
+    let mode =
+        |n| Oscillator { omega: b(n).powi(2), damping_ratio: 0.0, mass: wpi_alpha(n).powi(2) };
     (1..=count).map(mode).collect()
 }
 
@@ -211,16 +151,9 @@ pub fn partial_sums_in_time() -> Table {
 /// Figure 8, the table: the largest change from each sum to the next.
 pub fn partial_sum_steps() -> Table {
     let steps = |coefficients: &[f64]| largest_steps(&released(coefficients, 0.125));
-    let (trapezoid, exact) = (
-        steps(&trapezoid_coefficients()),
-        steps(&exact_coefficients()),
-    );
+    let (trapezoid, exact) = (steps(&trapezoid_coefficients()), steps(&exact_coefficients()));
     let row = |i: usize| vec![(i + 1) as f64, (i + 2) as f64, trapezoid[i], exact[i]];
-    Table::new(
-        "fig08_steps",
-        "from,to,trapezoid,exact",
-        (0..8).map(row).collect(),
-    )
+    Table::new("fig08_steps", "from,to,trapezoid,exact", (0..8).map(row).collect())
 }
 
 /// Figure 10: the released dowel at each eighth of a period, seven modes as in the script.
@@ -228,24 +161,14 @@ pub fn released_over_time() -> Table {
     let coefficients = trapezoid_coefficients();
     let curve = |i: u32| released(&coefficients, f64::from(i) / 8.0).swap_remove(6);
     let curves: Vec<_> = (0..=8).map(curve).collect();
-    let header = (0..=8)
-        .map(|i| format!(",t_{i}_eighths"))
-        .collect::<String>();
-    Table::of_curves(
-        "fig10_released",
-        &format!("X{header}"),
-        &grid(CELLS),
-        &curves,
-    )
+    let header = (0..=8).map(|i| format!(",t_{i}_eighths")).collect::<String>();
+    Table::of_curves("fig10_released", &format!("X{header}"), &grid(CELLS), &curves)
 }
 
 /// Sums of 1 … `count` modes at every `x`, after an impulse at 0.7 L.
 fn struck_at(x: &[f64], count: usize, periods: f64) -> Vec<Vec<f64>> {
     let at_a: Vec<f64> = sampled(&[STRUCK_AT], count).into_iter().flatten().collect();
-    partial_sums(
-        &sampled(x, count),
-        &struck(&modes(count), &at_a, 1.0, time(periods)),
-    )
+    partial_sums(&sampled(x, count), &struck(&modes(count), &at_a, 1.0, time(periods)))
 }
 
 /// The report states no time for figure 11; these three, in eighths of the first period, are ours.
@@ -260,12 +183,7 @@ pub fn struck_sums(eighths: u32) -> Table {
         2 => "fig11_struck_t_quarter",
         _ => "fig11_struck_t_half",
     };
-    Table::of_curves(
-        name,
-        "X,modes1,modes2,modes5,modes10,modes100",
-        &grid(CELLS),
-        &curves,
-    )
+    Table::of_curves(name, "X,modes1,modes2,modes5,modes10,modes100", &grid(CELLS), &curves)
 }
 
 /// Figure 12: ten modes, at two times and half a first period after each.

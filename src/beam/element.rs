@@ -48,7 +48,12 @@ impl Element {
         let half = 0.5 * self.length;
         let (t1, t2) = (half * c[0], half * c[1] * THIRD);
         let t0 = theta + (t1 - t2);
-        [w + half * (t0 - t1 * THIRD), half * (t0 - t2 * FIFTH), half * t1 * THIRD, half * t2 * FIFTH]
+        [
+            w + half * (t0 - t1 * THIRD),
+            half * (t0 - t2 * FIFTH),
+            half * t1 * THIRD,
+            half * t2 * FIFTH,
+        ]
     }
 
     /// By how much slope and deflection grow along the element: `h c₀` and `h θ̄`.
@@ -120,7 +125,8 @@ impl Element {
             self.deflection(self.strains_of_hermite(u), u[0], u[1])
         });
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum();
-        let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| dot(&strain[i], &strain[j])));
+        let stiffness =
+            std::array::from_fn(|i| std::array::from_fn(|j| dot(&strain[i], &strain[j])));
         let mass = std::array::from_fn(|i| {
             let load = self.load(&shape[i]);
             std::array::from_fn(|j| dot(&load, &shape[j]))
@@ -143,8 +149,7 @@ fn points(degree: usize) -> Vec<Point> {
     let count = (degree + 4).max(2 * degree + 2);
     let point = |(s, weight): (f64, f64)| {
         let (t, xi) = (1.0 - s, 2.0 * s - 1.0);
-        let legendre =
-            [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
+        let legendre = [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
         let pairs = (0..4).flat_map(|k| (0..=k).map(move |l| (k, l)));
         let mut products = [0.0; 10];
         for (product, (k, l)) in products.iter_mut().zip(pairs) {
@@ -170,11 +175,15 @@ pub fn elements(bat: &Bat, mesh: &mesh::Mesh) -> Vec<Element> {
 
 /// `D_jk = ∫EI P_j P_k dx`, factored, and `∫ρA P_k P_l dx`.
 #[inline]
-fn energies(bat: &Bat, piece: &crate::profile::Piece, e: &mesh::Element, rule: &[Point]) -> Element {
+fn energies(
+    bat: &Bat,
+    piece: &crate::profile::Piece,
+    e: &mesh::Element,
+    rule: &[Point],
+) -> Element {
     let (mut d, mut mass) = ([0.0; 3], [0.0; 10]);
     for point in rule {
-        let radius =
-            |b: &[f64; 4]| b.iter().zip(&point.bernstein).map(|(b, v)| b * v).sum::<f64>();
+        let radius = |b: &[f64; 4]| b.iter().zip(&point.bernstein).map(|(b, v)| b * v).sum::<f64>();
         let section =
             crate::profile::Section { outer: radius(&piece.outer), inner: radius(&piece.inner) };
         let stiffness = e.length * bat.bending_stiffness(section);

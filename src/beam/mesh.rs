@@ -79,7 +79,10 @@ impl Mesh {
 /// `total` elements over pieces of these lengths, the longest element as short as can be.
 fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
     let counts = |size: f64| -> Vec<usize> {
-        lengths.iter().map(|length| ((length / size).ceil() as usize).clamp(1, total.max(1))).collect()
+        lengths
+            .iter()
+            .map(|length| ((length / size).ceil() as usize).clamp(1, total.max(1)))
+            .collect()
     };
     let whole: f64 = lengths.iter().sum();
     // Bisect on the element size; too many elements below, few enough above.

@@ -106,9 +106,5 @@ impl Ball {
 ///
 /// [`Error::Value`] for any other number.
 pub fn restitution(value: f64) -> Result<f64> {
-    if (0.0..=1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(Error::value("cor", value, "0 to 1"))
-    }
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err(Error::value("cor", value, "0 to 1")) }
 }

@@ -34,10 +34,7 @@ pub struct EnergyLoss {
 
 impl Default for EnergyLoss {
     fn default() -> Self {
-        Self {
-            gamma: 0.2,
-            decay: 2.0,
-        }
+        Self { gamma: 0.2, decay: 2.0 }
     }
 }
 

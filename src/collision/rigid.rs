@@ -59,10 +59,7 @@ impl RigidBat {
 
     /// The motion of a bat turning at `rotation` (rad/s) about a point `pivot` (m) beyond the knob.
     pub fn swung(&self, rotation: f64, pivot: f64) -> Motion {
-        Motion {
-            velocity: rotation * (pivot + self.balance_point),
-            rotation,
-        }
+        Motion { velocity: rotation * (pivot + self.balance_point), rotation }
     }
 
     /// `V = v_c + Ω y` (m/s): the speed of the bat at `x`.
@@ -109,16 +106,8 @@ impl RigidBat {
 mod tests {
     use super::*;
 
-    const BAT: RigidBat = RigidBat {
-        mass: 0.85,
-        balance_point: 0.5,
-        inertia: 0.06,
-    };
-    const BALL: Incoming = Incoming {
-        mass: 0.145,
-        velocity: -40.0,
-        restitution: 0.5,
-    };
+    const BAT: RigidBat = RigidBat { mass: 0.85, balance_point: 0.5, inertia: 0.06 };
+    const BALL: Incoming = Incoming { mass: 0.145, velocity: -40.0, restitution: 0.5 };
 
     #[test]
     fn momentum_is_kept_and_the_energy_balance_closes() {
@@ -133,10 +122,7 @@ mod tests {
             let (v, after) = (hit.ball_velocity, hit.bat);
             same(linear(BALL.velocity, before), linear(v, after));
             same(angular(BALL.velocity, before), angular(v, after));
-            same(
-                energy(BALL.velocity, before),
-                energy(v, after) + hit.dissipated,
-            );
+            same(energy(BALL.velocity, before), energy(v, after) + hit.dissipated);
             let closing = BAT.speed_at(x, before) - BALL.velocity;
             same(v - BAT.speed_at(x, after), BALL.restitution * closing);
         }
@@ -145,18 +131,8 @@ mod tests {
     #[test]
     fn a_shift_of_the_observer_shifts_every_speed_and_changes_no_impulse() {
         let hit = BAT.strike(BAT.swung(50.0, 0.15), BALL, 0.7);
-        let moving = Motion {
-            velocity: BAT.swung(50.0, 0.15).velocity + 25.0,
-            rotation: 50.0,
-        };
-        let seen = BAT.strike(
-            moving,
-            Incoming {
-                velocity: -15.0,
-                ..BALL
-            },
-            0.7,
-        );
+        let moving = Motion { velocity: BAT.swung(50.0, 0.15).velocity + 25.0, rotation: 50.0 };
+        let seen = BAT.strike(moving, Incoming { velocity: -15.0, ..BALL }, 0.7);
         assert!((seen.impulse - hit.impulse).abs() < 1e-13);
         assert!((seen.ball_velocity - hit.ball_velocity - 25.0).abs() < 1e-12);
     }
@@ -165,34 +141,20 @@ mod tests {
     /// 2.5/33 of its length beyond the knob.
     #[test]
     fn the_corrected_equation_1_7_is_this_collision() {
-        let rod = RigidBat {
-            mass: 6.0,
-            balance_point: 0.5,
-            inertia: 0.5,
-        };
-        let ball = Incoming {
-            mass: 1.0,
-            velocity: -48.0,
-            restitution: 0.5,
-        };
+        let rod = RigidBat { mass: 6.0, balance_point: 0.5, inertia: 0.5 };
+        let ball = Incoming { mass: 1.0, velocity: -48.0, restitution: 0.5 };
         for x in [0.0, 0.3, 0.5, 0.7, 1.0] {
             let closing = 50.0 * (2.5 / 33.0 + x) + 48.0;
             let y_squared = (x - 0.5_f64).powi(2);
             let printed = -48.0 + 6.0 * 1.5 * closing / (1.0 + 6.0 + 12.0 * y_squared);
-            let ours = rod
-                .strike(rod.swung(50.0, 2.5 / 33.0), ball, x)
-                .ball_velocity;
+            let ours = rod.strike(rod.swung(50.0, 2.5 / 33.0), ball, x).ball_velocity;
             assert!((ours - printed).abs() < 1e-13, "{x}");
         }
     }
 
     #[test]
     fn a_rod_struck_at_its_end_weighs_a_quarter() {
-        let rod = RigidBat {
-            mass: 3.0,
-            balance_point: 0.5,
-            inertia: 3.0 / 12.0,
-        };
+        let rod = RigidBat { mass: 3.0, balance_point: 0.5, inertia: 3.0 / 12.0 };
         assert!((rod.recoil_mass(1.0) - 0.75).abs() < 1e-15);
         assert_eq!(rod.recoil_mass(0.5), 3.0);
     }

@@ -1,7 +1,7 @@
 //! Where is the sweet spot, by each of its definitions.
 
-use crate::collision::hit::{Hitter, Scene};
 use crate::bat::Bat;
+use crate::collision::hit::{Hitter, Scene};
 use crate::plan::Solution;
 
 /// A place and the value there (m/s or J).

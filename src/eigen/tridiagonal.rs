@@ -44,14 +44,7 @@ fn block_end(d: &[f64], e: &[f64], low: usize) -> Option<usize> {
 }
 
 /// One implicit QL sweep on the block from `low` to `high`.
-fn sweep(
-    d: &mut [f64],
-    e: &mut [f64],
-    vectors: &mut [f64],
-    rows: usize,
-    low: usize,
-    high: usize,
-) {
+fn sweep(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], rows: usize, low: usize, high: usize) {
     let g = (d[low + 1] - d[low]) / (2.0 * e[low]);
     let mut g = d[high] - d[low] + e[low] / (g + (g * g + 1.0).sqrt().copysign(g));
     let (mut sine, mut cosine, mut shift) = (1.0, 1.0, 0.0);

@@ -26,9 +26,11 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
                 let shear = percents(&|s| s.shear.unwrap_or(0.0));
                 format!("shear: would change {shear} (first order, too large where it is large)")
             }
-            None => "shear: not known, the material has no shear modulus; in wooden bats it lowers \
+            None => {
+                "shear: not known, the material has no shear modulus; in wooden bats it lowers \
                      mode 1 by 1 to 2 %, mode 2 by about 5 %, mode 4 by about 15 %"
-                .to_owned(),
+                    .to_owned()
+            }
         });
     }
     ignored.push("hands: the bat is free; they damp it and hardly move a frequency".to_owned());

@@ -198,7 +198,8 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
 
 /// The sweet spot by each definition, from knob and tip.
 pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
-    let mut out = String::from("Sweet spot                            from knob              from tip\n");
+    let mut out =
+        String::from("Sweet spot                            from knob              from tip\n");
     let mut line = |what: &str, x: Option<f64>, value: String| {
         let Some(x) = x else { return };
         let place = |x: f64| match units {

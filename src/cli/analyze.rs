@@ -1,0 +1,124 @@
+//! `sweetspot analyze BAT`: everything about a bat on one screen.
+
+use std::path::PathBuf;
+
+use sweetspot::bat::Bat;
+use sweetspot::dowel::{Dowel, Ends};
+use sweetspot::error::{Error, Result};
+use sweetspot::plan::{self, Solution};
+use sweetspot::report::json::{self, ShapePoints};
+use sweetspot::report::{curve, file, text};
+use sweetspot::validation;
+
+use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, curve_csv};
+use crate::cli::hit::{Sweep, empirical, sweep};
+use crate::cli::modes::missed_tolerance;
+use crate::cli::{Done, NOT_REACHED};
+
+/// Everything about a bat: modes, proof on the dowel, collision, sweet spot
+///
+/// Example: sweetspot analyze meshes/r161.json --out r161
+#[derive(clap::Args)]
+pub struct Args {
+    /// Bat file (JSON)
+    bat: PathBuf,
+
+    /// Number of bending modes to report
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    count: u16,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// Write modes.json, hit.json and curve.csv into this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Impact points along the outer half of the bat.
+const POINTS: usize = 101;
+
+pub fn run(args: &Args) -> Result<Done> {
+    let bat = args.output.read_bat(&args.bat)?;
+    let (scene, model) = (args.scene.scene()?, args.scene.model()?);
+    args.output.progress("solving …");
+    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    let outer = |bat: &Bat| {
+        let half = 0.5 * bat.length();
+        Ok((0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect())
+    };
+    let hits = sweep(&bat, model, &scene, 10, &args.solve, outer)?;
+    let units = args.output.units;
+    let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
+    let table = format!(
+        "{}\n{}\n{}{}\n{}{}\n{}\n{}\n{}{}",
+        text::summary(&bat, units),
+        text::modes(&bat, &solution, units),
+        text::model(&bat, &solution),
+        proof(args, &solution)?,
+        text::scene(&scene, json::model_name(model), units),
+        empirical(model),
+        text::impacts(&bat, &few, units),
+        drawing(&hits),
+        text::sweet_spot(&bat, &hits.spot, units),
+        hits.why(&bat, &scene)
+    );
+    let modes = json::modes(&bat, &solution, ShapePoints::Even(101), true);
+    let hit = json::hit(&bat, model, &scene, &hits.impacts, &hits.spot);
+    if let Some(folder) = &args.out {
+        let failed = |source| Error::Write { path: folder.clone(), source };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        file::write(&folder.join("modes.json"), format!("{modes:#}\n").as_bytes())?;
+        file::write(&folder.join("hit.json"), format!("{hit:#}\n").as_bytes())?;
+        file::write(&folder.join("curve.csv"), curve_csv(&hits.impacts).as_bytes())?;
+    }
+    let both = serde_json::json!({ "modes": modes, "hit": hit });
+    let missed = args.solve.enforced() && !(solution.met && hits.met);
+    if missed {
+        args.output.warn(&missed_tolerance(&solution, args.solve.tol));
+    }
+    Ok((args.output.deliver(table, &both)?, if missed { NOT_REACHED } else { 0 }))
+}
+
+/// The same solver on the uniform dowel, whose frequencies are known in closed form.
+fn proof(args: &Args, solution: &Solution) -> Result<String> {
+    let count = usize::from(args.count);
+    let bat = validation::bundled_bat("meshes/dowel.json")?;
+    let ours = plan::solve(&bat, &args.solve.request(count))?;
+    let dowel = Dowel {
+        length: bat.length(),
+        radius: bat.profile.at(0.0).outer,
+        youngs_modulus: bat.material.youngs_modulus,
+        density: bat.material.density,
+    };
+    let error = |mode: &sweetspot::modes::Mode| {
+        (mode.frequency() / dowel.frequency(Ends::FreeFree, mode.order) - 1.0).abs()
+    };
+    let worst = ours.modes.iter().map(error).fold(0.0, f64::max);
+    let stated = |solution: &Solution| {
+        let error = |m: &sweetspot::modes::Mode| m.error.discretization + m.error.round_off;
+        solution.modes.iter().map(error).fold(0.0, f64::max)
+    };
+    Ok(format!(
+        "Proof: on the uniform dowel the same solver misses the exact modes 1 to {count} by\n       \
+         {worst:.1e} at most and says {:.1e}; on this bat it says {:.1e}\n",
+        stated(&ours),
+        stated(solution)
+    ))
+}
+
+fn drawing(hits: &Sweep) -> String {
+    let places: Vec<f64> = hits.impacts.iter().map(|i| 100.0 * i.x).collect();
+    let ours: Vec<_> =
+        hits.impacts.iter().map(|i| i.outcome.as_ref().map(|o| o.exit_speed)).collect();
+    let rigid: Vec<_> = hits.impacts.iter().map(|i| i.rigid_exit_speed).collect();
+    let labels = ["exit speed, m/s (* this bat, . if it did not bend)", "cm from the knob"];
+    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels, [66, 15])
+}

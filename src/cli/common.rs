@@ -1,0 +1,259 @@
+//! Options that several verbs share.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use sweetspot::bat::Bat;
+use sweetspot::collision::ball::{Ball, restitution};
+use sweetspot::collision::energy_loss::EnergyLoss;
+use sweetspot::collision::hit::{Impact, Model, Scene};
+use sweetspot::error::{Error, Result, nearest};
+use sweetspot::plan::{Request, Solver};
+use sweetspot::report::file;
+use sweetspot::report::text::Units;
+use sweetspot::units::{self, Quantity};
+
+/// How the modes are found.
+#[derive(clap::Args)]
+pub struct SolveArgs {
+    /// Wanted relative accuracy, such as 1e-6 or 0.01%
+    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance)]
+    pub tol: f64,
+
+    /// Beam theory: auto or euler-bernoulli
+    #[arg(long, default_value = "auto", value_parser = theory)]
+    theory: String,
+
+    /// Total number of elements; the tolerance is then not enforced
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    elements: Option<u32>,
+
+    /// Eigensolver: auto, statics or dense
+    #[arg(long, default_value = "auto", value_parser = solver)]
+    solver: Solver,
+}
+
+impl SolveArgs {
+    pub fn request(&self, modes: usize) -> Request {
+        let elements = self.elements.map(|n| n as usize);
+        Request { modes, tolerance: self.tol, elements, solver: self.solver }
+    }
+
+    /// Whether a solution that missed the tolerance ends with exit code 3.
+    pub fn enforced(&self) -> bool {
+        self.elements.is_none()
+    }
+}
+
+/// What is printed, and where.
+#[derive(clap::Args)]
+pub struct OutputArgs {
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+
+    /// Units of the tables: si, us or both
+    #[arg(long, default_value = "both", value_parser = unit_system)]
+    pub units: Units,
+
+    /// No warnings on standard error
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl OutputArgs {
+    /// Writes the JSON where it was asked for; what is left for standard output.
+    pub fn deliver(&self, table: String, document: &Value) -> Result<String> {
+        let text = || format!("{document:#}\n");
+        match &self.json {
+            Some(path) if path.as_os_str() == "-" => Ok(text()),
+            Some(path) => file::write(path, text().as_bytes()).map(|()| table),
+            None => Ok(table),
+        }
+    }
+
+    /// Says something on standard error.
+    pub fn warn(&self, text: &str) {
+        if !self.quiet {
+            // A closed standard error is no reason to stop.
+            let _ = writeln!(std::io::stderr(), "{text}");
+        }
+    }
+
+    /// Reads the bat and passes its warnings on.
+    pub fn read_bat(&self, path: &Path) -> Result<Bat> {
+        let bat = Bat::from_file(path)?;
+        bat.warnings().iter().for_each(|w| self.warn(&format!("warning: {}: {w}", path.display())));
+        Ok(bat)
+    }
+
+    /// What took so long, for a person at a terminal.
+    pub fn progress(&self, text: &str) {
+        if std::io::stderr().is_terminal() {
+            self.warn(text);
+        }
+    }
+}
+
+/// The swing, the pitch and the ball.
+#[derive(clap::Args)]
+pub struct SceneArgs {
+    /// Collision model: rigid or energy-loss (the default; the WPI report's empirical one)
+    #[arg(long, default_value = "energy-loss", value_parser = model)]
+    model: String,
+
+    /// Angular speed of the swing
+    #[arg(long, value_name = "SPEED", default_value = "50 rad/s", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::AngularSpeed))]
+    swing_speed: f64,
+
+    /// Rotation centre of the swing beyond the knob end (negative: inside the handle)
+    #[arg(long, value_name = "LENGTH", default_value = "2.5 in", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    pivot: f64,
+
+    /// Speed of the ball towards the bat
+    #[arg(long, value_name = "SPEED", default_value = "90 mph", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Speed))]
+    pitch: f64,
+
+    /// Ball: baseball, softball or a ball file
+    #[arg(long, default_value = "baseball")]
+    ball: String,
+
+    /// Coefficient of restitution, in place of the ball's own
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
+    cor: Option<f64>,
+
+    /// Size of the empirical loss (energy-loss)
+    #[arg(long, value_name = "G", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "gamma"))]
+    gamma: Option<f64>,
+
+    /// Power with which the empirical loss falls with the mode number (energy-loss)
+    #[arg(long, value_name = "P", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "decay"))]
+    decay: Option<f64>,
+}
+
+impl SceneArgs {
+    pub fn scene(&self) -> Result<Scene> {
+        let ball = match self.ball.as_str() {
+            "baseball" => Ball::baseball(),
+            "softball" => Ball::softball(),
+            path => Ball::from_file(path)?,
+        };
+        let cor = self.cor.unwrap_or(ball.cor);
+        if !(self.pitch.abs() < 1e6 && self.swing_speed.abs() < 1e6 && self.pivot.abs() < 1e6) {
+            let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
+            return Err(Error::value(
+                "--pitch, --swing-speed or --pivot",
+                "a larger one",
+                expected,
+            ));
+        }
+        if self.pitch < 0.0 {
+            let expected = "0 or more: it is the speed towards the bat";
+            return Err(Error::value("--pitch", format!("{} m/s", self.pitch), expected));
+        }
+        let (pivot, swing, ball_speed) = (self.pivot, self.swing_speed, self.pitch);
+        Ok(Scene { pivot, swing, ball, ball_speed, cor })
+    }
+
+    pub fn model(&self) -> Result<Model> {
+        if self.model == "rigid" {
+            if self.gamma.is_some() || self.decay.is_some() {
+                let expected = "--model energy-loss, or neither of them";
+                return Err(Error::value("--gamma, --decay", "them with --model rigid", expected));
+            }
+            return Ok(Model::Rigid);
+        }
+        let default = EnergyLoss::default();
+        Ok(Model::EnergyLoss(EnergyLoss {
+            gamma: self.gamma.unwrap_or(default.gamma),
+            decay: self.decay.unwrap_or(default.decay),
+        }))
+    }
+}
+
+/// The curve of exit speeds as CSV.
+pub fn curve_csv(impacts: &[Impact]) -> String {
+    let mut out =
+        String::from("x_m,bat_speed_m_s,exit_speed_m_s,rigid_exit_speed_m_s,vibration_j\n");
+    let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
+    for impact in impacts {
+        let outcome = impact.outcome.as_ref();
+        let cells = [
+            impact.x.to_string(),
+            impact.bat_speed.to_string(),
+            cell(outcome.map(|o| o.exit_speed)),
+            cell(impact.rigid_exit_speed),
+            cell(outcome.map(|o| o.energy.vibration())),
+        ];
+        out += &cells.join(",");
+        out.push('\n');
+    }
+    out
+}
+
+/// A value with its unit from the command line.
+pub fn quantity(text: &str, quantity: Quantity) -> std::result::Result<f64, String> {
+    units::parse(text, quantity).map_err(|c| format!("expected {}", c.expected))
+}
+
+fn tolerance(text: &str) -> std::result::Result<f64, String> {
+    let (number, scale) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(value) if value * scale > 0.0 && value * scale < 1.0 => Ok(value * scale),
+        _ => Err("expected a number between 0 and 1, such as 1e-6 or 0.01%".into()),
+    }
+}
+
+fn cor(text: &str) -> std::result::Result<f64, String> {
+    text.parse().ok().and_then(|e| restitution(e).ok()).ok_or("expected 0 to 1".into())
+}
+
+fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=100.0).contains(&value) => Ok(value),
+        _ => Err(format!("expected a {what} from 0 to 100")),
+    }
+}
+
+/// One of `now`, with a word of its own for what comes `later`.
+fn choice(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
+    if now.contains(&text) {
+        return Ok(text.to_owned());
+    }
+    let names = now.join(", ");
+    if later.contains(&text) {
+        return Err(format!("{text} is not supported yet; there is {names}"));
+    }
+    let hint = nearest(text, now).map_or(String::new(), |name| format!(" (did you mean {name}?)"));
+    Err(format!("expected one of {names}{hint}"))
+}
+
+fn theory(text: &str) -> std::result::Result<String, String> {
+    choice(text, &["auto", "euler-bernoulli"], &["rayleigh", "timoshenko"])
+}
+
+fn solver(text: &str) -> std::result::Result<Solver, String> {
+    let name = choice(text, &["auto", "statics", "dense"], &["shift-invert", "arpack"])?;
+    Ok(if name == "dense" { Solver::Dense } else { Solver::Statics })
+}
+
+fn model(text: &str) -> std::result::Result<String, String> {
+    choice(text, &["energy-loss", "rigid"], &["pulse", "contact"])
+}
+
+fn unit_system(text: &str) -> std::result::Result<Units, String> {
+    Ok(match choice(text, &["si", "us", "both"], &[])?.as_str() {
+        "si" => Units::Si,
+        "us" => Units::Us,
+        _ => Units::Both,
+    })
+}

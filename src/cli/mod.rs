@@ -1,0 +1,83 @@
+//! The command line: verbs, options, exit codes.
+
+mod analyze;
+mod common;
+mod hit;
+mod materials;
+mod modes;
+mod ring;
+mod validate;
+
+use clap::{Parser, Subcommand};
+use sweetspot::error::{Error, Result};
+
+/// What to print on standard output, and the exit code.
+pub type Done = (String, u8);
+
+/// A check or a validation failed.
+pub const FAILED: u8 = 1;
+/// The asked accuracy could not be reached; the best answer is given.
+pub const NOT_REACHED: u8 = 3;
+
+/// What a baseball bat does when it meets a ball.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Exit codes: 0 done; 1 a check failed; 2 the input or the command \
+line is wrong;\n3 the asked accuracy could not be reached (the best answer is still given)."
+)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Analyze(analyze::Args),
+    Modes(modes::Args),
+    Hit(hit::Args),
+    Ring(ring::Args),
+    Validate(validate::Args),
+    Materials(materials::Args),
+}
+
+/// Verbs of the trade that this version does not know yet.
+const LATER_VERBS: &[&str] = &[
+    "trade", "convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new",
+];
+/// Options that this version does not know yet.
+const LATER_OPTIONS: &[&str] = &[
+    "--up-to",
+    "--degree",
+    "--budget",
+    "--report",
+    "--plots",
+    "--pulse-duration",
+    "--loss-share",
+    "--extremes",
+];
+
+/// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
+pub fn run() -> Result<Done> {
+    refuse_later(&std::env::args().skip(1).collect::<Vec<_>>())?;
+    match Cli::parse().verb {
+        Verb::Analyze(args) => analyze::run(&args),
+        Verb::Modes(args) => modes::run(&args),
+        Verb::Hit(args) => hit::run(&args),
+        Verb::Ring(args) => ring::run(&args),
+        Verb::Validate(args) => validate::run(&args),
+        Verb::Materials(args) => materials::run(&args),
+    }
+}
+
+fn refuse_later(args: &[String]) -> Result<()> {
+    let verb = args.first().filter(|verb| LATER_VERBS.contains(&verb.as_str()));
+    let option = args.iter().map(|arg| arg.split('=').next().unwrap_or(arg));
+    let option = option.into_iter().find(|arg| LATER_OPTIONS.contains(arg));
+    let advice = "see --help for what there is";
+    match (verb, option) {
+        (Some(verb), _) => Err(Error::NotYet { what: format!("\"{verb}\""), advice }),
+        (None, Some(option)) => Err(Error::NotYet { what: option.to_owned(), advice }),
+        (None, None) => Ok(()),
+    }
+}

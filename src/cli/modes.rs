@@ -1,0 +1,93 @@
+//! `sweetspot modes BAT`: natural frequencies, shapes, nodes.
+
+use std::path::PathBuf;
+
+use sweetspot::beam::assembly::{Pencil, write_matrix_market};
+use sweetspot::beam::element;
+use sweetspot::beam::mesh::Mesh;
+use sweetspot::error::{Error, Result};
+use sweetspot::plan;
+use sweetspot::report::json::{self, ShapePoints};
+use sweetspot::report::{file, text};
+
+use crate::cli::common::{OutputArgs, SolveArgs};
+use crate::cli::{Done, NOT_REACHED};
+
+/// Natural frequencies, shapes and nodes of the free bat
+///
+/// Example: sweetspot modes meshes/r161.json -n 5 --tol 1e-8
+#[derive(clap::Args)]
+pub struct Args {
+    /// Bat file (JSON)
+    bat: PathBuf,
+
+    /// Number of bending modes
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    count: u16,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    /// Samples of each shape in the JSON: a number of even points, or "nodes" for the mesh's
+    #[arg(long, value_name = "N", default_value = "101", value_parser = shape_points)]
+    shape_points: ShapePoints,
+
+    /// Write stiffness.mtx and mass.mtx (Matrix Market) of the mesh into this folder
+    #[arg(long, value_name = "DIR")]
+    matrices: Option<PathBuf>,
+
+    /// Leave the timing out of the JSON, so that equal input gives equal bytes
+    #[arg(long)]
+    reproducible: bool,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let bat = args.output.read_bat(&args.bat)?;
+    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    if let Some(folder) = &args.matrices {
+        let mesh = Mesh::along(&bat, solution.elements);
+        let pencil = Pencil::assemble(&element::elements(&bat, &mesh));
+        let failed = |source| Error::Write { path: folder.clone(), source };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
+            let mut text = Vec::new();
+            write_matrix_market(matrix, &mut text).map_err(failed)?;
+            file::write(&folder.join(name), &text)?;
+        }
+    }
+    let table = format!(
+        "{}\n{}\n{}",
+        text::summary(&bat, args.output.units),
+        text::modes(&bat, &solution, args.output.units),
+        text::model(&bat, &solution)
+    );
+    let document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);
+    let missed = args.solve.enforced() && !solution.met;
+    if missed {
+        args.output.warn(&missed_tolerance(&solution, args.solve.tol));
+    }
+    Ok((args.output.deliver(table, &document)?, if missed { NOT_REACHED } else { 0 }))
+}
+
+/// What to say of an answer that is less accurate than asked.
+pub fn missed_tolerance(solution: &plan::Solution, tolerance: f64) -> String {
+    let error = |mode: &sweetspot::modes::Mode| mode.error.discretization + mode.error.round_off;
+    let worst = solution.modes.iter().map(error).fold(0.0, f64::max);
+    format!(
+        "accuracy not reached: asked {tolerance:e}, the best answer is within {worst:.1e} \
+         ({} elements)",
+        solution.elements
+    )
+}
+
+fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {
+    match text.parse::<usize>() {
+        _ if text == "nodes" => Ok(ShapePoints::Nodes),
+        Ok(n) if n <= 1_000_000 => Ok(ShapePoints::Even(n)),
+        _ => Err("expected \"nodes\" or a number up to 1000000".into()),
+    }
+}

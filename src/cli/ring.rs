@@ -1,0 +1,222 @@
+//! `sweetspot ring BAT`: free motion after a blow or from an initial shape.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+use sweetspot::bat::Bat;
+use sweetspot::error::{Error, Result};
+use sweetspot::plan::{self, Solution};
+use sweetspot::quadrature::gauss;
+use sweetspot::report::file;
+use sweetspot::response::{Oscillator, expansion, partial_sums, struck};
+use sweetspot::shape_file;
+use sweetspot::units::Quantity;
+
+use crate::cli::common::{OutputArgs, SolveArgs, quantity};
+use crate::cli::{Done, NOT_REACHED};
+
+/// Free motion after a blow or from an initial shape
+///
+/// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1 ms,2 ms"
+#[derive(clap::Args)]
+pub struct Args {
+    /// Bat file (JSON)
+    bat: PathBuf,
+
+    /// Where it is struck, from the knob end
+    #[arg(long, value_name = "X", requires = "impulse", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    at: Option<f64>,
+
+    /// The impulse of the blow
+    #[arg(long, value_name = "J", requires = "at", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Impulse))]
+    impulse: Option<f64>,
+
+    /// Release it from the shape in this CSV file (columns x_m,w_m or with other units)
+    #[arg(long, value_name = "FILE", conflicts_with = "at")]
+    initial: Option<PathBuf>,
+
+    /// Number of bending modes
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    count: u16,
+
+    /// Instants, separated by commas (default: nine over a period of mode 1)
+    #[arg(long, value_name = "T,T,…", value_delimiter = ',', allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Time))]
+    times: Vec<f64>,
+
+    /// Leave out the rigid motion
+    #[arg(long)]
+    bending_only: bool,
+
+    /// Even points from end to end
+    #[arg(long, value_name = "N", default_value = "101",
+          value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    shape_points: u32,
+
+    /// Write CSV to this file (- = standard output, the default)
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let bat = args.output.read_bat(&args.bat)?;
+    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    let ringing = Ringing::new(&bat, &solution, args.bending_only);
+    let last = f64::from(args.shape_points - 1);
+    let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
+    let times = times(args, &solution)?;
+    let start = start(args, &bat, &ringing)?;
+    let shapes = ringing.shapes(&x);
+    let frames: Vec<Vec<f64>> = times
+        .iter()
+        .map(|t| {
+            let amplitudes = ringing.amplitudes(&start, *t);
+            partial_sums(&shapes, &amplitudes).pop().unwrap_or_else(|| vec![0.0; x.len()])
+        })
+        .collect();
+    let table = csv(&x, &times, &frames);
+    let document = json!({
+        "format": "sweetspot-ring/1",
+        "generator": { "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") },
+        "modes": args.count,
+        "rigid_motion": !args.bending_only,
+        "x_m": x,
+        "times_s": times,
+        "deflection_m": frames,
+    });
+    let missed = args.solve.enforced() && !solution.met;
+    let code = if missed { NOT_REACHED } else { 0 };
+    let text = match &args.csv {
+        Some(path) if path.as_os_str() != "-" => {
+            file::write(path, table.as_bytes())?;
+            String::new()
+        }
+        // With JSON asked for, the table is not thrown in besides.
+        None if args.output.json.is_some() => String::new(),
+        _ => table,
+    };
+    Ok((args.output.deliver(text, &document)?, code))
+}
+
+/// How the motion begins: mode by mode, an impulse response or a displacement.
+enum Start {
+    Blow { shape_at: Vec<f64>, impulse: f64 },
+    Shape(Vec<f64>),
+}
+
+fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
+    match (args.at, args.impulse, &args.initial) {
+        (Some(x), Some(impulse), _) => {
+            if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+                let expected = format!("a place on the bat, 0 to {} m", bat.length());
+                return Err(Error::value("--at", format!("{x} m"), expected));
+            }
+            let shape_at = ringing.shapes(&[x]).into_iter().map(|shape| shape[0]).collect();
+            Ok(Start::Blow { shape_at, impulse })
+        }
+        (_, _, Some(path)) => Ok(Start::Shape(ringing.expand(bat, path)?)),
+        _ => {
+            let expected = "--at X --impulse J, or --initial FILE";
+            Err(Error::value("ring", "neither a blow nor an initial shape", expected))
+        }
+    }
+}
+
+fn times(args: &Args, solution: &Solution) -> Result<Vec<f64>> {
+    if let Some(t) = args.times.iter().find(|t| **t < 0.0) {
+        return Err(Error::value("--times", format!("{t} s"), "0 or later"));
+    }
+    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
+    let nine = || (0..=8).map(|k| period * f64::from(k) / 8.0).collect();
+    Ok(if args.times.is_empty() { nine() } else { args.times.clone() })
+}
+
+/// A bat as oscillators: its rigid pair, if wanted, and its bending modes.
+struct Ringing<'a> {
+    solution: &'a Solution,
+    oscillators: Vec<Oscillator>,
+    /// Balance point, if the rigid pair takes part.
+    rigid: Option<f64>,
+}
+
+impl<'a> Ringing<'a> {
+    fn new(bat: &Bat, solution: &'a Solution, bending_only: bool) -> Self {
+        let inertia = bat.inertia();
+        let rigid = |mass| Oscillator { omega: 0.0, damping_ratio: 0.0, mass };
+        let pair = [rigid(inertia.mass), rigid(inertia.line_about_balance)];
+        let damping_ratio = 0.5 * bat.material.loss_factor;
+        let bending = solution.modes.iter().map(|mode| Oscillator {
+            omega: mode.omega,
+            damping_ratio,
+            mass: mode.modal_mass,
+        });
+        let skipped = if bending_only { 2 } else { 0 };
+        let oscillators = pair.into_iter().skip(skipped).chain(bending).collect();
+        Self { solution, oscillators, rigid: (!bending_only).then_some(inertia.balance_point) }
+    }
+
+    /// Every motion sampled at `x`.
+    fn shapes(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        let rigid = self
+            .rigid
+            .iter()
+            .flat_map(|balance| [vec![1.0; x.len()], x.iter().map(|x| x - balance).collect()]);
+        let along = |mode: &sweetspot::modes::Mode| {
+            x.iter().map(|x| mode.shape.deflection(*x)).collect::<Vec<f64>>()
+        };
+        rigid.chain(self.solution.modes.iter().map(along)).collect()
+    }
+
+    fn amplitudes(&self, start: &Start, t: f64) -> Vec<f64> {
+        match start {
+            Start::Blow { shape_at, impulse } => struck(&self.oscillators, shape_at, *impulse, t),
+            Start::Shape(amplitudes) => {
+                let motion = |(o, a): (&Oscillator, &f64)| o.free(*a, 0.0, t)[0];
+                self.oscillators.iter().zip(amplitudes).map(motion).collect()
+            }
+        }
+    }
+
+    /// How much of every motion is in the shape of a file.
+    fn expand(&self, bat: &Bat, path: &Path) -> Result<Vec<f64>> {
+        let shape = shape_file::read(path, bat.length())?;
+        let rule = gauss(7);
+        // Gauss points between all places where the bat or the shape has a corner.
+        let mut corners: Vec<f64> =
+            bat.profile.stations.x.iter().chain(&shape.x).copied().collect();
+        corners.extend((0..=200).map(|k| bat.length() * f64::from(k) / 200.0));
+        corners.sort_by(f64::total_cmp);
+        let (mut x, mut masses) = (Vec::new(), Vec::new());
+        for pair in corners.windows(2).filter(|pair| pair[1] > pair[0]) {
+            for (s, weight) in &rule {
+                let at = pair[0] + s * (pair[1] - pair[0]);
+                let per_length = bat.mass_per_length(bat.profile.at(at));
+                x.push(at);
+                masses.push(weight * (pair[1] - pair[0]) * per_length);
+            }
+        }
+        let initial: Vec<f64> = x.iter().map(|x| shape.at(*x)).collect();
+        Ok(expansion(&masses, &self.shapes(&x), &initial))
+    }
+}
+
+fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {
+    let mut out = String::from("x_m");
+    times.iter().for_each(|t| out += &format!(",w_m at {t} s"));
+    out.push('\n');
+    for (k, x) in x.iter().enumerate() {
+        out += &x.to_string();
+        frames.iter().for_each(|frame| out += &format!(",{}", frame[k]));
+        out.push('\n');
+    }
+    out
+}

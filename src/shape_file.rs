@@ -1,0 +1,54 @@
+//! An initial shape from a CSV file: deflections along the bat, straight lines between.
+
+use std::path::Path;
+
+use crate::document::{Csv, Document};
+use crate::error::{Complaint, Result};
+use crate::units::Quantity;
+
+/// Deflections `w` (m) at rising places `x` (m).
+#[derive(Debug, Clone, PartialEq)]
+pub struct InitialShape {
+    pub x: Vec<f64>,
+    pub w: Vec<f64>,
+}
+
+impl InitialShape {
+    /// The deflection at `x`, linear between the rows and constant beyond them.
+    pub fn at(&self, x: f64) -> f64 {
+        let k = self.x.partition_point(|at| *at <= x);
+        if k == 0 || k == self.x.len() {
+            return self.w[k.saturating_sub(1)];
+        }
+        let s = (x - self.x[k - 1]) / (self.x[k] - self.x[k - 1]);
+        (1.0 - s) * self.w[k - 1] + s * self.w[k]
+    }
+}
+
+/// Reads columns `x_…` and `w_…` (units in the header) that span a bat of that length (m).
+///
+/// # Errors
+///
+/// [`crate::error::Error::Read`] or [`crate::error::Error::Input`] with the line.
+pub fn read(path: &Path, length: f64) -> Result<InitialShape> {
+    let document = Document::read(path)?;
+    let csv = Csv::read(&document, &["x", "w"], Quantity::Length, 1.0)?;
+    let error = |row: usize, found: String, expected: &str| {
+        let offset = csv.rows.get(row).copied().unwrap_or(0);
+        Err(document.error(offset, Complaint::new("x", found, expected)))
+    };
+    let (Some(x), Some(w)) = (csv.column("x"), csv.column("w")) else {
+        return error(0, "a column missing".into(), "columns x and w, such as x_m,w_mm");
+    };
+    if x.len() < 2 {
+        return error(0, format!("{} row(s)", x.len()), "two at least");
+    }
+    if let Some(k) = (1..x.len()).find(|k| x[*k] <= x[k - 1]) {
+        return error(k, format!("{} m", x[k]), "rising places");
+    }
+    if x[0].abs() > 1e-9 * length || (x[x.len() - 1] - length).abs() > 1e-9 * length {
+        let found = format!("{} to {} m", x[0], x[x.len() - 1]);
+        return error(0, found, &format!("the whole bat, 0 to {length} m"));
+    }
+    Ok(InitialShape { x: x.to_vec(), w: w.to_vec() })
+}
