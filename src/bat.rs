@@ -50,6 +50,7 @@ impl Bat {
         let (name, source) = (name.into(), String::new());
         let mut bat = Self { name, source, profile, material, weighed_mass };
         if let Some(mass) = weighed_mass {
+            bat.check_range()?;
             bat.material.density *= mass / bat.inertia().mass;
         }
         bat.check_range()?;
@@ -110,7 +111,8 @@ impl Bat {
             .into_iter()
             .filter(|(_, value, _, low, high, _)| value < low || value > high)
             .map(|(what, value, unit, low, high, hint)| {
-                format!("{what} is {value:.4e} {unit}; a bat's is {low} to {high}{hint}")
+                let (value, low, high) = (plain(value), plain(low), plain(high));
+                format!("{what} is {value} {unit}; a bat's is {low} to {high}{hint}")
             })
             .collect()
     }
@@ -132,12 +134,22 @@ impl Bat {
         ] {
             // Far enough inside the range for products of two such values.
             if !(value > 1e-140 && value < 1e140) {
+                let found = match value.is_finite() {
+                    true => format!("{value:e} {unit}"),
+                    false => "a value beyond the range of numbers".to_owned(),
+                };
                 let expected = "a value between 1e-140 and 1e140: check the units";
-                return Err(Error::value(what, format!("{value:e} {unit}"), expected));
+                return Err(Error::value(what, found, expected));
             }
         }
         Ok(())
     }
+}
+
+/// Four digits, with a power of ten where the plain number would be a row of zeros.
+fn plain(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().expect("it was written as a number");
+    if (1e-3..1e5).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 impl Inertia {

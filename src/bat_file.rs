@@ -54,11 +54,15 @@ impl Bat {
 }
 
 fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
-    let root = document.root()?.object(KEYS)?;
-    let format = root.require("format", "\"format\": \"sweetspot-bat/1\"")?;
-    if format.string().ok().as_deref() != Some("sweetspot-bat/1") {
-        return Err(format.error(format.shown(), "\"sweetspot-bat/1\""));
+    let root = document.root()?.members()?;
+    // Before the keys are looked at: another format may have others.
+    if let Some(format) = root.get("format") {
+        if format.string().ok().as_deref() != Some("sweetspot-bat/1") {
+            return Err(format.error(format.shown(), "\"sweetspot-bat/1\""));
+        }
     }
+    let root = root.only(KEYS)?;
+    root.require("format", "\"format\": \"sweetspot-bat/1\"")?;
     refuse(&root, NOT_YET)?;
     let weighed = weighed_mass(&root)?;
     let material = material(root.require("material", "a material")?, weighed.is_some())?;
@@ -129,15 +133,14 @@ fn material(node: &Node, weighed: bool) -> Result<Material> {
         shear_coefficient: object.number("shear_coefficient")?,
         loss_factor: object.number("loss_factor")?.unwrap_or(0.0),
     };
-    // Poisson's ratio first: the shear modulus may have been made from it.
     material.check().map_err(|error| match error {
         Error::Value(mut complaint) => {
-            let key = if poisson_ratio.is_some() && complaint.field == "shear_modulus" {
-                "poisson_ratio".to_owned()
-            } else {
-                std::mem::take(&mut complaint.field)
-            };
-            object.get(&key).unwrap_or(node).complain(complaint)
+            // A value that is not in the file was made from others: its name stays then.
+            let place = object.get(&complaint.field);
+            if place.is_some() {
+                complaint.field.clear();
+            }
+            place.unwrap_or(node).complain(complaint)
         }
         other => other,
     })?;

@@ -10,7 +10,7 @@ use std::path::Path;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-use crate::error::{Complaint, Error, Place, Result, nearest};
+use crate::error::{Complaint, Error, Place, Result, nearest, shortened};
 use crate::units::{self, Quantity};
 
 /// The text of one input file, a byte-order mark removed.
@@ -32,7 +32,9 @@ impl Document {
                 let text = String::from_utf8_lossy(&error.as_bytes()[..before]).into_owned();
                 let document = Self { file, text };
                 let place = document.place(before);
-                let complaint = Complaint::new("", "bytes that are not text", "UTF-8 text");
+                let utf_16 = matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+                let found = if utf_16 { "UTF-16 text" } else { "bytes that are not text" };
+                let complaint = Complaint::new("", found, "UTF-8 text");
                 Err(Error::Input { place, complaint })
             }
         }
@@ -49,15 +51,38 @@ impl Document {
         }
         match serde_json::from_str::<&RawValue>(&self.text) {
             Ok(raw) => Ok(Node { document: self, path: String::new(), raw: raw.get() }),
-            Err(error) => {
-                let place =
-                    Place { file: self.file.clone(), line: error.line(), column: error.column() };
-                let said = error.to_string();
-                let said = said.split(" at line ").next().unwrap_or("broken JSON").to_owned();
-                let complaint = Complaint::new("", said, "JSON");
-                Err(Error::Input { place, complaint })
-            }
+            Err(error) => Err(self.broken(&error)),
         }
+    }
+
+    /// What `serde_json` says of text that is not JSON, in found and expected, with its place.
+    fn broken(&self, error: &serde_json::Error) -> Error {
+        let line = self.text.split_inclusive('\n').take(error.line().saturating_sub(1));
+        let offset = line.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
+        let mut offset = if error.is_eof() { self.text.trim_end().len() } else { offset };
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let said = error.to_string();
+        let said = said.split(" at line ").next().unwrap_or_default();
+        let rest = &self.text[offset..];
+        // The word that stands there, or the one character that ends words.
+        let ends = |c: char| c.is_whitespace() || ",:[]{}".contains(c);
+        let here = rest.find(ends).map_or(rest, |end| &rest[..end]);
+        let here = if here.is_empty() { rest.get(..1).unwrap_or(rest) } else { here };
+        let complaint = match said.strip_prefix("expected ") {
+            _ if error.is_eof() => {
+                let rest = said.strip_prefix("EOF while parsing ").unwrap_or("the text");
+                Complaint::new("", "the end of the file", format!("the rest of {rest}"))
+            }
+            Some("value") => {
+                let expected = "a JSON value (and numbers as in 0.5 or -1e3)";
+                Complaint::new("", shortened(here, 20), expected)
+            }
+            Some(expected) => Complaint::new("", shortened(here, 20), expected),
+            None => Complaint::new("", format!("broken JSON, {said}"), "JSON"),
+        };
+        self.error(offset, complaint)
     }
 
     /// An error at a byte offset of the text.
@@ -105,10 +130,7 @@ impl<'a> Node<'a> {
             Some(b'[') => return "a list".into(),
             _ => self.raw,
         };
-        match kind.char_indices().nth(40) {
-            Some((end, _)) => format!("{}…", &kind[..end]),
-            None => kind.to_owned(),
-        }
+        shortened(kind, 40)
     }
 
     fn wrong(&self, expected: impl Into<String>) -> Error {
@@ -117,21 +139,24 @@ impl<'a> Node<'a> {
 
     /// The members of an object; a key that is not in `known` is an error with a hint.
     pub fn object(&self, known: &[&str]) -> Result<Object<'a>> {
-        let entries: Entries =
-            serde_json::from_str(self.raw).map_err(|_| self.wrong("an object"))?;
+        self.members()?.only(known)
+    }
+
+    /// The members of an object, whatever their keys.
+    pub fn members(&self) -> Result<Object<'a>> {
+        let entries: Entries = serde_json::from_str(self.raw).map_err(|error| {
+            let said = error.to_string();
+            let said = said.split(" at line ").next().unwrap_or_default();
+            let found =
+                if self.is_object() { format!("broken JSON, {said}") } else { self.shown() };
+            self.error(found, "an object { … }")
+        })?;
         let mut members = Vec::with_capacity(entries.0.len());
         let mut seen = HashSet::new();
         for (key, raw) in entries.0 {
-            let path =
-                if self.path.is_empty() { key.clone() } else { format!("{}.{key}", self.path) };
+            let shown = shortened(&key, 40);
+            let path = if self.path.is_empty() { shown } else { format!("{}.{shown}", self.path) };
             let node = Node { document: self.document, path, raw: raw.get() };
-            if !known.contains(&key.as_str()) {
-                let hint = match nearest(&key, known) {
-                    Some(name) => format!("\"{name}\" (did you mean that?)"),
-                    None => format!("one of {}", known.join(", ")),
-                };
-                return Err(node.error(format!("unknown key \"{key}\""), hint));
-            }
             if !seen.insert(key.clone()) {
                 return Err(node.error(format!("key \"{key}\" a second time"), "it once"));
             }
@@ -223,6 +248,20 @@ pub(crate) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
+    /// The same, if all keys are `known`; one that is not is an error with a hint.
+    pub fn only(self, known: &[&str]) -> Result<Self> {
+        let Some((key, node)) = self.members.iter().find(|(key, _)| !known.contains(&&**key))
+        else {
+            return Ok(self);
+        };
+        let key = shortened(key, 40);
+        let hint = match nearest(&key, known) {
+            Some(name) => format!("\"{name}\" (did you mean that?)"),
+            None => format!("one of {}", known.join(", ")),
+        };
+        Err(node.error(format!("unknown key \"{key}\""), hint))
+    }
+
     pub fn get(&self, key: &str) -> Option<&Node<'a>> {
         self.members.iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
@@ -267,6 +306,8 @@ impl<'a> Object<'a> {
 /// with `#` are comments.
 pub(crate) struct Csv {
     columns: Vec<(&'static str, Vec<f64>)>,
+    /// The unit of each column in the words of the header, empty where there is none.
+    units: Vec<String>,
     /// Byte offset of the header, and of each row.
     pub header: usize,
     pub rows: Vec<usize>,
@@ -289,8 +330,9 @@ impl Csv {
         let wrong = |offset: usize, field: &str, found: String, expected: String| {
             document.error(offset, Complaint::new(field, found, expected))
         };
-        let offset =
-            |record: &csv::StringRecord| record.position().map_or(0, |p| p.byte() as usize);
+        let offset = |record: &csv::StringRecord| {
+            row_start(&document.text, record.position().map_or(0, |p| p.byte() as usize))
+        };
         let mut records = reader.records();
         let Some(Ok(names)) = records.next() else {
             let expected = format!("a header of {} and their units", keys.join(", "));
@@ -317,21 +359,56 @@ impl Csv {
                 let found = format!("{} cells in this row", record.len());
                 return Err(wrong(at, "", found, format!("{}, as in the header", scales.len())));
             }
-            for ((cell, (key, scale)), (_, values)) in record.iter().zip(&scales).zip(&mut columns)
-            {
+            let cells = record.iter().zip(&scales).zip(&mut columns).enumerate();
+            for (k, ((cell, (key, scale)), (_, values))) in cells {
                 match cell.parse::<f64>() {
                     Ok(v) if (v * scale).is_finite() => values.push(v * scale),
-                    _ => return Err(wrong(at, key, format!("\"{cell}\""), "a number".into())),
+                    _ => {
+                        let at = cell_start(&document.text, at, k);
+                        let expected = "a finite number (the unit stands in the header)";
+                        return Err(wrong(at, key, format!("\"{cell}\""), expected.into()));
+                    }
                 }
             }
             rows.push(at);
         }
-        Ok(Self { columns, header, rows })
+        let unit = |(name, (key, _)): (&str, &(&str, f64))| {
+            name[key.len()..].trim_start_matches('_').to_owned()
+        };
+        let units = names.iter().zip(&scales).map(unit).collect();
+        Ok(Self { columns, units, header, rows })
+    }
+
+    /// Where a cell stands in the text, what is written there, and its unit.
+    pub fn cell<'a>(&'a self, text: &'a str, key: &str, row: usize) -> (usize, &'a str, &'a str) {
+        let column = self.columns.iter().position(|(name, _)| *name == key).unwrap_or(0);
+        let start = cell_start(text, self.rows.get(row).copied().unwrap_or(self.header), column);
+        let cell = text[start..].split([',', '\n']).next().unwrap_or_default();
+        (start, cell.trim(), &self.units[column])
     }
 
     pub fn column(&self, key: &str) -> Option<&[f64]> {
         self.columns.iter().find(|(name, _)| *name == key).map(|(_, values)| values.as_slice())
     }
+}
+
+/// The first byte at or after `offset` that belongs to no comment and no empty line.
+fn row_start(text: &str, mut offset: usize) -> usize {
+    loop {
+        let rest = &text[offset..];
+        offset += match rest.bytes().next() {
+            Some(b'\r' | b'\n') => 1,
+            Some(b'#') => rest.find('\n').unwrap_or(rest.len()),
+            _ => return offset,
+        };
+    }
+}
+
+/// Where cell number `column` of the row at `offset` begins.
+fn cell_start(text: &str, offset: usize, column: usize) -> usize {
+    let cells = text[offset..].split(',').take(column).map(|cell| cell.len() + 1);
+    let start = (offset + cells.sum::<usize>()).min(text.len());
+    start + text[start..].len() - text[start..].trim_start_matches([' ', '\t']).len()
 }
 
 /// Key and factor to SI of a header cell such as `diameter_in`.
@@ -396,7 +473,7 @@ mod tests {
         let root = document.root().unwrap().object(&["é", "a"]).unwrap();
         let list = root.get("a").unwrap().object(&["b"]).unwrap().get("b").unwrap().clone();
         let said = list.quantities(Quantity::Mass, 1.0).unwrap_err().to_string();
-        assert!(said.starts_with("bat.json:3:20: a.b[1]: found unit \"lbf\""), "{said}");
+        assert!(said.starts_with("bat.json:3:19: a.b[1]: found unit \"lbf\""), "{said}");
     }
 
     #[test]

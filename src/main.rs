@@ -10,7 +10,7 @@ fn main() -> ExitCode {
         Ok(done) => done,
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
-            let _ = writeln!(io::stderr(), "error: {error}");
+            let _ = writeln!(io::stderr(), "error: {}", cli::printable(&error.to_string()));
             return ExitCode::from(2);
         }
     };

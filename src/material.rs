@@ -49,24 +49,22 @@ impl Material {
     pub fn check(&self) -> Result<()> {
         let positive = |key: &str, value: Option<f64>, unit: &str| match value {
             Some(v) if !(v > 0.0 && v.is_finite()) => {
-                Err(Error::value(key, format!("{v} {unit}").trim(), "a number above 0"))
+                Err(Error::value(key, format!("{v:?} {unit}").trim(), "a number above 0"))
             }
             _ => Ok(()),
         };
         positive("density", Some(self.density), "kg/m³")?;
         positive("youngs_modulus", Some(self.youngs_modulus), "Pa")?;
-        positive("shear_modulus", self.shear_modulus, "Pa")?;
         positive("shear_coefficient", self.shear_coefficient, "")?;
         if !(self.loss_factor >= 0.0 && self.loss_factor < 2.0) {
             let expected = "0 or more and below 2 (a damping ratio below 1)";
             return Err(Error::value("loss_factor", self.loss_factor, expected));
         }
-        match self.poisson_ratio {
-            Some(nu) if !(nu > -1.0 && nu <= 0.5) => {
-                Err(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"))
-            }
-            _ => Ok(()),
+        if let Some(nu) = self.poisson_ratio.filter(|nu| !(*nu > -1.0 && *nu <= 0.5)) {
+            return Err(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
         }
+        // After the ratio, which it may have been made from.
+        positive("shear_modulus", self.shear_modulus, "Pa")
     }
 
     /// The built-in material of that name.

@@ -5,8 +5,6 @@ use std::sync::Arc;
 
 use crate::beam::element::Deflection;
 use crate::beam::statics::Statics;
-use crate::eigen::lanczos::dot;
-use crate::quadrature::RunningSum;
 
 /// One bending mode of a free bat.
 #[derive(Debug, Clone)]
@@ -39,6 +37,13 @@ pub struct ModeError {
     pub modal_mass: f64,
 }
 
+impl ModeError {
+    /// Of the frequency, relative, for both reasons.
+    pub fn total(&self) -> f64 {
+        self.discretization + self.round_off
+    }
+}
+
 /// A deflection along the bat, a cubic on every element.
 #[derive(Debug, Clone)]
 pub struct Shape {
@@ -54,7 +59,7 @@ impl Mode {
     }
 
     /// The mode with these energy-scaled strains; ω² = strain energy over kinetic energy
-    /// (Rayleigh's quotient), both summed from the deformations, unless it is given.
+    /// (Rayleigh's quotient), both summed from the deformations, unless ω is given.
     pub fn of_strains(
         order: usize,
         statics: &Statics,
@@ -63,13 +68,8 @@ impl Mode {
         omega: Option<f64>,
     ) -> Self {
         let coefficients = statics.deflections(strains);
-        let mut kinetic = RunningSum::default();
-        for (element, w) in statics.elements.iter().zip(&coefficients) {
-            let load = element.load(w);
-            kinetic.add(load.iter().zip(w).map(|(f, w)| f * w).sum());
-        }
-        let kinetic = kinetic.value();
-        let omega = omega.unwrap_or_else(|| (dot(strains, strains) / kinetic).sqrt());
+        let kinetic = statics.kinetic(&coefficients);
+        let omega = omega.unwrap_or_else(|| statics.quotient(strains, kinetic).sqrt());
         let mut shape = Shape { stretches: Arc::clone(stretches), coefficients };
         let scale = 1.0 / shape.largest();
         let scale = if shape.tip() < 0.0 { -scale } else { scale };
@@ -143,7 +143,7 @@ impl Shape {
             for xi in turning_points(&a) {
                 let value = horner(&a, xi);
                 if value * before < 0.0 {
-                    zeros.push(middle + 0.5 * half * bisect(&a, left, xi));
+                    zeros.push(middle + 0.5 * half * zero(&a, left, xi));
                 }
                 if value != 0.0 {
                     before = value;
@@ -176,17 +176,27 @@ fn turning_points(a: &[f64; 4]) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The zero of a cubic that is monotone between `left` and `right` and changes sign there.
-fn bisect(a: &[f64; 4], mut left: f64, mut right: f64) -> f64 {
+/// The zero of a cubic that is monotone between `left` and `right` and changes sign there:
+/// Newton's steps where they stay inside the shrinking bracket, halving where they do not.
+fn zero(a: &[f64; 4], mut left: f64, mut right: f64) -> f64 {
     let rising = horner(a, right) > 0.0;
-    while right - left > 1e-15 {
-        let middle = 0.5 * (left + right);
-        if middle == left || middle == right {
-            break;
+    let mut xi = 0.5 * (left + right);
+    for _ in 0..100 {
+        let value = horner(a, xi);
+        if (value > 0.0) == rising {
+            right = xi
+        } else {
+            left = xi
         }
-        if (horner(a, middle) > 0.0) == rising { right = middle } else { left = middle }
+        let slope = a[1] + xi * (2.0 * a[2] + xi * 3.0 * a[3]);
+        let newton = xi - value / slope;
+        let next = if newton > left && newton < right { newton } else { 0.5 * (left + right) };
+        if (next - xi).abs() <= f64::EPSILON {
+            return next;
+        }
+        xi = next;
     }
-    0.5 * (left + right)
+    xi
 }
 
 #[cfg(test)]

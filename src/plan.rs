@@ -9,10 +9,9 @@ use std::time::{Duration, Instant};
 
 use crate::bat::Bat;
 use crate::beam::assembly::Pencil;
-use crate::beam::element;
+use crate::beam::element::{self, Element};
 use crate::beam::mesh::Mesh;
 use crate::beam::statics::Statics;
-use crate::eigen::lanczos::dot;
 use crate::eigen::{dense, lanczos};
 use crate::error::{Error, Result};
 use crate::modes::{Mode, ModeError};
@@ -59,6 +58,13 @@ pub struct Solution {
     /// Whether every frequency is within the wanted tolerance by its own estimate.
     pub met: bool,
     pub timing: Timing,
+}
+
+impl Solution {
+    /// The largest relative error of a frequency, by its own estimate.
+    pub fn worst(&self) -> f64 {
+        self.modes.iter().map(|mode| mode.error.total()).fold(0.0, f64::max)
+    }
 }
 
 /// Where the time went.
@@ -121,6 +127,15 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     }
 }
 
+/// The modes on one mesh, with no estimate of what the mesh costs: half the work of [`solve`].
+///
+/// # Errors
+///
+/// As [`solve`].
+pub fn uncertified(bat: &Bat, mesh: &Mesh, request: &Request) -> Result<Vec<Mode>> {
+    Ok(on_mesh(bat, mesh, request, &mut Timing::default())?.modes)
+}
+
 fn most_elements(solver: Solver) -> usize {
     match solver {
         Solver::Statics => MOST_ELEMENTS,
@@ -146,40 +161,38 @@ struct Answer {
 
 fn on_mesh(bat: &Bat, mesh: &Mesh, request: &Request, timing: &mut Timing) -> Result<Answer> {
     let started = Instant::now();
-    let statics = Statics::new(element::elements(bat, mesh));
+    let elements = element::elements(bat, mesh);
+    let statics = Statics::new(&elements);
     let assembled = Instant::now();
     timing.assemble += assembled - started;
-    let answer = match request.solver {
-        _ if request.modes == 0 => Answer { modes: vec![], elements: mesh.len(), steps: 0 },
-        Solver::Statics => by_statics(&statics, request)?,
-        Solver::Dense => by_dense(&statics, request.modes)?,
+    let stretches = Arc::new(elements.iter().map(|e| (e.middle, e.length)).collect());
+    let (modes, steps) = match request.solver {
+        _ if request.modes == 0 => (vec![], 0),
+        Solver::Statics => by_statics(&statics, &stretches, request)?,
+        Solver::Dense => (by_dense(&elements, &statics, &stretches, request.modes)?, 0),
     };
     timing.solve += assembled.elapsed();
-    Ok(answer)
+    Ok(Answer { modes, elements: elements.len(), steps })
 }
 
-fn stretches(statics: &Statics) -> Arc<Vec<(f64, f64)>> {
-    Arc::new(statics.elements.iter().map(|e| (e.middle, e.length)).collect())
-}
-
-fn by_statics(statics: &Statics, request: &Request) -> Result<Answer> {
-    let (mut loads, mut image) = (Vec::new(), vec![0.0; statics.dimension()]);
+fn by_statics(
+    statics: &Statics,
+    stretches: &Arc<Vec<(f64, f64)>>,
+    request: &Request,
+) -> Result<(Vec<Mode>, usize)> {
+    let mut loads = Vec::new();
     // The eigenvalue's error is the square of the residual; the shape's is the residual itself.
     let residual = (1e-3 * request.tolerance).clamp(1e-13, 1e-9);
     let apply = |x: &[f64], y: &mut [f64]| statics.apply(x, y, &mut loads);
     let ritz = lanczos::largest(statics.start(request.modes), request.modes, residual, apply)?;
-    let stretches = stretches(statics);
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     for (k, strains) in ritz.vectors.iter().enumerate() {
-        let mut mode = Mode::of_strains(k + 1, statics, &stretches, strains, None);
-        statics.apply(strains, &mut image, &mut loads);
-        let lambda = mode.omega * mode.omega;
-        image.iter_mut().zip(strains).for_each(|(y, x)| *y = x - lambda * *y);
-        mode.error.residual = (dot(&image, &image) / dot(strains, strains)).sqrt();
+        let mut mode = Mode::of_strains(k + 1, statics, stretches, strains, None);
+        mode.error.residual = statics.residual(strains, mode.omega, &mut loads);
         mode.error.round_off = statics_round_off(mode.omega, modes.first());
         modes.push(mode);
     }
-    Ok(Answer { modes, elements: statics.elements.len(), steps: ritz.steps })
+    Ok((modes, ritz.steps))
 }
 
 /// The running sums keep ε of the slowest motion; a faster mode keeps ε times the ratio of
@@ -188,50 +201,42 @@ fn statics_round_off(omega: f64, first: Option<&Mode>) -> f64 {
     8.0 * f64::EPSILON * (omega / first.map_or(omega, |mode| mode.omega)).max(1.0)
 }
 
-fn by_dense(statics: &Statics, count: usize) -> Result<Answer> {
-    let elements = statics.elements.len();
-    if elements > 2 * MOST_DENSE {
-        return Err(Error::TooLarge { most: 2 * MOST_DENSE, found: elements });
+fn by_dense(
+    elements: &[Element],
+    statics: &Statics,
+    stretches: &Arc<Vec<(f64, f64)>>,
+    count: usize,
+) -> Result<Vec<Mode>> {
+    if elements.len() > 2 * MOST_DENSE {
+        return Err(Error::TooLarge { most: 2 * MOST_DENSE, found: elements.len() });
     }
-    let pencil = Pencil::assemble(&statics.elements);
+    let pencil = Pencil::assemble(elements);
     let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
     // Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
-    let (start, mut image) = (statics.start(1), vec![0.0; statics.dimension()]);
-    statics.apply(&start, &mut image, &mut Vec::new());
-    let shift = dot(&start, &start) / dot(&start, &image);
+    let start = statics.start(1);
+    let shift = statics.quotient(&start, statics.kinetic(&statics.deflections(&start)));
     let (values, vectors) =
         dense::generalized(&pencil.stiffness, &pencil.mass, shift).ok_or(failed)?;
-    let stretches = stretches(statics);
     // The first two are the rigid motions, zero but for round-off; a free bat always has two.
     let pairs = values.iter().zip(&vectors).skip(2).take(count).enumerate();
     let modes = pairs.map(|(k, (lambda, vector))| {
         let strains = statics.strains_of_hermite(vector);
-        let omega = Some(lambda.max(0.0).sqrt());
-        let mut mode = Mode::of_strains(k + 1, statics, &stretches, &strains, omega);
-        mode.error.round_off = dense_round_off(statics, *lambda);
-        mode.error.residual = rayleigh_defect(statics, &strains, *lambda);
+        let omega = lambda.max(0.0).sqrt();
+        let mut mode = Mode::of_strains(k + 1, statics, stretches, &strains, Some(omega));
+        mode.error.round_off = dense_round_off(elements, *lambda);
+        mode.error.residual = statics.residual(&strains, omega, &mut Vec::new());
         mode
     });
-    Ok(Answer { modes: modes.collect(), elements, steps: 0 })
+    Ok(modes.collect())
 }
 
 /// Factoring `K` leaves an error of ε times its largest entries: `ε λ_max/λ`, with the largest
 /// eigenvalue of a mesh, `8400 EI/(ρA h⁴)` of its shortest element (the exact one of a single
 /// free cubic element), in the frequency half of that.
-fn dense_round_off(statics: &Statics, lambda: f64) -> f64 {
-    let greatest = statics.elements.iter().map(|e| {
-        let bending = e.inverse[0].powi(-2) / e.length;
-        8400.0 * bending * e.length / (e.mass[0] * e.length.powi(4))
-    });
+fn dense_round_off(elements: &[Element], lambda: f64) -> f64 {
+    let greatest =
+        elements.iter().map(|e| 8400.0 * e.stiffness[0] / (e.mass[0] * e.length.powi(4)));
     0.5 * f64::EPSILON * greatest.fold(0.0, f64::max) / lambda
-}
-
-/// `‖q − λ A q‖ / ‖q‖`, how far a pair is from one of the compliance.
-fn rayleigh_defect(statics: &Statics, strains: &[f64], lambda: f64) -> f64 {
-    let mut image = vec![0.0; strains.len()];
-    statics.apply(strains, &mut image, &mut Vec::new());
-    image.iter_mut().zip(strains).for_each(|(y, x)| *y = x - lambda * *y);
-    (dot(&image, &image) / dot(strains, strains)).sqrt()
 }
 
 /// Errors from the difference of two meshes, `share` of it for the one that is reported.

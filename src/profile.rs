@@ -1,7 +1,7 @@
 //! What is the cross-section at `x`: outer and inner radius along the bat.
 
 use crate::error::{Complaint, Error, Result};
-use crate::pchip;
+use crate::pchip::{bernstein, blossom, cubics};
 
 /// How the radius runs between stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,6 +80,12 @@ impl Profile {
     ///
     /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station.
     pub fn new(stations: Stations) -> Result<Self> {
+        for (role, column) in [("outer", &stations.outer), ("inner", &stations.inner)] {
+            if column.len() != stations.x.len() {
+                let expected = format!("{}, one for each x", stations.x.len());
+                return Err(Error::value(role, format!("{} values", column.len()), expected));
+            }
+        }
         check_positions(&stations.x)?;
         check_radii(&stations)?;
         let stations = match stations.interpolation {
@@ -157,16 +163,12 @@ fn check_positions(x: &[f64]) -> Result<()> {
     }
     for k in 1..x.len() {
         if x[k] < x[k - 1] || !x[k].is_finite() {
-            let expected = format!("a position beyond station {} at {} m", k - 1, x[k - 1]);
+            let expected = format!("a position beyond x[{}]", k - 1);
             return Err(Error::value(format!("x[{k}]"), format!("{} m", x[k]), expected));
         }
         if k > 1 && x[k] == x[k - 2] {
             let expected = "two stations at most at one place (left and right of a step)";
-            return Err(Error::value(
-                format!("x[{k}]"),
-                format!("a third at {} m", x[k]),
-                expected,
-            ));
+            return Err(Error::value(format!("x[{k}]"), "a third station at one place", expected));
         }
     }
     let last = x.len() - 1;
@@ -176,7 +178,7 @@ fn check_positions(x: &[f64]) -> Result<()> {
     if x[1] == 0.0 || x[last - 1] == x[last] {
         let k = if x[1] == 0.0 { 1 } else { last };
         let expected = "a step inside the bat: at an end only one value can hold";
-        return Err(Error::value(format!("x[{k}]"), format!("a step at {} m", x[k]), expected));
+        return Err(Error::value(format!("x[{k}]"), "a step at an end of the bat", expected));
     }
     Ok(())
 }
@@ -198,8 +200,16 @@ fn check_radii(stations: &Stations) -> Result<()> {
             return Err(Error::value(format!("inner[{k}]"), shown(ri), "0 or more"));
         }
         if ri >= r && !(r == 0.0 && ri == 0.0) {
-            let expected = format!("less than the outer radius there, {r} m");
-            return Err(Error::value(format!("inner[{k}]"), shown(ri), expected));
+            return Err(Error::value(
+                format!("inner[{k}]"),
+                shown(ri),
+                format!("less than outer[{k}]"),
+            ));
+        }
+        let stiffness = Section { outer: r, inner: ri }.second_moment();
+        if !at_end && !(stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX) {
+            let expected = "a radius whose fourth power is within the range of numbers";
+            return Err(Error::value(format!("outer[{k}]"), shown(r), expected));
         }
     }
     Ok(())
@@ -213,14 +223,12 @@ fn held(stations: &Stations) -> Result<Stations> {
     for k in 0..x.len() - 1 {
         if x[k] == x[k + 1] {
             // A step written out by the user: its left value must be the one that holds there.
-            if outer[k] != outer[k - 1] || inner[k] != inner[k - 1] {
-                let expected =
-                    format!("the {} m that station {} holds up to here", outer[k - 1], k - 1);
-                return Err(Error::value(
-                    format!("outer[{k}]"),
-                    format!("{} m", outer[k]),
-                    expected,
-                ));
+            for (role, values) in [("outer", outer), ("inner", inner)] {
+                if values[k] != values[k - 1] {
+                    let expected = format!("{role}[{}], which holds up to here", k - 1);
+                    let found = format!("{} m", values[k]);
+                    return Err(Error::value(format!("{role}[{k}]"), found, expected));
+                }
             }
             continue;
         }
@@ -269,20 +277,6 @@ fn pieces(stations: &Stations) -> Result<Vec<Piece>> {
     Ok(pieces)
 }
 
-/// Bernstein coefficients of the monotone cubic on each interval, `y ± h y′/3` in the middle.
-fn cubics(x: &[f64], y: &[f64]) -> Vec<[f64; 4]> {
-    let d = pchip::slopes(x, y);
-    (0..x.len() - 1)
-        .map(|k| {
-            let (h, low, high) = (x[k + 1] - x[k], y[k].min(y[k + 1]), y[k].max(y[k + 1]));
-            // Between the stations' values in exact arithmetic; the clamp removes the rounding.
-            let first = (y[k] + h * d[k] / 3.0).clamp(low, high);
-            let second = (y[k + 1] - h * d[k + 1] / 3.0).clamp(low, high);
-            [y[k], first, second, y[k + 1]]
-        })
-        .collect()
-}
-
 fn lines(y: &[f64]) -> Vec<[f64; 4]> {
     let line = |a: f64, b: f64| {
         if a == b { [a; 4] } else { [a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b] }
@@ -303,27 +297,13 @@ fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
     let places = [(-b + root) / a, (-b - root) / a, -c / (2.0 * b)];
     for s in places.into_iter().filter(|s| *s > 0.0 && *s < 1.0) {
         if bernstein(&wall, s) <= 0.0 {
-            let x = piece.start + s * piece.length;
             let k = stations.x.partition_point(|at| *at <= piece.start) - 1;
-            let found = format!("a wall that vanishes beyond it, at {x} m");
+            let found = format!("a wall that vanishes between x[{k}] and x[{}]", k + 1);
             let expected = "inner radius below outer radius there too: add a station";
             return Err(Error::Value(Complaint::new(format!("inner[{k}]"), found, expected)));
         }
     }
     Ok(())
-}
-
-/// `Σ bᵢ Bᵢ(s)`, by de Casteljau's corner cutting.
-fn bernstein(b: &[f64; 4], s: f64) -> f64 {
-    blossom(b, s, s, s)
-}
-
-/// The polar form of a cubic: multi-affine, symmetric, equal to the cubic on the diagonal.
-#[inline]
-fn blossom(b: &[f64; 4], s: f64, t: f64, u: f64) -> f64 {
-    let cut = |a: f64, b: f64, s: f64| (1.0 - s) * a + s * b;
-    let (c0, c1, c2) = (cut(b[0], b[1], s), cut(b[1], b[2], s), cut(b[2], b[3], s));
-    cut(cut(c0, c1, t), cut(c1, c2, t), u)
 }
 
 /// Bernstein coefficients of the same cubic between `s0` and `s1`.

@@ -42,30 +42,33 @@ fn legendre_pair(n: usize, xi: f64) -> (f64, f64) {
 ///
 /// The error of the sum of n terms is then about ε instead of ε·n
 /// (Knuth's two-sum; Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955, algorithm 4.1).
+/// With `KEEP` false it is a plain sum, for sums so short that nothing is worth keeping.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RunningSum {
+pub struct RunningSum<const KEEP: bool = true> {
     high: f64,
     low: f64,
 }
 
-impl RunningSum {
+impl<const KEEP: bool> RunningSum<KEEP> {
     #[inline(always)]
     pub fn add(&mut self, term: f64) {
         let sum = self.high + term;
-        let part = sum - self.high;
-        self.low += (self.high - (sum - part)) + (term - part);
+        if KEEP {
+            let part = sum - self.high;
+            self.low += (self.high - (sum - part)) + (term - part);
+        }
         self.high = sum;
     }
 
     #[inline(always)]
     pub fn value(self) -> f64 {
-        self.high + self.low
+        if KEEP { self.high + self.low } else { self.high }
     }
 }
 
 /// The sum of all terms, rounding errors carried along.
 pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
-    let mut total = RunningSum::default();
+    let mut total = RunningSum::<true>::default();
     terms.into_iter().for_each(|term| total.add(term));
     total.value()
 }

@@ -38,7 +38,9 @@ pub fn read(path: &Path, length: f64) -> Result<InitialShape> {
         Err(document.error(offset, Complaint::new("x", found, expected)))
     };
     let (Some(x), Some(w)) = (csv.column("x"), csv.column("w")) else {
-        return error(0, "a column missing".into(), "columns x and w, such as x_m,w_mm");
+        let expected = "columns x and w, such as x_m,w_mm";
+        let complaint = Complaint::new("header", "a column missing", expected);
+        return Err(document.error(csv.header, complaint));
     };
     if x.len() < 2 {
         return error(0, format!("{} row(s)", x.len()), "two at least");

@@ -27,7 +27,7 @@ pub(crate) struct Table<'a> {
 /// Where the values stand: members of a JSON object, or cells of a CSV file.
 enum Places<'a> {
     Json(Object<'a>),
-    Csv { document: Document, rows: Vec<usize> },
+    Csv { document: Document, csv: Csv },
 }
 
 impl<'a> Table<'a> {
@@ -85,8 +85,7 @@ impl<'a> Table<'a> {
             );
         };
         let inner = take(&INNER);
-        let rows = csv.rows;
-        Ok(Table { x, outer, inner, places: Places::Csv { document, rows } })
+        Ok(Table { x, outer, inner, places: Places::Csv { document, csv } })
     }
 
     /// Radii from whatever columns there are.
@@ -111,7 +110,7 @@ impl<'a> Table<'a> {
             if inner.abs() <= 4.0 * f64::EPSILON * r {
                 Ok(0.0)
             } else if inner < 0.0 || *t < 0.0 {
-                let expected = format!("a wall between 0 and the outer radius there, {r} m");
+                let expected = format!("a wall above 0, at most outer[{k}]");
                 Err(self.locate(Error::value(format!("inner[{k}]"), format!("{t} m"), expected)))
             } else {
                 Ok(inner)
@@ -120,31 +119,87 @@ impl<'a> Table<'a> {
         outer.iter().zip(wall).enumerate().map(bore).collect()
     }
 
-    /// Gives an error about station `k` of `x`, `outer` or `inner` its place in the file.
+    /// Gives an error about station `k` of `x`, `outer` or `inner` its place in the file, and the
+    /// file's own names, values and units.
     pub fn locate(&self, error: Error) -> Error {
         let Error::Value(mut complaint) = error else { return error };
         let (role, index) = complaint.field.split_once('[').unwrap_or((&complaint.field, ""));
         let index: Option<usize> = index.trim_end_matches(']').parse().ok();
-        let key = match (role, &self.inner) {
-            ("outer", _) => self.outer.key,
-            ("inner", Some(column)) => column.key,
-            _ => "x",
-        };
+        let column = self.column(role);
+        let written = index.map(|k| self.written(column.key, k));
+        if let Some(written) = written {
+            // A value is shown as it was written; anything else is told about that value.
+            let value =
+                complaint.found.strip_suffix(" m").is_some_and(|v| v.parse::<f64>().is_ok());
+            complaint.found = if value {
+                written
+            } else {
+                format!("{written}: {}", self.told(&complaint.found, column))
+            };
+        }
+        complaint.expected = self.told(&complaint.expected, column);
         match &self.places {
             Places::Json(object) => {
-                let column = object.get(key).unwrap_or(&object.node);
-                let node = index.map_or_else(|| column.clone(), |k| column.item(k));
-                if index.is_some() {
-                    complaint.found = format!("{} ({})", node.shown(), complaint.found);
-                }
+                let list = object.get(column.key).unwrap_or(&object.node);
+                let node = index.map_or_else(|| list.clone(), |k| list.item(k));
                 complaint.field.clear();
                 node.complain(complaint)
             }
-            Places::Csv { document, rows } => {
-                complaint.field = key.to_owned();
-                let row = index.and_then(|k| rows.get(k)).copied().unwrap_or(0);
-                document.error(row, complaint)
+            Places::Csv { document, csv } => {
+                let offset =
+                    index.map_or(csv.header, |k| csv.cell(&document.text, column.key, k).0);
+                complaint.field = column.key.to_owned();
+                document.error(offset, complaint)
             }
         }
+    }
+
+    fn column(&self, role: &str) -> &Column {
+        match (role, &self.inner) {
+            ("outer", _) => &self.outer,
+            ("inner", Some(inner)) => inner,
+            _ => &self.x,
+        }
+    }
+
+    /// What stands in the file for station `k`, with its unit.
+    fn written(&self, key: &str, k: usize) -> String {
+        match &self.places {
+            Places::Json(object) => {
+                let Some(list) = object.get(key) else { return String::new() };
+                let shown = list.item(k).shown();
+                let unit = object.string("unit").ok().flatten().unwrap_or_else(|| "m".to_owned());
+                if shown.starts_with('"') { shown } else { format!("{shown} {unit}") }
+            }
+            Places::Csv { document, csv } => {
+                let (_, cell, unit) = csv.cell(&document.text, key, k);
+                format!("{cell} {unit}").trim_end().to_owned()
+            }
+        }
+    }
+
+    /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values
+    /// of the file: `half of diameter[2] (2.5 in)` where a radius is compared with it.
+    fn told(&self, said: &str, of: &Column) -> String {
+        let (mut told, mut rest) = (String::new(), said);
+        let next = |rest: &str| {
+            let roles = ["x[", "outer[", "inner["].into_iter();
+            let found = roles.filter_map(|role| Some((rest.find(role)?, role))).min()?;
+            let after = found.0 + found.1.len();
+            let end = after + rest[after..].find(']')?;
+            Some((found.0, found.1.trim_end_matches('['), rest[after..end].parse().ok()?, end + 1))
+        };
+        while let Some((start, role, k, end)) = next(rest) {
+            let column = self.column(role);
+            told += &rest[..start];
+            told += match (column.key.contains("diameter"), of.key.contains("diameter")) {
+                (true, false) if role != "x" => "half of ",
+                (false, true) if role != "x" => "twice ",
+                _ => "",
+            };
+            told += &format!("{}[{k}] ({})", column.key, self.written(column.key, k));
+            rest = &rest[end..];
+        }
+        told + rest
     }
 }

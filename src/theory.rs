@@ -4,6 +4,7 @@
 
 use crate::bat::Bat;
 use crate::modes::Mode;
+use crate::plan::Solution;
 use crate::profile::Section;
 
 /// Relative change of a mode's frequency by effects that the model leaves out.
@@ -66,4 +67,33 @@ fn shear_coefficient(bat: &Bat, section: Section) -> f64 {
         let square = (1.0 + m2).powi(2);
         6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * m2)
     })
+}
+
+/// What the model leaves out and what it costs, a sentence each.
+pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
+    let modes = &solution.modes[..solution.modes.len().min(4)];
+    let percents = |f: &dyn Fn(&Shift) -> f64| {
+        let shifts = modes.iter().map(|mode| shift(bat, mode));
+        let shown: Vec<String> = shifts.map(|s| format!("{:.1} %", 100.0 * f(&s))).collect();
+        format!("modes 1 to {} by about {}", modes.len(), shown.join(", "))
+    };
+    let mut ignored = Vec::new();
+    if !modes.is_empty() {
+        let rotary = percents(&|s| s.rotary_inertia);
+        ignored.push(format!("rotary inertia of the sections: would change {rotary}"));
+        ignored.push(match bat.material.shear_modulus {
+            Some(_) => {
+                let shear = percents(&|s| s.shear.unwrap_or(0.0));
+                format!("shear: would change {shear} (first order, too large where it is large)")
+            }
+            None => {
+                "shear: not known, the material has no shear modulus; in wooden bats it lowers \
+                     mode 1 by 1 to 2 %, mode 2 by about 5 %, mode 4 by about 15 %"
+                    .to_owned()
+            }
+        });
+    }
+    ignored.push("hands: the bat is free; they damp it and hardly move a frequency".to_owned());
+    ignored.push("hoop modes of hollow barrels: not a beam's, and not modelled".to_owned());
+    ignored
 }

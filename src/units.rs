@@ -156,6 +156,9 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     let text = text.trim();
     let (number, unit) = split(text);
     let wrong = |found: String| Complaint::new("", found, quantity.expected());
+    if unit.starts_with(',') {
+        return Err(wrong(format!("\"{text}\" (decimals follow a point, not a comma)")));
+    }
     let value: f64 = number.parse().map_err(|_| wrong(format!("\"{text}\"")))?;
     let value = if unit.is_empty() { value } else { value * factor(unit, quantity)? };
     if value.is_finite() {
@@ -221,7 +224,7 @@ fn split(text: &str) -> (&str, &str) {
 /// The factor and the dimension of a product of powers of symbols.
 fn product(unit: &str) -> Result<(f64, Dimension), String> {
     let unit = unit.replace('²', "^2").replace('³', "^3").replace('µ', "u");
-    let (mut total, mut dimension) = (1.0, [0; 4]);
+    let (mut total, mut dimension): (f64, Dimension) = (1.0, [0; 4]);
     let mut sign = 1;
     for part in unit.split_inclusive(['*', '·', ' ', '/']) {
         let symbol = part.trim_end_matches(['*', '·', ' ', '/']);
@@ -231,7 +234,7 @@ fn product(unit: &str) -> Result<(f64, Dimension), String> {
                 SYMBOLS.iter().find(|(name, ..)| *name == base).ok_or_else(|| unknown(base))?;
             total *= factor.powi(sign * i32::from(power));
             for (sum, d) in dimension.iter_mut().zip(dims) {
-                *sum += sign as i8 * power * d;
+                *sum = sum.saturating_add((sign as i8 * power).saturating_mul(*d));
             }
             sign = 1;
         }
@@ -355,6 +358,7 @@ mod tests {
         assert!(parse("1e999 m", Quantity::Length).is_err());
         assert!(parse("nan", Quantity::Length).is_err());
         assert!(parse("inf m", Quantity::Length).is_err());
+        assert!(parse(&format!("1 {}", "m^9 ".repeat(100)), Quantity::Length).is_err());
     }
 
     proptest! {

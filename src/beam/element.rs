@@ -31,8 +31,9 @@ pub struct Element {
     pub length: f64,
     /// Position of the middle from the knob end (m).
     pub middle: f64,
-    /// Inverse of the Cholesky factor of the strains' stiffness `D = L Lᵀ`, as
-    /// `[1/L₀₀, −L₁₀/(L₀₀ L₁₁), 1/L₁₁]`.
+    /// Stiffness of the strains `D` (N m³), as `[D₀₀, D₁₀, D₁₁]`.
+    pub stiffness: [f64; 3],
+    /// Inverse of the Cholesky factor `D = L Lᵀ`, as `[1/L₀₀, −L₁₀/(L₀₀ L₁₁), 1/L₁₁]`.
     pub inverse: [f64; 3],
     /// Mass `∫ρA P_k P_l dx` (kg), `k ≥ l`, row by row.
     pub mass: [f64; 10],
@@ -105,6 +106,23 @@ impl Element {
         let [i00, i10, i11] = self.inverse;
         let q1 = c[1] / i11;
         [(c[0] - i10 * q1) / i00, q1]
+    }
+
+    /// The same element with energies counted in that unit.
+    pub fn with_energy_unit(&self, unit: f64) -> Self {
+        let stiffness = self.stiffness.map(|d| d / unit);
+        Self { stiffness, inverse: inverse(stiffness), ..*self }
+    }
+
+    /// The same element seen from its other end: odd polynomials change sign.
+    pub fn mirrored(&self) -> Self {
+        let mut other = *self;
+        other.stiffness[1] *= -1.0;
+        other.inverse[1] *= -1.0;
+        for odd in [1, 4, 6, 8] {
+            other.mass[odd] *= -1.0;
+        }
+        other
     }
 
     /// Strains of the Hermite unknowns: mean curvature `(θ₂ − θ₁)/h` and its slope
@@ -191,9 +209,20 @@ fn energies(
         d.iter_mut().zip(&point.products).for_each(|(d, p)| *d += stiffness * p);
         mass.iter_mut().zip(&point.products).for_each(|(m, p)| *m += per_length * p);
     }
+    Element {
+        length: e.length,
+        middle: e.start + 0.5 * e.length,
+        stiffness: d,
+        inverse: inverse(d),
+        mass,
+    }
+}
+
+/// The inverse of the Cholesky factor of a 2 × 2 matrix.
+#[inline]
+fn inverse(d: [f64; 3]) -> [f64; 3] {
     let i00 = 1.0 / d[0].sqrt();
     let l10 = d[1] * i00;
     let i11 = 1.0 / (d[2] - l10 * l10).sqrt();
-    let inverse = [i00, -l10 * i00 * i11, i11];
-    Element { length: e.length, middle: e.start + 0.5 * e.length, inverse, mass }
+    [i00, -l10 * i00 * i11, i11]
 }

@@ -78,21 +78,20 @@ impl Mesh {
 
 /// `total` elements over pieces of these lengths, the longest element as short as can be.
 fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
-    let counts = |size: f64| -> Vec<usize> {
-        lengths
-            .iter()
-            .map(|length| ((length / size).ceil() as usize).clamp(1, total.max(1)))
-            .collect()
-    };
+    if lengths.len() == 1 {
+        return vec![total.max(1)];
+    }
+    let count = |length: &f64, size: f64| ((length / size).ceil() as usize).clamp(1, total.max(1));
     let whole: f64 = lengths.iter().sum();
     // Bisect on the element size; too many elements below, few enough above.
     let (mut low, mut high) = (0.5 * whole / total.max(1) as f64, 2.0 * whole);
-    for _ in 0..60 {
+    for _ in 0..30 {
         let middle = 0.5 * (low + high);
-        if counts(middle).iter().sum::<usize>() > total { low = middle } else { high = middle }
+        let sum: usize = lengths.iter().map(|length| count(length, middle)).sum();
+        if sum > total { low = middle } else { high = middle }
     }
-    let mut counts = counts(high);
-    // Pieces of equal length leave a remainder: one more for the longest elements.
+    let mut counts: Vec<usize> = lengths.iter().map(|length| count(length, high)).collect();
+    // Pieces of nearly equal length leave a remainder: one more for the longest elements.
     let missing = total.saturating_sub(counts.iter().sum());
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     let size = |k: usize, counts: &[usize]| lengths[k] / counts[k] as f64;

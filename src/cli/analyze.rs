@@ -60,7 +60,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let table = format!(
         "{}\n{}\n{}{}\n{}{}\n{}\n{}\n{}{}",
         text::summary(&bat, units),
-        text::modes(&bat, &solution, units),
+        text::modes(&bat, &solution, 3, units),
         text::model(&bat, &solution),
         proof(args, &solution)?,
         text::scene(&scene, json::model_name(model), units),
@@ -102,15 +102,11 @@ fn proof(args: &Args, solution: &Solution) -> Result<String> {
         (mode.frequency() / dowel.frequency(Ends::FreeFree, mode.order) - 1.0).abs()
     };
     let worst = ours.modes.iter().map(error).fold(0.0, f64::max);
-    let stated = |solution: &Solution| {
-        let error = |m: &sweetspot::modes::Mode| m.error.discretization + m.error.round_off;
-        solution.modes.iter().map(error).fold(0.0, f64::max)
-    };
     Ok(format!(
         "Proof: on the uniform dowel the same solver misses the exact modes 1 to {count} by\n       \
          {worst:.1e} at most and says {:.1e}; on this bat it says {:.1e}\n",
-        stated(&ours),
-        stated(solution)
+        ours.worst(),
+        solution.worst()
     ))
 }
 

@@ -14,6 +14,8 @@ use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::units::{self, Quantity};
 
+use crate::cli::printable;
+
 /// How the modes are found.
 #[derive(clap::Args)]
 pub struct SolveArgs {
@@ -77,7 +79,7 @@ impl OutputArgs {
     pub fn warn(&self, text: &str) {
         if !self.quiet {
             // A closed standard error is no reason to stop.
-            let _ = writeln!(std::io::stderr(), "{text}");
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
         }
     }
 
@@ -197,9 +199,15 @@ pub fn curve_csv(impacts: &[Impact]) -> String {
     out
 }
 
+/// A length as it is said in messages, whichever unit it came in.
+pub fn shown_length(length: f64) -> String {
+    let inches: f64 = format!("{:.5e}", units::inches(length)).parse().unwrap_or(f64::NAN);
+    format!("{length:?} m ({inches:?} in)")
+}
+
 /// A value with its unit from the command line.
 pub fn quantity(text: &str, quantity: Quantity) -> std::result::Result<f64, String> {
-    units::parse(text, quantity).map_err(|c| format!("expected {}", c.expected))
+    units::parse(text, quantity).map_err(|complaint| complaint.to_string())
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {

@@ -10,7 +10,7 @@ use sweetspot::plan::{self, Solution};
 use sweetspot::report::{json, text};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, quantity};
+use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, quantity, shown_length};
 use crate::cli::{Done, NOT_REACHED};
 
 /// The collision along the barrel: exit speeds, energies, the sweet spot
@@ -72,11 +72,8 @@ impl PlaceArgs {
             if (0.0..=length * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
                 Ok(x.min(length))
             } else {
-                Err(Error::value(
-                    name,
-                    format!("{x} m"),
-                    format!("a place on the bat, 0 to {length} m"),
-                ))
+                let expected = format!("a place on the bat, 0 to {}", shown_length(length));
+                Err(Error::value(name, shown_length(x), expected))
             }
         };
         if let Some(x) = self.at {
@@ -85,8 +82,8 @@ impl PlaceArgs {
         let from = on_the_bat("--from", self.from.unwrap_or(0.5 * length))?;
         let to = on_the_bat("--to", self.to.unwrap_or(length))?;
         if to < from {
-            let expected = format!("a place beyond --from, {from} m");
-            return Err(Error::value("--to", format!("{to} m"), expected));
+            let expected = format!("a place beyond --from, {}", shown_length(from));
+            return Err(Error::value("--to", shown_length(to), expected));
         }
         let last = f64::from(self.points.max(2) - 1);
         Ok((0..self.points).map(|k| from + (to - from) * f64::from(k) / last).collect())

@@ -59,7 +59,8 @@ const LATER_OPTIONS: &[&str] = &[
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {
-    refuse_later(&std::env::args().skip(1).collect::<Vec<_>>())?;
+    let args = std::env::args_os().skip(1);
+    refuse_later(&args.map(|arg| arg.to_string_lossy().into_owned()).collect::<Vec<_>>())?;
     match Cli::parse().verb {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
@@ -68,6 +69,12 @@ pub fn run() -> Result<Done> {
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
     }
+}
+
+/// One line that does nothing to a terminal, whatever a file is called or holds.
+pub fn printable(text: &str) -> String {
+    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(escaped).collect()
 }
 
 fn refuse_later(args: &[String]) -> Result<()> {

@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let table = format!(
         "{}\n{}\n{}",
         text::summary(&bat, args.output.units),
-        text::modes(&bat, &solution, args.output.units),
+        text::modes(&bat, &solution, args.count.into(), args.output.units),
         text::model(&bat, &solution)
     );
     let document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);
@@ -75,11 +75,9 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// What to say of an answer that is less accurate than asked.
 pub fn missed_tolerance(solution: &plan::Solution, tolerance: f64) -> String {
-    let error = |mode: &sweetspot::modes::Mode| mode.error.discretization + mode.error.round_off;
-    let worst = solution.modes.iter().map(error).fold(0.0, f64::max);
     format!(
-        "accuracy not reached: asked {tolerance:e}, the best answer is within {worst:.1e} \
-         ({} elements)",
+        "accuracy not reached: asked {tolerance:e}, the best answer is within {:.1e} ({} elements)",
+        solution.worst(),
         solution.elements
     )
 }

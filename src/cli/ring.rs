@@ -12,7 +12,8 @@ use sweetspot::response::{Oscillator, expansion, partial_sums, struck};
 use sweetspot::shape_file;
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, SolveArgs, quantity};
+use crate::cli::common::{OutputArgs, SolveArgs, quantity, shown_length};
+use crate::cli::modes::missed_tolerance;
 use crate::cli::{Done, NOT_REACHED};
 
 /// Free motion after a blow or from an initial shape
@@ -94,6 +95,9 @@ pub fn run(args: &Args) -> Result<Done> {
         "deflection_m": frames,
     });
     let missed = args.solve.enforced() && !solution.met;
+    if missed {
+        args.output.warn(&missed_tolerance(&solution, args.solve.tol));
+    }
     let code = if missed { NOT_REACHED } else { 0 };
     let text = match &args.csv {
         Some(path) if path.as_os_str() != "-" => {
@@ -117,8 +121,11 @@ fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
     match (args.at, args.impulse, &args.initial) {
         (Some(x), Some(impulse), _) => {
             if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
-                let expected = format!("a place on the bat, 0 to {} m", bat.length());
-                return Err(Error::value("--at", format!("{x} m"), expected));
+                let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+                return Err(Error::value("--at", shown_length(x), expected));
+            }
+            if impulse.abs() >= 1e6 {
+                return Err(Error::value("--impulse", format!("{impulse:?} N s"), "less than 1e6"));
             }
             let shape_at = ringing.shapes(&[x]).into_iter().map(|shape| shape[0]).collect();
             Ok(Start::Blow { shape_at, impulse })
@@ -132,8 +139,8 @@ fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
 }
 
 fn times(args: &Args, solution: &Solution) -> Result<Vec<f64>> {
-    if let Some(t) = args.times.iter().find(|t| **t < 0.0) {
-        return Err(Error::value("--times", format!("{t} s"), "0 or later"));
+    if let Some(t) = args.times.iter().find(|t| !(0.0..1e6).contains(*t)) {
+        return Err(Error::value("--times", format!("{t:?} s"), "0 or later, before 1e6 s"));
     }
     let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
     let nine = || (0..=8).map(|k| period * f64::from(k) / 8.0).collect();

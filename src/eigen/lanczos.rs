@@ -18,8 +18,9 @@ pub struct Ritz {
     pub steps: usize,
 }
 
-/// Convergence is looked for from this many steps beyond the wanted number on.
-const EARLIEST: usize = 6;
+/// Convergence is looked for from this many steps beyond the wanted number on, and so often.
+const EARLIEST: usize = 8;
+const EVERY: usize = 2;
 
 /// The `count` largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`.
 ///
@@ -48,17 +49,19 @@ pub fn largest(
         let steps = basis.len();
         apply(&basis[steps - 1], &mut next);
         alpha.push(dot(&basis[steps - 1], &next));
-        let size = dot(&next, &next).sqrt();
-        orthogonalise(&basis, &mut next, size);
-        let rest = dot(&next, &next).sqrt();
+        subtract(alpha[steps - 1], &basis[steps - 1], &mut next);
+        if let (Some(beta), [.., before, _]) = (beta.last(), &basis[..]) {
+            subtract(*beta, before, &mut next);
+        }
+        let rest = orthogonalise(&basis, &mut next);
         let spanned = steps == dimension || rest <= f64::EPSILON * f64::EPSILON * alpha[0];
-        if spanned || steps == most || steps >= count + EARLIEST && (steps - count) % 2 == 0 {
-            let (values, last) = tridiagonal::last_components(&alpha, &beta);
+        let due = steps >= count + EARLIEST && (steps - count - EARLIEST) % EVERY == 0;
+        if spanned || steps == most || due {
+            let (values, weights) = tridiagonal::eigen(&alpha, &beta);
             let wanted = count.min(steps);
-            let misses = |k: &usize| rest * last[*k].abs() > residual * values[*k];
+            let misses = |k: &usize| rest * weights[*k][steps - 1].abs() > residual * values[*k];
             let missed = if spanned { 0 } else { (0..wanted).filter(misses).count() };
             if missed == 0 && wanted == count {
-                let (values, weights) = tridiagonal::eigen(&alpha, &beta);
                 return Ok(Ritz { vectors: combine(&basis, &weights[..count]), values, steps });
             }
             if spanned || steps == most {
@@ -71,19 +74,24 @@ pub fn largest(
     }
 }
 
-/// Takes everything of `basis` out of `vector`, whose length was `size`.
-fn orthogonalise(basis: &[Vec<f64>], vector: &mut [f64], mut size: f64) {
+fn subtract(part: f64, from: &[f64], vector: &mut [f64]) {
+    vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * b);
+}
+
+/// Takes everything of `basis` out of `vector`; the length that is left.
+fn orthogonalise(basis: &[Vec<f64>], vector: &mut [f64]) -> f64 {
+    let mut size = dot(vector, vector).sqrt();
     for _ in 0..3 {
         for b in basis.iter().rev() {
-            let part = dot(b, vector);
-            vector.iter_mut().zip(b).for_each(|(v, b)| *v -= part * b);
+            subtract(dot(b, vector), b, vector);
         }
         let rest = dot(vector, vector).sqrt();
         if rest > 0.7 * size {
-            return;
+            return rest;
         }
         size = rest;
     }
+    size
 }
 
 /// `Σ weights[k][j] basis[j]` for every `k`, scaled to length 1.

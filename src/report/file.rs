@@ -13,6 +13,14 @@ use crate::error::{Error, Result};
 /// [`Error::Write`]; what was there before is still there then.
 pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     let failed = |source| Error::Write { path: path.to_owned(), source };
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        // A device or a pipe is written to, not replaced.
+        let device = fs::OpenOptions::new().write(true).open(path);
+        return device.and_then(|mut device| device.write_all(contents)).map_err(failed);
+    }
+    // A link stays one: what it points to is replaced.
+    let target = fs::canonicalize(path);
+    let path = target.as_deref().unwrap_or(path);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
     let written = fs::File::create(&beside)
@@ -37,6 +45,13 @@ mod tests {
         write(&folder.join("new"), b"new").unwrap();
         write(&folder.join("new"), b"newer").unwrap();
         assert_eq!(fs::read_to_string(folder.join("new")).unwrap(), "newer");
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("new", folder.join("link")).unwrap();
+            write(&folder.join("link"), b"through").unwrap();
+            assert_eq!(fs::read_to_string(folder.join("new")).unwrap(), "through");
+            fs::remove_file(folder.join("link")).unwrap();
+        }
         // A folder with something in it cannot be replaced by a file.
         assert!(write(&folder.join("taken"), b"x").is_err());
         assert!(write(&folder.join("missing/new"), b"x").is_err());

@@ -12,7 +12,7 @@ use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::modes::Mode;
 use crate::plan::{Solution, Solver};
 use crate::profile::Interpolation;
-use crate::report::ignored;
+use crate::theory::ignored;
 
 /// Which samples of the shapes to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Scene};
 use crate::collision::sweet_spot::SweetSpot;
 use crate::plan::Solution;
-use crate::report::ignored;
 use crate::report::json::solver_name;
+use crate::theory::ignored;
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 
 /// Which units the tables are in.
@@ -45,17 +45,25 @@ impl Units {
         self.show(format!("{value:.2} m/s"), format!("{:.1} mph", miles_per_hour(value)))
     }
 
-    /// A list of positions (m), in cm, in inches or both.
-    fn positions(self, places: &[f64]) -> String {
-        let list = |scale: f64| {
+    /// The same in running text: `0.0635 m (2.50 in)`.
+    fn inline(self, value: String) -> String {
+        match (self, value.split_once("   ")) {
+            (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),
+            _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    /// A list of positions (m), a line per system of units.
+    fn positions(self, places: &[f64]) -> Vec<String> {
+        let list = |scale: f64, unit: &str| {
             let shown: Vec<String> = places.iter().map(|x| format!("{:.2}", x * scale)).collect();
-            shown.join(" ")
+            format!("{} {unit}", shown.join("  "))
         };
-        let (si, us) = (format!("{} cm", list(100.0)), format!("{} in", list(inches(1.0))));
+        let (si, us) = (list(100.0, "cm"), list(inches(1.0), "in"));
         match self {
-            Self::Si => si,
-            Self::Us => us,
-            Self::Both => format!("{si} | {us}"),
+            Self::Si => vec![si],
+            Self::Us => vec![us],
+            Self::Both => vec![si, us],
         }
     }
 }
@@ -81,29 +89,36 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
-/// The modes: frequencies with their errors, and the nodes from both ends.
-pub fn modes(bat: &Bat, solution: &Solution, units: Units) -> String {
-    let mut out = String::from("Bending modes of the free bat (two rigid modes at 0 Hz besides)\n");
-    out += "  mode    frequency   error (relative)   modal mass   nodes from knob\n";
+/// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
+pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
+    let mut out =
+        String::from("Bending modes of the free bat (and two rigid ones, at 0 Hz exactly)\n");
+    out += "  mode    frequency   f/f1     relative error   modal mass (largest deflection 1)\n";
+    let first = solution.modes.first().map_or(1.0, |mode| mode.omega);
     for mode in &solution.modes {
-        let error = mode.error.discretization + mode.error.round_off;
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "  {:>4} {:>9.2} Hz   {:<16} {:>8.1} g ",
+            "  {:>4} {:>9.2} Hz {:>7.3}   within {:<8} {:>8.1} g",
             mode.order,
             mode.frequency(),
-            format!("within {error:.0e}"),
+            mode.omega / first,
+            format!("{:.0e}", mode.error.total()),
             1e3 * mode.modal_mass,
         );
-        out += &wrapped(&units.positions(&mode.nodes), 50);
     }
-    if let Some(mode) = solution.modes.first() {
-        let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
-        let _ = writeln!(out, "  mode 1 from the tip: {}", units.positions(&from_tip));
+    if !solution.modes.is_empty() {
+        out += "Nodes\n";
     }
-    if let Some(mode) = solution.modes.get(1) {
+    for mode in solution.modes.iter().take(with_nodes) {
         let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
-        let _ = writeln!(out, "  mode 2 from the tip: {}", units.positions(&from_tip));
+        let mut label = format!("mode {}", mode.order);
+        for (end, places) in [("from knob", &mode.nodes), ("from tip", &from_tip)] {
+            for line in units.positions(places) {
+                let line = format!("  {label:<8} {end:<9}  {line}");
+                out += &wrapped(&line, 22);
+                label.clear();
+            }
+        }
     }
     out
 }
@@ -125,27 +140,16 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     out
 }
 
-/// Breaks a line at spaces to 80 columns, the rest indented by `indent`; ends the line.
+/// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
 fn wrapped(text: &str, indent: usize) -> String {
-    let mut out = String::new();
-    // A table's last column starts at the indent; a paragraph starts at the margin.
-    let mut column = if text.starts_with(' ') { 0 } else { indent };
-    let lead = text.len() - text.trim_start().len();
-    out += &text[..lead];
-    column += lead;
-    for (k, word) in text.split_whitespace().enumerate() {
-        let width = word.chars().count();
-        if k > 0 && column + 1 + width > 80 {
-            let _ = write!(out, "\n{:indent$}", "");
-            column = indent;
-        } else if k > 0 {
-            out.push(' ');
-            column += 1;
-        }
-        out += word;
-        column += width;
+    let (mut out, mut rest, mut lead) = (String::new(), text, 0);
+    while lead + rest.chars().count() > 80 {
+        let end = rest.char_indices().nth(80 - lead).map_or(rest.len(), |(at, _)| at);
+        let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
+        let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
+        (rest, lead) = (rest[space..].trim_start(), indent);
     }
-    out.push('\n');
+    let _ = writeln!(out, "{:lead$}{rest}", "");
     out
 }
 
@@ -159,12 +163,12 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
     let both = units == Units::Both;
     let mut out = format!(
-        "  from knob  from tip  bat speed  exit speed  {}rigid bat  e_A    vibration\n",
+        "  from knob  from tip  bat speed  exit speed  {}rigid bat     e_A  vibration\n",
         if both { "            " } else { "" }
     );
     let _ = writeln!(
         out,
-        "  {position:>9}  {position:>8}  {speed:>9}  {speed:>10}  {}{speed:>9}         J",
+        "  {position:>9}  {position:>8}  {speed:>9}  {speed:>10}  {}{speed:>9}                  J",
         if both { "       mph  " } else { "" }
     );
     for impact in impacts {
@@ -188,7 +192,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         let rigid = impact.rigid_exit_speed.map_or(f64::NAN, fast);
         let _ = writeln!(
             out,
-            "  {rigid:>9.2}  {:>6.3}  {:>6.2}",
+            "  {rigid:>9.2}  {:>6.3}  {:>9.2}",
             outcome.collision_efficiency,
             outcome.energy.vibration()
         );
@@ -207,14 +211,16 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
             Units::Us => format!("{:.2} in", inches(x)),
             Units::Both => format!("{:.2} cm, {:.2} in", 100.0 * x, inches(x)),
         };
-        let text = format!("  {what:<34}  {:<21}  {:<19}", place(x), place(bat.length() - x));
-        let _ = writeln!(out, "{}", text.trim_end());
-        if !value.is_empty() {
-            let _ = writeln!(out, "      {value}");
-        }
+        let what = if value.is_empty() { what.to_owned() } else { format!("{what}, {value}") };
+        let text = format!("  {what:<34}  {:<21}  {}", place(x), place(bat.length() - x));
+        let _ = writeln!(out, "{text}");
     };
     let peak = spot.exit_speed_max;
-    line("fastest ball", peak.map(|p| p.x), peak.map_or(String::new(), |p| units.speed(p.value)));
+    line(
+        "fastest ball",
+        peak.map(|p| p.x),
+        peak.map_or(String::new(), |p| units.inline(units.speed(p.value))),
+    );
     let still = spot.vibration_min;
     let energy = still.map_or(String::new(), |p| format!("{:.2} J", p.value));
     line("least vibration", still.map(|p| p.x), energy);
@@ -230,14 +236,14 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
 
 /// The scene in words.
 pub fn scene(scene: &Scene, model: &str, units: Units) -> String {
-    let beyond = if scene.pivot < 0.0 { "inside" } else { "beyond" };
+    let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
     format!(
-        "Hit: model {model}; swing {:.4} rad/s about a point {} {beyond} the knob end,\n     \
+        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end\n     \
          {} at {}, cor {}\n",
         scene.swing,
-        units.length(scene.pivot.abs()).split_whitespace().collect::<Vec<_>>().join(" "),
+        units.inline(units.length(scene.pivot.abs())),
         scene.ball.name,
-        units.speed(scene.ball_speed).split_whitespace().collect::<Vec<_>>().join(" "),
+        units.inline(units.speed(scene.ball_speed)),
         scene.cor
     )
 }

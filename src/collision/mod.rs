@@ -1,0 +1,7 @@
+//! What ball and bat do when they meet.
+
+pub mod ball;
+pub mod rigid;
+pub mod energy_loss;
+pub mod hit;
+pub mod sweet_spot;

@@ -1,0 +1,5 @@
+//! Eigenvalues, of whatever operator or matrices they are asked of.
+
+pub mod tridiagonal;
+pub mod lanczos;
+pub mod dense;

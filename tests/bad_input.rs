@@ -1,0 +1,765 @@
+//! Every malformed file and command line is answered by one clear message and exit code 2.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// A folder of its own for one test, removed afterwards.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let unique = format!("sweetspot-{name}-{}", std::process::id());
+        let path = std::env::temp_dir().join(unique);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        fs::write(self.0.join(name), contents).unwrap();
+    }
+
+    fn names(&self) -> Vec<String> {
+        let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
+        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
+        names.sort();
+        names
+    }
+
+    fn run(&self, args: &[&str]) -> Output {
+        let program = env!("CARGO_BIN_EXE_sweetspot");
+        Command::new(program).args(args).current_dir(&self.0).output().unwrap()
+    }
+
+    /// What is wrong with the answer to wrong input: silence, a panic, half a result, other words.
+    fn misanswer(&self, args: &[&str], says: &[&str]) -> Option<String> {
+        let before = self.names();
+        let output = self.run(args);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let message = told.strip_prefix("error: ").unwrap_or_default();
+        let missing: Vec<_> = says.iter().filter(|words| !message.contains(**words)).collect();
+        let fault = match () {
+            () if output.status.code() != Some(2) => format!("ended with {}", output.status),
+            () if message.is_empty() => "does not begin with \"error:\"".to_owned(),
+            () if message.contains("error:") => "has more than one error".to_owned(),
+            () if message.contains("panicked") => "is a panic".to_owned(),
+            () if message.chars().any(|c| c.is_control() && c != '\n') => "controls".to_owned(),
+            () if message.contains("NaN ") || message.contains("inf ") => "shows no number".to_owned(),
+            () if message.len() > 2000 => format!("is {} bytes long", message.len()),
+            () if !missing.is_empty() => format!("lacks {missing:?}"),
+            () if !output.stdout.is_empty() => "comes with output".to_owned(),
+            () if self.names() != before => format!("leaves {:?}", self.names()),
+            () => return None,
+        };
+        Some(format!("{args:?}: {fault}\n    {told}"))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Nothing depends on it.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn assert_none(faults: Vec<String>) {
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// A good bat; each row below spoils one thing.
+const BAT: &str = r#"{
+  "format": "sweetspot-bat/1",
+  "name": "dowel",
+  "material": { "density": 700, "youngs_modulus": 14e9 },
+  "profile": {
+    "x": [0, 0.4, 0.8],
+    "radius": [0.02, 0.03, 0.02]
+  }
+}
+"#;
+
+/// What stands in the good bat, what stands there instead, and what the message must say.
+type Spoilt = (&'static str, &'static str, &'static [&'static str]);
+
+fn refused(name: &str, rows: &[Spoilt]) {
+    let folder = Folder::new(name);
+    let mut faults = Vec::new();
+    for (good, bad, says) in rows {
+        assert_eq!(BAT.matches(good).count(), 1, "{good}");
+        folder.write("bat.json", BAT.replace(good, bad));
+        let fault = folder.misanswer(&["modes", "bat.json", "--json", "out.json"], says);
+        faults.extend(fault.map(|fault| format!("{bad}\n  {fault}")));
+    }
+    assert_none(faults);
+}
+
+const FORMAT: &str = r#""format": "sweetspot-bat/1""#;
+const MATERIAL: &str = r#"{ "density": 700, "youngs_modulus": 14e9 }"#;
+const PROFILE: &str = r#"{
+    "x": [0, 0.4, 0.8],
+    "radius": [0.02, 0.03, 0.02]
+  }"#;
+const X: &str = "[0, 0.4, 0.8]";
+const RADIUS: &str = r#""radius": [0.02, 0.03, 0.02]"#;
+
+#[test]
+fn a_file_that_is_not_a_bat_file_is_refused() {
+    let folder = Folder::new("files");
+    let says = |args: &[&str], says: &[&str]| folder.misanswer(args, says);
+    fs::create_dir(folder.0.join("folder")).unwrap();
+    let texts: &[(&str, &[u8], &[&str])] = &[
+        ("empty", b"", &["bat.json:1:1", "an empty file", "JSON object"]),
+        ("blank", b" \r\n\t", &["bat.json:1:1", "an empty file"]),
+        ("mark only", b"\xef\xbb\xbf", &["bat.json:1:1", "an empty file"]),
+        ("binary", b"\x7fELF\x02\x01\x01\0\0\0", &["bat.json:1:1", "expected a JSON value"]),
+        ("zeros", &[0; 64], &["bat.json:1:1", "expected a JSON value"]),
+        ("invalid UTF-8", b"{\n \"a\": \"\xff\"}", &["bat.json:2:8", "not text", "UTF-8"]),
+        ("overlong", b"{ \"a\": \"\xc0\xaf\"}", &["bat.json:1:9", "not text", "UTF-8"]),
+        ("UTF-16", b"\xff\xfe{\0}\0", &["bat.json:1:1", "UTF-16 text", "UTF-8"]),
+        ("UTF-16 without a mark", b"{\0}\0", &["bat.json:1:2", "expected"]),
+        ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "found x,radius"]),
+        ("truncated", &BAT.as_bytes()[..60], &["bat.json:", "the end of the file", "the rest"]),
+        ("unclosed", b"{\n", &["bat.json:1:2", "the end of the file", "the rest of an object"]),
+        ("two", b"{} {}", &["bat.json:1:4", "trailing"]),
+        ("comma", b"{\n \"a\": 1,,\n}", &["bat.json:2:9", "JSON"]),
+        ("after an accent", "{ \"é\": é }".as_bytes(), &["bat.json:1:8", "found é"]),
+        ("a list", b"[1, 2]", &["bat.json:1:1", "found a list", "an object"]),
+        ("null", b"null", &["bat.json:1:1", "found null", "an object"]),
+        ("a number", b"  7", &["bat.json:1:3", "found 7", "an object"]),
+        ("half a character", b"{ \"\\ud800\": 1 }", &["bat.json:1:1", "hex escape"]),
+        ("control characters", b"{ \"\\u001b[2J\\n\\u0000\": 1 }", &["unknown key", "one of"]),
+    ];
+    let mut faults = Vec::new();
+    for (name, text, words) in texts {
+        folder.write("bat.json", text);
+        faults.extend(says(&["modes", "bat.json"], words).map(|f| format!("{name}: {f}")));
+    }
+    for deep in ["[".repeat(1_000_000), "{\"a\":".repeat(1_000_000)] {
+        folder.write("bat.json", deep);
+        faults.extend(says(&["modes", "bat.json"], &["bat.json:1:", "the end of the file"]));
+    }
+    let closed = format!("{{\"name\": {}{}}}", "[".repeat(500_000), "]".repeat(500_000));
+    folder.write("bat.json", closed);
+    faults.extend(says(&["modes", "bat.json"], &["bat.json:1:1", "no \"format\""]));
+    folder.write("bat.json", format!("{{\"{}\": 1}}", "ключ".repeat(250_000)));
+    faults.extend(says(&["modes", "bat.json"], &["bat.json:1:", "unknown key \"ключ"]));
+    faults.extend(says(&["modes", "folder"], &["cannot read folder"]));
+    faults.extend(says(&["modes", "missing.json"], &["cannot read missing.json", "No such file"]));
+    faults.extend(says(&["modes", "missing/bat.json"], &["cannot read missing/bat.json"]));
+    faults.extend(says(&["modes", ""], &["a value is required", "<BAT>"]));
+    assert_none(faults);
+}
+
+#[test]
+fn a_wrong_format_or_key_is_refused() {
+    refused("keys", &[
+        (FORMAT, r#""name2": 1"#, &["bat.json:2:12", "unknown key \"name2\"", "\"name\" (did"]),
+        ("\"format\": \"sweetspot-bat/1\",\n", "", &["bat.json:1:1", "no \"format\"", "bat/1"]),
+        (FORMAT, r#""format": "sweetspot-bat/2""#, &["bat.json:2:13", "format", "bat/2", "bat/1"]),
+        (FORMAT, r#""format": "sweetspot-bat/2", "new": 1"#, &["bat.json:2:13", "bat/2", "bat/1"]),
+        (FORMAT, r#""format": "sweetspot-ball/1""#, &["bat.json:2:13", "ball/1", "bat/1"]),
+        (FORMAT, r#""format": 1"#, &["bat.json:2:13: format: found 1", "bat/1"]),
+        (FORMAT, r#""format": null"#, &["bat.json:2:13: format: found null", "bat/1"]),
+        (r#""format""#, r#""Format""#, &["unknown key \"Format\"", "\"format\" (did you mean"]),
+        (r#""profile""#, r#""profle""#, &["bat.json:5:13: profle", "\"profile\" (did you mean"]),
+        (r#""profile""#, r#""shape""#, &["unknown key \"shape\"", "one of format, name"]),
+        (r#""radius""#, r#""radii""#, &["profile.radii", "\"radius\" (did you mean"]),
+        (r#""density""#, r#""densty""#, &["bat.json:4:27: material.densty", "\"density\" (did"]),
+        (r#""youngs_modulus""#, r#""E""#, &["material.E", "unknown key \"E\"", "youngs_modulus"]),
+        (r#""name": "dowel","#, r#""name": "a", "name": "b","#, &["3:24: name", "a second time"]),
+        (X, "[0, 0.8], \"x\": [0, 0.8]", &["bat.json:6:25: profile.x", "a second time"]),
+        ("\"profile\"", "\"profile\": {}, \"profile\"", &["profile", "a second time"]),
+        ("{ \"density\"", "{ \"density\": 1, \"density\"", &["material.density", "second time"]),
+        ("\"dowel\"", "7", &["bat.json:3:11: name: found 7", "a text in quotes"]),
+        ("\"dowel\"", "\"a\", \"source\": []", &["source: found a list", "a text in quotes"]),
+        ("\"dowel\"", "\"\\ud800\"", &["bat.json:3:11: name", "a text in quotes"]),
+    ]);
+}
+
+#[test]
+fn a_wrong_material_is_refused() {
+    refused("materials", &[
+        (MATERIAL, r#""white ash""#, &["bat.json:4:15: material", "did you mean white-ash?"]),
+        (MATERIAL, r#""whiteash""#, &["material: found \"whiteash\"", "did you mean white-ash?"]),
+        (MATERIAL, r#""unobtainium""#, &["found \"unobtainium\"", "one of white-ash, "]),
+        (MATERIAL, "7", &["bat.json:4:15: material: found 7", "one of white-ash"]),
+        (MATERIAL, "[]", &["material: found a list", "one of white-ash"]),
+        (MATERIAL, "null", &["material: found null", "one of white-ash"]),
+        (MATERIAL, "{}", &["bat.json:4:15: material", "no \"density\"", "\"weighed\""]),
+        ("\"material\": { \"density\": 700, \"youngs_modulus\": 14e9 },\n", "", &[
+            "bat.json:1:1",
+            "no \"material\"",
+        ]),
+        ("\"density\": 700, ", "", &["bat.json:4:15: material", "no \"density\""]),
+        (", \"youngs_modulus\": 14e9", "", &["bat.json:4:15", "no \"youngs_modulus\"", "18.1 GPa"]),
+        ("700", "-700", &["bat.json:4:28: material.density: found -700", "above 0"]),
+        ("700", "0", &["material.density: found 0 ", "above 0"]),
+        ("700", "true", &["material.density: found true", "a density such as"]),
+        ("700", "[700]", &["material.density: found a list", "a density such as"]),
+        ("700", "NaN", &["bat.json:4:28", "found NaN,", "a JSON value"]),
+        ("700", "Infinity", &["bat.json:4:28", "found Infinity,", "a JSON value"]),
+        ("700", "-Infinity", &["bat.json:4:2", "JSON"]),
+        ("700", "1e999", &["bat.json:4:28: material.density: found 1e999", "a density such as"]),
+        ("700", "\"1e999 kg/m^3\"", &["material.density", "beyond the range of numbers"]),
+        ("700", "\"1e308 lb/in^3\"", &["material.density", "beyond the range of numbers"]),
+        ("700", "\"NaN\"", &["bat.json:4:28: material.density: found \"NaN\"", "a density"]),
+        ("700", "\"\"", &["material.density: found \"\"", "a density such as"]),
+        ("700", "\"kg/m^3\"", &["material.density: found \"kg/m^3\"", "a density such as"]),
+        ("700", "\"0.0257 lbf/in^3\"", &["material.density", "lb is the mass, lbf the force"]),
+        ("700", "\"700 kg\"", &["which measures a mass", "expected a density"]),
+        ("700", "\"700 kg/m3/m\"", &["unit \"kg/m3/m\"", "does not measure a density"]),
+        ("700", "\"700 kgs/m3\"", &["unknown unit \"kgs\" (did you mean kg?)"]),
+        ("700", "\"7 🏏/m³\"", &["unknown unit \"🏏\""]),
+        ("14e9", "\"14 GPA\"", &["bat.json:4:51: material.youngs_modulus", "did you mean GPa?"]),
+        ("14e9", "\"2e6 lb/in^2\"", &["material.youngs_modulus", "lb is a mass here: write psi"]),
+        ("14e9", "-1", &["bat.json:4:51: material.youngs_modulus: found -1 ", "above 0"]),
+        ("14e9", "\"0 psi\"", &["material.youngs_modulus: found 0 ", "above 0"]),
+        ("14e9", "14e9, \"shear_modulus\": 1e9, \"poisson_ratio\": 0.3", &[
+            "material",
+            "both \"shear_modulus\" and \"poisson_ratio\"",
+            "one of them",
+        ]),
+        ("14e9", "14e9, \"shear_modulus\": 0", &["material.shear_modulus: found 0 Pa", "above 0"]),
+        ("14e9", "14e9, \"poisson_ratio\": 0.6", &["material.poisson_ratio: found 0.6", "0.5"]),
+        ("14e9", "14e9, \"poisson_ratio\": -1", &["material.poisson_ratio", "found -1", "above -1"]),
+        ("14e9", "14e9, \"poisson_ratio\": -2", &["material.poisson_ratio: found -2", "above -1"]),
+        ("14e9", "14e9, \"poisson_ratio\": \"0.3\"", &["found \"0.3\"", "a finite number"]),
+        ("14e9", "14e9, \"shear_coefficient\": 0", &["material.shear_coefficient: found 0"]),
+        ("14e9", "14e9, \"loss_factor\": -0.1", &["material.loss_factor: found -0.1", "0 or more"]),
+        ("14e9", "14e9, \"loss_factor\": 2", &["material.loss_factor: found 2", "below 2"]),
+    ]);
+}
+
+#[test]
+fn a_wrong_profile_is_refused() {
+    refused("profiles", &[
+        (PROFILE, "[]", &["bat.json:5:14: profile: found a list", "an object"]),
+        (PROFILE, "\"bat.csv\"", &["bat.json:5:14: profile: found \"bat.csv\"", "an object"]),
+        (PROFILE, "{}", &["bat.json:5:14: profile", "no \"x\""]),
+        (",\n    \"radius\": [0.02, 0.03, 0.02]", "", &["no \"radius\" and no \"diameter\""]),
+        ("\"profile\": {\n", "\"source\": \"\", \"profile\": null, \"weighed\": {\n", &["weighed"]),
+        (X, "0.8", &["bat.json:6:10: profile.x: found 0.8", "a list"]),
+        (X, "{}", &["bat.json:6:10: profile.x: found an object", "a list"]),
+        (X, "[]", &["7:15: profile.radius: found 3 values", "expected 0, one for each x"]),
+        (X, "[0, 0.8]", &["bat.json:7:15: profile.radius", "3 values", "2, one for each x"]),
+        (X, "[0, 0.4, null]", &["bat.json:6:19: profile.x[2]: found null", "a length such as"]),
+        (X, "[0, 0.4, [0.8]]", &["bat.json:6:19: profile.x[2]: found a list", "a length"]),
+        (X, "[0, 0.4, \"0.8\"  , 1]", &["profile.radius: found 3 values", "expected 4"]),
+        (X, "[0, 0.4, \"31 oz\"]", &["6:19: profile.x[2]: found unit \"oz\"", "measures a mass"]),
+        (X, "[0, 0.4, \"0.8 metres\"]", &["6:19: profile.x[2]", "unknown unit \"metres\""]),
+        (X, "[0, 0.4, \"33inn\"]", &["profile.x[2]", "did you mean in?"]),
+        (X, "[0, 0.4, \"0,8 m\"]", &["bat.json:6:19: profile.x[2]: found \"0,8 m\" (decimals"]),
+        (X, "[0, 0.4, 1e999]", &["bat.json:6:19: profile.x[2]: found 1e999", "a length such as"]),
+        (X, "[0, 0.4, \"1e999\"]", &["6:19: profile.x[2]: found \"1e999\"", "beyond the range"]),
+        (X, "[0, NaN, 0.8]", &["bat.json:6:14", "found NaN,", "a JSON value"]),
+        (X, "[0, 0.5, 0.4]", &[
+            "bat.json:6:19: profile.x[2]: found 0.4 m",
+            "expected a position beyond x[1] (0.5 m)",
+        ]),
+        (X, "[0, \"5 in\", \"4 in\"]", &["x[2]: found \"4 in\"", "beyond x[1] (\"5 in\")"]),
+        (X, "[0, 5, 4], \"unit\": \"in\"", &["x[2]: found 4 in", "beyond x[1] (5 in)"]),
+        (X, "[0, -0.4, 0.8]", &["6:14: profile.x[1]: found -0.4 m", "beyond x[0] (0 m)"]),
+        (X, "[0.1, 0.4, 0.8]", &["6:11: profile.x[0]: found 0.1 m", "expected 0: positions"]),
+        (X, "[1e-300, 0.4, 0.8]", &["6:11: profile.x[0]: found 1e-300 m", "expected 0: positions"]),
+        (X, "[0, 0, 0.8]", &["bat.json:6:14: profile.x[1]: found 0 m: a step at an end", "inside"]),
+        (X, "[0, 0.8, 0.8]", &["6:19: profile.x[2]: found 0.8 m: a step at an end", "inside"]),
+        (X, "[0, 0, 0]", &["6:17: profile.x[2]: found 0 m: a third station", "two stations at most"]),
+        (PROFILE, r#"{ "x": [0], "radius": [0.02] }"#, &["profile.x: found 1 station", "two"]),
+        (PROFILE, r#"{ "x": [], "radius": [] }"#, &["profile.x: found 0 station", "two"]),
+        (PROFILE, r#"{ "x": [0, 0], "radius": [0.02, 0.02] }"#, &["5:25: profile.x[1]", "length"]),
+        (PROFILE, r#"{ "x": [0, 1, 1, 1, 2], "radius": [1, 1, 1, 1, 1] }"#, &[
+            "bat.json:5:31: profile.x[3]: found 1 m: a third station",
+        ]),
+        (PROFILE, r#"{ "x": [0, 1, 1, 2, 2, 3], "radius": [1, 2, 1, 2, 1, 2], "x2": 1 }"#, &["x2"]),
+        (RADIUS, r#""radius": [0.02, 0, 0.02]"#, &[
+            "bat.json:7:22: profile.radius[1]: found 0 m",
+            "only an end of the bat may come to a point",
+        ]),
+        (RADIUS, r#""radius": [0.02, -0.01, 0.02]"#, &["7:22: profile.radius[1]: found -0.01 m"]),
+        (RADIUS, r#""radius": [-1, 0.01, 0.02]"#, &["7:16: profile.radius[0]: found -1 m", "above 0"]),
+        (RADIUS, r#""diameter": ["2 in", "-1 in", "2 in"]"#, &["diameter[1]: found \"-1 in\""]),
+        (RADIUS, r#""radius": [0.02, 1e-200, 0.02]"#, &["7:22: profile.radius[1]: found 1e-200 m"]),
+        (RADIUS, r#""radius": [0.02, 1e200, 0.02]"#, &["7:22: profile.radius[1]: found 1e200 m"]),
+        (RADIUS, r#""radius": [0.02, 0.02, 0.02], "diameter": [1, 1, 1]"#, &[
+            "bat.json:7:47: profile.diameter: found both \"radius\" and \"diameter\"",
+            "one of them",
+        ]),
+        (RADIUS, r#""diameter": [1, 1, 1], "inner_radius": [0, 0, 0], "wall_thickness": [1, 1, 1]"#, &[
+            "both \"inner_radius\" and \"wall_thickness\"",
+        ]),
+        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, 0]"#, &["inner_radius: found 2 values"]),
+        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, 1, 0]"#, &[
+            "profile.inner_radius[1]: found 1 m, expected less than radius[1] (1 m)",
+        ]),
+        (RADIUS, r#""diameter": [2, 2, 2], "inner_diameter": [1, 1, 2.5], "unit": "in""#, &[
+            "7:53: profile.inner_diameter[2]: found 2.5 in, expected less than diameter[2] (2 in)",
+        ]),
+        (RADIUS, r#""diameter": [2, 2, 2], "inner_radius": [0, 1.5, 0], "unit": "in""#, &[
+            "inner_radius[1]: found 1.5 in, expected less than half of diameter[1] (2 in)",
+        ]),
+        (RADIUS, r#""radius": [1, 1, 1], "inner_diameter": [1, "2.5 m", 1]"#, &[
+            "inner_diameter[1]: found \"2.5 m\", expected less than twice radius[1] (1 m)",
+        ]),
+        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, -0.1, 0]"#, &["found -0.1 m", "0 or more"]),
+        (RADIUS, r#""diameter": [2, 2, 2], "wall_thickness": [1, 1.5, 1], "unit": "cm""#, &[
+            "profile.wall_thickness[1]: found 1.5 cm",
+            "a wall above 0, at most half of diameter[1] (2 cm)",
+        ]),
+        (RADIUS, r#""radius": [1, 1, 1], "wall_thickness": [1, -1, 1]"#, &["wall_thickness[1]: found -1 m"]),
+        (RADIUS, r#""radius": [1, 1, 1], "wall_thickness": [1, 0, 1]"#, &["wall_thickness[1]: found 0 m"]),
+        // Two monotone cubics through good stations may cross between them.
+        (PROFILE, r#"{ "x": [0, 1, 2, 3], "radius": [1, 1, 2, 8], "inner_radius": [0, 0.99, 1.99, 2] }"#, &[
+            "profile.inner_radius[1]: found 0.99 m: a wall that vanishes between x[1] (1 m) and x[2] (2 m)",
+            "add a station",
+        ]),
+        (X, "[0, 0.4, 0.8], \"interpolation\": \"cubic\"", &[
+            "profile.interpolation: found \"cubic\"",
+            "one of pchip, linear, constant",
+        ]),
+        (X, "[0, 0.4, 0.8], \"interpolation\": \"pchipp\"", &["did you mean pchip?"]),
+        (X, "[0, 0.4, 0.8], \"interpolation\": 3", &["found 3", "one of pchip, linear"]),
+        (X, "[0, 0.4, 0.8], \"measured_from\": \"top\"", &["found \"top\"", "one of knob, tip"]),
+        (X, "[0, 0.4, 0.8], \"unit\": \"inn\"", &["6:33: profile.unit", "did you mean in?"]),
+        (X, "[0, 0.4, 0.8], \"unit\": \"oz\"", &["profile.unit", "measures a mass", "a length"]),
+        (X, "[0, 0.4, 0.8], \"unit\": 0.0254", &["profile.unit: found 0.0254", "a text"]),
+        (PROFILE, r#"{ "interpolation": "constant", "x": [0, 1, 1, 2], "radius": [1, 2, 3, 3] }"#, &[
+            "profile.radius[1]: found 2 m, expected radius[0] (1 m), which holds up to here",
+        ]),
+        (PROFILE, r#"{ "interpolation": "constant", "x": [0, 1], "radius": [0, 1] }"#, &["holds to the next"]),
+    ]);
+}
+
+#[test]
+fn values_that_over_or_underflow_are_refused() {
+    refused("range", &[
+        (RADIUS, r#""radius": [1e-200, 1e-200, 1e-200]"#, &["profile.radius[1]: found 1e-200 m"]),
+        (PROFILE, r#"{ "x": [0, 1], "radius": [1e-200, 1e-200] }"#, &["mass", "check the units"]),
+        (PROFILE, r#"{ "x": [0, 1], "radius": [0, 0] }"#, &["mass", "check the units"]),
+        (PROFILE, r#"{ "x": [0, 1], "radius": [1e200, 1] }"#, &["bat.json:1:1", "check the units"]),
+        ("14e9", "1e300", &["bending stiffness", "check the units"]),
+        ("14e9", "1e-320", &["bending stiffness", "check the units"]),
+        ("700", "1e-320", &["mass: found", "check the units"]),
+        ("700", "1e300", &["mass: found", "check the units"]),
+        (X, "[0, 1e-300, 2e-300]", &["bat.json:1:1", "check the units"]),
+        (X, "[0, 1e299, 1e300]", &["bat.json:1:1", "check the units"]),
+        (X, "[0, 1e308, 1.7e308]", &["bat.json:1:1", "check the units"]),
+        (X, "[0, 5e-324, 1e-323]", &["bat.json:1:1", "check the units"]),
+        ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 1e300 }", &["mass: found", "check the units"]),
+        ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 1e-320 }", &["mass: found", "the units"]),
+    ]);
+}
+
+#[test]
+fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
+    let later: &[&str] = &["bat.json:3:", "not supported yet", "nothing is silently ignored"];
+    refused("later", &[
+        ("\"dowel\"", r#""", "regions": []"#, later),
+        ("\"dowel\"", r#""", "attachments": []"#, later),
+        ("\"dowel\"", r#""", "supports": []"#, later),
+        ("\"dowel\"", r#""", "grip": {}"#, later),
+        ("\"dowel\"", r#""", "weighed": { "mass": 1, "balance_point": 0.5 }"#, later),
+        ("\"dowel\"", r#""", "weighed": { "first_bending_hz": 170 }"#, later),
+        (PROFILE, r#"{ "pieces": [] }"#, &["bat.json:5:26: profile.pieces", "not supported yet"]),
+        ("\"dowel\"", r#""", "weighed": {}"#, &["bat.json:3:26: weighed", "no \"mass\""]),
+        ("\"dowel\"", r#""", "weighed": null"#, &["weighed: found null", "an object"]),
+        ("\"dowel\"", r#""", "weighed": { "mas": 1 }"#, &["weighed.mas", "\"mass\" (did you mean"]),
+        ("\"dowel\"", r#""", "weighed": { "mass": "31 lbf" }"#, &[
+            "weighed.mass: found unit \"lbf\", which measures a force",
+            "expected a mass",
+            "mass is mass here",
+        ]),
+        ("\"dowel\"", r#""", "weighed": { "mass": "9 N" }"#, &["unit \"N\", which measures a force"]),
+        ("\"dowel\"", r#""", "weighed": { "mass": "31 in" }"#, &["which measures a length", "a mass"]),
+        ("\"dowel\"", r#""", "weighed": { "mass": -1 }"#, &["weighed.mass: found -1", "above 0"]),
+        ("\"dowel\"", r#""", "weighed": { "mass": "0 oz" }"#, &["weighed.mass: found \"0 oz\""]),
+    ]);
+}
+
+#[test]
+fn a_wrong_csv_table_is_refused() {
+    let folder = Folder::new("csv");
+    let bat = |csv: &str| BAT.replace(PROFILE, csv);
+    folder.write("bat.json", bat(r#"{ "csv": "table.csv", "interpolation": "linear" }"#));
+    let tables: &[(&str, &[&str])] = &[
+        ("", &["table.csv:1:1", "no header", "x, radius, diameter"]),
+        ("# nothing but this\n\n", &["table.csv:1:1", "no header"]),
+        ("x_in,diameter_in\n", &["table.csv:1:1: x", "0 station", "two stations at least"]),
+        ("x_in,diameter_in\n0,1\n", &["1 station", "two stations at least"]),
+        ("x_in\n0\n1\n", &["table.csv:1:1: header", "a column missing", "radius or diameter"]),
+        ("diameter_in\n1\n", &["table.csv:1:1: header", "a column missing"]),
+        ("x_inn,radius_in\n", &["table.csv:1:1: header", "unknown unit \"inn\" (did you mean in?)"]),
+        ("x_oz,radius_in\n", &["table.csv:1:1: header", "unit \"oz\", which measures a mass"]),
+        ("x_,radius\n", &["table.csv:1:1: header", "does not measure a length"]),
+        ("x_in,raduis_in\n", &["header: found column \"raduis_in\"", "did you mean radius?"]),
+        ("x,radius,colour\n", &["column \"colour\"", "x, radius, diameter"]),
+        ("x,x_in,radius\n", &["column \"x\" a second time"]),
+        ("x,radius,diameter\n0,1,2\n", &["columns \"radius\" and \"diameter\"", "one of them"]),
+        ("x,radius,inner_radius,wall_thickness\n", &["\"inner_radius\" and \"wall_thickness\""]),
+        ("x,radius\n0,1\n1\n2,1\n", &["table.csv:3:1: found 1 cells in this row, expected 2"]),
+        ("# c\nx,radius\n\n# d\r\n0,1\n\n# e\n1,1,1\n", &["table.csv:8:1: found 3 cells"]),
+        ("x,radius\n0,1\n1, thick\n", &["table.csv:3:4: radius: found \"thick\"", "a finite number"]),
+        ("x,radius\n0,1\n1,\n", &["table.csv:3:3: radius: found \"\"", "a finite number"]),
+        ("x,radius\n0,1\n1,1 in\n", &["table.csv:3:3: radius: found \"1 in\"", "in the header"]),
+        ("x,radius\n0,1\nnan,1\n", &["table.csv:3:1: x: found \"nan\"", "a finite number"]),
+        ("x,radius\n0,1\n1,inf\n", &["table.csv:3:3: radius: found \"inf\"", "a finite number"]),
+        ("x,radius\n0,1\n1,1e999\n", &["table.csv:3:3: radius: found \"1e999\"", "finite number"]),
+        ("x,radius\n0,\"1\n1,1\n", &["table.csv:2:", "expected"]),
+        ("x_in,radius_in\n0,1\n8,1\n7,1\n", &["table.csv:4:1: x: found 7 in", "beyond x[1] (8 in)"]),
+        ("x,radius\n0,1\n1,0\n2,1\n", &["table.csv:3:3: radius: found 0", "only an end of the bat"]),
+        ("x_in,diameter_in,wall_thickness_mm\n0,1,2\n# thick\n9,1,20\n", &[
+            "table.csv:4:5: wall_thickness: found 20 mm",
+            "at most half of diameter[1] (1 in)",
+        ]),
+        ("\u{feff}x,radius\n0,1\n1,-1\n", &["table.csv:3:3: radius: found -1"]),
+    ];
+    let run = ["modes", "bat.json", "--json", "out.json"];
+    let mut faults = Vec::new();
+    for (table, says) in tables {
+        folder.write("table.csv", table);
+        faults.extend(folder.misanswer(&run, says).map(|f| format!("{table:?}: {f}")));
+    }
+    folder.write("table.csv", b"x,radius\n0,1\n1,\xff\n");
+    faults.extend(folder.misanswer(&run, &["table.csv:3:3", "not text", "UTF-8"]));
+    for (profile, says) in [
+        (r#"{ "csv": "missing.csv" }"#, ["bat.json:5:23: profile.csv", "missing.csv", "No such file"]),
+        (r#"{ "csv": "." }"#, ["bat.json:5:23: profile.csv", "cannot be read", "a CSV file"]),
+        (r#"{ "csv": "a\u0000b" }"#, ["bat.json:5:23: profile.csv", "cannot be read", "a CSV file"]),
+        (r#"{ "csv": 7 }"#, ["bat.json:5:23: profile.csv", "found 7", "a text"]),
+        (r#"{ "csv": "table.csv", "x": [0] }"#, ["profile.x", "beside \"csv\"", "csv file alone"]),
+    ] {
+        folder.write("bat.json", bat(profile));
+        faults.extend(folder.misanswer(&run, &says).map(|f| format!("{profile}: {f}")));
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn a_wrong_ball_is_refused() {
+    const BALL: &str = r#"{
+  "format": "sweetspot-ball/1",
+  "mass": "5.125 oz",
+  "radius": "36.6 mm",
+  "cor": 0.5
+}"#;
+    let rows: &[Spoilt] = &[
+        ("sweetspot-ball/1", "sweetspot-bat/1", &["ball.json:2:13: format", "ball/1"]),
+        (r#""format": "sweetspot-ball/1","#, "", &["ball.json:1:1", "no \"format\""]),
+        (r#""mass": "5.125 oz","#, "", &["ball.json:1:1", "no \"mass\""]),
+        (r#""radius": "36.6 mm","#, "", &["ball.json:1:1", "no \"radius\""]),
+        ("\"36.6 mm\",\n  \"cor\": 0.5", "\"36.6 mm\"", &["ball.json:1:1", "no \"cor\""]),
+        (r#""cor""#, r#""core""#, &["ball.json:5:11: core", "\"cor\" (did you mean"]),
+        ("\"5.125 oz\"", "\"5 lbf\"", &["ball.json:3:11: mass", "a force", "mass is mass"]),
+        ("\"5.125 oz\"", "-0.1", &["ball.json:3:11: mass: found -0.1", "above 0"]),
+        ("\"5.125 oz\"", "0", &["ball.json:3:11: mass: found 0", "above 0"]),
+        ("\"5.125 oz\"", "1e200", &["ball.json:3:11: mass: found 1e200", "of a ball's size"]),
+        ("\"36.6 mm\"", "\"36.6\u{a0}mn\"", &["ball.json:4:13: radius", "did you mean"]),
+        ("0.5", "1.5", &["ball.json:5:10: cor: found 1.5", "0 to 1"]),
+        ("0.5", "-0.5", &["ball.json:5:10: cor: found -0.5", "0 to 1"]),
+        ("0.5", "1e999", &["ball.json:5:10: cor: found 1e999", "a finite number"]),
+        ("0.5", "\"0.5\"", &["ball.json:5:10: cor: found \"0.5\"", "a finite number"]),
+        ("0.5", "0.5, \"stiffness\": -1", &["ball.json:5:28: stiffness: found -1", "above 0"]),
+        ("0.5", "0.5, \"exponent\": 0", &["ball.json:5:27: exponent: found 0", "above 0"]),
+        ("0.5", "0.5, \"cor\": 0.5", &["ball.json:5:22: cor", "a second time"]),
+    ];
+    let folder = Folder::new("balls");
+    folder.write("bat.json", BAT);
+    let mut faults = Vec::new();
+    let run = ["hit", "bat.json", "--ball", "ball.json", "--json", "out.json"];
+    for (good, bad, says) in rows {
+        assert_eq!(BALL.matches(good).count(), 1, "{good}");
+        folder.write("ball.json", BALL.replace(good, bad));
+        faults.extend(folder.misanswer(&run, says).map(|f| format!("{bad}: {f}")));
+    }
+    folder.write("ball.json", "");
+    faults.extend(folder.misanswer(&run, &["ball.json:1:1", "an empty file"]));
+    let unknown = ["hit", "bat.json", "--ball", "basebal"];
+    faults.extend(folder.misanswer(&unknown, &["basebal", "No such file"]));
+    assert_none(faults);
+}
+
+#[test]
+fn a_wrong_command_line_is_refused() {
+    let folder = Folder::new("options");
+    folder.write("bat.json", BAT);
+    let rows: &[(&[&str], &[&str])] = &[
+        (&["mode", "bat.json"], &["unrecognized subcommand 'mode'", "modes"]),
+        (&["bat.json"], &["unrecognized subcommand 'bat.json'"]),
+        (&["modes"], &["required arguments", "<BAT>"]),
+        (&["modes", "bat.json", "bat.json"], &["unexpected argument"]),
+        (&["modes", "bat.json", "--mode", "3"], &["unexpected argument '--mode'", "--modes"]),
+        (&["modes", "bat.json", "--modes", "-1"], &["-1"]),
+        (&["modes", "bat.json", "--modes=-1"], &["-1", "--modes <N>", "0..=1000"]),
+        (&["modes", "bat.json", "--modes", "x"], &["'x'", "--modes <N>"]),
+        (&["modes", "bat.json", "--modes", "1001"], &["1001", "0..=1000"]),
+        (&["modes", "bat.json", "--modes", "3", "--modes", "4"], &["multiple times"]),
+        (&["modes", "bat.json", "--tol", "0"], &["'0'", "--tol <T>", "between 0 and 1"]),
+        (&["modes", "bat.json", "--tol=-1e-4"], &["'-1e-4'", "between 0 and 1"]),
+        (&["modes", "bat.json", "--tol", "1"], &["'1'", "between 0 and 1"]),
+        (&["modes", "bat.json", "--tol", "100%"], &["'100%'", "between 0 and 1"]),
+        (&["modes", "bat.json", "--tol", "nan"], &["'nan'", "between 0 and 1"]),
+        (&["modes", "bat.json", "--tol", "1e-4 %%"], &["between 0 and 1"]),
+        (&["modes", "bat.json", "--elements", "0"], &["'0'", "--elements <N>", "1..="]),
+        (&["modes", "bat.json", "--elements", "1e3"], &["'1e3'", "--elements <N>"]),
+        (&["modes", "bat.json", "-n", "50", "--elements", "4"], &["50 bending modes", "25 elements"]),
+        (&["modes", "bat.json", "--solver", "dense", "--elements", "5000"], &["dense", "statics"]),
+        (&["modes", "bat.json", "--solver", "arpack"], &["not supported yet", "statics"]),
+        (&["modes", "bat.json", "--solver", "shift-invert"], &["not supported yet", "statics"]),
+        (&["modes", "bat.json", "--solver", "static"], &["'static'", "did you mean statics?"]),
+        (&["modes", "bat.json", "--theory", "timoshenko"], &["not supported yet", "euler-bernoulli"]),
+        (&["modes", "bat.json", "--theory", "rayleigh"], &["not supported yet", "euler-bernoulli"]),
+        (&["modes", "bat.json", "--theory", "euler"], &["'euler'", "euler-bernoulli"]),
+        (&["modes", "bat.json", "--units", "metric"], &["'metric'", "si, us, both"]),
+        (&["modes", "bat.json", "--shape-points", "-3"], &["-3"]),
+        (&["modes", "bat.json", "--shape-points", "node"], &["'node'", "\"nodes\" or a number"]),
+        (&["modes", "bat.json", "--json"], &["a value is required", "--json <FILE>"]),
+        (&["modes", "bat.json", "--up-to", "2000"], &["--up-to is not supported yet", "--help"]),
+        (&["modes", "bat.json", "--up-to=2000"], &["--up-to is not supported yet"]),
+        (&["modes", "bat.json", "--degree", "5"], &["--degree is not supported yet"]),
+        (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
+        (&["analyze", "bat.json", "--plots", "p"], &["--plots is not supported yet"]),
+        (&["analyze", "bat.json", "--model", "contact"], &["contact", "not supported yet"]),
+        (&["analyze", "bat.json", "--at", "0.6"], &["unexpected argument '--at'"]),
+        (&["analyze", "missing.json", "--out", "folder"], &["cannot read missing.json"]),
+        (&["analyze"], &["required arguments", "<BAT>"]),
+        (&["hit", "bat.json", "--model", "pulse"], &["'pulse'", "not supported yet"]),
+        (&["hit", "bat.json", "--model", "contact"], &["'contact'", "not supported yet"]),
+        (&["hit", "bat.json", "--model", "ridgid"], &["'ridgid'", "did you mean rigid?"]),
+        (&["hit", "bat.json", "--pulse-duration", "1 ms"], &["--pulse-duration is not supported yet"]),
+        (&["hit", "bat.json", "--loss-share", "1"], &["--loss-share is not supported yet"]),
+        (&["hit", "bat.json", "--model", "rigid", "--gamma", "1"], &["--gamma", "energy-loss"]),
+        (&["hit", "bat.json", "--gamma", "-1"], &["'-1'", "0 to 100"]),
+        (&["hit", "bat.json", "--decay", "nan"], &["'nan'", "0 to 100"]),
+        (&["hit", "bat.json", "--cor", "2"], &["'2'", "--cor <E>", "0 to 1"]),
+        (&["hit", "bat.json", "--cor", "-0.1"], &["'-0.1'", "0 to 1"]),
+        (&["hit", "bat.json", "--at", "-0.1"], &["--at: found -0.1 m", "0 to 0.8 m (31.4961 in)"]),
+        (&["hit", "bat.json", "--at", "40 in"], &["--at: found 1.016 m (40.0 in)", "0 to 0.8 m"]),
+        (&["hit", "bat.json", "--at", "0.6", "--from", "0.5"], &["--at", "cannot be used with"]),
+        (&["hit", "bat.json", "--at", "0.6", "--points", "3"], &["--at", "cannot be used with"]),
+        (&["hit", "bat.json", "--from", "0.9 m"], &["--from: found 0.9 m", "0 to 0.8 m"]),
+        (&["hit", "bat.json", "--to", "0.9"], &["--to: found 0.9 m", "0 to 0.8 m"]),
+        (&["hit", "bat.json", "--to", "0.3"], &["--to: found 0.3 m", "beyond --from, 0.4 m"]),
+        (&["hit", "bat.json", "--from", "0.6", "--to", "0.5"], &["--to: found 0.5 m", "beyond --from"]),
+        (&["hit", "bat.json", "--points", "0"], &["'0'", "--points <N>", "1..="]),
+        (&["hit", "bat.json", "--pitch", "-90 mph"], &["--pitch: found -40.2336 m/s", "0 or more"]),
+        (&["hit", "bat.json", "--pitch", "90 lb"], &["unit \"lb\", which measures a mass", "a speed"]),
+        (&["hit", "bat.json", "--pitch", "fast"], &["'fast'", "a speed such as \"90 mph\""]),
+        (&["hit", "bat.json", "--pitch", "1e300"], &["--pitch", "below 1e6 m/s"]),
+        (&["hit", "bat.json", "--swing-speed", "70 mph"], &["measures a speed", "an angular speed"]),
+        (&["hit", "bat.json", "--swing-speed", "1e200"], &["--swing-speed", "1e6 rad/s"]),
+        (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
+        (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
+        (&["hit", "bat.json", "--reproducible=1"], &["--reproducible"]),
+        (&["ring", "bat.json"], &["neither a blow nor an initial shape", "--at X --impulse J"]),
+        (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>"]),
+        (&["ring", "bat.json", "--impulse", "1"], &["--at <X>"]),
+        (&["ring", "bat.json", "--at", "0.9", "--impulse", "1"], &["--at: found 0.9 m", "0 to 0.8 m"]),
+        (&["ring", "bat.json", "--at", "-1 in", "--impulse", "1"], &["--at: found -0.0254 m"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1 N"], &["a force", "an impulse"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1e300"], &["--impulse: found 1e300 N s"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "-1"], &["--times: found -1 s"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "0,,1"], &["a time"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "1e300"], &["--times: found"]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--shape-points", "1"], &["2..="]),
+        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--initial", "w.csv"], &["--initial"]),
+        (&["ring", "bat.json", "--initial", "w.csv"], &["cannot read w.csv", "No such file"]),
+        (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
+        (&["materials", "--json", "-"], &["unexpected argument '--json'"]),
+    ];
+    let mut faults = Vec::new();
+    for (args, says) in rows {
+        faults.extend(folder.misanswer(args, says));
+    }
+    for verb in ["trade", "convert", "schema", "compare", "fit", "tune", "sweep", "lab"] {
+        let says = format!("\"{verb}\" is not supported yet");
+        faults.extend(folder.misanswer(&[verb, "bat.json"], &[&says]));
+    }
+    for (shape, says) in [
+        ("", &["w.csv:1:1", "no header"][..]),
+        ("x_m\n0\n0.8\n", &["w.csv:1:1: header", "a column missing", "x_m,w_mm"]),
+        ("x_m,w_mm\n", &["0 row", "two at least"]),
+        ("x_m,w_mm\n0,1\n0.8,1\n0.7,1\n", &["w.csv:4:1: x: found 0.7 m", "rising places"]),
+        ("x_m,w_mm\n0,1\n0.5,1\n", &["0 to 0.5 m", "the whole bat, 0 to 0.8 m"]),
+        ("x_m,w_mm\n0,1\n0.8,high\n", &["w.csv:3:5: w: found \"high\"", "a finite number"]),
+        ("x_m,w_oz\n0,1\n0.8,1\n", &["w.csv:1:1: header", "measures a mass"]),
+    ] {
+        folder.write("w.csv", shape);
+        let fault = folder.misanswer(&["ring", "bat.json", "--initial", "w.csv"], says);
+        faults.extend(fault.map(|f| format!("{shape:?}: {f}")));
+    }
+    assert_none(faults);
+    assert_eq!(folder.run(&[]).status.code(), Some(2));
+    for help in ["--help", "--version", "help"] {
+        assert_eq!(folder.run(&[help]).status.code(), Some(0), "{help}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_argument_that_is_not_text_is_no_panic() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let odd = OsStr::from_bytes(b"b\xfft.json");
+    let folder = Folder::new("arguments");
+    let run = |args: &[&OsStr]| {
+        let program = env!("CARGO_BIN_EXE_sweetspot");
+        Command::new(program).args(args).current_dir(&folder.0).output().unwrap()
+    };
+    for args in [&[odd][..], &["modes".as_ref(), odd], &["modes".as_ref(), "--tol".as_ref(), odd]] {
+        let output = run(args);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && told.starts_with("error: "), "{told}");
+    }
+    fs::write(folder.0.join(odd), BAT).unwrap();
+    assert_eq!(run(&["modes".as_ref(), odd]).status.code(), Some(0));
+    fs::write(folder.0.join("a\u{1b}[2J\nb.json"), "{").unwrap();
+    let output = run(&["modes".as_ref(), "a\u{1b}[2J\nb.json".as_ref()]);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.trim_end().chars().all(|c| !c.is_control()), "{told}");
+}
+
+/// Runs that must succeed: exit code 0 and JSON without null frequencies or overflow.
+fn accepted(folder: &Folder, args: &[&str]) -> (serde_json::Value, String) {
+    let output = folder.run(args);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {told}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    (serde_json::from_str(&text).unwrap_or_else(|e| panic!("{args:?}: {e}\n{text}")), told)
+}
+
+fn frequencies(document: &serde_json::Value) -> Vec<f64> {
+    let modes = document["modes"].as_array().unwrap();
+    modes.iter().map(|mode| mode["frequency_hz"].as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn unusual_but_right_files_are_read() {
+    let folder = Folder::new("accepted");
+    folder.write("bat.json", BAT);
+    let run = ["modes", "bat.json", "-n", "3", "--shape-points", "0", "--json", "-"];
+    let plain = frequencies(&accepted(&folder, &run).0);
+    let same = |text: &str| {
+        folder.write("bat.json", text);
+        let (document, told) = accepted(&folder, &run);
+        assert_eq!(told, "", "{text}");
+        for (a, b) in frequencies(&document).iter().zip(&plain) {
+            // Other units round the radii differently.
+            assert!((a / b - 1.0).abs() < 1e-13, "{text}: {a} {b}");
+        }
+        document
+    };
+    same(&format!("\u{feff}{BAT}"));
+    same(&BAT.replace('\n', "\r\n"));
+    same(&format!("\u{feff}{}\r\n\r\n", BAT.replace('\n', "\r")));
+    let named = same(&BAT.replace("dowel", "黒バット 🏏 \\u00e9 \\ud83c\\udfcf \\\" \\n \u{202e}"));
+    assert_eq!(named["bat"]["name"], "黒バット 🏏 é 🏏 \" \n \u{202e}");
+    same(&BAT.replace(X, "[\"0 m\", \"40 cm\", \"800 mm\"]"));
+    same(&BAT.replace(X, "[0, \"0.4 m\", 800], \"unit\": \"mm\"").replace(
+        RADIUS,
+        r#""diameter": [40, "6 cm", "0.04 m"]"#,
+    ));
+    same(&BAT.replace("700", "\"0.7 g/cm³\"").replace("14e9", "\" 14 GPa \""));
+    same(&BAT.replace(X, "[0, 0.4, 0.8], \"measured_from\": \"tip\""));
+    same(&BAT.replace(RADIUS, "\"radius\": [0.02, 0.03, 0.02], \"inner_radius\": [0, 0, 0]"));
+    folder.write("t.csv", "\u{feff}# from a drawing\r\nx_cm,diameter_mm\r\n0,40\r\n40,60\r\n80,40\r\n");
+    same(&BAT.replace(PROFILE, r#"{ "csv": "t.csv" }"#));
+
+    folder.write("bat.json", BAT.replace(RADIUS, "\"radius\": [0.02, 0.03, 0]"));
+    assert!(frequencies(&accepted(&folder, &run).0).iter().all(|f| *f > 0.0));
+    folder.write("bat.json", BAT.replace(RADIUS, "\"radius\": [0, 0.03, 0]"));
+    assert!(frequencies(&accepted(&folder, &run).0).iter().all(|f| *f > 0.0));
+
+    let taper = BAT.replace(RADIUS, "\"radius\": [0.01, 0.02, 0.03]");
+    let turned = taper.replace("[0.01, 0.02, 0.03]", "[0.03, 0.02, 0.01], \"measured_from\": \"tip\"");
+    let summary = |text: &str| {
+        folder.write("bat.json", text);
+        accepted(&folder, &run).0["summary"]["balance_point_m"].as_f64().unwrap()
+    };
+    assert!((summary(&taper) - summary(&turned)).abs() < 1e-15);
+}
+
+#[test]
+fn unusual_but_right_options_are_taken() {
+    let folder = Folder::new("taken");
+    folder.write("bat.json", BAT);
+    let (none, _) = accepted(&folder, &["modes", "bat.json", "--modes", "0", "--json", "-"]);
+    assert_eq!(none["modes"].as_array().unwrap().len(), 0);
+    let hit = |more: &[&str]| {
+        let args = [&["hit", "bat.json", "--json", "-"][..], more].concat();
+        let (document, told) = accepted(&folder, &args);
+        assert_eq!(told, "", "{more:?}");
+        document
+    };
+    assert_eq!(hit(&["--modes", "0"])["impacts"].as_array().unwrap().len(), 101);
+    assert_eq!(hit(&["--swing-speed", "0 rad/s"])["scene"]["swing_rad_s"], 0.0);
+    assert_eq!(hit(&["--swing-speed", "-5 rad/s", "--pitch", "90 mph"])["scene"]["swing_rad_s"], -5.0);
+    assert_eq!(hit(&["--cor", "1"])["scene"]["cor"], 1.0);
+    assert_eq!(hit(&["--cor", "0"])["scene"]["cor"], 0.0);
+    assert_eq!(hit(&["--pivot", "-0.09 m"])["scene"]["bat_pivot_m"], -0.09);
+    assert_eq!(hit(&["--pitch", "0"])["scene"]["ball_speed_m_s"], 0.0);
+    let still = hit(&["--pitch", "0", "--swing-speed", "0"]);
+    assert!(still["impacts"][0]["exit_speed_m_s"].is_null());
+    assert_eq!(hit(&["--points", "1"])["impacts"][0]["x_m"], 0.4);
+    assert_eq!(hit(&["--points", "2"])["impacts"][1]["x_m"], 0.8);
+    assert_eq!(hit(&["--from", "0.6", "--to", "0.6", "--points", "3"])["impacts"][2]["x_m"], 0.6);
+    assert_eq!(hit(&["--at", "0"])["impacts"][0]["x_m"], 0.0);
+    assert_eq!(hit(&["--at", "0.8"])["impacts"][0]["from_tip_m"], 0.0);
+    folder.write("ball.json", "\u{feff}{ \"format\": \"sweetspot-ball/1\", \"mass\": 0.145,\r\n\"radius\": 0.0366, \"cor\": 0 }");
+    assert_eq!(hit(&["--ball", "ball.json"])["scene"]["ball"]["cor"], 0.0);
+}
+
+#[test]
+fn an_implausible_bat_is_warned_of_and_solved() {
+    let folder = Folder::new("implausible");
+    for (good, bad, warning) in [
+        (X, "[0, \"500 m\", \"1 km\"]", "length is 1000 m; a bat's is 0.3 to 1.2"),
+        ("14e9", "1", "youngs_modulus is 1 Pa; a bat's is 1e9 to 1e12"),
+        ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 12 }", "mass is 12 kg; a bat's is 0.2 to 2"),
+        ("700", "0.7", "density is 0.7 kg/m³; a bat's is 50 to 20000"),
+        (RADIUS, r#""radius": [0.04, 0.066, 0.05]"#, "(a diameter given as radius?)"),
+        ("700", "1e-90", "density is 1e-90"),
+        ("14e9", "1e90", "youngs_modulus is 1e90 Pa"),
+        (X, "[0, 1e20, 2e20]", "length is 2e20 m"),
+    ] {
+        folder.write("bat.json", BAT.replace(good, bad));
+        let (modes, told) = accepted(&folder, &["modes", "bat.json", "--json", "-"]);
+        assert!(told.starts_with("warning: bat.json: ") && told.contains(warning), "{bad}: {told}");
+        assert!(frequencies(&modes).iter().all(|f| *f > 0.0 && f.is_finite()), "{bad}");
+        assert!(!modes.to_string().contains("null"), "{bad}: {modes}");
+        let (hit, _) = accepted(&folder, &["hit", "bat.json", "--model", "rigid", "--json", "-"]);
+        assert!(hit["impacts"][0]["exit_speed_m_s"].as_f64().is_some(), "{bad}: {hit}");
+        let quiet = folder.run(&["modes", "bat.json", "--quiet"]);
+        assert!(quiet.status.success() && quiet.stderr.is_empty(), "{bad}");
+    }
+}
+
+#[test]
+fn a_million_stations_are_read() {
+    let folder = Folder::new("million");
+    let count = 1_000_000;
+    let list = |f: &dyn Fn(f64) -> f64| {
+        let at = |k: u32| f(f64::from(k) / f64::from(count - 1)).to_string();
+        (0..count).map(at).collect::<Vec<_>>().join(",")
+    };
+    let x = list(&|s| 0.8 * s);
+    let radius = list(&|s| 0.02 + 0.01 * s);
+    let profile = format!("{{ \"x\": [{x}], \"radius\": [{radius}] }}");
+    folder.write("bat.json", BAT.replace(PROFILE, &profile));
+    let run = |more: &[&str]| {
+        let few = ["modes", "bat.json", "-n", "2", "--shape-points", "0", "--json", "out.json"];
+        let output = folder.run(&[&few[..], more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = fs::read_to_string(folder.0.join("out.json")).unwrap();
+        frequencies(&serde_json::from_str(&text).unwrap())
+    };
+    let many = run(&[]);
+    folder.write("bat.json", BAT.replace(X, "[0, 0.4, 0.8]").replace("0.03, 0.02]", "0.025, 0.03]"));
+    let few = run(&["--tol", "1e-9"]);
+    for (a, b) in many.iter().zip(&few) {
+        assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
+    }
+    // The last of them is wrong.
+    folder.write("bat.json", BAT.replace(PROFILE, &profile.replace(",0.8]", ",0.7]")));
+    fs::remove_file(folder.0.join("out.json")).unwrap();
+    let says = ["profile.x[999999]: found 0.7 m", "beyond x[999998]"];
+    assert_none(folder.misanswer(&["modes", "bat.json"], &says).into_iter().collect());
+}
