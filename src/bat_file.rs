@@ -137,8 +137,9 @@ fn material(node: &Node, weighed: bool) -> Result<Material> {
         Error::Value(mut complaint) => {
             // A value that is not in the file was made from others: its name stays then.
             let place = object.get(&complaint.field);
-            if place.is_some() {
+            if let Some(place) = place {
                 complaint.field.clear();
+                complaint.found = place.shown();
             }
             place.unwrap_or(node).complain(complaint)
         }

@@ -488,6 +488,7 @@ mod tests {
         let document = Document::new("f".into(), "{\"density\": 1, \"density\": 2}");
         let said = document.root().unwrap().object(&["density"]).err().unwrap().to_string();
         assert!(said.contains("a second time"), "{said}");
+        let document = Document::new("f".into(), "{\"density\": 1}");
         let said = document.root().unwrap().object(&["densities"]).err().unwrap().to_string();
         assert!(said.contains("did you mean that"), "{said}");
     }

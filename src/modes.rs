@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::beam::element::Deflection;
-use crate::beam::statics::Statics;
+use crate::beam::statics::Motion;
 
 /// One bending mode of a free bat.
 #[derive(Debug, Clone)]
@@ -58,24 +58,21 @@ impl Mode {
         self.omega / TAU
     }
 
-    /// The mode with these energy-scaled strains; ω² = strain energy over kinetic energy
-    /// (Rayleigh's quotient), both summed from the deformations, unless ω is given.
-    pub fn of_strains(
+    /// The mode that is that bending motion; `residual` and `round_off` go into its errors.
+    pub fn new(
         order: usize,
-        statics: &Statics,
+        omega: f64,
+        motion: Motion,
         stretches: &Arc<Vec<(f64, f64)>>,
-        strains: &[f64],
-        omega: Option<f64>,
+        [residual, round_off]: [f64; 2],
     ) -> Self {
-        let coefficients = statics.deflections(strains);
-        let kinetic = statics.kinetic(&coefficients);
-        let omega = omega.unwrap_or_else(|| statics.quotient(strains, kinetic).sqrt());
-        let mut shape = Shape { stretches: Arc::clone(stretches), coefficients };
+        let mut shape = Shape { stretches: Arc::clone(stretches), coefficients: motion.shape };
         let scale = 1.0 / shape.largest();
         let scale = if shape.tip() < 0.0 { -scale } else { scale };
         shape.coefficients.iter_mut().flatten().for_each(|w| *w *= scale);
-        let (nodes, modal_mass) = (shape.zeros(), kinetic * scale * scale);
-        Self { order, omega, modal_mass, nodes, shape, error: ModeError::default() }
+        let (nodes, modal_mass) = (shape.zeros(), motion.kinetic * scale * scale);
+        let error = ModeError { residual, round_off, ..ModeError::default() };
+        Self { order, omega, modal_mass, nodes, shape, error }
     }
 }
 

@@ -182,15 +182,18 @@ fn by_statics(
 ) -> Result<(Vec<Mode>, usize)> {
     let mut loads = Vec::new();
     // The eigenvalue's error is the square of the residual; the shape's is the residual itself.
-    let residual = (1e-3 * request.tolerance).clamp(1e-13, 1e-9);
-    let apply = |x: &[f64], y: &mut [f64]| statics.apply(x, y, &mut loads);
+    let residual = (1e-3 * request.tolerance).clamp(1e-13, 1e-7);
+    let apply = |x: &[f64], y: &mut [f64]| {
+        statics.apply(x, y, &mut loads);
+    };
     let ritz = lanczos::largest(statics.start(request.modes), request.modes, residual, apply)?;
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     for (k, strains) in ritz.vectors.iter().enumerate() {
-        let mut mode = Mode::of_strains(k + 1, statics, stretches, strains, None);
-        mode.error.residual = statics.residual(strains, mode.omega, &mut loads);
-        mode.error.round_off = statics_round_off(mode.omega, modes.first());
-        modes.push(mode);
+        let motion = statics.motion(strains, &mut loads);
+        let omega = motion.omega;
+        let residual = statics.residual(strains, omega, &motion);
+        let errors = [residual, statics_round_off(omega, modes.first())];
+        modes.push(Mode::new(k + 1, omega, motion, stretches, errors));
     }
     Ok((modes, ritz.steps))
 }
@@ -213,8 +216,8 @@ fn by_dense(
     let pencil = Pencil::assemble(elements);
     let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
     // Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
-    let start = statics.start(1);
-    let shift = statics.quotient(&start, statics.kinetic(&statics.deflections(&start)));
+    let mut loads = Vec::new();
+    let shift = statics.motion(&statics.start(1), &mut loads).omega.powi(2);
     let (values, vectors) =
         dense::generalized(&pencil.stiffness, &pencil.mass, shift).ok_or(failed)?;
     // The first two are the rigid motions, zero but for round-off; a free bat always has two.
@@ -222,10 +225,10 @@ fn by_dense(
     let modes = pairs.map(|(k, (lambda, vector))| {
         let strains = statics.strains_of_hermite(vector);
         let omega = lambda.max(0.0).sqrt();
-        let mut mode = Mode::of_strains(k + 1, statics, stretches, &strains, Some(omega));
-        mode.error.round_off = dense_round_off(elements, *lambda);
-        mode.error.residual = statics.residual(&strains, omega, &mut Vec::new());
-        mode
+        let motion = statics.motion(&strains, &mut loads);
+        let residual = statics.residual(&strains, omega, &motion);
+        let errors = [residual, dense_round_off(elements, *lambda)];
+        Mode::new(k + 1, omega, motion, stretches, errors)
     });
     Ok(modes.collect())
 }

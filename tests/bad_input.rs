@@ -44,7 +44,9 @@ impl Folder {
             () if message.contains("error:") => "has more than one error".to_owned(),
             () if message.contains("panicked") => "is a panic".to_owned(),
             () if message.chars().any(|c| c.is_control() && c != '\n') => "controls".to_owned(),
-            () if message.contains("NaN ") || message.contains("inf ") => "shows no number".to_owned(),
+            () if message.contains("NaN ") || message.contains("inf ") => {
+                "shows no number".to_owned()
+            }
             () if message.len() > 2000 => format!("is {} bytes long", message.len()),
             () if !missing.is_empty() => format!("lacks {missing:?}"),
             () if !output.stdout.is_empty() => "comes with output".to_owned(),
@@ -117,7 +119,7 @@ fn a_file_that_is_not_a_bat_file_is_refused() {
         ("overlong", b"{ \"a\": \"\xc0\xaf\"}", &["bat.json:1:9", "not text", "UTF-8"]),
         ("UTF-16", b"\xff\xfe{\0}\0", &["bat.json:1:1", "UTF-16 text", "UTF-8"]),
         ("UTF-16 without a mark", b"{\0}\0", &["bat.json:1:2", "expected"]),
-        ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "found x,radius"]),
+        ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "found x, expected"]),
         ("truncated", &BAT.as_bytes()[..60], &["bat.json:", "the end of the file", "the rest"]),
         ("unclosed", b"{\n", &["bat.json:1:2", "the end of the file", "the rest of an object"]),
         ("two", b"{} {}", &["bat.json:1:4", "trailing"]),
@@ -152,227 +154,468 @@ fn a_file_that_is_not_a_bat_file_is_refused() {
 
 #[test]
 fn a_wrong_format_or_key_is_refused() {
-    refused("keys", &[
-        (FORMAT, r#""name2": 1"#, &["bat.json:2:12", "unknown key \"name2\"", "\"name\" (did"]),
-        ("\"format\": \"sweetspot-bat/1\",\n", "", &["bat.json:1:1", "no \"format\"", "bat/1"]),
-        (FORMAT, r#""format": "sweetspot-bat/2""#, &["bat.json:2:13", "format", "bat/2", "bat/1"]),
-        (FORMAT, r#""format": "sweetspot-bat/2", "new": 1"#, &["bat.json:2:13", "bat/2", "bat/1"]),
-        (FORMAT, r#""format": "sweetspot-ball/1""#, &["bat.json:2:13", "ball/1", "bat/1"]),
-        (FORMAT, r#""format": 1"#, &["bat.json:2:13: format: found 1", "bat/1"]),
-        (FORMAT, r#""format": null"#, &["bat.json:2:13: format: found null", "bat/1"]),
-        (r#""format""#, r#""Format""#, &["unknown key \"Format\"", "\"format\" (did you mean"]),
-        (r#""profile""#, r#""profle""#, &["bat.json:5:13: profle", "\"profile\" (did you mean"]),
-        (r#""profile""#, r#""shape""#, &["unknown key \"shape\"", "one of format, name"]),
-        (r#""radius""#, r#""radii""#, &["profile.radii", "\"radius\" (did you mean"]),
-        (r#""density""#, r#""densty""#, &["bat.json:4:27: material.densty", "\"density\" (did"]),
-        (r#""youngs_modulus""#, r#""E""#, &["material.E", "unknown key \"E\"", "youngs_modulus"]),
-        (r#""name": "dowel","#, r#""name": "a", "name": "b","#, &["3:24: name", "a second time"]),
-        (X, "[0, 0.8], \"x\": [0, 0.8]", &["bat.json:6:25: profile.x", "a second time"]),
-        ("\"profile\"", "\"profile\": {}, \"profile\"", &["profile", "a second time"]),
-        ("{ \"density\"", "{ \"density\": 1, \"density\"", &["material.density", "second time"]),
-        ("\"dowel\"", "7", &["bat.json:3:11: name: found 7", "a text in quotes"]),
-        ("\"dowel\"", "\"a\", \"source\": []", &["source: found a list", "a text in quotes"]),
-        ("\"dowel\"", "\"\\ud800\"", &["bat.json:3:11: name", "a text in quotes"]),
-    ]);
+    refused(
+        "keys",
+        &[
+            (FORMAT, r#""name2": 1"#, &["bat.json:2:12", "unknown key \"name2\"", "\"name\" (did"]),
+            ("\"format\": \"sweetspot-bat/1\",\n", "", &["bat.json:1:1", "no \"format\"", "bat/1"]),
+            (
+                FORMAT,
+                r#""format": "sweetspot-bat/2""#,
+                &["bat.json:2:13", "format", "bat/2", "bat/1"],
+            ),
+            (
+                FORMAT,
+                r#""format": "sweetspot-bat/2", "new": 1"#,
+                &["bat.json:2:13", "bat/2", "bat/1"],
+            ),
+            (FORMAT, r#""format": "sweetspot-ball/1""#, &["bat.json:2:13", "ball/1", "bat/1"]),
+            (FORMAT, r#""format": 1"#, &["bat.json:2:13: format: found 1", "bat/1"]),
+            (FORMAT, r#""format": null"#, &["bat.json:2:13: format: found null", "bat/1"]),
+            (r#""format""#, r#""Format""#, &["unknown key \"Format\"", "\"format\" (did you mean"]),
+            (
+                r#""profile""#,
+                r#""profle""#,
+                &["bat.json:5:13: profle", "\"profile\" (did you mean"],
+            ),
+            (r#""profile""#, r#""shape""#, &["unknown key \"shape\"", "one of format, name"]),
+            (r#""radius""#, r#""radii""#, &["profile.radii", "\"radius\" (did you mean"]),
+            (
+                r#""density""#,
+                r#""densty""#,
+                &["bat.json:4:27: material.densty", "\"density\" (did"],
+            ),
+            (
+                r#""youngs_modulus""#,
+                r#""E""#,
+                &["material.E", "unknown key \"E\"", "youngs_modulus"],
+            ),
+            (
+                r#""name": "dowel","#,
+                r#""name": "a", "name": "b","#,
+                &["3:24: name", "a second time"],
+            ),
+            (X, "[0, 0.8], \"x\": [0, 0.8]", &["bat.json:6:25: profile.x", "a second time"]),
+            ("\"profile\"", "\"profile\": {}, \"profile\"", &["profile", "a second time"]),
+            (
+                "{ \"density\"",
+                "{ \"density\": 1, \"density\"",
+                &["material.density", "second time"],
+            ),
+            ("\"dowel\"", "7", &["bat.json:3:11: name: found 7", "a text in quotes"]),
+            ("\"dowel\"", "\"a\", \"source\": []", &["source: found a list", "a text in quotes"]),
+            ("\"dowel\"", "\"\\ud800\"", &["bat.json:3:11: name", "a text in quotes"]),
+        ],
+    );
 }
 
 #[test]
 fn a_wrong_material_is_refused() {
-    refused("materials", &[
-        (MATERIAL, r#""white ash""#, &["bat.json:4:15: material", "did you mean white-ash?"]),
-        (MATERIAL, r#""whiteash""#, &["material: found \"whiteash\"", "did you mean white-ash?"]),
-        (MATERIAL, r#""unobtainium""#, &["found \"unobtainium\"", "one of white-ash, "]),
-        (MATERIAL, "7", &["bat.json:4:15: material: found 7", "one of white-ash"]),
-        (MATERIAL, "[]", &["material: found a list", "one of white-ash"]),
-        (MATERIAL, "null", &["material: found null", "one of white-ash"]),
-        (MATERIAL, "{}", &["bat.json:4:15: material", "no \"density\"", "\"weighed\""]),
-        ("\"material\": { \"density\": 700, \"youngs_modulus\": 14e9 },\n", "", &[
-            "bat.json:1:1",
-            "no \"material\"",
-        ]),
-        ("\"density\": 700, ", "", &["bat.json:4:15: material", "no \"density\""]),
-        (", \"youngs_modulus\": 14e9", "", &["bat.json:4:15", "no \"youngs_modulus\"", "18.1 GPa"]),
-        ("700", "-700", &["bat.json:4:28: material.density: found -700", "above 0"]),
-        ("700", "0", &["material.density: found 0 ", "above 0"]),
-        ("700", "true", &["material.density: found true", "a density such as"]),
-        ("700", "[700]", &["material.density: found a list", "a density such as"]),
-        ("700", "NaN", &["bat.json:4:28", "found NaN,", "a JSON value"]),
-        ("700", "Infinity", &["bat.json:4:28", "found Infinity,", "a JSON value"]),
-        ("700", "-Infinity", &["bat.json:4:2", "JSON"]),
-        ("700", "1e999", &["bat.json:4:28: material.density: found 1e999", "a density such as"]),
-        ("700", "\"1e999 kg/m^3\"", &["material.density", "beyond the range of numbers"]),
-        ("700", "\"1e308 lb/in^3\"", &["material.density", "beyond the range of numbers"]),
-        ("700", "\"NaN\"", &["bat.json:4:28: material.density: found \"NaN\"", "a density"]),
-        ("700", "\"\"", &["material.density: found \"\"", "a density such as"]),
-        ("700", "\"kg/m^3\"", &["material.density: found \"kg/m^3\"", "a density such as"]),
-        ("700", "\"0.0257 lbf/in^3\"", &["material.density", "lb is the mass, lbf the force"]),
-        ("700", "\"700 kg\"", &["which measures a mass", "expected a density"]),
-        ("700", "\"700 kg/m3/m\"", &["unit \"kg/m3/m\"", "does not measure a density"]),
-        ("700", "\"700 kgs/m3\"", &["unknown unit \"kgs\" (did you mean kg?)"]),
-        ("700", "\"7 🏏/m³\"", &["unknown unit \"🏏\""]),
-        ("14e9", "\"14 GPA\"", &["bat.json:4:51: material.youngs_modulus", "did you mean GPa?"]),
-        ("14e9", "\"2e6 lb/in^2\"", &["material.youngs_modulus", "lb is a mass here: write psi"]),
-        ("14e9", "-1", &["bat.json:4:51: material.youngs_modulus: found -1 ", "above 0"]),
-        ("14e9", "\"0 psi\"", &["material.youngs_modulus: found 0 ", "above 0"]),
-        ("14e9", "14e9, \"shear_modulus\": 1e9, \"poisson_ratio\": 0.3", &[
-            "material",
-            "both \"shear_modulus\" and \"poisson_ratio\"",
-            "one of them",
-        ]),
-        ("14e9", "14e9, \"shear_modulus\": 0", &["material.shear_modulus: found 0 Pa", "above 0"]),
-        ("14e9", "14e9, \"poisson_ratio\": 0.6", &["material.poisson_ratio: found 0.6", "0.5"]),
-        ("14e9", "14e9, \"poisson_ratio\": -1", &["material.poisson_ratio", "found -1", "above -1"]),
-        ("14e9", "14e9, \"poisson_ratio\": -2", &["material.poisson_ratio: found -2", "above -1"]),
-        ("14e9", "14e9, \"poisson_ratio\": \"0.3\"", &["found \"0.3\"", "a finite number"]),
-        ("14e9", "14e9, \"shear_coefficient\": 0", &["material.shear_coefficient: found 0"]),
-        ("14e9", "14e9, \"loss_factor\": -0.1", &["material.loss_factor: found -0.1", "0 or more"]),
-        ("14e9", "14e9, \"loss_factor\": 2", &["material.loss_factor: found 2", "below 2"]),
-    ]);
+    refused(
+        "materials",
+        &[
+            (MATERIAL, r#""white ash""#, &["bat.json:4:15: material", "did you mean white-ash?"]),
+            (
+                MATERIAL,
+                r#""whiteash""#,
+                &["material: found \"whiteash\"", "did you mean white-ash?"],
+            ),
+            (MATERIAL, r#""unobtainium""#, &["found \"unobtainium\"", "one of white-ash, "]),
+            (MATERIAL, "7", &["bat.json:4:15: material: found 7", "one of white-ash"]),
+            (MATERIAL, "[]", &["material: found a list", "one of white-ash"]),
+            (MATERIAL, "null", &["material: found null", "one of white-ash"]),
+            (MATERIAL, "{}", &["bat.json:4:15: material", "no \"density\"", "\"weighed\""]),
+            (
+                "\"material\": { \"density\": 700, \"youngs_modulus\": 14e9 },\n",
+                "",
+                &["bat.json:1:1", "no \"material\""],
+            ),
+            ("\"density\": 700, ", "", &["bat.json:4:15: material", "no \"density\""]),
+            (
+                ", \"youngs_modulus\": 14e9",
+                "",
+                &["bat.json:4:15", "no \"youngs_modulus\"", "18.1 GPa"],
+            ),
+            ("700", "-700", &["bat.json:4:28: material.density: found -700", "above 0"]),
+            ("700", "0", &["material.density: found 0,", "above 0"]),
+            ("700", "true", &["material.density: found true", "a density such as"]),
+            ("700", "[700]", &["material.density: found a list", "a density such as"]),
+            ("700", "NaN", &["bat.json:4:28", "found NaN,", "a JSON value"]),
+            ("700", "Infinity", &["bat.json:4:28", "found Infinity,", "a JSON value"]),
+            ("700", "-Infinity", &["bat.json:4:2", "JSON"]),
+            (
+                "700",
+                "1e999",
+                &["bat.json:4:28: material.density: found 1e999", "a density such as"],
+            ),
+            ("700", "\"1e999 kg/m^3\"", &["material.density", "beyond the range of numbers"]),
+            ("700", "\"1e308 lb/in^3\"", &["material.density", "beyond the range of numbers"]),
+            ("700", "\"NaN\"", &["bat.json:4:28: material.density: found \"NaN\"", "a density"]),
+            ("700", "\"\"", &["material.density: found \"\"", "a density such as"]),
+            ("700", "\"kg/m^3\"", &["material.density: found \"kg/m^3\"", "a density such as"]),
+            ("700", "\"0.0257 lbf/in^3\"", &["material.density", "lb is the mass, lbf the force"]),
+            ("700", "\"700 kg\"", &["which measures a mass", "expected a density"]),
+            ("700", "\"700 kg/m3/m\"", &["unit \"kg/m3/m\"", "does not measure a density"]),
+            ("700", "\"700 kgs/m3\"", &["unknown unit \"kgs\" (did you mean kg?)"]),
+            ("700", "\"7 🏏/m³\"", &["unknown unit \"🏏\""]),
+            (
+                "14e9",
+                "\"14 GPA\"",
+                &["bat.json:4:51: material.youngs_modulus", "did you mean GPa?"],
+            ),
+            (
+                "14e9",
+                "\"2e6 lb/in^2\"",
+                &["material.youngs_modulus", "lb is a mass here: write psi"],
+            ),
+            ("14e9", "-1", &["bat.json:4:51: material.youngs_modulus: found -1,", "above 0"]),
+            ("14e9", "\"0 psi\"", &["youngs_modulus: found \"0 psi\",", "above 0"]),
+            (
+                "14e9",
+                "14e9, \"shear_modulus\": 1e9, \"poisson_ratio\": 0.3",
+                &["material", "both \"shear_modulus\" and \"poisson_ratio\"", "one of them"],
+            ),
+            (
+                "14e9",
+                "14e9, \"shear_modulus\": 0",
+                &["material.shear_modulus: found 0,", "above 0"],
+            ),
+            ("14e9", "14e9, \"poisson_ratio\": 0.6", &["material.poisson_ratio: found 0.6", "0.5"]),
+            (
+                "14e9",
+                "14e9, \"poisson_ratio\": -1",
+                &["material.poisson_ratio", "found -1", "above -1"],
+            ),
+            (
+                "14e9",
+                "14e9, \"poisson_ratio\": -2",
+                &["material.poisson_ratio: found -2", "above -1"],
+            ),
+            ("14e9", "14e9, \"poisson_ratio\": \"0.3\"", &["found \"0.3\"", "a finite number"]),
+            ("14e9", "14e9, \"shear_coefficient\": 0", &["material.shear_coefficient: found 0"]),
+            (
+                "14e9",
+                "14e9, \"loss_factor\": -0.1",
+                &["material.loss_factor: found -0.1", "0 or more"],
+            ),
+            ("14e9", "14e9, \"loss_factor\": 2", &["material.loss_factor: found 2", "below 2"]),
+        ],
+    );
 }
 
 #[test]
 fn a_wrong_profile_is_refused() {
-    refused("profiles", &[
-        (PROFILE, "[]", &["bat.json:5:14: profile: found a list", "an object"]),
-        (PROFILE, "\"bat.csv\"", &["bat.json:5:14: profile: found \"bat.csv\"", "an object"]),
-        (PROFILE, "{}", &["bat.json:5:14: profile", "no \"x\""]),
-        (",\n    \"radius\": [0.02, 0.03, 0.02]", "", &["no \"radius\" and no \"diameter\""]),
-        ("\"profile\": {\n", "\"source\": \"\", \"profile\": null, \"weighed\": {\n", &["weighed"]),
-        (X, "0.8", &["bat.json:6:10: profile.x: found 0.8", "a list"]),
-        (X, "{}", &["bat.json:6:10: profile.x: found an object", "a list"]),
-        (X, "[]", &["7:15: profile.radius: found 3 values", "expected 0, one for each x"]),
-        (X, "[0, 0.8]", &["bat.json:7:15: profile.radius", "3 values", "2, one for each x"]),
-        (X, "[0, 0.4, null]", &["bat.json:6:19: profile.x[2]: found null", "a length such as"]),
-        (X, "[0, 0.4, [0.8]]", &["bat.json:6:19: profile.x[2]: found a list", "a length"]),
-        (X, "[0, 0.4, \"0.8\"  , 1]", &["profile.radius: found 3 values", "expected 4"]),
-        (X, "[0, 0.4, \"31 oz\"]", &["6:19: profile.x[2]: found unit \"oz\"", "measures a mass"]),
-        (X, "[0, 0.4, \"0.8 metres\"]", &["6:19: profile.x[2]", "unknown unit \"metres\""]),
-        (X, "[0, 0.4, \"33inn\"]", &["profile.x[2]", "did you mean in?"]),
-        (X, "[0, 0.4, \"0,8 m\"]", &["bat.json:6:19: profile.x[2]: found \"0,8 m\" (decimals"]),
-        (X, "[0, 0.4, 1e999]", &["bat.json:6:19: profile.x[2]: found 1e999", "a length such as"]),
-        (X, "[0, 0.4, \"1e999\"]", &["6:19: profile.x[2]: found \"1e999\"", "beyond the range"]),
-        (X, "[0, NaN, 0.8]", &["bat.json:6:14", "found NaN,", "a JSON value"]),
-        (X, "[0, 0.5, 0.4]", &[
-            "bat.json:6:19: profile.x[2]: found 0.4 m",
-            "expected a position beyond x[1] (0.5 m)",
-        ]),
-        (X, "[0, \"5 in\", \"4 in\"]", &["x[2]: found \"4 in\"", "beyond x[1] (\"5 in\")"]),
-        (X, "[0, 5, 4], \"unit\": \"in\"", &["x[2]: found 4 in", "beyond x[1] (5 in)"]),
-        (X, "[0, -0.4, 0.8]", &["6:14: profile.x[1]: found -0.4 m", "beyond x[0] (0 m)"]),
-        (X, "[0.1, 0.4, 0.8]", &["6:11: profile.x[0]: found 0.1 m", "expected 0: positions"]),
-        (X, "[1e-300, 0.4, 0.8]", &["6:11: profile.x[0]: found 1e-300 m", "expected 0: positions"]),
-        (X, "[0, 0, 0.8]", &["bat.json:6:14: profile.x[1]: found 0 m: a step at an end", "inside"]),
-        (X, "[0, 0.8, 0.8]", &["6:19: profile.x[2]: found 0.8 m: a step at an end", "inside"]),
-        (X, "[0, 0, 0]", &["6:17: profile.x[2]: found 0 m: a third station", "two stations at most"]),
-        (PROFILE, r#"{ "x": [0], "radius": [0.02] }"#, &["profile.x: found 1 station", "two"]),
-        (PROFILE, r#"{ "x": [], "radius": [] }"#, &["profile.x: found 0 station", "two"]),
-        (PROFILE, r#"{ "x": [0, 0], "radius": [0.02, 0.02] }"#, &["5:25: profile.x[1]", "length"]),
-        (PROFILE, r#"{ "x": [0, 1, 1, 1, 2], "radius": [1, 1, 1, 1, 1] }"#, &[
-            "bat.json:5:31: profile.x[3]: found 1 m: a third station",
-        ]),
-        (PROFILE, r#"{ "x": [0, 1, 1, 2, 2, 3], "radius": [1, 2, 1, 2, 1, 2], "x2": 1 }"#, &["x2"]),
-        (RADIUS, r#""radius": [0.02, 0, 0.02]"#, &[
-            "bat.json:7:22: profile.radius[1]: found 0 m",
-            "only an end of the bat may come to a point",
-        ]),
-        (RADIUS, r#""radius": [0.02, -0.01, 0.02]"#, &["7:22: profile.radius[1]: found -0.01 m"]),
-        (RADIUS, r#""radius": [-1, 0.01, 0.02]"#, &["7:16: profile.radius[0]: found -1 m", "above 0"]),
-        (RADIUS, r#""diameter": ["2 in", "-1 in", "2 in"]"#, &["diameter[1]: found \"-1 in\""]),
-        (RADIUS, r#""radius": [0.02, 1e-200, 0.02]"#, &["7:22: profile.radius[1]: found 1e-200 m"]),
-        (RADIUS, r#""radius": [0.02, 1e200, 0.02]"#, &["7:22: profile.radius[1]: found 1e200 m"]),
-        (RADIUS, r#""radius": [0.02, 0.02, 0.02], "diameter": [1, 1, 1]"#, &[
-            "bat.json:7:47: profile.diameter: found both \"radius\" and \"diameter\"",
-            "one of them",
-        ]),
-        (RADIUS, r#""diameter": [1, 1, 1], "inner_radius": [0, 0, 0], "wall_thickness": [1, 1, 1]"#, &[
-            "both \"inner_radius\" and \"wall_thickness\"",
-        ]),
-        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, 0]"#, &["inner_radius: found 2 values"]),
-        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, 1, 0]"#, &[
-            "profile.inner_radius[1]: found 1 m, expected less than radius[1] (1 m)",
-        ]),
-        (RADIUS, r#""diameter": [2, 2, 2], "inner_diameter": [1, 1, 2.5], "unit": "in""#, &[
-            "7:53: profile.inner_diameter[2]: found 2.5 in, expected less than diameter[2] (2 in)",
-        ]),
-        (RADIUS, r#""diameter": [2, 2, 2], "inner_radius": [0, 1.5, 0], "unit": "in""#, &[
-            "inner_radius[1]: found 1.5 in, expected less than half of diameter[1] (2 in)",
-        ]),
-        (RADIUS, r#""radius": [1, 1, 1], "inner_diameter": [1, "2.5 m", 1]"#, &[
-            "inner_diameter[1]: found \"2.5 m\", expected less than twice radius[1] (1 m)",
-        ]),
-        (RADIUS, r#""radius": [1, 1, 1], "inner_radius": [0, -0.1, 0]"#, &["found -0.1 m", "0 or more"]),
-        (RADIUS, r#""diameter": [2, 2, 2], "wall_thickness": [1, 1.5, 1], "unit": "cm""#, &[
-            "profile.wall_thickness[1]: found 1.5 cm",
-            "a wall above 0, at most half of diameter[1] (2 cm)",
-        ]),
-        (RADIUS, r#""radius": [1, 1, 1], "wall_thickness": [1, -1, 1]"#, &["wall_thickness[1]: found -1 m"]),
-        (RADIUS, r#""radius": [1, 1, 1], "wall_thickness": [1, 0, 1]"#, &["wall_thickness[1]: found 0 m"]),
-        // Two monotone cubics through good stations may cross between them.
-        (PROFILE, r#"{ "x": [0, 1, 2, 3], "radius": [1, 1, 2, 8], "inner_radius": [0, 0.99, 1.99, 2] }"#, &[
-            "profile.inner_radius[1]: found 0.99 m: a wall that vanishes between x[1] (1 m) and x[2] (2 m)",
-            "add a station",
-        ]),
-        (X, "[0, 0.4, 0.8], \"interpolation\": \"cubic\"", &[
-            "profile.interpolation: found \"cubic\"",
-            "one of pchip, linear, constant",
-        ]),
-        (X, "[0, 0.4, 0.8], \"interpolation\": \"pchipp\"", &["did you mean pchip?"]),
-        (X, "[0, 0.4, 0.8], \"interpolation\": 3", &["found 3", "one of pchip, linear"]),
-        (X, "[0, 0.4, 0.8], \"measured_from\": \"top\"", &["found \"top\"", "one of knob, tip"]),
-        (X, "[0, 0.4, 0.8], \"unit\": \"inn\"", &["6:33: profile.unit", "did you mean in?"]),
-        (X, "[0, 0.4, 0.8], \"unit\": \"oz\"", &["profile.unit", "measures a mass", "a length"]),
-        (X, "[0, 0.4, 0.8], \"unit\": 0.0254", &["profile.unit: found 0.0254", "a text"]),
-        (PROFILE, r#"{ "interpolation": "constant", "x": [0, 1, 1, 2], "radius": [1, 2, 3, 3] }"#, &[
-            "profile.radius[1]: found 2 m, expected radius[0] (1 m), which holds up to here",
-        ]),
-        (PROFILE, r#"{ "interpolation": "constant", "x": [0, 1], "radius": [0, 1] }"#, &["holds to the next"]),
-    ]);
+    refused(
+        "profiles",
+        &[
+            (PROFILE, "[]", &["bat.json:5:14: profile: found a list", "an object"]),
+            (PROFILE, "\"bat.csv\"", &["bat.json:5:14: profile: found \"bat.csv\"", "an object"]),
+            (PROFILE, "{}", &["bat.json:5:14: profile", "no \"x\""]),
+            (",\n    \"radius\": [0.02, 0.03, 0.02]", "", &["no \"radius\" and no \"diameter\""]),
+            (
+                "\"profile\": {\n",
+                "\"source\": \"\", \"profile\": null, \"weighed\": {\n",
+                &["weighed"],
+            ),
+            (X, "0.8", &["bat.json:6:10: profile.x: found 0.8", "a list"]),
+            (X, "{}", &["bat.json:6:10: profile.x: found an object", "a list"]),
+            (X, "[]", &["7:15: profile.radius: found 3 values", "expected 0, one for each x"]),
+            (X, "[0, 0.8]", &["bat.json:7:15: profile.radius", "3 values", "2, one for each x"]),
+            (X, "[0, 0.4, null]", &["bat.json:6:19: profile.x[2]: found null", "a length such as"]),
+            (X, "[0, 0.4, [0.8]]", &["bat.json:6:19: profile.x[2]: found a list", "a length"]),
+            (X, "[0, 0.4, \"0.8\"  , 1]", &["profile.radius: found 3 values", "expected 4"]),
+            (
+                X,
+                "[0, 0.4, \"31 oz\"]",
+                &["6:19: profile.x[2]: found unit \"oz\"", "measures a mass"],
+            ),
+            (X, "[0, 0.4, \"0.8 metres\"]", &["6:19: profile.x[2]", "unknown unit \"metres\""]),
+            (X, "[0, 0.4, \"33inn\"]", &["profile.x[2]", "did you mean in?"]),
+            (X, "[0, 0.4, \"0,8 m\"]", &["bat.json:6:19: profile.x[2]: found \"0,8 m\" (decimals"]),
+            (
+                X,
+                "[0, 0.4, 1e999]",
+                &["bat.json:6:19: profile.x[2]: found 1e999", "a length such as"],
+            ),
+            (
+                X,
+                "[0, 0.4, \"1e999\"]",
+                &["6:19: profile.x[2]: found \"1e999\"", "beyond the range"],
+            ),
+            (X, "[0, NaN, 0.8]", &["bat.json:6:14", "found NaN,", "a JSON value"]),
+            (
+                X,
+                "[0, 0.5, 0.4]",
+                &[
+                    "bat.json:6:19: profile.x[2]: found 0.4 m",
+                    "expected a position beyond x[1] (0.5 m)",
+                ],
+            ),
+            (X, "[0, \"5 in\", \"4 in\"]", &["x[2]: found \"4 in\"", "beyond x[1] (\"5 in\")"]),
+            (X, "[0, 5, 4], \"unit\": \"in\"", &["x[2]: found 4 in", "beyond x[1] (5 in)"]),
+            (X, "[0, -0.4, 0.8]", &["6:14: profile.x[1]: found -0.4 m", "beyond x[0] (0 m)"]),
+            (X, "[0.1, 0.4, 0.8]", &["6:11: profile.x[0]: found 0.1 m", "expected 0: positions"]),
+            (
+                X,
+                "[1e-300, 0.4, 0.8]",
+                &["6:11: profile.x[0]: found 1e-300 m", "expected 0: positions"],
+            ),
+            (
+                X,
+                "[0, 0, 0.8]",
+                &["bat.json:6:14: profile.x[1]: found 0 m: a step at an end", "inside"],
+            ),
+            (X, "[0, 0.8, 0.8]", &["6:19: profile.x[2]: found 0.8 m: a step at an end", "inside"]),
+            (
+                X,
+                "[0, 0, 0]",
+                &["6:17: profile.x[2]: found 0 m: a third station", "two stations at most"],
+            ),
+            (PROFILE, r#"{ "x": [0], "radius": [0.02] }"#, &["profile.x: found 1 station", "two"]),
+            (PROFILE, r#"{ "x": [], "radius": [] }"#, &["profile.x: found 0 station", "two"]),
+            (
+                PROFILE,
+                r#"{ "x": [0, 0], "radius": [0.02, 0.02] }"#,
+                &["5:25: profile.x[1]", "length"],
+            ),
+            (
+                PROFILE,
+                r#"{ "x": [0, 1, 1, 1, 2], "radius": [1, 1, 1, 1, 1] }"#,
+                &["bat.json:5:31: profile.x[3]: found 1 m: a third station"],
+            ),
+            (
+                PROFILE,
+                r#"{ "x": [0, 1, 1, 2, 2, 3], "radius": [1, 2, 1, 2, 1, 2], "x2": 1 }"#,
+                &["x2"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [0.02, 0, 0.02]"#,
+                &[
+                    "bat.json:7:22: profile.radius[1]: found 0 m",
+                    "only an end of the bat may come to a point",
+                ],
+            ),
+            (
+                RADIUS,
+                r#""radius": [0.02, -0.01, 0.02]"#,
+                &["7:22: profile.radius[1]: found -0.01 m"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [-1, 0.01, 0.02]"#,
+                &["7:16: profile.radius[0]: found -1 m", "above 0"],
+            ),
+            (RADIUS, r#""diameter": ["2 in", "-1 in", "2 in"]"#, &["diameter[1]: found \"-1 in\""]),
+            (
+                RADIUS,
+                r#""radius": [0.02, 1e-200, 0.02]"#,
+                &["7:22: profile.radius[1]: found 1e-200 m"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [0.02, 1e200, 0.02]"#,
+                &["7:22: profile.radius[1]: found 1e200 m"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [0.02, 0.02, 0.02], "diameter": [1, 1, 1]"#,
+                &[
+                    "bat.json:7:47: profile.diameter: found both \"radius\" and \"diameter\"",
+                    "one of them",
+                ],
+            ),
+            (
+                RADIUS,
+                r#""diameter": [1, 1, 1], "inner_radius": [0, 0, 0], "wall_thickness": [1, 1, 1]"#,
+                &["both \"inner_radius\" and \"wall_thickness\""],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "inner_radius": [0, 0]"#,
+                &["inner_radius: found 2 values"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "inner_radius": [0, 1, 0]"#,
+                &["profile.inner_radius[1]: found 1 m, expected less than radius[1] (1 m)"],
+            ),
+            (
+                RADIUS,
+                r#""diameter": [2, 2, 2], "inner_diameter": [1, 1, 2.5], "unit": "in""#,
+                &[
+                    "7:53: profile.inner_diameter[2]: found 2.5 in, expected less than diameter[2] (2 in)",
+                ],
+            ),
+            (
+                RADIUS,
+                r#""diameter": [2, 2, 2], "inner_radius": [0, 1.5, 0], "unit": "in""#,
+                &["inner_radius[1]: found 1.5 in, expected less than half of diameter[1] (2 in)"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "inner_diameter": [1, "2.5 m", 1]"#,
+                &["inner_diameter[1]: found \"2.5 m\", expected less than twice radius[1] (1 m)"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "inner_radius": [0, -0.1, 0]"#,
+                &["found -0.1 m", "0 or more"],
+            ),
+            (
+                RADIUS,
+                r#""diameter": [2, 2, 2], "wall_thickness": [1, 1.5, 1], "unit": "cm""#,
+                &[
+                    "profile.wall_thickness[1]: found 1.5 cm",
+                    "a wall above 0, at most half of diameter[1] (2 cm)",
+                ],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "wall_thickness": [1, -1, 1]"#,
+                &["wall_thickness[1]: found -1 m"],
+            ),
+            (
+                RADIUS,
+                r#""radius": [1, 1, 1], "wall_thickness": [1, 0, 1]"#,
+                &["wall_thickness[1]: found 0 m"],
+            ),
+            // Two monotone cubics through good stations may cross between them.
+            (
+                PROFILE,
+                r#"{ "x": [0, 1, 2, 3], "radius": [1, 1, 2, 8], "inner_radius": [0, 0.99, 1.99, 2] }"#,
+                &[
+                    "profile.inner_radius[1]: found 0.99 m: a wall that vanishes between x[1] (1 m) and x[2] (2 m)",
+                    "add a station",
+                ],
+            ),
+            (
+                X,
+                "[0, 0.4, 0.8], \"interpolation\": \"cubic\"",
+                &["profile.interpolation: found \"cubic\"", "one of pchip, linear, constant"],
+            ),
+            (X, "[0, 0.4, 0.8], \"interpolation\": \"pchipp\"", &["did you mean pchip?"]),
+            (X, "[0, 0.4, 0.8], \"interpolation\": 3", &["found 3", "one of pchip, linear"]),
+            (
+                X,
+                "[0, 0.4, 0.8], \"measured_from\": \"top\"",
+                &["found \"top\"", "one of knob, tip"],
+            ),
+            (X, "[0, 0.4, 0.8], \"unit\": \"inn\"", &["6:33: profile.unit", "did you mean in?"]),
+            (
+                X,
+                "[0, 0.4, 0.8], \"unit\": \"oz\"",
+                &["profile.unit", "measures a mass", "a length"],
+            ),
+            (X, "[0, 0.4, 0.8], \"unit\": 0.0254", &["profile.unit: found 0.0254", "a text"]),
+            (
+                PROFILE,
+                r#"{ "interpolation": "constant", "x": [0, 1, 1, 2], "radius": [1, 2, 3, 3] }"#,
+                &["profile.radius[1]: found 2 m, expected radius[0] (1 m), which holds up to here"],
+            ),
+            (
+                PROFILE,
+                r#"{ "interpolation": "constant", "x": [0, 1], "radius": [0, 1] }"#,
+                &["holds to the next"],
+            ),
+        ],
+    );
 }
 
 #[test]
 fn values_that_over_or_underflow_are_refused() {
-    refused("range", &[
-        (RADIUS, r#""radius": [1e-200, 1e-200, 1e-200]"#, &["profile.radius[1]: found 1e-200 m"]),
-        (PROFILE, r#"{ "x": [0, 1], "radius": [1e-200, 1e-200] }"#, &["mass", "check the units"]),
-        (PROFILE, r#"{ "x": [0, 1], "radius": [0, 0] }"#, &["mass", "check the units"]),
-        (PROFILE, r#"{ "x": [0, 1], "radius": [1e200, 1] }"#, &["bat.json:1:1", "check the units"]),
-        ("14e9", "1e300", &["bending stiffness", "check the units"]),
-        ("14e9", "1e-320", &["bending stiffness", "check the units"]),
-        ("700", "1e-320", &["mass: found", "check the units"]),
-        ("700", "1e300", &["mass: found", "check the units"]),
-        (X, "[0, 1e-300, 2e-300]", &["bat.json:1:1", "check the units"]),
-        (X, "[0, 1e299, 1e300]", &["bat.json:1:1", "check the units"]),
-        (X, "[0, 1e308, 1.7e308]", &["bat.json:1:1", "check the units"]),
-        (X, "[0, 5e-324, 1e-323]", &["bat.json:1:1", "check the units"]),
-        ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 1e300 }", &["mass: found", "check the units"]),
-        ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 1e-320 }", &["mass: found", "the units"]),
-    ]);
+    refused(
+        "range",
+        &[
+            (
+                RADIUS,
+                r#""radius": [1e-200, 1e-200, 1e-200]"#,
+                &["profile.radius[1]: found 1e-200 m"],
+            ),
+            (
+                PROFILE,
+                r#"{ "x": [0, 1], "radius": [1e-200, 1e-200] }"#,
+                &["mass", "check the units"],
+            ),
+            (PROFILE, r#"{ "x": [0, 1], "radius": [0, 0] }"#, &["mass", "check the units"]),
+            (
+                PROFILE,
+                r#"{ "x": [0, 1], "radius": [1e200, 1] }"#,
+                &["bat.json:1:1", "check the units"],
+            ),
+            ("14e9", "1e300", &["bending stiffness", "check the units"]),
+            ("14e9", "1e-320", &["bending stiffness", "check the units"]),
+            ("700", "1e-320", &["mass: found", "check the units"]),
+            ("700", "1e300", &["mass: found", "check the units"]),
+            (X, "[0, 1e-300, 2e-300]", &["bat.json:1:1", "check the units"]),
+            (X, "[0, 1e299, 1e300]", &["bat.json:1:1", "check the units"]),
+            (X, "[0, 1e308, 1.7e308]", &["bat.json:1:1", "check the units"]),
+            (X, "[0, 5e-324, 1e-323]", &["bat.json:1:1", "check the units"]),
+            (
+                "\"dowel\"",
+                "\"\", \"weighed\": { \"mass\": 1e300 }",
+                &["mass: found", "check the units"],
+            ),
+            ("\"dowel\"", "\"\", \"weighed\": { \"mass\": 1e-320 }", &["mass: found", "the units"]),
+        ],
+    );
 }
 
 #[test]
 fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
     let later: &[&str] = &["bat.json:3:", "not supported yet", "nothing is silently ignored"];
-    refused("later", &[
-        ("\"dowel\"", r#""", "regions": []"#, later),
-        ("\"dowel\"", r#""", "attachments": []"#, later),
-        ("\"dowel\"", r#""", "supports": []"#, later),
-        ("\"dowel\"", r#""", "grip": {}"#, later),
-        ("\"dowel\"", r#""", "weighed": { "mass": 1, "balance_point": 0.5 }"#, later),
-        ("\"dowel\"", r#""", "weighed": { "first_bending_hz": 170 }"#, later),
-        (PROFILE, r#"{ "pieces": [] }"#, &["bat.json:5:26: profile.pieces", "not supported yet"]),
-        ("\"dowel\"", r#""", "weighed": {}"#, &["bat.json:3:26: weighed", "no \"mass\""]),
-        ("\"dowel\"", r#""", "weighed": null"#, &["weighed: found null", "an object"]),
-        ("\"dowel\"", r#""", "weighed": { "mas": 1 }"#, &["weighed.mas", "\"mass\" (did you mean"]),
-        ("\"dowel\"", r#""", "weighed": { "mass": "31 lbf" }"#, &[
-            "weighed.mass: found unit \"lbf\", which measures a force",
-            "expected a mass",
-            "mass is mass here",
-        ]),
-        ("\"dowel\"", r#""", "weighed": { "mass": "9 N" }"#, &["unit \"N\", which measures a force"]),
-        ("\"dowel\"", r#""", "weighed": { "mass": "31 in" }"#, &["which measures a length", "a mass"]),
-        ("\"dowel\"", r#""", "weighed": { "mass": -1 }"#, &["weighed.mass: found -1", "above 0"]),
-        ("\"dowel\"", r#""", "weighed": { "mass": "0 oz" }"#, &["weighed.mass: found \"0 oz\""]),
-    ]);
+    refused(
+        "later",
+        &[
+            ("\"dowel\"", r#""", "regions": []"#, later),
+            ("\"dowel\"", r#""", "attachments": []"#, later),
+            ("\"dowel\"", r#""", "supports": []"#, later),
+            ("\"dowel\"", r#""", "grip": {}"#, later),
+            ("\"dowel\"", r#""", "weighed": { "mass": 1, "balance_point": 0.5 }"#, later),
+            ("\"dowel\"", r#""", "weighed": { "first_bending_hz": 170 }"#, later),
+            (
+                PROFILE,
+                r#"{ "pieces": [] }"#,
+                &["bat.json:5:26: profile.pieces", "not supported yet"],
+            ),
+            ("\"dowel\"", r#""", "weighed": {}"#, &["bat.json:3:26: weighed", "no \"mass\""]),
+            ("\"dowel\"", r#""", "weighed": null"#, &["weighed: found null", "an object"]),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mas": 1 }"#,
+                &["weighed.mas", "\"mass\" (did you mean"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": "31 lbf" }"#,
+                &[
+                    "weighed.mass: found unit \"lbf\", which measures a force",
+                    "expected a mass",
+                    "mass is mass here",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": "9 N" }"#,
+                &["unit \"N\", which measures a force"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": "31 in" }"#,
+                &["which measures a length", "a mass"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": -1 }"#,
+                &["weighed.mass: found -1", "above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": "0 oz" }"#,
+                &["weighed.mass: found \"0 oz\""],
+            ),
+        ],
+    );
 }
 
 #[test]
@@ -387,7 +630,10 @@ fn a_wrong_csv_table_is_refused() {
         ("x_in,diameter_in\n0,1\n", &["1 station", "two stations at least"]),
         ("x_in\n0\n1\n", &["table.csv:1:1: header", "a column missing", "radius or diameter"]),
         ("diameter_in\n1\n", &["table.csv:1:1: header", "a column missing"]),
-        ("x_inn,radius_in\n", &["table.csv:1:1: header", "unknown unit \"inn\" (did you mean in?)"]),
+        (
+            "x_inn,radius_in\n",
+            &["table.csv:1:1: header", "unknown unit \"inn\" (did you mean in?)"],
+        ),
         ("x_oz,radius_in\n", &["table.csv:1:1: header", "unit \"oz\", which measures a mass"]),
         ("x_,radius\n", &["table.csv:1:1: header", "does not measure a length"]),
         ("x_in,raduis_in\n", &["header: found column \"raduis_in\"", "did you mean radius?"]),
@@ -397,19 +643,28 @@ fn a_wrong_csv_table_is_refused() {
         ("x,radius,inner_radius,wall_thickness\n", &["\"inner_radius\" and \"wall_thickness\""]),
         ("x,radius\n0,1\n1\n2,1\n", &["table.csv:3:1: found 1 cells in this row, expected 2"]),
         ("# c\nx,radius\n\n# d\r\n0,1\n\n# e\n1,1,1\n", &["table.csv:8:1: found 3 cells"]),
-        ("x,radius\n0,1\n1, thick\n", &["table.csv:3:4: radius: found \"thick\"", "a finite number"]),
+        (
+            "x,radius\n0,1\n1, thick\n",
+            &["table.csv:3:4: radius: found \"thick\"", "a finite number"],
+        ),
         ("x,radius\n0,1\n1,\n", &["table.csv:3:3: radius: found \"\"", "a finite number"]),
         ("x,radius\n0,1\n1,1 in\n", &["table.csv:3:3: radius: found \"1 in\"", "in the header"]),
         ("x,radius\n0,1\nnan,1\n", &["table.csv:3:1: x: found \"nan\"", "a finite number"]),
         ("x,radius\n0,1\n1,inf\n", &["table.csv:3:3: radius: found \"inf\"", "a finite number"]),
         ("x,radius\n0,1\n1,1e999\n", &["table.csv:3:3: radius: found \"1e999\"", "finite number"]),
         ("x,radius\n0,\"1\n1,1\n", &["table.csv:2:", "expected"]),
-        ("x_in,radius_in\n0,1\n8,1\n7,1\n", &["table.csv:4:1: x: found 7 in", "beyond x[1] (8 in)"]),
-        ("x,radius\n0,1\n1,0\n2,1\n", &["table.csv:3:3: radius: found 0", "only an end of the bat"]),
-        ("x_in,diameter_in,wall_thickness_mm\n0,1,2\n# thick\n9,1,20\n", &[
-            "table.csv:4:5: wall_thickness: found 20 mm",
-            "at most half of diameter[1] (1 in)",
-        ]),
+        (
+            "x_in,radius_in\n0,1\n8,1\n7,1\n",
+            &["table.csv:4:1: x: found 7 in", "beyond x[1] (8 in)"],
+        ),
+        (
+            "x,radius\n0,1\n1,0\n2,1\n",
+            &["table.csv:3:3: radius: found 0", "only an end of the bat"],
+        ),
+        (
+            "x_in,diameter_in,wall_thickness_mm\n0,1,2\n# thick\n9,1,20\n",
+            &["table.csv:4:5: wall_thickness: found 20 mm", "at most half of diameter[1] (1 in)"],
+        ),
         ("\u{feff}x,radius\n0,1\n1,-1\n", &["table.csv:3:3: radius: found -1"]),
     ];
     let run = ["modes", "bat.json", "--json", "out.json"];
@@ -421,9 +676,15 @@ fn a_wrong_csv_table_is_refused() {
     folder.write("table.csv", b"x,radius\n0,1\n1,\xff\n");
     faults.extend(folder.misanswer(&run, &["table.csv:3:3", "not text", "UTF-8"]));
     for (profile, says) in [
-        (r#"{ "csv": "missing.csv" }"#, ["bat.json:5:23: profile.csv", "missing.csv", "No such file"]),
+        (
+            r#"{ "csv": "missing.csv" }"#,
+            ["bat.json:5:23: profile.csv", "missing.csv", "No such file"],
+        ),
         (r#"{ "csv": "." }"#, ["bat.json:5:23: profile.csv", "cannot be read", "a CSV file"]),
-        (r#"{ "csv": "a\u0000b" }"#, ["bat.json:5:23: profile.csv", "cannot be read", "a CSV file"]),
+        (
+            r#"{ "csv": "a\u0000b" }"#,
+            ["bat.json:5:23: profile.csv", "cannot be read", "a CSV file"],
+        ),
         (r#"{ "csv": 7 }"#, ["bat.json:5:23: profile.csv", "found 7", "a text"]),
         (r#"{ "csv": "table.csv", "x": [0] }"#, ["profile.x", "beside \"csv\"", "csv file alone"]),
     ] {
@@ -500,12 +761,18 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--tol", "1e-4 %%"], &["between 0 and 1"]),
         (&["modes", "bat.json", "--elements", "0"], &["'0'", "--elements <N>", "1..="]),
         (&["modes", "bat.json", "--elements", "1e3"], &["'1e3'", "--elements <N>"]),
-        (&["modes", "bat.json", "-n", "50", "--elements", "4"], &["50 bending modes", "25 elements"]),
+        (
+            &["modes", "bat.json", "-n", "50", "--elements", "4"],
+            &["50 bending modes", "25 elements"],
+        ),
         (&["modes", "bat.json", "--solver", "dense", "--elements", "5000"], &["dense", "statics"]),
         (&["modes", "bat.json", "--solver", "arpack"], &["not supported yet", "statics"]),
         (&["modes", "bat.json", "--solver", "shift-invert"], &["not supported yet", "statics"]),
         (&["modes", "bat.json", "--solver", "static"], &["'static'", "did you mean statics?"]),
-        (&["modes", "bat.json", "--theory", "timoshenko"], &["not supported yet", "euler-bernoulli"]),
+        (
+            &["modes", "bat.json", "--theory", "timoshenko"],
+            &["not supported yet", "euler-bernoulli"],
+        ),
         (&["modes", "bat.json", "--theory", "rayleigh"], &["not supported yet", "euler-bernoulli"]),
         (&["modes", "bat.json", "--theory", "euler"], &["'euler'", "euler-bernoulli"]),
         (&["modes", "bat.json", "--units", "metric"], &["'metric'", "si, us, both"]),
@@ -524,7 +791,10 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--model", "pulse"], &["'pulse'", "not supported yet"]),
         (&["hit", "bat.json", "--model", "contact"], &["'contact'", "not supported yet"]),
         (&["hit", "bat.json", "--model", "ridgid"], &["'ridgid'", "did you mean rigid?"]),
-        (&["hit", "bat.json", "--pulse-duration", "1 ms"], &["--pulse-duration is not supported yet"]),
+        (
+            &["hit", "bat.json", "--pulse-duration", "1 ms"],
+            &["--pulse-duration is not supported yet"],
+        ),
         (&["hit", "bat.json", "--loss-share", "1"], &["--loss-share is not supported yet"]),
         (&["hit", "bat.json", "--model", "rigid", "--gamma", "1"], &["--gamma", "energy-loss"]),
         (&["hit", "bat.json", "--gamma", "-1"], &["'-1'", "0 to 100"]),
@@ -538,13 +808,22 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--from", "0.9 m"], &["--from: found 0.9 m", "0 to 0.8 m"]),
         (&["hit", "bat.json", "--to", "0.9"], &["--to: found 0.9 m", "0 to 0.8 m"]),
         (&["hit", "bat.json", "--to", "0.3"], &["--to: found 0.3 m", "beyond --from, 0.4 m"]),
-        (&["hit", "bat.json", "--from", "0.6", "--to", "0.5"], &["--to: found 0.5 m", "beyond --from"]),
+        (
+            &["hit", "bat.json", "--from", "0.6", "--to", "0.5"],
+            &["--to: found 0.5 m", "beyond --from"],
+        ),
         (&["hit", "bat.json", "--points", "0"], &["'0'", "--points <N>", "1..="]),
         (&["hit", "bat.json", "--pitch", "-90 mph"], &["--pitch: found -40.2336 m/s", "0 or more"]),
-        (&["hit", "bat.json", "--pitch", "90 lb"], &["unit \"lb\", which measures a mass", "a speed"]),
+        (
+            &["hit", "bat.json", "--pitch", "90 lb"],
+            &["unit \"lb\", which measures a mass", "a speed"],
+        ),
         (&["hit", "bat.json", "--pitch", "fast"], &["'fast'", "a speed such as \"90 mph\""]),
         (&["hit", "bat.json", "--pitch", "1e300"], &["--pitch", "below 1e6 m/s"]),
-        (&["hit", "bat.json", "--swing-speed", "70 mph"], &["measures a speed", "an angular speed"]),
+        (
+            &["hit", "bat.json", "--swing-speed", "70 mph"],
+            &["measures a speed", "an angular speed"],
+        ),
         (&["hit", "bat.json", "--swing-speed", "1e200"], &["--swing-speed", "1e6 rad/s"]),
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
@@ -552,15 +831,30 @@ fn a_wrong_command_line_is_refused() {
         (&["ring", "bat.json"], &["neither a blow nor an initial shape", "--at X --impulse J"]),
         (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>"]),
         (&["ring", "bat.json", "--impulse", "1"], &["--at <X>"]),
-        (&["ring", "bat.json", "--at", "0.9", "--impulse", "1"], &["--at: found 0.9 m", "0 to 0.8 m"]),
+        (
+            &["ring", "bat.json", "--at", "0.9", "--impulse", "1"],
+            &["--at: found 0.9 m", "0 to 0.8 m"],
+        ),
         (&["ring", "bat.json", "--at", "-1 in", "--impulse", "1"], &["--at: found -0.0254 m"]),
         (&["ring", "bat.json", "--at", "0.6", "--impulse", "1 N"], &["a force", "an impulse"]),
-        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1e300"], &["--impulse: found 1e300 N s"]),
-        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "-1"], &["--times: found -1 s"]),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1e300"],
+            &["--impulse: found 1e300 N s"],
+        ),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "-1"],
+            &["--times: found -1.0 s"],
+        ),
         (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "0,,1"], &["a time"]),
-        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "1e300"], &["--times: found"]),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--times", "1e300"],
+            &["--times: found"],
+        ),
         (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--shape-points", "1"], &["2..="]),
-        (&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--initial", "w.csv"], &["--initial"]),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--initial", "w.csv"],
+            &["--initial"],
+        ),
         (&["ring", "bat.json", "--initial", "w.csv"], &["cannot read w.csv", "No such file"]),
         (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
         (&["materials", "--json", "-"], &["unexpected argument '--json'"]),
@@ -653,14 +947,17 @@ fn unusual_but_right_files_are_read() {
     let named = same(&BAT.replace("dowel", "黒バット 🏏 \\u00e9 \\ud83c\\udfcf \\\" \\n \u{202e}"));
     assert_eq!(named["bat"]["name"], "黒バット 🏏 é 🏏 \" \n \u{202e}");
     same(&BAT.replace(X, "[\"0 m\", \"40 cm\", \"800 mm\"]"));
-    same(&BAT.replace(X, "[0, \"0.4 m\", 800], \"unit\": \"mm\"").replace(
-        RADIUS,
-        r#""diameter": [40, "6 cm", "0.04 m"]"#,
-    ));
+    same(
+        &BAT.replace(X, "[0, \"0.4 m\", 800], \"unit\": \"mm\"")
+            .replace(RADIUS, r#""diameter": [40, "6 cm", "0.04 m"]"#),
+    );
     same(&BAT.replace("700", "\"0.7 g/cm³\"").replace("14e9", "\" 14 GPa \""));
     same(&BAT.replace(X, "[0, 0.4, 0.8], \"measured_from\": \"tip\""));
     same(&BAT.replace(RADIUS, "\"radius\": [0.02, 0.03, 0.02], \"inner_radius\": [0, 0, 0]"));
-    folder.write("t.csv", "\u{feff}# from a drawing\r\nx_cm,diameter_mm\r\n0,40\r\n40,60\r\n80,40\r\n");
+    folder.write(
+        "t.csv",
+        "\u{feff}# from a drawing\r\nx_cm,diameter_mm\r\n0,40\r\n40,60\r\n80,40\r\n",
+    );
     same(&BAT.replace(PROFILE, r#"{ "csv": "t.csv" }"#));
 
     folder.write("bat.json", BAT.replace(RADIUS, "\"radius\": [0.02, 0.03, 0]"));
@@ -669,7 +966,8 @@ fn unusual_but_right_files_are_read() {
     assert!(frequencies(&accepted(&folder, &run).0).iter().all(|f| *f > 0.0));
 
     let taper = BAT.replace(RADIUS, "\"radius\": [0.01, 0.02, 0.03]");
-    let turned = taper.replace("[0.01, 0.02, 0.03]", "[0.03, 0.02, 0.01], \"measured_from\": \"tip\"");
+    let turned =
+        taper.replace("[0.01, 0.02, 0.03]", "[0.03, 0.02, 0.01], \"measured_from\": \"tip\"");
     let summary = |text: &str| {
         folder.write("bat.json", text);
         accepted(&folder, &run).0["summary"]["balance_point_m"].as_f64().unwrap()
@@ -691,7 +989,10 @@ fn unusual_but_right_options_are_taken() {
     };
     assert_eq!(hit(&["--modes", "0"])["impacts"].as_array().unwrap().len(), 101);
     assert_eq!(hit(&["--swing-speed", "0 rad/s"])["scene"]["swing_rad_s"], 0.0);
-    assert_eq!(hit(&["--swing-speed", "-5 rad/s", "--pitch", "90 mph"])["scene"]["swing_rad_s"], -5.0);
+    assert_eq!(
+        hit(&["--swing-speed", "-5 rad/s", "--pitch", "90 mph"])["scene"]["swing_rad_s"],
+        -5.0
+    );
     assert_eq!(hit(&["--cor", "1"])["scene"]["cor"], 1.0);
     assert_eq!(hit(&["--cor", "0"])["scene"]["cor"], 0.0);
     assert_eq!(hit(&["--pivot", "-0.09 m"])["scene"]["bat_pivot_m"], -0.09);
@@ -752,7 +1053,8 @@ fn a_million_stations_are_read() {
         frequencies(&serde_json::from_str(&text).unwrap())
     };
     let many = run(&[]);
-    folder.write("bat.json", BAT.replace(X, "[0, 0.4, 0.8]").replace("0.03, 0.02]", "0.025, 0.03]"));
+    folder
+        .write("bat.json", BAT.replace(X, "[0, 0.4, 0.8]").replace("0.03, 0.02]", "0.025, 0.03]"));
     let few = run(&["--tol", "1e-9"]);
     for (a, b) in many.iter().zip(&few) {
         assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");

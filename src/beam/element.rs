@@ -76,29 +76,11 @@ impl Element {
         ]
     }
 
-    /// The adjoint of [`Self::deflection`] and [`Self::growth`]: from loads on the element and
-    /// the shear and bending moment beyond it, those at its left end and the load on its strains.
-    #[inline(always)]
-    pub fn resultants(&self, f: &Deflection, shear: f64, bending: f64) -> (f64, f64, [f64; 2]) {
-        let (h, half) = (self.length, 0.5 * self.length);
-        let t0 = h * shear + half * (f[0] + f[1]);
-        let t1 = half * (f[2] - f[0]) * THIRD;
-        let t2 = half * (f[3] - f[1]) * FIFTH;
-        (f[0], t0, [h * bending + half * (t0 + t1), half * (t2 - t0) * THIRD])
-    }
-
     /// `L⁻ᵀ q`: strains from energy-scaled strains, `½ qᵀq = ½ cᵀD c`.
     #[inline(always)]
     pub fn strains(&self, q: [f64; 2]) -> [f64; 2] {
         let [i00, i10, i11] = self.inverse;
         [i00 * q[0] + i10 * q[1], i11 * q[1]]
-    }
-
-    /// `L⁻¹ s`: the adjoint of [`Self::strains`].
-    #[inline(always)]
-    pub fn scaled(&self, s: [f64; 2]) -> [f64; 2] {
-        let [i00, i10, i11] = self.inverse;
-        [i00 * s[0], i10 * s[0] + i11 * s[1]]
     }
 
     /// `Lᵀ c`: energy-scaled strains from strains.
@@ -150,6 +132,57 @@ impl Element {
             std::array::from_fn(|j| dot(&load, &shape[j]))
         });
         (stiffness, mass)
+    }
+}
+
+/// One element as the running sums use it: its kinetic energy in its scaled strains `q` and the
+/// deflection and slope `(w, θ)` at its inner end, and how far these carry its outer end.
+#[derive(Debug, Clone, Copy)]
+pub struct Link {
+    /// Columns of the mass matrix of `(q₀, q₁, w, θ)`.
+    pub mass: [[f64; 4]; 4],
+    /// `w_out = w + h θ + lift·q`, `θ_out = θ + turn·q`.
+    pub lift: [f64; 2],
+    pub turn: [f64; 2],
+    pub length: f64,
+}
+
+impl Element {
+    /// The element's motion by `q`, `w` and `θ`, each once, and the energy of their sums.
+    pub fn link(&self) -> Link {
+        let motion = |q: [f64; 2], w: f64, theta: f64| self.deflection(self.strains(q), w, theta);
+        let motions = [
+            motion([1.0, 0.0], 0.0, 0.0),
+            motion([0.0, 1.0], 0.0, 0.0),
+            motion([0.0; 2], 1.0, 0.0),
+            motion([0.0; 2], 0.0, 1.0),
+        ];
+        let loads = motions.map(|w| self.load(&w));
+        let dot =
+            |a: &Deflection, b: &Deflection| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+        let carried = [[1.0, 0.0], [0.0, 1.0]].map(|q| self.growth(self.strains(q), 0.0));
+        Link {
+            mass: loads.map(|load| motions.map(|w| dot(&w, &load))),
+            lift: carried.map(|(_, risen)| risen),
+            turn: carried.map(|(turned, _)| turned),
+            length: self.length,
+        }
+    }
+}
+
+impl Link {
+    /// The element's generalised loads `∂T/∂(q, w, θ)` in that motion (times ω²).
+    #[inline(always)]
+    pub fn load(&self, q: [f64; 2], w: f64, theta: f64) -> [f64; 4] {
+        let [a, b, c, d] = &self.mass;
+        std::array::from_fn(|i| (a[i] * q[0] + b[i] * q[1]) + (c[i] * w + d[i] * theta))
+    }
+
+    /// By how much deflection and slope differ between the two ends.
+    #[inline(always)]
+    pub fn growth(&self, q: [f64; 2], theta: f64) -> [f64; 2] {
+        let risen = self.lift[0] * q[0] + self.lift[1] * q[1];
+        [self.length * theta + risen, self.turn[0] * q[0] + self.turn[1] * q[1]]
     }
 }
 

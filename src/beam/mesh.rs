@@ -82,10 +82,11 @@ fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
         return vec![total.max(1)];
     }
     let count = |length: &f64, size: f64| ((length / size).ceil() as usize).clamp(1, total.max(1));
+    // Rounding up adds one element per piece at most: that brackets the element size.
     let whole: f64 = lengths.iter().sum();
-    // Bisect on the element size; too many elements below, few enough above.
-    let (mut low, mut high) = (0.5 * whole / total.max(1) as f64, 2.0 * whole);
-    for _ in 0..30 {
+    let spare = total.saturating_sub(lengths.len()) as f64;
+    let (mut low, mut high) = (whole / total.max(1) as f64, whole / spare.max(0.5));
+    for _ in 0..16 {
         let middle = 0.5 * (low + high);
         let sum: usize = lengths.iter().map(|length| count(length, middle)).sum();
         if sum > total { low = middle } else { high = middle }

@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use crate::beam::element::{Deflection, Element, STRAINS};
+use crate::beam::element::{Deflection, Element, Link, STRAINS};
 use crate::eigen::lanczos::dot;
 use crate::quadrature::{RunningSum, sum};
 
@@ -50,8 +50,22 @@ pub struct Statics {
 #[derive(Debug, Clone)]
 struct Side {
     elements: Vec<Element>,
-    /// Distance of each middle from the balance point, counted outwards (m).
+    links: Vec<Link>,
+    /// Distance of each inner end from the balance point, counted outwards (m).
     arms: Vec<f64>,
+}
+
+/// A bending motion, the rigid motions taken out of it.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// Deflection of every element, from the knob.
+    pub shape: Vec<Deflection>,
+    /// `wᵀMw` (kg m²), as `qᵀAq`.
+    pub kinetic: f64,
+    /// Rayleigh's quotient: ω² (1/s²) is strain energy over kinetic energy, both from the strains.
+    pub omega: f64,
+    /// `A q`.
+    image: Vec<f64>,
 }
 
 impl Statics {
@@ -68,14 +82,14 @@ impl Statics {
         let energy_unit = power_of_two_below(greatest);
         let (before, after) = elements.split_at(root(elements));
         let scaled = |e: &Element| e.with_energy_unit(energy_unit);
-        let knob_side = Side {
-            elements: before.iter().rev().map(|e| scaled(e).mirrored()).collect(),
-            arms: before.iter().rev().map(|e| balance - e.middle).collect(),
-        };
-        let tip_side = Side {
-            elements: after.iter().map(scaled).collect(),
-            arms: after.iter().map(|e| e.middle - balance).collect(),
-        };
+        let knob_side = Side::new(
+            before.iter().rev().map(|e| scaled(e).mirrored()).collect(),
+            before.iter().rev().map(|e| balance - e.middle - 0.5 * e.length).collect(),
+        );
+        let tip_side = Side::new(
+            after.iter().map(scaled).collect(),
+            after.iter().map(|e| e.middle - 0.5 * e.length - balance).collect(),
+        );
         let length = elements.last().map_or(0.0, |e| e.middle + 0.5 * e.length);
         Self { knob_side, tip_side, mass, inertia, energy_unit, length }
     }
@@ -112,70 +126,56 @@ impl Statics {
         start
     }
 
-    /// `y = A q`; `loads` is scratch space, one entry per element.
-    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Vec<Deflection>) {
+    /// `y = A q`; `loads` is scratch space. Returns the translation and the rotation that were
+    /// taken out of the motion with these strains when it is at rest at the root.
+    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Vec<[f64; 4]>) -> [f64; 2] {
         if self.len() > LONG {
-            self.compliance::<true>(q, y, loads);
+            self.compliance::<true>(q, y, loads)
         } else {
-            self.compliance::<false>(q, y, loads);
+            self.compliance::<false>(q, y, loads)
         }
     }
 
-    fn compliance<const KEEP: bool>(&self, q: &[f64], y: &mut [f64], loads: &mut Vec<Deflection>) {
-        loads.resize(self.len(), Deflection::default());
-        let split = self.knob_side.elements.len();
+    fn compliance<const KEEP: bool>(
+        &self,
+        q: &[f64],
+        y: &mut [f64],
+        loads: &mut Vec<[f64; 4]>,
+    ) -> [f64; 2] {
+        loads.resize(self.len(), [0.0; 4]);
+        let split = self.knob_side.links.len();
         let (knob_loads, tip_loads) = loads.split_at_mut(split);
         let (knob_q, tip_q) = q.split_at(STRAINS * split);
-        let load = |element: &Element, w: Deflection| element.load(&w);
-        let knob = self.knob_side.integrate::<KEEP>(knob_q, knob_loads, load);
-        let tip = self.tip_side.integrate::<KEEP>(tip_q, tip_loads, load);
-        let [push, turn] = self.rigid_part(knob, tip);
+        let knob = self.knob_side.outwards::<KEEP>(knob_q, knob_loads);
+        let tip = self.tip_side.outwards::<KEEP>(tip_q, tip_loads);
+        let push = (knob[0] + tip[0]) / self.mass;
+        let turn = (tip[1] - knob[1]) / self.inertia;
         let (knob_y, tip_y) = y.split_at_mut(STRAINS * split);
-        self.knob_side.resultants::<KEEP>(knob_loads, [push, -turn], knob_y);
-        self.tip_side.resultants::<KEEP>(tip_loads, [push, turn], tip_y);
+        self.knob_side.inwards::<KEEP>(knob_loads, [push, -turn], knob_y);
+        self.tip_side.inwards::<KEEP>(tip_loads, [push, turn], tip_y);
+        [push, turn]
     }
 
-    /// The bending motion with these strains, element by element from the knob, the rigid
-    /// motions taken out.
-    pub fn deflections(&self, q: &[f64]) -> Vec<Deflection> {
-        let mut shape = vec![Deflection::default(); self.len()];
-        let split = self.knob_side.elements.len();
-        let (knob_shape, tip_shape) = shape.split_at_mut(split);
-        let (knob_q, tip_q) = q.split_at(STRAINS * split);
-        let knob = self.knob_side.integrate::<true>(knob_q, knob_shape, |_, w| w);
-        let tip = self.tip_side.integrate::<true>(tip_q, tip_shape, |_, w| w);
-        let [push, turn] = self.rigid_part(knob, tip);
-        self.knob_side.take_out(knob_shape, [push, -turn]);
-        self.tip_side.take_out(tip_shape, [push, turn]);
-        knob_shape.reverse();
-        knob_shape.iter_mut().for_each(|w| [w[1], w[3]] = [-w[1], -w[3]]);
-        shape
-    }
-
-    /// Rayleigh's quotient ω² of strains with a bending motion of that kinetic energy `wᵀMw`.
-    pub fn quotient(&self, q: &[f64], kinetic: f64) -> f64 {
-        dot(q, q) * self.energy_unit / kinetic
+    /// The bending motion with these strains.
+    pub fn motion(&self, q: &[f64], loads: &mut Vec<[f64; 4]>) -> Motion {
+        let mut image = vec![0.0; q.len()];
+        let [push, turn] = self.apply(q, &mut image, loads);
+        let mut shape = Vec::with_capacity(self.len());
+        let (knob_q, tip_q) = q.split_at(STRAINS * self.knob_side.links.len());
+        self.knob_side.deflections(knob_q, [push, -turn], &mut shape);
+        // Outwards is backwards there: last first, and odd polynomials change sign.
+        shape.reverse();
+        shape.iter_mut().for_each(|w| [w[1], w[3]] = [-w[1], -w[3]]);
+        self.tip_side.deflections(tip_q, [push, turn], &mut shape);
+        let (strain, kinetic) = (dot(q, q), dot(q, &image));
+        Motion { shape, kinetic, omega: (strain * self.energy_unit / kinetic).sqrt(), image }
     }
 
     /// `‖q − ω² A q‖/‖q‖`: how far a pair is from an eigenpair of the compliance.
-    pub fn residual(&self, q: &[f64], omega: f64, loads: &mut Vec<Deflection>) -> f64 {
-        let mut image = vec![0.0; q.len()];
-        self.apply(q, &mut image, loads);
+    pub fn residual(&self, q: &[f64], omega: f64, motion: &Motion) -> f64 {
         let scale = omega * omega / self.energy_unit;
-        image.iter_mut().zip(q).for_each(|(y, x)| *y = x - scale * *y);
-        (dot(&image, &image) / dot(q, q)).sqrt()
-    }
-
-    /// `wᵀMw` (kg m²) of a deflection given element by element from the knob.
-    pub fn kinetic(&self, shape: &[Deflection]) -> f64 {
-        let knob = self.knob_side.elements.iter().rev();
-        let mut total = RunningSum::<true>::default();
-        for (k, (element, w)) in knob.chain(&self.tip_side.elements).zip(shape).enumerate() {
-            let w = if k < self.knob_side.elements.len() { [w[0], -w[1], w[2], -w[3]] } else { *w };
-            let load = element.load(&w);
-            total.add(load.iter().zip(&w).map(|(f, w)| f * w).sum());
-        }
-        total.value()
+        let square = |(x, y): (&f64, &f64)| (x - scale * y).powi(2);
+        (q.iter().zip(&motion.image).map(square).sum::<f64>() / dot(q, q)).sqrt()
     }
 
     /// Energy-scaled strains of nodal deflections and slopes `[w₀, θ₀, w₁, θ₁, …]`.
@@ -191,69 +191,64 @@ impl Statics {
         });
         knob.chain(tip).collect()
     }
-
-    /// Translation and rotation that take the force and the moment of both sides' inertia.
-    fn rigid_part(&self, knob: [f64; 2], tip: [f64; 2]) -> [f64; 2] {
-        [(knob[0] + tip[0]) / self.mass, (tip[1] - knob[1]) / self.inertia]
-    }
 }
 
 impl Side {
-    /// Integrates strains outwards from the root at rest and keeps `keep` of every element's
-    /// deflection; returns the force and the moment about the balance point of its inertia.
-    #[inline(always)]
-    fn integrate<const KEEP: bool>(
-        &self,
-        q: &[f64],
-        kept: &mut [Deflection],
-        keep: impl Fn(&Element, Deflection) -> Deflection,
-    ) -> [f64; 2] {
+    fn new(elements: Vec<Element>, arms: Vec<f64>) -> Self {
+        let links = elements.iter().map(Element::link).collect();
+        Self { elements, links, arms }
+    }
+
+    /// Integrates strains outwards from the root at rest and keeps every element's loads; returns
+    /// the force and the moment about the balance point of the side's inertia.
+    fn outwards<const KEEP: bool>(&self, q: &[f64], loads: &mut [[f64; 4]]) -> [f64; 2] {
         let [mut w, mut theta, mut force, mut moment] = [RunningSum::<KEEP>::default(); 4];
-        let elements = self.elements.iter().zip(&self.arms);
-        for (((e, arm), q), kept) in elements.zip(q.chunks_exact(STRAINS)).zip(kept) {
-            let c = e.strains([q[0], q[1]]);
-            let deflection = e.deflection(c, w.value(), theta.value());
-            let load = e.load(&deflection);
-            *kept = keep(e, deflection);
-            force.add(load[0]);
-            moment.add(arm * load[0] + 0.5 * e.length * load[1]);
-            let (turned, risen) = e.growth(c, theta.value());
+        let links = self.links.iter().zip(&self.arms);
+        for (((link, arm), q), kept) in links.zip(q.chunks_exact(STRAINS)).zip(loads) {
+            let q = [q[0], q[1]];
+            let load = link.load(q, w.value(), theta.value());
+            *kept = load;
+            force.add(load[2]);
+            moment.add(arm * load[2] + load[3]);
+            let [risen, turned] = link.growth(q, theta.value());
             w.add(risen);
             theta.add(turned);
         }
         [force.value(), moment.value()]
     }
 
-    /// Shear and bending moment inwards from the free end, and with them the scaled strains.
-    fn resultants<const KEEP: bool>(
-        &self,
-        loads: &[Deflection],
-        [push, turn]: [f64; 2],
-        y: &mut [f64],
-    ) {
+    /// Shear and bending moment inwards from the free end, and with them the scaled strains: the
+    /// adjoint of [`Self::outwards`], the loads of the rigid motion taken out.
+    fn inwards<const KEEP: bool>(&self, loads: &[[f64; 4]], [push, turn]: [f64; 2], y: &mut [f64]) {
         let [mut shear, mut bending] = [RunningSum::<KEEP>::default(); 2];
-        let elements = self.elements.iter().zip(&self.arms);
-        for (((e, arm), load), y) in elements.zip(loads).zip(y.chunks_exact_mut(STRAINS)).rev() {
-            let m = &e.mass;
-            let (a, b) = (push + turn * arm, turn * 0.5 * e.length);
-            let f = [
-                load[0] - (a * m[0] + b * m[1]),
-                load[1] - (a * m[1] + b * m[2]),
-                load[2] - (a * m[3] + b * m[4]),
-                load[3] - (a * m[6] + b * m[7]),
-            ];
-            let (force, couple, s) = e.resultants(&f, shear.value(), bending.value());
-            y.copy_from_slice(&e.scaled(s));
-            shear.add(force);
-            bending.add(couple);
+        let links = self.links.iter().zip(&self.arms);
+        for (((link, arm), load), y) in links.zip(loads).zip(y.chunks_exact_mut(STRAINS)).rev() {
+            let [_, _, lifted, turned] = &link.mass;
+            let lift = push + turn * arm;
+            let f: [f64; 4] =
+                std::array::from_fn(|i| load[i] - (lift * lifted[i] + turn * turned[i]));
+            let (v, m) = (shear.value(), bending.value());
+            for k in 0..STRAINS {
+                y[k] = f[k] + (link.lift[k] * v + link.turn[k] * m);
+            }
+            bending.add(link.length * v + f[3]);
+            shear.add(f[2]);
         }
     }
 
-    /// Takes a rigid motion out of deflections.
-    fn take_out(&self, shape: &mut [Deflection], [push, turn]: [f64; 2]) {
-        for ((e, arm), w) in self.elements.iter().zip(&self.arms).zip(shape) {
-            w[0] -= push + turn * arm;
-            w[1] -= turn * 0.5 * e.length;
+    /// Deflections outwards from the root at rest, less a rigid motion.
+    fn deflections(&self, q: &[f64], [push, turn]: [f64; 2], shape: &mut Vec<Deflection>) {
+        let [mut w, mut theta] = [RunningSum::<true>::default(); 2];
+        for ((e, arm), q) in self.elements.iter().zip(&self.arms).zip(q.chunks_exact(STRAINS)) {
+            let c = e.strains([q[0], q[1]]);
+            let mut deflection = e.deflection(c, w.value(), theta.value());
+            let half = 0.5 * e.length;
+            deflection[0] -= push + turn * (arm + half);
+            deflection[1] -= turn * half;
+            shape.push(deflection);
+            let (turned, risen) = e.growth(c, theta.value());
+            w.add(risen);
+            theta.add(turned);
         }
     }
 }
@@ -288,7 +283,7 @@ mod tests {
     use crate::profile::{Interpolation, Profile, Stations};
     use crate::{bat::Bat, beam::element::elements, beam::mesh::Mesh};
 
-    fn statics(outer: [f64; 2], count: usize) -> Statics {
+    fn bat(outer: [f64; 2], count: usize) -> (Vec<Element>, Statics) {
         let stations = Stations {
             x: vec![0.0, 0.8],
             outer: outer.to_vec(),
@@ -297,7 +292,9 @@ mod tests {
         };
         let material = Material::new(700.0, 14e9).unwrap();
         let bat = Bat::new("test", Profile::new(stations).unwrap(), material, None).unwrap();
-        Statics::new(&elements(&bat, &Mesh::along(&bat, count)))
+        let elements = elements(&bat, &Mesh::along(&bat, count));
+        let statics = Statics::new(&elements);
+        (elements, statics)
     }
 
     /// Strains of no particular kind.
@@ -307,7 +304,7 @@ mod tests {
 
     #[test]
     fn the_compliance_is_symmetric() {
-        let statics = statics([0.012, 0.033], 9);
+        let (_, statics) = bat([0.012, 0.033], 9);
         let (x, y) = (some(18, 1), some(18, 5));
         let (mut ax, mut ay) = (vec![0.0; 18], vec![0.0; 18]);
         statics.apply(&x, &mut ax, &mut Vec::new());
@@ -316,25 +313,30 @@ mod tests {
         assert!((left - right).abs() < 1e-14 * dot(&ax, &ax).sqrt());
     }
 
-    /// `qᵀAq` is the kinetic energy of the motion with these strains, and that motion carries
-    /// neither momentum nor angular momentum.
+    /// `qᵀAq` is the kinetic energy of the motion with these strains, element by element in
+    /// Legendre polynomials, and that motion carries neither momentum nor angular momentum.
     #[test]
     fn the_quadratic_form_of_the_compliance_is_the_kinetic_energy() {
-        let statics = statics([0.033, 0.012], 7);
-        let q = some(14, 3);
-        let mut image = vec![0.0; 14];
-        statics.apply(&q, &mut image, &mut Vec::new());
-        let kinetic = statics.kinetic(&statics.deflections(&q));
-        assert!((dot(&q, &image) / kinetic - 1.0).abs() < 1e-13);
+        let (elements, statics) = bat([0.033, 0.012], 7);
+        let motion = statics.motion(&some(14, 3), &mut Vec::new());
+        let [mut kinetic, mut momentum, mut spin] = [0.0; 3];
+        for (e, w) in elements.iter().zip(&motion.shape) {
+            let load = e.load(w);
+            kinetic += load.iter().zip(w).map(|(f, w)| f * w).sum::<f64>();
+            momentum += load[0];
+            spin += e.middle * load[0] + 0.5 * e.length * load[1];
+        }
+        assert!((motion.kinetic / kinetic - 1.0).abs() < 1e-13);
+        assert!(momentum.abs() < 1e-13 * kinetic.sqrt() && spin.abs() < 1e-13 * kinetic.sqrt());
     }
 
     #[test]
     fn strains_of_the_nodal_values_of_a_motion_are_its_strains() {
-        let statics = statics([0.02, 0.03], 6);
+        let (_, statics) = bat([0.02, 0.03], 6);
         let q = some(12, 2);
         let h = 0.8 / 6.0;
         // End values of Legendre polynomials are 1; slopes are k(k + 1)/2 times 2/h.
-        let shape = statics.deflections(&q);
+        let shape = statics.motion(&q, &mut Vec::new()).shape;
         let left = |w: &Deflection| {
             [w[0] - w[1] + w[2] - w[3], (w[1] - 3.0 * w[2] + 6.0 * w[3]) * 2.0 / h]
         };

@@ -31,11 +31,11 @@ pub fn run(args: &Args) -> Result<Done> {
             continue;
         }
         let _ = writeln!(out, "{} ({name})", case.name);
-        out += "  quantity               expected            got     error  tolerance\n";
+        out += "  quantity                expected            got     error  tolerance\n";
         for row in &rows {
             let _ = writeln!(
                 out,
-                "  {:<18} {:>13.8} {:>14.8}  {:>8.1e}  {:>7.0e} {}  {}",
+                "  {:<18} {:>13} {:>14}  {:>8.1e}  {:>8.1e} {}  {}",
                 row.quantity,
                 significant(row.expected),
                 significant(row.found),

@@ -29,7 +29,7 @@ pub struct SweetSpot {
 
 /// Points of the first look along the outer half.
 const GRID: usize = 400;
-/// A peak is located to this (m).
+/// A place is located to this share of the outer half.
 const WIDTH: f64 = 1e-9;
 
 impl SweetSpot {
@@ -61,7 +61,7 @@ fn greatest([from, to]: [f64; 2], f: &dyn Fn(f64) -> Option<f64>) -> Option<Peak
     let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(GRID)));
     let shrink = 0.5 * (5.0_f64.sqrt() - 1.0);
     let inside = |low: f64, high: f64| (high - shrink * (high - low), low + shrink * (high - low));
-    while high - low > WIDTH {
+    while high - low > WIDTH * (to - from) {
         let (left, right) = inside(low, high);
         if value(left) > value(right) { high = right } else { low = left }
     }
@@ -81,7 +81,7 @@ fn zone([from, to]: [f64; 2], peak: Peak, f: &dyn Fn(f64) -> Option<f64>) -> [f6
         let bad = (1..=GRID).map(|k| peak.x + step * k as f64).find(|x| !good(*x));
         let Some(mut bad) = bad else { return end };
         let mut inside = bad - step;
-        while (bad - inside).abs() > WIDTH {
+        while (bad - inside).abs() > WIDTH * (to - from) {
             let middle = 0.5 * (bad + inside);
             if good(middle) { inside = middle } else { bad = middle }
         }

@@ -19,7 +19,7 @@ pub struct Ritz {
 }
 
 /// Convergence is looked for from this many steps beyond the wanted number on, and so often.
-const EARLIEST: usize = 8;
+const EARLIEST: usize = 7;
 const EVERY: usize = 2;
 
 /// The `count` largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`.
@@ -55,7 +55,7 @@ pub fn largest(
         }
         let rest = orthogonalise(&basis, &mut next);
         let spanned = steps == dimension || rest <= f64::EPSILON * f64::EPSILON * alpha[0];
-        let due = steps >= count + EARLIEST && (steps - count - EARLIEST) % EVERY == 0;
+        let due = steps >= count + EARLIEST && (steps - count - EARLIEST).is_multiple_of(EVERY);
         if spanned || steps == most || due {
             let (values, weights) = tridiagonal::eigen(&alpha, &beta);
             let wanted = count.min(steps);

@@ -35,11 +35,11 @@ pub fn beta(n: usize) -> f64 {
         7.853_204_624_095_838,
         10.995_607_838_001_671,
         14.137_165_491_257_464,
-        17.278_759_657_399_481,
+        17.278_759_657_399_48,
     ];
     // cos β = 2 e^(−β) shifts the sixth root by 3e-9, which the next term of the series removes.
     let asymptote = (n as f64 + 0.5) * PI;
-    let correction = 2.0 * (-asymptote).exp() * if n % 2 == 0 { -1.0 } else { 1.0 };
+    let correction = 2.0 * (-asymptote).exp() * if n.is_multiple_of(2) { -1.0 } else { 1.0 };
     first.get(n - 1).copied().unwrap_or(asymptote + correction)
 }
 

@@ -1,0 +1,267 @@
+//! Good bat files, spoilt at random: either an error that says something, or a bat whose numbers
+//! are numbers. Never a panic.
+
+use std::ops::Range;
+use std::path::Path;
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use sweetspot::bat::Bat;
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::energy_loss::EnergyLoss;
+use sweetspot::collision::hit::{Hitter, Model, Scene};
+use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::error::Error;
+use sweetspot::plan::{self, Request, Solution};
+use sweetspot::report::json::{self, ShapePoints};
+
+const FILES: [(&str, &str); 7] = [
+    ("dowel", include_str!("../meshes/dowel.json")),
+    ("cone", include_str!("../meshes/cone.json")),
+    ("house", include_str!("../meshes/house.json")),
+    ("r161", include_str!("../meshes/r161.json")),
+    ("torpedo", include_str!("../meshes/torpedo.json")),
+    ("northwestern_wood", include_str!("../meshes/northwestern_wood.json")),
+    ("northwestern_aluminium", include_str!("../meshes/northwestern_aluminium.json")),
+];
+
+/// What may stand where a number stood.
+const STRANGE: [&str; 28] = [
+    "0",
+    "-0",
+    "-1",
+    "1",
+    "2",
+    "1e-3",
+    "1e3",
+    "1e-17",
+    "1e17",
+    "1e-30",
+    "1e30",
+    "1e-77",
+    "1e77",
+    "1e-154",
+    "1e154",
+    "5e-324",
+    "1e-308",
+    "1e308",
+    "1e-999",
+    "1e999",
+    "99999999999999999999",
+    "NaN",
+    "null",
+    "true",
+    "[]",
+    "{}",
+    "\"1 in\"",
+    "\"\"",
+];
+
+/// One way to spoil a text. Places are shares of it, so that any fits any file.
+#[derive(Debug, Clone)]
+enum Mutation {
+    Delete { at: f64, bytes: usize },
+    Insert { at: f64, bytes: Vec<u8> },
+    Replace { at: f64, byte: u8 },
+    Number { which: f64, by: String },
+    Drop { which: f64 },
+    Duplicate { which: f64 },
+    Truncate { at: f64 },
+}
+
+fn mutation() -> impl Strategy<Value = Mutation> {
+    let at = || 0.0..1.0;
+    let strange = proptest::sample::select(&STRANGE[..]).prop_map(str::to_owned);
+    let any_number = any::<f64>().prop_map(|v| format!("{v:e}"));
+    let number =
+        prop_oneof![strange, any_number, (-30.0..30.0).prop_map(|e: f64| format!("1e{e:.0}"))];
+    prop_oneof![
+        1 => (at(), 1usize..20).prop_map(|(at, bytes)| Mutation::Delete { at, bytes }),
+        1 => (at(), any::<[u8; 3]>()).prop_map(|(at, b)| Mutation::Insert { at, bytes: b.into() }),
+        1 => (at(), "[\\[\\]{},:\"\\\\0-9eE.+-]{1,4}")
+            .prop_map(|(at, s)| Mutation::Insert { at, bytes: s.into() }),
+        1 => (at(), any::<u8>()).prop_map(|(at, byte)| Mutation::Replace { at, byte }),
+        8 => (at(), number).prop_map(|(which, by)| Mutation::Number { which, by }),
+        2 => at().prop_map(|which| Mutation::Drop { which }),
+        1 => at().prop_map(|which| Mutation::Duplicate { which }),
+        1 => at().prop_map(|at| Mutation::Truncate { at }),
+    ]
+}
+
+fn mutate(text: &str, mutation: &Mutation) -> String {
+    let place = |share: f64, count: usize| ((share * count as f64) as usize).min(count);
+    let mut bytes = text.as_bytes().to_vec();
+    let pick = |spans: Vec<Range<usize>>, share: f64| {
+        spans.get(place(share, spans.len().saturating_sub(1))).cloned().unwrap_or(0..0)
+    };
+    match mutation {
+        Mutation::Delete { at, bytes: count } => {
+            let at = place(*at, bytes.len());
+            bytes.drain(at..(at + count).min(bytes.len()));
+        }
+        Mutation::Insert { at, bytes: more } => {
+            let at = place(*at, bytes.len());
+            bytes.splice(at..at, more.iter().copied());
+        }
+        Mutation::Replace { at, byte } => {
+            let at = place(*at, bytes.len());
+            if let Some(there) = bytes.get_mut(at) {
+                *there = *byte;
+            }
+        }
+        Mutation::Number { which, by } => {
+            bytes.splice(pick(numbers(text), *which), by.bytes());
+        }
+        Mutation::Drop { which } => {
+            bytes.drain(pick(members(text), *which));
+        }
+        Mutation::Duplicate { which } => {
+            let span = pick(members(text), *which);
+            let copy = [&text.as_bytes()[span.clone()], b", "].concat();
+            bytes.splice(span.start..span.start, copy);
+        }
+        Mutation::Truncate { at } => bytes.truncate(place(*at, bytes.len())),
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Where the numbers stand, after the "source" with its many.
+fn numbers(text: &str) -> Vec<Range<usize>> {
+    let begin = text.find("\"material\"").unwrap_or(0);
+    let part = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
+    let mut spans = Vec::new();
+    let mut at = begin;
+    while let Some(start) = text[at..].find(|c: char| c.is_ascii_digit()).map(|found| at + found) {
+        at = text[start..].find(|c| !part(c)).map_or(text.len(), |length| start + length);
+        spans.push(start..at);
+    }
+    spans
+}
+
+/// Where the members of objects stand, with the comma after them.
+fn members(text: &str) -> Vec<Range<usize>> {
+    let member = |(colon, _)| {
+        let start = text[..colon].rfind('"').and_then(|end| text[..end].rfind('"'))?;
+        let (mut depth, mut quoted) = (0, false);
+        for (k, c) in text[colon..].char_indices() {
+            match c {
+                '"' => quoted = !quoted,
+                _ if quoted => {}
+                '[' | '{' => depth += 1,
+                ']' | '}' if depth == 0 => return Some(start..colon + k),
+                ']' | '}' => depth -= 1,
+                ',' if depth == 0 => return Some(start..colon + k + 1),
+                _ => {}
+            }
+        }
+        None
+    };
+    text.match_indices("\": ").map(|(quote, colon)| (quote + 1, colon)).filter_map(member).collect()
+}
+
+fn in_range(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+/// Everything that `modes` and `hit` compute, held to be numbers.
+fn solve_and_hit(bat: &Bat) -> Result<(), String> {
+    let told = |error: Error| match error.to_string() {
+        text if text.is_empty() || text.contains("NaN ") => Err(format!("error \"{text}\"")),
+        _ => Ok(()),
+    };
+    let holds = |what: &str, good: bool| if good { Ok(()) } else { Err(what.to_owned()) };
+    let inertia = bat.inertia();
+    holds("mass", in_range(inertia.mass))?;
+    holds("balance", inertia.balance_point > 0.0 && inertia.balance_point < bat.length())?;
+    holds("inertia", in_range(inertia.about_balance) && in_range(inertia.line_about_balance))?;
+    let request = Request { modes: 3, tolerance: 1e-3, ..Request::default() };
+    let solution = match plan::solve(bat, &request) {
+        Ok(solution) => solution,
+        Err(error) => return told(error),
+    };
+    let frequencies: Vec<f64> = solution.modes.iter().map(|mode| mode.frequency()).collect();
+    let rising = frequencies.windows(2).all(|pair| pair[0] <= pair[1]);
+    holds(
+        &format!("frequencies {frequencies:?}"),
+        rising && frequencies.iter().all(|f| in_range(*f)),
+    )?;
+    for mode in &solution.modes {
+        let error = mode.error;
+        holds("modal mass", in_range(mode.modal_mass))?;
+        holds("nodes", mode.nodes.iter().all(|x| *x >= 0.0 && *x <= bat.length()))?;
+        let errors =
+            [error.discretization, error.round_off, error.residual, error.nodes, error.modal_mass];
+        holds(&format!("{error:?}"), errors.iter().all(|e| *e >= 0.0 && e.is_finite()))?;
+    }
+    let document = json::modes(bat, &solution, ShapePoints::Even(5), false).to_string();
+    holds(&document, !document.contains("null") || document.contains("_percussion_m\":null"))?;
+    hit(bat, &solution, Model::Rigid)?;
+    hit(bat, &solution, Model::EnergyLoss(EnergyLoss::default()))
+}
+
+fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
+    let ball = Ball::baseball();
+    let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, cor: ball.cor, ball };
+    let hitter = Hitter::new(model, &scene, bat, solution);
+    let spot = SweetSpot::find(bat, &scene, solution, &hitter);
+    let mut impacts = Vec::new();
+    for share in [0.0, 0.5, 0.75, 1.0] {
+        let impact = hitter.strike(share * bat.length());
+        if let Some(outcome) = &impact.outcome {
+            let values =
+                [outcome.exit_speed, outcome.impulse, outcome.bbcor, outcome.energy.initial];
+            if !values.iter().chain([&outcome.error]).all(|v| v.is_finite()) {
+                return Err(format!("{impact:?}"));
+            }
+        }
+        impacts.push(impact);
+    }
+    let peak = spot.exit_speed_max.map_or(0.0, |peak| peak.value);
+    let text = json::hit(bat, model, &scene, &impacts, &spot).to_string();
+    if peak.is_finite() && !text.is_empty() { Ok(()) } else { Err(format!("{spot:?}")) }
+}
+
+#[test]
+fn the_files_are_good_and_the_places_to_spoil_are_found() {
+    for (name, text) in FILES {
+        let bat = Bat::from_text(name, text, Path::new("")).unwrap();
+        solve_and_hit(&bat).unwrap();
+        assert!(members(text).len() >= 8 && numbers(text).len() >= 5, "{name}");
+        // Only the name and the source may go.
+        let spare = members(text).into_iter().filter(|span| {
+            let without = [&text[..span.start], &text[span.end..]].concat();
+            Bat::from_text(name, &without, Path::new("")).is_ok()
+        });
+        assert!(spare.count() >= 2, "{name}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 400,
+        failure_persistence: None,
+        // The same files every time: a failure here is no matter of luck.
+        rng_seed: RngSeed::Fixed(33),
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn a_spoilt_file_is_an_error_or_a_bat(
+        file in 0..FILES.len(),
+        mutations in prop::collection::vec(mutation(), 1..4),
+    ) {
+        let (name, good) = FILES[file];
+        let text = mutations.iter().fold(good.to_owned(), |text, mutation| mutate(&text, mutation));
+        match Bat::from_text(name, &text, Path::new("")) {
+            Ok(bat) => {
+                let verdict = solve_and_hit(&bat);
+                prop_assert!(verdict.is_ok(), "{}\n{}", verdict.unwrap_err(), text);
+            }
+            Err(error) => {
+                let said = error.to_string();
+                let found = said.contains("found ") || matches!(error, Error::Read { .. });
+                prop_assert!(found && said.contains(name) && !said.contains("NaN "), "{}", said);
+            }
+        }
+    }
+}
