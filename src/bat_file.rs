@@ -56,10 +56,10 @@ impl Bat {
 fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
     let root = document.root()?.members()?;
     // Before the keys are looked at: another format may have others.
-    if let Some(format) = root.get("format") {
-        if format.string().ok().as_deref() != Some("sweetspot-bat/1") {
-            return Err(format.error(format.shown(), "\"sweetspot-bat/1\""));
-        }
+    if let Some(format) = root.get("format")
+        && format.string().ok().as_deref() != Some("sweetspot-bat/1")
+    {
+        return Err(format.error(format.shown(), "\"sweetspot-bat/1\""));
     }
     let root = root.only(KEYS)?;
     root.require("format", "\"format\": \"sweetspot-bat/1\"")?;

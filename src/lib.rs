@@ -67,6 +67,7 @@ mod pchip;
 pub mod profile;
 pub mod bat;
 mod document;
+mod csv_file;
 mod station_table;
 mod bat_file;
 pub mod shape_file;

@@ -207,7 +207,8 @@ fn check_radii(stations: &Stations) -> Result<()> {
             ));
         }
         let stiffness = Section { outer: r, inner: ri }.second_moment();
-        if !at_end && !(stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX) {
+        let in_range = stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX;
+        if !at_end && !in_range {
             let expected = "a radius whose fourth power is within the range of numbers";
             return Err(Error::value(format!("outer[{k}]"), shown(r), expected));
         }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::document::{Csv, Document};
+use crate::csv_file::Csv;
+use crate::document::Document;
 use crate::error::{Complaint, Result};
 use crate::units::Quantity;
 

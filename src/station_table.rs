@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::document::{Csv, Document, Node, Object};
+use crate::csv_file::Csv;
+use crate::document::{Document, Node, Object};
 use crate::error::{Complaint, Error, Result};
 use crate::profile::{Interpolation, Stations};
 use crate::units::Quantity;

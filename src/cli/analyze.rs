@@ -38,6 +38,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Leave the timing out of the JSON, so that equal input gives equal bytes
+    #[arg(long)]
+    reproducible: bool,
+
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -50,6 +54,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.output.progress("solving …");
     let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
     let outer = |bat: &Bat| {
         let half = 0.5 * bat.length();
         Ok((0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect())
@@ -70,7 +75,7 @@ pub fn run(args: &Args) -> Result<Done> {
         text::sweet_spot(&bat, &hits.spot, units),
         hits.why(&bat, &scene)
     );
-    let modes = json::modes(&bat, &solution, ShapePoints::Even(101), true);
+    let modes = json::modes(&bat, &solution, ShapePoints::Even(101), !args.reproducible);
     let hit = json::hit(&bat, model, &scene, &hits.impacts, &hits.spot);
     if let Some(folder) = &args.out {
         let failed = |source| Error::Write { path: folder.clone(), source };

@@ -9,7 +9,7 @@ use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::error::{Error, Result, nearest};
-use sweetspot::plan::{Request, Solver};
+use sweetspot::plan::{Request, Solution, Solver};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::units::{self, Quantity};
@@ -40,6 +40,15 @@ impl SolveArgs {
     pub fn request(&self, modes: usize) -> Request {
         let elements = self.elements.map(|n| n as usize);
         Request { modes, tolerance: self.tol, elements, solver: self.solver }
+    }
+
+    /// What to say where more elements were needed than asked for.
+    pub fn raised(&self, solution: &Solution) -> Option<String> {
+        let asked = self.elements.filter(|asked| (*asked as usize) < solution.elements)?;
+        Some(format!(
+            "note: --elements {asked} raised to {}: one per interval between stations at least",
+            solution.elements
+        ))
     }
 
     /// Whether a solution that missed the tolerance ends with exit code 3.

@@ -162,6 +162,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     let places = |bat: &Bat| args.place.places(bat);
     let sweep = sweep(&bat, model, &scene, args.count.into(), &args.solve, places)?;
+    args.solve.raised(&sweep.solution).iter().for_each(|note| args.output.warn(note));
     let units = args.output.units;
     let table = format!(
         "{}{}\n{}\n{}{}",

@@ -48,6 +48,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.output.read_bat(&args.bat)?;
     let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
     if let Some(folder) = &args.matrices {
         let mesh = Mesh::along(&bat, solution.elements);
         let pencil = Pencil::assemble(&element::elements(&bat, &mesh));

@@ -71,6 +71,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.output.read_bat(&args.bat)?;
     let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
+    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
     let ringing = Ringing::new(&bat, &solution, args.bending_only);
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();

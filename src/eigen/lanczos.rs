@@ -55,7 +55,9 @@ pub fn largest(
         }
         let rest = orthogonalise(&basis, &mut next);
         let spanned = steps == dimension || rest <= f64::EPSILON * f64::EPSILON * alpha[0];
-        let due = steps >= count + EARLIEST && (steps - count - EARLIEST).is_multiple_of(EVERY);
+        // The small eigenproblem costs steps³, so many modes are looked at less often.
+        let every = EVERY.max(count / 8);
+        let due = steps >= count + EARLIEST && (steps - count - EARLIEST).is_multiple_of(every);
         if spanned || steps == most || due {
             let (values, weights) = tridiagonal::eigen(&alpha, &beta);
             let wanted = count.min(steps);

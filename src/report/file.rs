@@ -13,19 +13,18 @@ use crate::error::{Error, Result};
 /// [`Error::Write`]; what was there before is still there then.
 pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     let failed = |source| Error::Write { path: path.to_owned(), source };
-    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
-        // A device or a pipe is written to, not replaced.
-        let device = fs::OpenOptions::new().write(true).open(path);
-        return device.and_then(|mut device| device.write_all(contents)).map_err(failed);
+    // A link is followed, so that it is the file that is replaced; a path to nothing is itself.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&target).is_ok_and(|old| !old.is_file() && !old.is_dir()) {
+        // A device or a pipe cannot be replaced, only written to.
+        let mut device = fs::OpenOptions::new().write(true).open(&target).map_err(failed)?;
+        return device.write_all(contents).map_err(failed);
     }
-    // A link stays one: what it points to is replaced.
-    let target = fs::canonicalize(path);
-    let path = target.as_deref().unwrap_or(path);
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let beside = target.with_file_name(format!(".{name}.{}.part", std::process::id()));
     let written = fs::File::create(&beside)
         .and_then(|mut file| file.write_all(contents).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&beside, path));
+        .and_then(|()| fs::rename(&beside, &target));
     written.map_err(|error| {
         // The part is of no use; that it may not be there is no further error.
         let _ = fs::remove_file(&beside);
@@ -59,6 +58,29 @@ mod tests {
             fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
         names.sort();
         assert_eq!(names, ["new", "taken"]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_stays_a_pipe_and_a_link_a_link() {
+        use std::os::unix::fs::{FileTypeExt, symlink};
+        let folder = std::env::temp_dir().join(format!("sweetspot-link-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("file"), "old").unwrap();
+        symlink(folder.join("file"), folder.join("link")).unwrap();
+        write(&folder.join("link"), b"new").unwrap();
+        assert!(fs::symlink_metadata(folder.join("link")).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(folder.join("file")).unwrap(), "new");
+        let pipe = folder.join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read_to_string(pipe).unwrap()
+        });
+        write(&pipe, b"through").unwrap();
+        assert_eq!(reader.join().unwrap(), "through");
+        assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
         fs::remove_dir_all(&folder).unwrap();
     }
 }
