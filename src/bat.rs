@@ -133,12 +133,12 @@ impl Bat {
             ("frequency scale EI/(ρA L⁴)", scale, "1/s²"),
         ] {
             // Far enough inside the range for products of two such values.
-            if !(value > 1e-140 && value < 1e140) {
+            if !(value > 1e-100 && value < 1e100) {
                 let found = match value.is_finite() {
                     true => format!("{value:e} {unit}"),
                     false => "a value beyond the range of numbers".to_owned(),
                 };
-                let expected = "a value between 1e-140 and 1e140: check the units";
+                let expected = "a value between 1e-100 and 1e100: check the units";
                 return Err(Error::value(what, found, expected));
             }
         }
