@@ -238,7 +238,7 @@ fn the_files_are_good_and_the_places_to_spoil_are_found() {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 400,
+        cases: 600,
         failure_persistence: None,
         // The same files every time: a failure here is no matter of luck.
         rng_seed: RngSeed::Fixed(33),

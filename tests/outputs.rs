@@ -1,0 +1,412 @@
+//! What the program writes: whole or not at all, the same every time, and what the contract says.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// A folder of its own for one test, removed afterwards.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let unique = format!("sweetspot-{name}-{}", std::process::id());
+        let path = std::env::temp_dir().join(unique);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
+        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sweetspot"));
+        command.args(args).current_dir(&self.0);
+        command
+    }
+
+    fn run(&self, args: &[&str]) -> Output {
+        self.command(args).output().unwrap()
+    }
+
+    /// Standard output of a run that must succeed without a word on standard error.
+    fn text(&self, args: &[&str]) -> String {
+        let output = self.run(args);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(0) && told.is_empty(), "{args:?}: {told}");
+        String::from_utf8(output.stdout).unwrap()
+    }
+
+    fn json(&self, args: &[&str]) -> Value {
+        serde_json::from_str(&self.text(args)).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Nothing depends on it.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn mesh(name: &str) -> String {
+    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Exit code and standard error of a failed run.
+fn failure(output: &Output) -> String {
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.starts_with("error: ") && told.trim_end().lines().count() == 1, "{told}");
+    told
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let folder = Folder::new("pipe");
+    let bat = mesh("r161");
+    // More than a pipe holds, so that the program cannot have finished before the end is closed.
+    let long = ["hit", &bat, "--points", "2000", "--json", "-"];
+    for args in [&long[..], &["modes", &bat], &["materials"], &["validate", "--summary"]] {
+        let mut child =
+            folder.command(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut first = String::new();
+        let mut reader = BufReader::with_capacity(16, child.stdout.take().unwrap());
+        reader.read_line(&mut first).unwrap();
+        drop(reader);
+        let output = child.wait_with_output().unwrap();
+        assert!(!first.is_empty() && output.status.code() == Some(0), "{args:?}: {output:?}");
+        assert!(output.stderr.is_empty(), "{args:?}: {output:?}");
+    }
+    // Closed before the first byte.
+    let mut child = folder.command(&long).stdout(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let folder = Folder::new("full");
+    let bat = mesh("dowel");
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for args in [&["modes", &bat][..], &["hit", &bat, "--json", "-"], &["materials"]] {
+        let output = folder.command(args).stdout(full()).output().unwrap();
+        assert!(failure(&output).contains("standard output"), "{args:?}");
+    }
+    let told = failure(&folder.run(&["modes", &bat, "--json", "/dev/full"]));
+    assert!(told.contains("cannot write /dev/full"), "{told}");
+    use std::os::unix::fs::FileTypeExt;
+    assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
+    // A device is written to, as it is.
+    assert!(folder.run(&["modes", &bat, "--json", "/dev/null"]).status.success());
+    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn a_file_that_cannot_be_written_leaves_nothing() {
+    let folder = Folder::new("unwritten");
+    let bat = mesh("dowel");
+    fs::write(folder.0.join("file"), "old").unwrap();
+    fs::create_dir(folder.0.join("folder")).unwrap();
+    fs::create_dir(folder.0.join("locked")).unwrap();
+    fs::write(folder.0.join("locked/out.json"), "old").unwrap();
+    let lock = |locked: bool| {
+        let mut permissions = fs::metadata(folder.0.join("locked")).unwrap().permissions();
+        permissions.set_readonly(locked);
+        fs::set_permissions(folder.0.join("locked"), permissions).unwrap();
+    };
+    let before = folder.names();
+    for path in ["missing/out.json", "file/out.json", "folder", ".", "/proc/sweetspot.json"] {
+        for verb in ["modes", "hit", "analyze"] {
+            let output = folder.run(&[verb, &bat, "--json", path]);
+            assert!(failure(&output).contains(&format!("cannot write {path}")), "{verb} {path}");
+            assert!(output.stdout.is_empty(), "{verb} {path}");
+            assert_eq!(folder.names(), before, "{verb} {path}");
+        }
+    }
+    let told = failure(&folder.run(&["analyze", &bat, "--out", "file"]));
+    assert!(told.contains("cannot write file"), "{told}");
+    let blow = ["ring", &bat, "--at", "0.6", "--impulse", "1", "--csv", "missing/ring.csv"];
+    assert!(failure(&folder.run(&blow)).contains("cannot write missing/ring.csv"));
+    lock(true);
+    let output = folder.run(&["modes", &bat, "--json", "locked/out.json"]);
+    lock(false);
+    // Whoever may do everything may also write there.
+    if !output.status.success() {
+        assert!(failure(&output).contains("cannot write locked/out.json"));
+        assert_eq!(fs::read_to_string(folder.0.join("locked/out.json")).unwrap(), "old");
+    }
+    let names = |sub: &str| fs::read_dir(folder.0.join(sub)).unwrap().count();
+    assert_eq!((names("locked"), names("folder")), (1, 0));
+    assert_eq!(folder.names(), before);
+    // An answer to a wrong bat replaces no right one.
+    fs::write(folder.0.join("bad.json"), "{").unwrap();
+    fs::write(folder.0.join("out.json"), "old").unwrap();
+    failure(&folder.run(&["modes", "bad.json", "--json", "out.json"]));
+    assert_eq!(fs::read_to_string(folder.0.join("out.json")).unwrap(), "old");
+}
+
+#[test]
+fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
+    let folder = Folder::new("whole");
+    let bat = mesh("r161");
+    for verb in ["modes", "hit"] {
+        let args = [verb, &bat];
+        let table = folder.text(&args);
+        assert!(!table.starts_with('{') && table.lines().count() > 10, "{table}");
+        let json = folder.json(&[&args[..], &["--json", "-"]].concat());
+        assert_eq!(json["format"], format!("sweetspot-{verb}/1"));
+        // With a file the table stays, and the file is the same document.
+        let again = folder.text(&[&args[..], &["--json", "out.json"]].concat());
+        let mut file: Value = read(&folder, "out.json");
+        assert_eq!(again, table, "{verb}");
+        let mut json = json;
+        for document in [&mut json, &mut file] {
+            document.as_object_mut().unwrap().remove("timing");
+        }
+        assert_eq!(file, json, "{verb}");
+    }
+    let both = folder.json(&["analyze", &bat, "--json", "-"]);
+    assert_eq!(both["modes"]["format"], "sweetspot-modes/1");
+    assert_eq!(both["hit"]["format"], "sweetspot-hit/1");
+    let ring = ["ring", &bat, "--at", "0.6", "--impulse", "1"];
+    let json = folder.json(&[&ring[..], &["--json", "-"]].concat());
+    assert_eq!(json["x_m"].as_array().unwrap().len(), 101);
+    let csv = folder.text(&ring);
+    assert!(csv.starts_with("x_m,w_m at 0 s,") && csv.lines().count() == 102);
+
+    folder.text(&["analyze", &bat, "--out", "deep/folder"]);
+    let out = Folder(folder.0.join("deep/folder"));
+    assert_eq!(out.names(), ["curve.csv", "hit.json", "modes.json"]);
+    assert_eq!(read(&out, "modes.json")["format"], "sweetspot-modes/1");
+    let hit = read(&out, "hit.json");
+    let curve = fs::read_to_string(out.0.join("curve.csv")).unwrap();
+    let mut lines = curve.lines();
+    assert_eq!(
+        lines.next(),
+        Some("x_m,bat_speed_m_s,exit_speed_m_s,rigid_exit_speed_m_s,vibration_j")
+    );
+    for (line, impact) in lines.zip(hit["impacts"].as_array().unwrap()) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(cells[0], impact["x_m"]);
+        assert_eq!(cells[2], impact["exit_speed_m_s"]);
+        assert_eq!(cells[4], impact["energy_j"]["vibration"]);
+    }
+}
+
+fn read(folder: &Folder, name: &str) -> Value {
+    serde_json::from_str(&fs::read_to_string(folder.0.join(name)).unwrap()).unwrap()
+}
+
+#[test]
+fn equal_input_gives_equal_bytes() {
+    let folder = Folder::new("equal");
+    let (bat, hollow) = (mesh("r161"), mesh("northwestern_aluminium"));
+    for bat in [&bat, &hollow] {
+        for args in [
+            &["modes", bat, "--json", "-", "--reproducible", "--shape-points", "nodes"][..],
+            &["modes", bat, "--json", "-", "--reproducible", "--solver", "dense", "-n", "4"],
+            &["modes", bat],
+            &["hit", bat, "--json", "-"],
+            &["ring", bat, "--at", "0.6", "--impulse", "1"],
+            &["analyze", bat],
+        ] {
+            let first = folder.run(args);
+            assert!(first.status.success(), "{args:?}");
+            for _ in 0..2 {
+                assert_eq!(folder.run(args).stdout, first.stdout, "{args:?}");
+            }
+        }
+    }
+}
+
+/// Every number of the text, read and written again, is the same text.
+#[test]
+fn numbers_are_written_in_the_shortest_form_that_reads_back_to_the_same_bits() {
+    let folder = Folder::new("bits");
+    let bat = mesh("torpedo");
+    for verb in ["modes", "hit"] {
+        let text = folder.text(&[verb, &bat, "--json", "-"]);
+        assert!(!text.contains("NaN") && !text.contains("Infinity") && !text.contains("inf,"));
+        let mut numbers = 0;
+        for line in text.lines() {
+            let value = line.rsplit_once(": ").map_or(line, |(_, value)| value);
+            let value = value.trim().trim_end_matches(',');
+            if !value.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+                continue;
+            }
+            let parsed: f64 = value.parse().unwrap();
+            let written: f64 = serde_json::to_string(&parsed).unwrap().parse().unwrap();
+            assert_eq!(written.to_bits(), parsed.to_bits(), "{value}");
+            let digits = |text: &str| {
+                let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
+                let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+                digits.trim_matches('0').len()
+            };
+            assert!(digits(value) <= digits(&format!("{parsed:e}")), "{value}");
+            numbers += 1;
+        }
+        assert!(numbers > 1000, "{verb}: {numbers}");
+    }
+    // The bat in the JSON is a bat file, and gives the same answer to the last bit.
+    let first = folder.json(&["modes", &bat, "--json", "-", "--reproducible"]);
+    fs::write(folder.0.join("again.json"), first["bat"].to_string()).unwrap();
+    let second = folder.json(&["modes", "again.json", "--json", "-", "--reproducible"]);
+    for part in ["summary", "modes"] {
+        assert_eq!(first[part], second[part]);
+    }
+}
+
+fn keys(value: &Value) -> BTreeSet<&str> {
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+fn set<'a>(names: &'a str) -> BTreeSet<&'a str> {
+    names.split_whitespace().collect()
+}
+
+#[test]
+fn the_modes_document_has_the_keys_of_the_contract() {
+    let folder = Folder::new("modes-keys");
+    let modes = folder.json(&["modes", &mesh("r161"), "-n", "4", "--json", "-"]);
+    let top = "format generator bat summary model rigid_modes modes timing";
+    assert_eq!(keys(&modes), set(top));
+    assert_eq!(modes["rigid_modes"], 2);
+    assert_eq!(keys(&modes["generator"]), set("program version"));
+    assert_eq!(modes["generator"]["program"], "sweetspot");
+    assert_eq!(modes["bat"]["format"], "sweetspot-bat/1");
+    let summary = "length_m mass_kg balance_point_m inertia_balance_kg_m2 pivot_m \
+                   inertia_pivot_kg_m2 center_of_percussion_m";
+    assert_eq!(keys(&modes["summary"]), set(summary));
+    assert_eq!(modes["summary"]["pivot_m"], 0.1524);
+    let model = "theory elements degree solver degrees_of_freedom ignored";
+    let extra: BTreeSet<&str> = keys(&modes["model"]).difference(&set(model)).copied().collect();
+    assert!(extra.is_subset(&set("tolerance_met")), "{extra:?}");
+    assert!(keys(&modes["model"]).is_superset(&set(model)));
+    assert_eq!(keys(&modes["timing"]), set("plan_s assemble_s solve_s"));
+    let list = modes["modes"].as_array().unwrap();
+    assert_eq!(list.len(), 4);
+    let mut before = 0.0;
+    for (k, mode) in list.iter().enumerate() {
+        let own = "order frequency_hz omega_rad_s damping_ratio modal_mass_kg nodes_m error shape";
+        assert_eq!(keys(mode), set(own));
+        assert_eq!(mode["order"], k + 1);
+        let number = |key: &str| mode[key].as_f64().unwrap();
+        assert!(number("frequency_hz") > before);
+        before = number("frequency_hz");
+        let turns = number("omega_rad_s") / std::f64::consts::TAU;
+        assert!((turns / before - 1.0).abs() < 1e-15);
+        assert_eq!(mode["nodes_m"].as_array().unwrap().len(), k + 2);
+        assert_eq!(
+            keys(&mode["error"]),
+            set("discretization round_off residual nodes_m modal_mass")
+        );
+        assert_eq!(keys(&mode["shape"]), set("x_m deflection rotation"));
+        for column in ["x_m", "deflection", "rotation"] {
+            assert_eq!(mode["shape"][column].as_array().unwrap().len(), 101, "{column}");
+        }
+        let deflection: Vec<f64> = floats(&mode["shape"]["deflection"]);
+        assert!(deflection[100] > 0.0 && deflection.iter().all(|w| w.abs() <= 1.0 + 1e-15));
+        let x = floats(&mode["shape"]["x_m"]);
+        assert_eq!((x[0], Some(x[100])), (0.0, modes["summary"]["length_m"].as_f64()));
+    }
+    let shapes = |points: &str| {
+        let args = ["modes", &mesh("r161"), "-n", "1", "--shape-points", points, "--json", "-"];
+        let modes = folder.json(&args);
+        let count = floats(&modes["modes"][0]["shape"]["deflection"]).len();
+        (count, modes["model"]["elements"].as_u64().unwrap() as usize)
+    };
+    assert_eq!((shapes("0").0, shapes("1").0, shapes("7").0), (0, 1, 7));
+    let (nodes, elements) = shapes("nodes");
+    assert_eq!(nodes, elements + 1);
+    let bare = folder.json(&["modes", &mesh("r161"), "--reproducible", "--json", "-"]);
+    assert!(bare.get("timing").is_none());
+}
+
+fn floats(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn the_hit_document_has_the_keys_of_the_contract_and_its_energies_sum() {
+    let folder = Folder::new("hit-keys");
+    for (model, more) in [("rigid", &[][..]), ("energy-loss", &["--modes", "3"])] {
+        let bat = mesh("r161");
+        let args = ["hit", &bat, "--model", model, "--points", "11", "--json", "-"];
+        let hit = folder.json(&[&args[..], more].concat());
+        let top = set("format generator model scene impacts sweet_spot");
+        assert!(keys(&hit).is_subset(&top) && keys(&hit).len() >= top.len() - 1);
+        assert_eq!((&hit["format"], &hit["model"]), (&"sweetspot-hit/1".into(), &model.into()));
+        assert_eq!(keys(&hit["scene"]), set("bat_pivot_m swing_rad_s ball ball_speed_m_s cor"));
+        assert_eq!(hit["scene"]["bat_pivot_m"], 0.0635);
+        let spot = "exit_speed_max vibration_min node_mode_1_m node_mode_2_m \
+                    center_of_percussion_m zone_m";
+        assert_eq!(keys(&hit["sweet_spot"]), set(spot));
+        assert_eq!(keys(&hit["sweet_spot"]["exit_speed_max"]), set("x_m value"));
+        assert_eq!(floats(&hit["sweet_spot"]["zone_m"]).len(), 2);
+        let impacts = hit["impacts"].as_array().unwrap();
+        assert_eq!(impacts.len(), 11);
+        for impact in impacts {
+            let own = "x_m from_tip_m bat_speed_m_s exit_speed_m_s rigid_exit_speed_m_s \
+                       impulse_n_s contact_time_s peak_force_n collision_efficiency bbcor \
+                       bbcor_pivoted modes_used flags energy_j error";
+            assert_eq!(keys(impact), set(own));
+            assert_eq!(keys(&impact["error"]), set("exit_speed"));
+            assert!(impact["contact_time_s"].is_null() && impact["peak_force_n"].is_null());
+            let energy = &impact["energy_j"];
+            let parts = "initial ball bat_rigid vibration vibration_by_mode dissipated_ball \
+                         dissipated_damping imbalance";
+            assert_eq!(keys(energy), set(parts));
+            let joules = |key: &str| energy[key].as_f64().unwrap();
+            let after = ["ball", "bat_rigid", "vibration", "dissipated_ball", "dissipated_damping"];
+            let sum: f64 = after.into_iter().chain(["imbalance"]).map(joules).sum();
+            assert!((sum / joules("initial") - 1.0).abs() < 1e-14, "{energy}");
+            let by_mode = floats(&energy["vibration_by_mode"]);
+            assert_eq!(impact["modes_used"], by_mode.len());
+            assert_eq!(by_mode.len(), if model == "rigid" { 0 } else { 3 });
+            assert!((by_mode.iter().sum::<f64>() - joules("vibration")).abs() < 1e-12);
+            if model == "rigid" {
+                assert!(joules("imbalance").abs() < 1e-12 * joules("initial"), "{energy}");
+            }
+        }
+    }
+    // No real solution: null and what follows from it, one row all the same, exit code 0.
+    let none = folder.json(&["hit", &mesh("r161"), "--gamma", "100", "--json", "-"]);
+    let impacts = none["impacts"].as_array().unwrap();
+    let nulls: Vec<&Value> = impacts.iter().filter(|i| i["exit_speed_m_s"].is_null()).collect();
+    assert!(impacts.len() == 101 && !nulls.is_empty());
+    for impact in nulls {
+        assert_eq!(impact["flags"][0], "no_real_solution");
+        for key in ["impulse_n_s", "collision_efficiency", "bbcor", "bbcor_pivoted", "energy_j"] {
+            assert!(impact[key].is_null(), "{key}");
+        }
+    }
+}
+
+#[test]
+fn matrices_are_written_whole() {
+    let folder = Folder::new("matrices");
+    let bat = mesh("dowel");
+    folder.text(&["modes", &bat, "--elements", "8", "-n", "2", "--matrices", "m"]);
+    let out = Folder(folder.0.join("m"));
+    assert_eq!(out.names(), ["mass.mtx", "stiffness.mtx"]);
+    for name in out.names() {
+        let mut text = String::new();
+        fs::File::open(out.0.join(&name)).unwrap().read_to_string(&mut text).unwrap();
+        let mut lines = text.lines();
+        assert!(lines.next().unwrap().starts_with("%%MatrixMarket matrix coordinate real"));
+        let size = lines.by_ref().find(|line| !line.starts_with('%')).unwrap();
+        let size: Vec<usize> = size.split_whitespace().map(|n| n.parse().unwrap()).collect();
+        assert_eq!((size[0], size[1], size[2]), (18, 18, lines.count()), "{name}");
+    }
+}
