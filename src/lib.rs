@@ -78,6 +78,7 @@ pub mod plan;
 pub mod theory;
 pub mod dowel;
 pub mod response;
+pub mod ringing;
 pub mod collision;
 pub mod report;
 pub mod validation;

@@ -5,13 +5,18 @@ mod cli;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use sweetspot::Error;
+
 fn main() -> ExitCode {
     let (text, code) = match cli::run() {
         Ok(done) => done,
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
             let _ = writeln!(io::stderr(), "error: {}", cli::printable(&error.to_string()));
-            return ExitCode::from(2);
+            // Modes that do not converge are an accuracy not reached; all else is the input.
+            let code =
+                if matches!(error, Error::NotConverged { .. }) { cli::NOT_REACHED } else { 2 };
+            return ExitCode::from(code);
         }
     };
     let mut out = io::stdout().lock();

@@ -104,7 +104,7 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 672.0,
         youngs_modulus: 12.0e9,
         shear_modulus: Some(1.116e9),
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.109, 0.077) and 5-3a (in transcription)",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.109, 0.077) and 5-3a, in transcription",
     },
     BuiltIn {
         name: "white-ash-dynamic",
@@ -118,7 +118,7 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 705.6,
         youngs_modulus: 12.6e9,
         shear_modulus: Some(1.0962e9),
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.111, 0.063) and 5-3a (in transcription)",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.111, 0.063) and 5-3a, in transcription",
     },
     BuiltIn {
         name: "sugar-maple-dynamic",
@@ -132,7 +132,7 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 694.4,
         youngs_modulus: 13.9e9,
         shear_modulus: Some(0.9869e9),
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.074, 0.068) and 5-3a (in transcription)",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.074, 0.068) and 5-3a, in transcription",
     },
     BuiltIn {
         name: "shagbark-hickory",

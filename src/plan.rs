@@ -53,6 +53,8 @@ pub struct Solution {
     pub share: f64,
     pub solver: Solver,
     pub elements: usize,
+    /// Elements in each piece of the profile.
+    pub counts: Vec<usize>,
     /// Products with the compliance (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
     /// Whether every frequency is within the wanted tolerance by its own estimate.
@@ -155,6 +157,7 @@ fn first_guess(request: &Request) -> usize {
 #[derive(Clone)]
 struct Answer {
     modes: Vec<Mode>,
+    counts: Vec<usize>,
     elements: usize,
     steps: usize,
 }
@@ -172,7 +175,7 @@ fn on_mesh(bat: &Bat, mesh: &Mesh, request: &Request, timing: &mut Timing) -> Re
         Solver::Dense => (by_dense(&elements, &statics, &stretches, request.modes)?, 0),
     };
     timing.solve += assembled.elapsed();
-    Ok(Answer { modes, elements: elements.len(), steps })
+    Ok(Answer { modes, counts: mesh.counts.clone(), elements: elements.len(), steps })
 }
 
 fn by_statics(
@@ -275,6 +278,7 @@ fn certified(
         share,
         solver: request.solver,
         elements: main.elements,
+        counts: main.counts,
         steps: main.steps,
         timing,
     }

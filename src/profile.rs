@@ -312,3 +312,22 @@ fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
 fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
     [blossom(b, s0, s0, s0), blossom(b, s0, s0, s1), blossom(b, s0, s1, s1), blossom(b, s1, s1, s1)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_of_unequal_length_are_an_error() {
+        let new = |outer: usize, inner: usize| {
+            let (outer, inner) = (vec![0.02; outer], vec![0.0; inner]);
+            let x = vec![0.0, 0.4, 0.8];
+            Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear })
+        };
+        assert!(new(3, 3).is_ok());
+        for (outer, inner, role) in [(2, 3, "outer"), (4, 3, "outer"), (3, 0, "inner")] {
+            let said = new(outer, inner).unwrap_err().to_string();
+            assert!(said.starts_with(&format!("{role}: found ")), "{said}");
+        }
+    }
+}

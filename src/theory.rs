@@ -93,6 +93,12 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
             }
         });
     }
+    let inertia = bat.inertia();
+    let own = 100.0 * (inertia.about_balance / inertia.line_about_balance - 1.0);
+    ignored.push(format!(
+        "the sections' own inertia in the hit: this beam recoils as a line of mass, its inertia \
+         about the balance point {own:.2} % below the body's"
+    ));
     ignored.push("hands: the bat is free; they damp it and hardly move a frequency".to_owned());
     ignored.push("hoop modes of hollow barrels: not a beam's, and not modelled".to_owned());
     ignored

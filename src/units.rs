@@ -147,7 +147,7 @@ const SYMBOLS: &[(&str, f64, Dimension)] = &[
     ("fps", FOOT, [1, 0, -1, 0]),
 ];
 
-/// The value of `text`, such as `"33 in"` or `"-0.09"`, in SI.
+/// The value of `text`, such as `"33 in"`, in SI. A text must carry its unit.
 ///
 /// # Errors
 ///
@@ -160,11 +160,26 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
         return Err(wrong(format!("\"{text}\" (decimals follow a point, not a comma)")));
     }
     let value: f64 = number.parse().map_err(|_| wrong(format!("\"{text}\"")))?;
+    if unit.is_empty() && value.is_finite() {
+        return Err(wrong(format!("\"{text}\" without a unit")));
+    }
     let value = if unit.is_empty() { value } else { value * factor(unit, quantity)? };
     if value.is_finite() {
         Ok(value)
     } else {
         Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
+    }
+}
+
+/// As [`parse`], where a bare number is SI: on the command line everything is text.
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => parse(text, quantity),
     }
 }
 
@@ -330,7 +345,6 @@ mod tests {
             ("2 N s", Impulse, 2.0),
             ("2 kg m/s", Impulse, 2.0),
             ("-0.09 m", Length, -0.09),
-            ("7", Length, 7.0),
         ] {
             assert!(same(si(text, quantity), expected), "{text}: {:e}", si(text, quantity));
         }
@@ -352,6 +366,10 @@ mod tests {
     fn an_unknown_unit_names_its_neighbour() {
         let said = parse("33 inc", Quantity::Length).unwrap_err().to_string();
         assert!(said.contains("did you mean in"), "{said}");
+        assert!(parse("33", Quantity::Length).unwrap_err().to_string().contains("without a unit"));
+        assert_eq!(parse_or_si(" 33 ", Quantity::Length), Ok(33.0));
+        assert_eq!(parse_or_si("33 m", Quantity::Length), Ok(33.0));
+        assert!(parse_or_si("inf", Quantity::Length).is_err());
         assert!(parse("33 in^0", Quantity::Length).is_err());
         assert!(parse("in", Quantity::Length).is_err());
         assert!(parse("", Quantity::Length).is_err());

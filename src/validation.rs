@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::dowel::{Dowel, Ends};
 use crate::error::{Error, Result};
 use crate::plan::{Request, Solution, solve};
 use crate::units::ounce_square_inches;
@@ -129,6 +130,27 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
         .find(|(name, _)| *name == path)
         .ok_or_else(|| Error::value("bat", path, "a bat that travels with the program"))?;
     Bat::from_text(path, text, Path::new(""))
+}
+
+/// The worst true and the worst stated relative error of the free dowel's frequencies, solved as
+/// requested, against `cos β cosh β = 1`.
+///
+/// # Errors
+///
+/// As [`solve`].
+pub fn dowel_proof(request: &Request) -> Result<[f64; 2]> {
+    let bat = bundled_bat("meshes/dowel.json")?;
+    let solution = solve(&bat, request)?;
+    let dowel = Dowel {
+        length: bat.length(),
+        radius: bat.profile.at(0.0).outer,
+        youngs_modulus: bat.material.youngs_modulus,
+        density: bat.material.density,
+    };
+    let exact = |order: usize| dowel.frequency(Ends::FreeFree, order);
+    let errors =
+        solution.modes.iter().map(|mode| (mode.frequency() / exact(mode.order) - 1.0).abs());
+    Ok([errors.fold(0.0, f64::max), solution.worst()])
 }
 
 /// Runs one case: a row for every known number.

@@ -323,7 +323,8 @@ fn a_wrong_profile_is_refused() {
             (X, "[0, 0.8]", &["bat.json:7:15: profile.radius", "3 values", "2, one for each x"]),
             (X, "[0, 0.4, null]", &["bat.json:6:19: profile.x[2]: found null", "a length such as"]),
             (X, "[0, 0.4, [0.8]]", &["bat.json:6:19: profile.x[2]: found a list", "a length"]),
-            (X, "[0, 0.4, \"0.8\"  , 1]", &["profile.radius: found 3 values", "expected 4"]),
+            (X, "[0, 0.4, \"0.8 m\"  , 1]", &["profile.radius: found 3 values", "expected 4"]),
+            (X, "[0, 0.4, \"0.8\"]", &["6:19: profile.x[2]: found \"0.8\" without a unit"]),
             (
                 X,
                 "[0, 0.4, \"31 oz\"]",

@@ -183,6 +183,26 @@ fn the_assembled_matrices_know_the_rigid_motions_and_the_modes() {
     }
 }
 
+/// The matrices of a planned solution are those of its own mesh: the shapes sampled at its nodes
+/// have their frequencies there.
+#[test]
+fn the_counts_of_a_solution_give_back_its_mesh() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let solution = solve(&bat, &Request::default()).unwrap();
+    let mesh = Mesh::with_counts(&bat, solution.counts.clone());
+    let pencil = Pencil::assemble(&element::elements(&bat, &mesh));
+    for mode in &solution.modes {
+        let at = |x: &f64| [mode.shape.deflection(*x), mode.shape.rotation(*x)];
+        let u: Vec<f64> = mesh.nodes().iter().flat_map(at).collect();
+        let form = |a: &nalgebra_sparse::CscMatrix<f64>| -> f64 {
+            a.triplet_iter().map(|(i, j, v)| u[i] * v * u[j]).sum()
+        };
+        let quotient = form(&pencil.stiffness) / form(&pencil.mass);
+        assert!((quotient.sqrt() / mode.omega - 1.0).abs() < 1e-7, "mode {}", mode.order);
+        assert!((form(&pencil.mass) / mode.modal_mass - 1.0).abs() < 1e-9);
+    }
+}
+
 #[test]
 fn a_matrix_market_file_holds_the_lower_triangle() {
     let bat = dowel();

@@ -220,6 +220,7 @@ fn equal_input_gives_equal_bytes() {
             &["hit", bat, "--json", "-"],
             &["ring", bat, "--at", "0.6", "--impulse", "1"],
             &["analyze", bat],
+            &["analyze", bat, "--json", "-", "--reproducible"],
         ] {
             let first = folder.run(args);
             assert!(first.status.success(), "{args:?}");
@@ -271,7 +272,7 @@ fn keys(value: &Value) -> BTreeSet<&str> {
     value.as_object().expect("an object").keys().map(String::as_str).collect()
 }
 
-fn set<'a>(names: &'a str) -> BTreeSet<&'a str> {
+fn set(names: &str) -> BTreeSet<&str> {
     names.split_whitespace().collect()
 }
 

@@ -216,7 +216,7 @@ pub fn shown_length(length: f64) -> String {
 
 /// A value with its unit from the command line.
 pub fn quantity(text: &str, quantity: Quantity) -> std::result::Result<f64, String> {
-    units::parse(text, quantity).map_err(|complaint| complaint.to_string())
+    units::parse_or_si(text, quantity).map_err(|complaint| complaint.to_string())
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use sweetspot::error::Result;
 use sweetspot::material::BUILT_IN;
+use sweetspot::report::text::wrapped;
 
 use crate::cli::Done;
 
@@ -17,12 +18,12 @@ pub fn run(_: &Args) -> Result<Done> {
         let shear = material.shear_modulus.map_or("-".into(), |g| format!("{:.3}", 1e-9 * g));
         let _ = writeln!(
             out,
-            "{:<20} {:>14.1} {:>7.2} {shear:>7}\n    {}",
+            "{:<20} {:>14.1} {:>7.2} {shear:>7}",
             material.name,
             material.density,
             1e-9 * material.youngs_modulus,
-            material.source
         );
+        out += &wrapped(&format!("    {}", material.source), 4);
     }
     Ok((out, 0))
 }

@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
     args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
     if let Some(folder) = &args.matrices {
-        let mesh = Mesh::along(&bat, solution.elements);
+        let mesh = Mesh::with_counts(&bat, solution.counts.clone());
         let pencil = Pencil::assemble(&element::elements(&bat, &mesh));
         let failed = |source| Error::Write { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;
@@ -86,7 +86,7 @@ pub fn missed_tolerance(solution: &plan::Solution, tolerance: f64) -> String {
 fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {
     match text.parse::<usize>() {
         _ if text == "nodes" => Ok(ShapePoints::Nodes),
-        Ok(n) if n <= 1_000_000 => Ok(ShapePoints::Even(n)),
-        _ => Err("expected \"nodes\" or a number up to 1000000".into()),
+        Ok(n) if n <= 100_000 => Ok(ShapePoints::Even(n)),
+        _ => Err("expected \"nodes\" or a number up to 100000".into()),
     }
 }

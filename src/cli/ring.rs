@@ -1,14 +1,14 @@
 //! `sweetspot ring BAT`: free motion after a blow or from an initial shape.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
 use sweetspot::plan::{self, Solution};
-use sweetspot::quadrature::gauss;
 use sweetspot::report::file;
-use sweetspot::response::{Oscillator, expansion, partial_sums, struck};
+use sweetspot::response::partial_sums;
+use sweetspot::ringing::{Ringing, Start};
 use sweetspot::shape_file;
 use sweetspot::units::Quantity;
 
@@ -112,12 +112,6 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok((args.output.deliver(text, &document)?, code))
 }
 
-/// How the motion begins: mode by mode, an impulse response or a displacement.
-enum Start {
-    Blow { shape_at: Vec<f64>, impulse: f64 },
-    Shape(Vec<f64>),
-}
-
 fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
     match (args.at, args.impulse, &args.initial) {
         (Some(x), Some(impulse), _) => {
@@ -128,10 +122,9 @@ fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
             if impulse.abs() >= 1e6 {
                 return Err(Error::value("--impulse", format!("{impulse:?} N s"), "less than 1e6"));
             }
-            let shape_at = ringing.shapes(&[x]).into_iter().map(|shape| shape[0]).collect();
-            Ok(Start::Blow { shape_at, impulse })
+            Ok(ringing.blow(x, impulse))
         }
-        (_, _, Some(path)) => Ok(Start::Shape(ringing.expand(bat, path)?)),
+        (_, _, Some(path)) => Ok(ringing.release(bat, &shape_file::read(path, bat.length())?)),
         _ => {
             let expected = "--at X --impulse J, or --initial FILE";
             Err(Error::value("ring", "neither a blow nor an initial shape", expected))
@@ -148,78 +141,9 @@ fn times(args: &Args, solution: &Solution) -> Result<Vec<f64>> {
     Ok(if args.times.is_empty() { nine() } else { args.times.clone() })
 }
 
-/// A bat as oscillators: its rigid pair, if wanted, and its bending modes.
-struct Ringing<'a> {
-    solution: &'a Solution,
-    oscillators: Vec<Oscillator>,
-    /// Balance point, if the rigid pair takes part.
-    rigid: Option<f64>,
-}
-
-impl<'a> Ringing<'a> {
-    fn new(bat: &Bat, solution: &'a Solution, bending_only: bool) -> Self {
-        let inertia = bat.inertia();
-        let rigid = |mass| Oscillator { omega: 0.0, damping_ratio: 0.0, mass };
-        let pair = [rigid(inertia.mass), rigid(inertia.line_about_balance)];
-        let damping_ratio = 0.5 * bat.material.loss_factor;
-        let bending = solution.modes.iter().map(|mode| Oscillator {
-            omega: mode.omega,
-            damping_ratio,
-            mass: mode.modal_mass,
-        });
-        let skipped = if bending_only { 2 } else { 0 };
-        let oscillators = pair.into_iter().skip(skipped).chain(bending).collect();
-        Self { solution, oscillators, rigid: (!bending_only).then_some(inertia.balance_point) }
-    }
-
-    /// Every motion sampled at `x`.
-    fn shapes(&self, x: &[f64]) -> Vec<Vec<f64>> {
-        let rigid = self
-            .rigid
-            .iter()
-            .flat_map(|balance| [vec![1.0; x.len()], x.iter().map(|x| x - balance).collect()]);
-        let along = |mode: &sweetspot::modes::Mode| {
-            x.iter().map(|x| mode.shape.deflection(*x)).collect::<Vec<f64>>()
-        };
-        rigid.chain(self.solution.modes.iter().map(along)).collect()
-    }
-
-    fn amplitudes(&self, start: &Start, t: f64) -> Vec<f64> {
-        match start {
-            Start::Blow { shape_at, impulse } => struck(&self.oscillators, shape_at, *impulse, t),
-            Start::Shape(amplitudes) => {
-                let motion = |(o, a): (&Oscillator, &f64)| o.free(*a, 0.0, t)[0];
-                self.oscillators.iter().zip(amplitudes).map(motion).collect()
-            }
-        }
-    }
-
-    /// How much of every motion is in the shape of a file.
-    fn expand(&self, bat: &Bat, path: &Path) -> Result<Vec<f64>> {
-        let shape = shape_file::read(path, bat.length())?;
-        let rule = gauss(7);
-        // Gauss points between all places where the bat or the shape has a corner.
-        let mut corners: Vec<f64> =
-            bat.profile.stations.x.iter().chain(&shape.x).copied().collect();
-        corners.extend((0..=200).map(|k| bat.length() * f64::from(k) / 200.0));
-        corners.sort_by(f64::total_cmp);
-        let (mut x, mut masses) = (Vec::new(), Vec::new());
-        for pair in corners.windows(2).filter(|pair| pair[1] > pair[0]) {
-            for (s, weight) in &rule {
-                let at = pair[0] + s * (pair[1] - pair[0]);
-                let per_length = bat.mass_per_length(bat.profile.at(at));
-                x.push(at);
-                masses.push(weight * (pair[1] - pair[0]) * per_length);
-            }
-        }
-        let initial: Vec<f64> = x.iter().map(|x| shape.at(*x)).collect();
-        Ok(expansion(&masses, &self.shapes(&x), &initial))
-    }
-}
-
 fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {
     let mut out = String::from("x_m");
-    times.iter().for_each(|t| out += &format!(",w_m at {t} s"));
+    times.iter().for_each(|t| out += &format!(",w_m_at_{t}_s"));
     out.push('\n');
     for (k, x) in x.iter().enumerate() {
         out += &x.to_string();

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use sweetspot::error::Result;
-use sweetspot::validation::{CASES, run as run_case};
+use sweetspot::validation::{CASES, Row, run as run_case};
 
 use crate::cli::{Done, FAILED};
 
@@ -26,7 +26,12 @@ pub fn run(args: &Args) -> Result<Done> {
         rows_in_all += rows.len();
         misses += missed;
         if args.summary {
-            let worst = rows.iter().map(|row| row.error / row.tolerance).fold(0.0, f64::max);
+            // A missing value is NaN, which a maximum would pass over.
+            let share = |row: &Row| {
+                let share = row.error / row.tolerance;
+                if share.is_nan() { f64::INFINITY } else { share }
+            };
+            let worst = rows.iter().map(share).fold(0.0, f64::max);
             let _ = writeln!(out, "{name:<28} {:>5}  {missed:>6}  {worst:>8.3}", rows.len());
             continue;
         }

@@ -76,7 +76,8 @@ pub struct Energy {
 impl Energy {
     /// In all bending modes (J).
     pub fn vibration(&self) -> f64 {
-        self.vibration_by_mode.iter().sum()
+        // An empty sum of floats is −0, which is no energy to print.
+        self.vibration_by_mode.iter().fold(0.0, |sum, energy| sum + energy)
     }
 
     /// What the model created (−) or lost sight of (+) (J).

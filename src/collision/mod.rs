@@ -5,3 +5,4 @@ pub mod rigid;
 pub mod energy_loss;
 pub mod hit;
 pub mod sweet_spot;
+pub mod sweep;

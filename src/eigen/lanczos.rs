@@ -59,7 +59,8 @@ pub fn largest(
         let every = EVERY.max(count / 8);
         let due = steps >= count + EARLIEST && (steps - count - EARLIEST).is_multiple_of(every);
         if spanned || steps == most || due {
-            let (values, weights) = tridiagonal::eigen(&alpha, &beta);
+            let failed = Error::NotConverged { wanted: count, converged: 0, steps };
+            let (values, weights) = tridiagonal::eigen(&alpha, &beta).ok_or(failed)?;
             let wanted = count.min(steps);
             let misses = |k: &usize| rest * weights[*k][steps - 1].abs() > residual * values[*k];
             let missed = if spanned { 0 } else { (0..wanted).filter(misses).count() };

@@ -38,8 +38,8 @@ pub fn draw(
     let middle = 0.5 * (first + last);
     let half = width / 2 - 6;
     out += &format!("          {first:<half$.1}{middle:^12.1}{last:>half$.1}\n");
-    out += &format!("          {:^width$}\n", labels[1]).replace("  \n", "\n");
-    out
+    out += format!("          {:^width$}", labels[1]).trim_end();
+    out + "\n"
 }
 
 #[cfg(test)]

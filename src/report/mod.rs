@@ -1,6 +1,6 @@
 //! Everything a user asked for, ready to print or to write.
 
+pub mod file;
+pub mod curve;
 pub mod json;
 pub mod text;
-pub mod curve;
-pub mod file;

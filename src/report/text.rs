@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use crate::bat::{Bat, STANDARD_PIVOT};
-use crate::collision::hit::{Impact, Scene};
+use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::SweetSpot;
 use crate::plan::Solution;
+use crate::report::curve;
 use crate::report::json::solver_name;
 use crate::theory::ignored;
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
@@ -93,7 +95,10 @@ pub fn summary(bat: &Bat, units: Units) -> String {
 pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
     let mut out =
         String::from("Bending modes of the free bat (and two rigid ones, at 0 Hz exactly)\n");
-    out += "  mode    frequency   f/f1     relative error   modal mass (largest deflection 1)\n";
+    if solution.modes.is_empty() {
+        return out;
+    }
+    out += "  mode    frequency    f/f1   relative error   modal mass (largest |w| = 1)\n";
     let first = solution.modes.first().map_or(1.0, |mode| mode.omega);
     for mode in &solution.modes {
         let _ = writeln!(
@@ -106,7 +111,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
             1e3 * mode.modal_mass,
         );
     }
-    if !solution.modes.is_empty() {
+    if with_nodes > 0 {
         out += "Nodes\n";
     }
     for mode in solution.modes.iter().take(with_nodes) {
@@ -141,7 +146,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
 }
 
 /// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
-fn wrapped(text: &str, indent: usize) -> String {
+pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut out, mut rest, mut lead) = (String::new(), text, 0);
     while lead + rest.chars().count() > 80 {
         let end = rest.char_indices().nth(80 - lead).map_or(rest.len(), |(at, _)| at);
@@ -153,57 +158,110 @@ fn wrapped(text: &str, indent: usize) -> String {
     out
 }
 
-/// Exit speed along the barrel, some of the impacts.
+/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration.
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
-    let (position, speed) = match units {
-        Units::Us => ("in", "mph"),
-        _ => ("cm", "m/s"),
+    let mut out =
+        row(["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-"].map(str::to_owned));
+    out += &row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion"].map(str::to_owned));
+    let (near, far) = if units == Units::Us { ("in", "mph") } else { ("cm", "m/s") };
+    let (tip, second) = match units {
+        Units::Si => ("cm", ""),
+        Units::Us => ("in", ""),
+        Units::Both => ("in", "mph"),
     };
-    let scale = |x: f64| if units == Units::Us { inches(x) } else { 100.0 * x };
+    out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
+    let length = |x: f64, unit: &str| {
+        let value = if unit == "in" { inches(x) } else { 100.0 * x };
+        // A rounding of nothing is no length.
+        format!("{:.2}", value + 0.0)
+    };
     let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
-    let both = units == Units::Both;
-    let mut out = format!(
-        "  from knob  from tip  bat speed  exit speed  {}rigid bat     e_A  vibration\n",
-        if both { "            " } else { "" }
-    );
-    let _ = writeln!(
-        out,
-        "  {position:>9}  {position:>8}  {speed:>9}  {speed:>10}  {}{speed:>9}                  J",
-        if both { "       mph  " } else { "" }
-    );
     for impact in impacts {
-        let from_tip = bat.length() - impact.x;
-        let _ = write!(
-            out,
-            "  {:>9.2}  {:>8.2}  {:>9.2}",
-            scale(impact.x),
-            scale(from_tip),
-            fast(impact.bat_speed)
-        );
-        let Some(outcome) = &impact.outcome else {
-            let _ = writeln!(out, "  no value ({})", impact.flags.join(", "));
-            continue;
-        };
-        let exit = outcome.exit_speed;
-        let _ = write!(out, "  {:>10.2}", fast(exit));
-        if both {
-            let _ = write!(out, "  {:>10.1}", miles_per_hour(exit));
+        let from_tip = (bat.length() - impact.x).max(0.0);
+        let mut cells = [const { String::new() }; 8];
+        cells[0] = length(impact.x, near);
+        cells[1] = length(from_tip, tip);
+        cells[2] = format!("{:.2}", fast(impact.bat_speed));
+        cells[5] = impact.rigid_exit_speed.map_or(String::new(), |v| format!("{:.2}", fast(v)));
+        if let Some(outcome) = &impact.outcome {
+            cells[3] = format!("{:.2}", fast(outcome.exit_speed));
+            if units == Units::Both {
+                cells[4] = format!("{:.1}", miles_per_hour(outcome.exit_speed));
+            }
+            cells[6] = format!("{:.3}", outcome.collision_efficiency);
+            cells[7] = format!("{:.2}", outcome.energy.vibration());
+        } else {
+            cells[3] = "no value".to_owned();
         }
-        let rigid = impact.rigid_exit_speed.map_or(f64::NAN, fast);
-        let _ = writeln!(
-            out,
-            "  {rigid:>9.2}  {:>6.3}  {:>9.2}",
-            outcome.collision_efficiency,
-            outcome.energy.vibration()
-        );
+        out += &row(cells);
     }
     out
+}
+
+/// Eight right-aligned cells, 76 columns.
+fn row(cells: [String; 8]) -> String {
+    let line: String = cells
+        .iter()
+        .zip([10, 9, 10, 10, 9, 10, 9, 9])
+        .fold(String::new(), |line, (cell, width)| format!("{line}{cell:>width$}"));
+    format!("{}\n", line.trim_end())
+}
+
+/// Exit speed along the barrel, drawn.
+pub fn curve(impacts: &[Impact], units: Units) -> String {
+    let us = units == Units::Us;
+    let fast = |v: f64| if us { miles_per_hour(v) } else { v };
+    let places: Vec<f64> =
+        impacts.iter().map(|i| if us { inches(i.x) } else { 100.0 * i.x }).collect();
+    let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast(o.exit_speed));
+    let ours: Vec<_> = impacts.iter().map(exit).collect();
+    let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(fast)).collect();
+    let labels = if us {
+        ["exit speed, mph (* this bat, . if it did not bend)", "in from the knob"]
+    } else {
+        ["exit speed, m/s (* this bat, . if it did not bend)", "cm from the knob"]
+    };
+    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels, [66, 15])
+}
+
+/// One sentence: why the ball leaves fastest where it does.
+pub fn why(sweep: &Sweep, units: Units) -> String {
+    let place = |x: f64| {
+        let (si, us) = (format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x)));
+        units.inline(units.show(si, us))
+    };
+    let (Some(peak), Some(rigid)) = (sweep.spot.exit_speed_max, sweep.rigid_best) else {
+        return String::new();
+    };
+    let Some([there, here]) = sweep.vibration_at_bests else {
+        let text = "Why there: further out the bat recoils more than its speed makes up for.";
+        return wrapped(text, 0);
+    };
+    let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
+    let text = format!(
+        "Why there: a bat that does not bend would be best at {}; bending takes {there:.2} J there \
+         and {here:.2} J at the sweet spot, {} {way}.",
+        place(rigid.x),
+        place((peak.x - rigid.x).abs())
+    );
+    wrapped(&text, 0)
+}
+
+/// The label that an empirical model carries wherever it is printed.
+pub fn empirical(model: Model) -> &'static str {
+    match model {
+        Model::Rigid => "     the bat does not bend in this model\n",
+        Model::EnergyLoss(_) => {
+            "     empirical: the loss to vibration is the WPI report's fit, not derived, and\n     \
+             energy is not conserved (energy_j.imbalance in the JSON)\n"
+        }
+    }
 }
 
 /// The sweet spot by each definition, from knob and tip.
 pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let mut out =
-        String::from("Sweet spot                            from knob              from tip\n");
+        String::from("Sweet spot                             from knob            from tip\n");
     let mut line = |what: &str, x: Option<f64>, value: String| {
         let Some(x) = x else { return };
         let place = |x: f64| match units {
@@ -212,7 +270,7 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
             Units::Both => format!("{:.2} cm, {:.2} in", 100.0 * x, inches(x)),
         };
         let what = if value.is_empty() { what.to_owned() } else { format!("{what}, {value}") };
-        let text = format!("  {what:<34}  {:<21}  {}", place(x), place(bat.length() - x));
+        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
         let _ = writeln!(out, "{text}");
     };
     let peak = spot.exit_speed_max;
