@@ -183,7 +183,7 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
     let json = folder.json(&[&ring[..], &["--json", "-"]].concat());
     assert_eq!(json["x_m"].as_array().unwrap().len(), 101);
     let csv = folder.text(&ring);
-    assert!(csv.starts_with("x_m,w_m at 0 s,") && csv.lines().count() == 102);
+    assert!(csv.starts_with("x_m,w_m_at_0_s,") && csv.lines().count() == 102);
 
     folder.text(&["analyze", &bat, "--out", "deep/folder"]);
     let out = Folder(folder.0.join("deep/folder"));
