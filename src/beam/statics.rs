@@ -298,8 +298,8 @@ mod tests {
     }
 
     /// Strains of no particular kind.
-    fn some(dimension: usize, seed: usize) -> Vec<f64> {
-        (0..dimension).map(|k| ((k + seed) as f64 * 0.754_877).fract() - 0.5).collect()
+    fn some(dimension: usize, offset: usize) -> Vec<f64> {
+        (0..dimension).map(|k| ((k + offset) as f64 * 0.754_877).fract() - 0.5).collect()
     }
 
     #[test]

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
-use sweetspot::plan::{self, Solution};
+use sweetspot::plan::Solution;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 use sweetspot::validation;
 
-use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, curve_csv};
+use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, curve_csv};
 use crate::cli::modes::missed_tolerance;
 use crate::cli::{Done, NOT_REACHED};
 
@@ -18,13 +18,8 @@ use crate::cli::{Done, NOT_REACHED};
 /// Example: sweetspot analyze meshes/r161.json --out r161
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat file (JSON)
-    bat: PathBuf,
-
-    /// Number of bending modes to report
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
-    count: u16,
+    #[command(flatten)]
+    bat: BatArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -48,11 +43,9 @@ pub struct Args {
 const POINTS: usize = 101;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = args.output.read_bat(&args.bat)?;
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.output.progress("solving …");
-    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
-    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
+    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
@@ -91,7 +84,7 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(args: &Args, solution: &Solution) -> Result<String> {
-    let count = usize::from(args.count).max(10);
+    let count = args.bat.count().max(10);
     let [truth, stated] = validation::dowel_proof(&args.solve.request(count))?;
     let here = match solution.modes.is_empty() {
         true => String::new(),

@@ -1,7 +1,7 @@
 //! Options that several verbs share.
 
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 use sweetspot::bat::Bat;
@@ -9,12 +9,47 @@ use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::error::{Error, Result, nearest};
-use sweetspot::plan::{Request, Solution, Solver};
+use sweetspot::plan::{self, Request, Solution, Solver};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::units::{self, Quantity};
 
 use crate::cli::printable;
+
+/// Which bat, and how many of its modes.
+#[derive(clap::Args)]
+pub struct BatArgs {
+    /// Bat file (JSON)
+    bat: PathBuf,
+
+    /// Number of bending modes
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    count: u16,
+}
+
+impl BatArgs {
+    /// Number of bending modes.
+    pub fn count(&self) -> usize {
+        self.count.into()
+    }
+
+    /// Reads the bat and passes its warnings on.
+    pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
+        let bat = Bat::from_file(&self.bat)?;
+        let file = self.bat.display();
+        bat.warnings().iter().for_each(|w| output.warn(&format!("warning: {file}: {w}")));
+        Ok(bat)
+    }
+
+    /// Reads the bat and finds its modes.
+    pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
+        let bat = self.read(output)?;
+        let solution = plan::solve(&bat, &solve.request(self.count()))?;
+        solve.say_raised(&solution, output);
+        Ok((bat, solution))
+    }
+}
 
 /// How the modes are found.
 #[derive(clap::Args)]
@@ -42,13 +77,14 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, solver: self.solver }
     }
 
-    /// What to say where more elements were needed than asked for.
-    pub fn raised(&self, solution: &Solution) -> Option<String> {
-        let asked = self.elements.filter(|asked| (*asked as usize) < solution.elements)?;
-        Some(format!(
-            "note: --elements {asked} raised to {}: one per interval between stations at least",
-            solution.elements
-        ))
+    /// Says where more elements were needed than asked for.
+    pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
+        if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.elements) {
+            output.warn(&format!(
+                "note: --elements {asked} raised to {}: one per interval between stations at least",
+                solution.elements
+            ));
+        }
     }
 
     /// Whether a solution that missed the tolerance ends with exit code 3.
@@ -90,13 +126,6 @@ impl OutputArgs {
             // A closed standard error is no reason to stop.
             let _ = writeln!(std::io::stderr(), "{}", printable(text));
         }
-    }
-
-    /// Reads the bat and passes its warnings on.
-    pub fn read_bat(&self, path: &Path) -> Result<Bat> {
-        let bat = Bat::from_file(path)?;
-        bat.warnings().iter().for_each(|w| self.warn(&format!("warning: {}: {w}", path.display())));
-        Ok(bat)
     }
 
     /// What took so long, for a person at a terminal.

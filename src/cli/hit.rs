@@ -1,14 +1,12 @@
 //! `sweetspot hit BAT`: the collision along the barrel.
 
-use std::path::PathBuf;
-
 use sweetspot::bat::Bat;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::{json, text};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, quantity, shown_length};
+use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, quantity, shown_length};
 use crate::cli::{Done, NOT_REACHED};
 
 /// The collision along the barrel: exit speeds, energies, the sweet spot
@@ -16,13 +14,8 @@ use crate::cli::{Done, NOT_REACHED};
 /// Example: sweetspot hit meshes/r161.json --swing-speed "50 rad/s" --pitch "90 mph" --points 21
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat file (JSON)
-    bat: PathBuf,
-
-    /// Number of bending modes that count (energy-loss: 10)
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
-    count: u16,
+    #[command(flatten)]
+    bat: BatArgs,
 
     #[command(flatten)]
     scene: SceneArgs,
@@ -90,11 +83,11 @@ impl PlaceArgs {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = args.output.read_bat(&args.bat)?;
+    let bat = args.bat.read(&args.output)?;
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
-    let request = args.solve.request(args.count.into());
+    let request = args.solve.request(args.bat.count());
     let sweep = sweep(&bat, model, &scene, &request, &args.place.places(&bat)?)?;
-    args.solve.raised(&sweep.solution).iter().for_each(|note| args.output.warn(note));
+    args.solve.say_raised(&sweep.solution, &args.output);
     let units = args.output.units;
     let table = format!(
         "{}{}\n{}\n{}{}",

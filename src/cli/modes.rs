@@ -10,7 +10,7 @@ use sweetspot::plan;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 
-use crate::cli::common::{OutputArgs, SolveArgs};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs};
 use crate::cli::{Done, NOT_REACHED};
 
 /// Natural frequencies, shapes and nodes of the free bat
@@ -18,13 +18,8 @@ use crate::cli::{Done, NOT_REACHED};
 /// Example: sweetspot modes meshes/r161.json -n 5 --tol 1e-8
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat file (JSON)
-    bat: PathBuf,
-
-    /// Number of bending modes
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
-    count: u16,
+    #[command(flatten)]
+    bat: BatArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -46,9 +41,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = args.output.read_bat(&args.bat)?;
-    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
-    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
+    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
         let mesh = Mesh::with_counts(&bat, solution.counts.clone());
         let pencil = Pencil::assemble(&element::elements(&bat, &mesh));
@@ -63,7 +56,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let table = format!(
         "{}\n{}\n{}",
         text::summary(&bat, args.output.units),
-        text::modes(&bat, &solution, args.count.into(), args.output.units),
+        text::modes(&bat, &solution, args.bat.count(), args.output.units),
         text::model(&bat, &solution)
     );
     let document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);

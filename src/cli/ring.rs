@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
-use sweetspot::plan::{self, Solution};
+use sweetspot::plan::Solution;
 use sweetspot::report::file;
 use sweetspot::response::partial_sums;
 use sweetspot::ringing::{Ringing, Start};
 use sweetspot::shape_file;
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, SolveArgs, quantity, shown_length};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
 use crate::cli::modes::missed_tolerance;
 use crate::cli::{Done, NOT_REACHED};
 
@@ -21,8 +21,8 @@ use crate::cli::{Done, NOT_REACHED};
 /// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1 ms,2 ms"
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat file (JSON)
-    bat: PathBuf,
+    #[command(flatten)]
+    bat: BatArgs,
 
     /// Where it is struck, from the knob end
     #[arg(long, value_name = "X", requires = "impulse", allow_hyphen_values = true,
@@ -37,11 +37,6 @@ pub struct Args {
     /// Release it from the shape in this CSV file (columns x_m,w_m or with other units)
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     initial: Option<PathBuf>,
-
-    /// Number of bending modes
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
-    count: u16,
 
     /// Instants, separated by commas (default: nine over a period of mode 1)
     #[arg(long, value_name = "T,T,…", value_delimiter = ',', allow_hyphen_values = true,
@@ -69,9 +64,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = args.output.read_bat(&args.bat)?;
-    let solution = plan::solve(&bat, &args.solve.request(args.count.into()))?;
-    args.solve.raised(&solution).iter().for_each(|note| args.output.warn(note));
+    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     let ringing = Ringing::new(&bat, &solution, args.bending_only);
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
@@ -89,7 +82,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let document = json!({
         "format": "sweetspot-ring/1",
         "generator": { "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") },
-        "modes": args.count,
+        "modes": args.bat.count(),
         "rigid_motion": !args.bending_only,
         "x_m": x,
         "times_s": times,
