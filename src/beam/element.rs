@@ -13,6 +13,7 @@
 
 use crate::bat::Bat;
 use crate::beam::mesh;
+use crate::profile::{Piece, Section};
 use crate::quadrature::gauss;
 
 /// Strain unknowns of an element: the coefficients of `P₀` and `P₁` in its curvature.
@@ -162,12 +163,25 @@ impl Element {
             |a: &Deflection, b: &Deflection| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
         let carried = [[1.0, 0.0], [0.0, 1.0]].map(|q| self.growth(self.strains(q), 0.0));
         Link {
-            mass: loads.map(|load| motions.map(|w| dot(&w, &load))),
+            mass: symmetric(|k, l| dot(&motions[k], &loads[l])),
             lift: carried.map(|(_, risen)| risen),
             turn: carried.map(|(turned, _)| turned),
             length: self.length,
         }
     }
+}
+
+/// A symmetric 4 × 4 matrix from its entries `k ≥ l`.
+#[inline(always)]
+fn symmetric(entry: impl Fn(usize, usize) -> f64) -> Matrix4 {
+    let mut matrix = Matrix4::default();
+    for k in 0..4 {
+        for l in 0..=k {
+            matrix[k][l] = entry(k, l);
+            matrix[l][k] = matrix[k][l];
+        }
+    }
+    matrix
 }
 
 impl Link {
@@ -226,21 +240,17 @@ pub fn elements(bat: &Bat, mesh: &mesh::Mesh) -> Vec<Element> {
 
 /// `D_jk = ∫EI P_j P_k dx`, factored, and `∫ρA P_k P_l dx`.
 #[inline]
-fn energies(
-    bat: &Bat,
-    piece: &crate::profile::Piece,
-    e: &mesh::Element,
-    rule: &[Point],
-) -> Element {
+fn energies(bat: &Bat, piece: &Piece, e: &mesh::Element, rule: &[Point]) -> Element {
     let (mut d, mut mass) = ([0.0; 3], [0.0; 10]);
-    for point in rule {
-        let radius = |b: &[f64; 4]| b.iter().zip(&point.bernstein).map(|(b, v)| b * v).sum::<f64>();
-        let section =
-            crate::profile::Section { outer: radius(&piece.outer), inner: radius(&piece.inner) };
+    let solid = piece.inner == [0.0; 4];
+    for Point { bernstein: v, products } in rule {
+        let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
+        let inner = if solid { 0.0 } else { radius(&piece.inner) };
+        let section = Section { outer: radius(&piece.outer), inner };
         let stiffness = e.length * bat.bending_stiffness(section);
         let per_length = e.length * bat.mass_per_length(section);
-        d.iter_mut().zip(&point.products).for_each(|(d, p)| *d += stiffness * p);
-        mass.iter_mut().zip(&point.products).for_each(|(m, p)| *m += per_length * p);
+        d.iter_mut().zip(products).for_each(|(d, p)| *d += stiffness * p);
+        mass.iter_mut().zip(products).for_each(|(m, p)| *m += per_length * p);
     }
     Element {
         length: e.length,

@@ -19,8 +19,8 @@ pub struct Ritz {
 }
 
 /// Convergence is looked for from this many steps beyond the wanted number on, and so often.
-const EARLIEST: usize = 7;
-const EVERY: usize = 2;
+const EARLIEST: usize = 8;
+const EVERY: usize = 1;
 
 /// The `count` largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`.
 ///
@@ -73,7 +73,8 @@ pub fn largest(
             }
         }
         beta.push(rest);
-        basis.push(next.iter().map(|v| v / rest).collect());
+        let scale = 1.0 / rest;
+        basis.push(next.iter().map(|v| v * scale).collect());
     }
 }
 

@@ -53,7 +53,8 @@ fn sweep(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], low: usize, high: us
             e[high] = 0.0;
             return;
         }
-        (sine, cosine) = (f / r, g / r);
+        let inverse = 1.0 / r;
+        (sine, cosine) = (f * inverse, g * inverse);
         g = d[i + 1] - shift;
         let r = (d[i] - g) * sine + 2.0 * cosine * b;
         shift = sine * r;
