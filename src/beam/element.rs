@@ -163,25 +163,12 @@ impl Element {
             |a: &Deflection, b: &Deflection| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
         let carried = [[1.0, 0.0], [0.0, 1.0]].map(|q| self.growth(self.strains(q), 0.0));
         Link {
-            mass: symmetric(|k, l| dot(&motions[k], &loads[l])),
+            mass: loads.map(|load| motions.map(|w| dot(&w, &load))),
             lift: carried.map(|(_, risen)| risen),
             turn: carried.map(|(turned, _)| turned),
             length: self.length,
         }
     }
-}
-
-/// A symmetric 4 × 4 matrix from its entries `k ≥ l`.
-#[inline(always)]
-fn symmetric(entry: impl Fn(usize, usize) -> f64) -> Matrix4 {
-    let mut matrix = Matrix4::default();
-    for k in 0..4 {
-        for l in 0..=k {
-            matrix[k][l] = entry(k, l);
-            matrix[l][k] = matrix[k][l];
-        }
-    }
-    matrix
 }
 
 impl Link {
