@@ -85,7 +85,7 @@ impl Ball {
         };
         let needed = |key: &str, quantity| -> Result<f64> {
             root.require(key, &format!("\"{key}\" of the ball"))?;
-            Ok(positive(key, quantity)?.expect("it is there"))
+            Ok(positive(key, quantity)?.expect("required just above"))
         };
         let cor = root.require("cor", "\"cor\" on a rigid wall")?;
         Ok(Self {
