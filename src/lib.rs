@@ -61,6 +61,7 @@
 
 pub mod error;
 pub mod units;
+pub mod real;
 pub mod quadrature;
 pub mod material;
 mod pchip;
@@ -75,6 +76,7 @@ pub mod eigen;
 pub mod beam;
 pub mod modes;
 pub mod plan;
+pub mod solve;
 pub mod theory;
 pub mod dowel;
 pub mod response;
@@ -86,4 +88,4 @@ pub mod validation;
 pub use bat::Bat;
 pub use error::{Error, Result};
 pub use modes::Mode;
-pub use plan::{Request, Solution, Solver, solve};
+pub use solve::{Request, Solution, Solver, solve};

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::real::Real;
+
 /// Points in (0, 1) and weights of sum 1; exact for polynomials of degree `2 n − 1`.
 ///
 /// Roots of the Legendre polynomial `P_n` by Newton's method from Chebyshev-like guesses,
@@ -38,20 +40,30 @@ fn legendre_pair(n: usize, xi: f64) -> (f64, f64) {
     (value, before)
 }
 
+/// `P_0 … P_{count−1}` at `xi`, two at least.
+pub fn legendre(count: usize, xi: f64) -> Vec<f64> {
+    let mut p = vec![1.0, xi];
+    for k in 1..count.saturating_sub(1) {
+        let n = k as f64;
+        p.push(((2.0 * n + 1.0) * xi * p[k] - n * p[k - 1]) / (n + 1.0));
+    }
+    p
+}
+
 /// A running sum that carries the rounding error of every addition along.
 ///
 /// The error of the sum of n terms is then about ε instead of ε·n
 /// (Knuth's two-sum; Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955, algorithm 4.1).
 /// With `KEEP` false it is a plain sum, for sums so short that nothing is worth keeping.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct RunningSum<const KEEP: bool = true> {
-    high: f64,
-    low: f64,
+pub struct RunningSum<R, const KEEP: bool = true> {
+    high: R,
+    low: R,
 }
 
-impl<const KEEP: bool> RunningSum<KEEP> {
+impl<R: Real, const KEEP: bool> RunningSum<R, KEEP> {
     #[inline(always)]
-    pub fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: R) {
         let sum = self.high + term;
         if KEEP {
             let part = sum - self.high;
@@ -61,14 +73,14 @@ impl<const KEEP: bool> RunningSum<KEEP> {
     }
 
     #[inline(always)]
-    pub fn value(self) -> f64 {
+    pub fn value(self) -> R {
         if KEEP { self.high + self.low } else { self.high }
     }
 }
 
 /// The sum of all terms, rounding errors carried along.
-pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
-    let mut total = RunningSum::<true>::default();
+pub fn sum<R: Real>(terms: impl IntoIterator<Item = R>) -> R {
+    let mut total = RunningSum::<R>::default();
     terms.into_iter().for_each(|term| total.add(term));
     total.value()
 }

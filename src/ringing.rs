@@ -2,7 +2,7 @@
 
 use crate::bat::Bat;
 use crate::modes::Mode;
-use crate::plan::Solution;
+use crate::solve::Solution;
 use crate::quadrature::gauss;
 use crate::response::{Oscillator, expansion, struck};
 use crate::shape_file::InitialShape;

@@ -4,7 +4,7 @@
 
 use crate::bat::Bat;
 use crate::modes::Mode;
-use crate::plan::Solution;
+use crate::solve::Solution;
 use crate::profile::Section;
 
 /// Relative change of a mode's frequency by effects that the model leaves out.

@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::dowel::{Dowel, Ends};
 use crate::error::{Error, Result};
-use crate::plan::{Request, Solution, solve};
+use crate::solve::{Request, Solution, solve};
 use crate::units::ounce_square_inches;
 
 /// One bat and what is known about it.

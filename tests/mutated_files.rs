@@ -12,7 +12,7 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Hitter, Model, Scene};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::error::Error;
-use sweetspot::plan::{self, Request, Solution};
+use sweetspot::solve::{self, Request, Solution};
 use sweetspot::report::json::{self, ShapePoints};
 
 const FILES: [(&str, &str); 7] = [
@@ -175,7 +175,7 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
     holds("balance", inertia.balance_point > 0.0 && inertia.balance_point < bat.length())?;
     holds("inertia", in_range(inertia.about_balance) && in_range(inertia.line_about_balance))?;
     let request = Request { modes: 3, tolerance: 1e-3, ..Request::default() };
-    let solution = match plan::solve(bat, &request) {
+    let solution = match solve::solve(bat, &request) {
         Ok(solution) => solution,
         Err(error) => return told(error),
     };

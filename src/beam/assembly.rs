@@ -4,11 +4,15 @@ use std::io::{self, Write};
 
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-use crate::beam::element::{Element, Matrix4};
+use crate::bat::Bat;
+use crate::beam::element::{Element, Matrix, elements};
+use crate::beam::mesh::Mesh;
 
-/// Stiffness and mass in the unknowns `[w₀, θ₀, w₁, θ₁, …]`, two per node, free–free.
+/// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and slope
+/// of every node and, after those of its left node, the bubbles of an element of degree above 3.
 ///
-/// Units: deflections in m, slopes in rad; `K` in N/m, N, N m, `M` in kg, kg m, kg m².
+/// Units: deflections in m, slopes in rad, bubbles (curvatures) in 1/m; `K` in N/m to N m³, `M` in
+/// kg to kg m⁴.
 #[derive(Debug, Clone)]
 pub struct Pencil {
     pub stiffness: CscMatrix<f64>,
@@ -16,22 +20,53 @@ pub struct Pencil {
 }
 
 impl Pencil {
-    pub fn assemble(elements: &[Element]) -> Self {
-        let size = 2 * (elements.len() + 1);
+    /// The matrices of a bat on that mesh with elements of that degree.
+    pub fn of(bat: &Bat, mesh: &Mesh, degree: usize) -> Self {
+        match degree {
+            3 => Self::assemble::<4>(&elements(bat, mesh)),
+            4 => Self::assemble::<5>(&elements(bat, mesh)),
+            5 => Self::assemble::<6>(&elements(bat, mesh)),
+            6 => Self::assemble::<7>(&elements(bat, mesh)),
+            7 => Self::assemble::<8>(&elements(bat, mesh)),
+            8 => Self::assemble::<9>(&elements(bat, mesh)),
+            9 => Self::assemble::<10>(&elements(bat, mesh)),
+            10 => Self::assemble::<11>(&elements(bat, mesh)),
+            11 => Self::assemble::<12>(&elements(bat, mesh)),
+            _ => Self::assemble::<13>(&elements(bat, mesh)),
+        }
+    }
+
+    pub fn assemble<const N: usize>(elements: &[Element<f64, N>]) -> Self {
+        let size = (N - 2) * elements.len() + 2;
         let (mut k, mut m) = (CooMatrix::new(size, size), CooMatrix::new(size, size));
         for (e, element) in elements.iter().enumerate() {
             let (stiffness, mass) = element.hermite();
-            scatter(&mut k, 2 * e, &stiffness);
-            scatter(&mut m, 2 * e, &mass);
+            let places = places::<N>(e);
+            scatter(&mut k, &places, &stiffness);
+            scatter(&mut m, &places, &mass);
         }
         Self { stiffness: CscMatrix::from(&k), mass: CscMatrix::from(&m) }
     }
 }
 
-fn scatter(into: &mut CooMatrix<f64>, first: usize, block: &Matrix4) {
-    for (i, row) in block.iter().enumerate() {
-        for (j, value) in row.iter().enumerate() {
-            into.push(first + i, first + j, *value);
+/// Where the unknowns `[w₁, θ₁, w₂, θ₂, b₂ …]` of element `e` stand among all.
+pub fn places<const N: usize>(e: usize) -> [usize; N] {
+    let first = (N - 2) * e;
+    std::array::from_fn(|i| match i {
+        0 | 1 => first + i,
+        2 | 3 => first + (N - 2) + (i - 2),
+        _ => first + 2 + (i - 4),
+    })
+}
+
+fn scatter<const N: usize>(
+    into: &mut CooMatrix<f64>,
+    places: &[usize; N],
+    block: &Matrix<f64, N>,
+) {
+    for (i, row) in places.iter().zip(block) {
+        for (j, value) in places.iter().zip(row) {
+            into.push(*i, *j, *value);
         }
     }
 }
@@ -45,7 +80,7 @@ fn scatter(into: &mut CooMatrix<f64>, first: usize, block: &Matrix4) {
 pub fn write_matrix_market(matrix: &CscMatrix<f64>, out: &mut impl Write) -> io::Result<()> {
     let lower: Vec<_> = matrix.triplet_iter().filter(|(i, j, _)| i >= j).collect();
     writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
-    writeln!(out, "% unknowns: deflection (m) and slope (rad) of each node, knob to tip; SI")?;
+    writeln!(out, "% unknowns knob to tip: deflection (m), slope (rad) of a node, then bubbles (1/m); SI")?;
     writeln!(out, "{} {} {}", matrix.nrows(), matrix.ncols(), lower.len())?;
     lower.into_iter().try_for_each(|(i, j, v)| writeln!(out, "{} {} {v:e}", i + 1, j + 1))
 }

@@ -1,258 +1,321 @@
-//! What one element stores: strain energy and kinetic energy of a cubic deflection.
+//! What one element stores: strain energy and kinetic energy of a deflection of degree p.
 //!
 //! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the
-//! unknowns are strains: the curvature is `θ′ = c₀ P₀ + c₁ P₁`, and slope and deflection follow
-//! by integration from the left end,
+//! unknowns are strains: the curvature is `θ′ = Σ c_j P_j`, `j = 0 … p−2`, and slope and
+//! deflection follow by integration from the left end,
 //!
 //! ```text
 //! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫θ,   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
 //! ```
 //!
-//! That is the cubic Hermite space seen from its strains; [`Element::hermite`] gives the usual
-//! matrices of `[w₁, θ₁, w₂, θ₂]` as a change of basis of the same two blocks.
+//! That is the Hermite space of degree p seen from its strains; [`Element::hermite`] gives the
+//! usual matrices of `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis of the
+//! same two blocks. `N = p + 1` is the number of Legendre polynomials in a deflection, `N − 2`
+//! the number of strains.
 
 use crate::bat::Bat;
-use crate::beam::mesh;
-use crate::profile::{Piece, Section};
-use crate::quadrature::gauss;
+use crate::beam::mesh::{self, Mesh};
+use crate::beam::rule::Rule;
+use crate::profile::Section;
+use crate::real::Real;
 
-/// Strain unknowns of an element: the coefficients of `P₀` and `P₁` in its curvature.
-pub const STRAINS: usize = 2;
-
-const THIRD: f64 = 1.0 / 3.0;
-const FIFTH: f64 = 0.2;
-
-/// A 4 × 4 matrix of Hermite unknowns `[w₁, θ₁, w₂, θ₂]`.
-pub type Matrix4 = [[f64; 4]; 4];
+/// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
+pub type Vector<R, const N: usize> = [R; N];
+/// `N` rows of `N` numbers.
+pub type Matrix<R, const N: usize> = [[R; N]; N];
 
 /// The energies of one element.
 #[derive(Debug, Clone, Copy)]
-pub struct Element {
+pub struct Element<R, const N: usize> {
     /// Length h (m).
-    pub length: f64,
+    pub length: R,
     /// Position of the middle from the knob end (m).
-    pub middle: f64,
-    /// Stiffness of the strains `D` (N m³), as `[D₀₀, D₁₀, D₁₁]`.
-    pub stiffness: [f64; 3],
-    /// Inverse of the Cholesky factor `D = L Lᵀ`, as `[1/L₀₀, −L₁₀/(L₀₀ L₁₁), 1/L₁₁]`.
-    pub inverse: [f64; 3],
-    /// Mass `∫ρA P_k P_l dx` (kg), `k ≥ l`, row by row.
-    pub mass: [f64; 10],
+    pub middle: R,
+    /// Stiffness of the strains `D_jk = ∫EI P_j P_k dx` (N m³), `j, k < N − 2`.
+    pub stiffness: Matrix<R, N>,
+    /// Mass `∫ρA P_k P_l dx` (kg).
+    pub mass: Matrix<R, N>,
 }
 
-/// `w₀ … w₃`: a deflection on an element in Legendre polynomials (m).
-pub type Deflection = [f64; 4];
+/// `1/(2k + 1)`.
+const ODD: [f64; 16] = {
+    let mut odd = [0.0; 16];
+    let mut k = 0;
+    while k < 16 {
+        odd[k] = 1.0 / (2 * k + 1) as f64;
+        k += 1;
+    }
+    odd
+};
 
-impl Element {
-    /// The deflection with strains `c` of an element whose left end is at `w` with slope `theta`.
+/// The deflection with strains `c` of an element of length `h` whose left end is at `w` with
+/// slope `theta`, in Legendre polynomials (m).
+#[inline(always)]
+pub fn deflection<R: Real, const N: usize>(
+    h: R,
+    c: &Vector<R, N>,
+    w: R,
+    theta: R,
+) -> Vector<R, N> {
+    let half = R::splat(0.5) * h;
+    let integral = |below: R, k: usize, above: R| {
+        half * (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above)
+    };
+    let zero = R::default();
+    let mut t = [zero; N];
+    let c = |k: usize| if k < N - 2 { c[k] } else { zero };
+    t[0] = theta + half * (c(0) - R::splat(ODD[1]) * c(1));
+    for k in 1..N - 1 {
+        t[k] = integral(c(k - 1), k, c(k + 1));
+    }
+    let mut shape = [zero; N];
+    shape[0] = w + half * (t[0] - R::splat(ODD[1]) * t[1]);
+    for k in 1..N {
+        shape[k] = integral(t[k - 1], k, if k + 1 < N { t[k + 1] } else { zero });
+    }
+    shape
+}
+
+/// The adjoint of [`deflection`]: what loads on the Legendre polynomials are on the strains and,
+/// in the last two places, on `w` and `theta`.
+#[inline(always)]
+fn on_strains<R: Real, const N: usize>(h: R, load: &Vector<R, N>) -> Vector<R, N> {
+    let half = R::splat(0.5) * h;
+    let zero = R::default();
+    let mut turning = [zero; N];
+    turning[0] = half * (load[1] + load[0]);
+    for k in 1..N - 1 {
+        turning[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
+    }
+    let mut on = [zero; N];
+    on[0] = half * (turning[1] + turning[0]);
+    for k in 1..N - 2 {
+        on[k] = half * R::splat(ODD[k]) * (turning[k + 1] - turning[k - 1]);
+    }
+    (on[N - 2], on[N - 1]) = (load[0], turning[0]);
+    on
+}
+
+impl<R: Real, const N: usize> Element<R, N> {
+    /// The energies from EI (N m²) and ρA (kg/m) at the points of the rule.
     #[inline(always)]
-    pub fn deflection(&self, c: [f64; 2], w: f64, theta: f64) -> Deflection {
-        let half = 0.5 * self.length;
-        let (t1, t2) = (half * c[0], half * c[1] * THIRD);
-        let t0 = theta + (t1 - t2);
-        [
-            w + half * (t0 - t1 * THIRD),
-            half * (t0 - t2 * FIFTH),
-            half * t1 * THIRD,
-            half * t2 * FIFTH,
-        ]
-    }
-
-    /// By how much slope and deflection grow along the element: `h c₀` and `h θ̄`.
-    #[inline(always)]
-    pub fn growth(&self, c: [f64; 2], theta: f64) -> (f64, f64) {
-        let h = self.length;
-        (h * c[0], h * (theta + 0.5 * h * (c[0] - c[1] * THIRD)))
-    }
-
-    /// Loads `f_k = ∫ρA P_k w dx` that the inertia of a deflection makes (times ω²).
-    #[inline(always)]
-    pub fn load(&self, w: &Deflection) -> Deflection {
-        let m = &self.mass;
-        [
-            m[0] * w[0] + m[1] * w[1] + m[3] * w[2] + m[6] * w[3],
-            m[1] * w[0] + m[2] * w[1] + m[4] * w[2] + m[7] * w[3],
-            m[3] * w[0] + m[4] * w[1] + m[5] * w[2] + m[8] * w[3],
-            m[6] * w[0] + m[7] * w[1] + m[8] * w[2] + m[9] * w[3],
-        ]
-    }
-
-    /// `L⁻ᵀ q`: strains from energy-scaled strains, `½ qᵀq = ½ cᵀD c`.
-    #[inline(always)]
-    pub fn strains(&self, q: [f64; 2]) -> [f64; 2] {
-        let [i00, i10, i11] = self.inverse;
-        [i00 * q[0] + i10 * q[1], i11 * q[1]]
-    }
-
-    /// `Lᵀ c`: energy-scaled strains from strains.
-    pub fn energy_scaled(&self, c: [f64; 2]) -> [f64; 2] {
-        let [i00, i10, i11] = self.inverse;
-        let q1 = c[1] / i11;
-        [(c[0] - i10 * q1) / i00, q1]
-    }
-
-    /// The same element with energies counted in that unit.
-    pub fn with_energy_unit(&self, unit: f64) -> Self {
-        let stiffness = self.stiffness.map(|d| d / unit);
-        Self { stiffness, inverse: inverse(stiffness), ..*self }
+    pub fn new(
+        length: R,
+        middle: R,
+        rule: &Rule,
+        bending_stiffness: &[R],
+        mass_per_length: &[R],
+    ) -> Self {
+        let zero = [[R::default(); N]; N];
+        let (mut stiffness, mut mass) = (zero, zero);
+        let sections = bending_stiffness.iter().zip(mass_per_length);
+        for (i, ((bending, line), point)) in sections.zip(&rule.points).enumerate() {
+            let p = rule.at::<N>(i);
+            let share = R::splat(point.weight) * length;
+            let (bending, line) = (share * *bending, share * *line);
+            for k in 0..N {
+                let (bending, line) = (bending * R::splat(p[k]), line * R::splat(p[k]));
+                for l in 0..N {
+                    mass[k][l] += line * R::splat(p[l]);
+                }
+                for l in 0..N - 2 {
+                    stiffness[k][l] += bending * R::splat(p[l]);
+                }
+            }
+        }
+        Self { length, middle, stiffness, mass }
     }
 
     /// The same element seen from its other end: odd polynomials change sign.
-    pub fn mirrored(&self) -> Self {
-        let mut other = *self;
-        other.stiffness[1] *= -1.0;
-        other.inverse[1] *= -1.0;
-        for odd in [1, 4, 6, 8] {
-            other.mass[odd] *= -1.0;
+    #[inline(always)]
+    pub fn mirrored(mut self) -> Self {
+        for k in 0..N {
+            for l in 0..N {
+                if (k + l) % 2 == 1 {
+                    self.stiffness[k][l] = -self.stiffness[k][l];
+                    self.mass[k][l] = -self.mass[k][l];
+                }
+            }
         }
-        other
+        self
     }
 
-    /// Strains of the Hermite unknowns: mean curvature `(θ₂ − θ₁)/h` and its slope
-    /// `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h`.
-    pub fn strains_of_hermite(&self, u: [f64; 4]) -> [f64; 2] {
-        let h = self.length;
-        let chord = (u[2] - u[0]) / h;
-        [(u[3] - u[1]) / h, 3.0 * ((u[1] - chord) + (u[3] - chord)) / h]
+    /// `L⁻¹`, lower triangular, of the stiffness `D = L Lᵀ` in that unit of energy.
+    #[inline(always)]
+    pub fn inverse_factor(&self, unit: R) -> Matrix<R, N> {
+        let n = N - 2;
+        let zero = R::default();
+        let scale = R::splat(1.0) / unit;
+        let (mut factor, mut inverse) = ([[zero; N]; N], [[zero; N]; N]);
+        for j in 0..n {
+            let mut pivot = self.stiffness[j][j] * scale;
+            for k in 0..j {
+                pivot -= factor[j][k] * factor[j][k];
+            }
+            inverse[j][j] = R::splat(1.0) / pivot.sqrt();
+            for i in j + 1..n {
+                let mut entry = self.stiffness[i][j] * scale;
+                for k in 0..j {
+                    entry -= factor[i][k] * factor[j][k];
+                }
+                factor[i][j] = entry * inverse[j][j];
+            }
+        }
+        for i in 1..n {
+            for j in 0..i {
+                let mut entry = zero;
+                for k in j..i {
+                    entry += factor[i][k] * inverse[k][j];
+                }
+                inverse[i][j] = -(entry * inverse[i][i]);
+            }
+        }
+        inverse
     }
 
-    /// Stiffness and mass for the Hermite unknowns `[w₁, θ₁, w₂, θ₂]`.
-    pub fn hermite(&self) -> (Matrix4, Matrix4) {
-        let unit = |i: usize| std::array::from_fn(|j| f64::from(u8::from(i == j)));
-        let strain: [[f64; 2]; 4] =
-            std::array::from_fn(|i| self.energy_scaled(self.strains_of_hermite(unit(i))));
-        let shape: [Deflection; 4] = std::array::from_fn(|i| {
-            let u = unit(i);
-            self.deflection(self.strains_of_hermite(u), u[0], u[1])
-        });
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum();
-        let stiffness =
-            std::array::from_fn(|i| std::array::from_fn(|j| dot(&strain[i], &strain[j])));
-        let mass = std::array::from_fn(|i| {
-            let load = self.load(&shape[i]);
-            std::array::from_fn(|j| dot(&load, &shape[j]))
-        });
-        (stiffness, mass)
+    /// The element as the running sums use it, in strains scaled by that `L⁻¹`.
+    #[inline(always)]
+    pub fn link(&self, inverse: &Matrix<R, N>) -> Link<R, N> {
+        let (n, h) = (N - 2, self.length);
+        // ∂T/∂(c, w, θ) of every deflection polynomial, then of every strain.
+        let rows: Matrix<R, N> = self.mass.map(|row| on_strains(h, &row));
+        let columns: Matrix<R, N> =
+            std::array::from_fn(|j| on_strains(h, &std::array::from_fn(|k| rows[k][j])));
+        let zero = R::default();
+        // Scaled from the left, row by row, then from the right.
+        let mut left = columns;
+        for i in 0..n {
+            left[i] = [zero; N];
+            for k in 0..=i {
+                for j in 0..N {
+                    left[i][j] += inverse[i][k] * columns[k][j];
+                }
+            }
+        }
+        let mut mass = left;
+        for row in 0..N {
+            for i in 0..n {
+                let mut entry = zero;
+                for k in 0..=i {
+                    entry += left[row][k] * inverse[i][k];
+                }
+                mass[row][i] = entry;
+            }
+        }
+        let (mut lift, mut turn) = ([zero; N], [zero; N]);
+        for i in 0..n {
+            let second = if i > 0 { R::splat(ODD[1]) * inverse[i][1] } else { zero };
+            turn[i] = h * inverse[i][0];
+            lift[i] = R::splat(0.5) * h * h * (inverse[i][0] - second);
+        }
+        Link { mass, lift, turn, length: h }
     }
 }
 
 /// One element as the running sums use it: its kinetic energy in its scaled strains `q` and the
 /// deflection and slope `(w, θ)` at its inner end, and how far these carry its outer end.
 #[derive(Debug, Clone, Copy)]
-pub struct Link {
-    /// Columns of the mass matrix of `(q₀, q₁, w, θ)`.
-    pub mass: [[f64; 4]; 4],
-    /// `w_out = w + h θ + lift·q`, `θ_out = θ + turn·q`.
-    pub lift: [f64; 2],
-    pub turn: [f64; 2],
-    pub length: f64,
+pub struct Link<R, const N: usize> {
+    /// Mass matrix of `(q₀ … q_{N−3}, w, θ)`.
+    pub mass: Matrix<R, N>,
+    /// `w_out = w + h θ + lift·q`, `θ_out = θ + turn·q`; the last two places are not used.
+    pub lift: Vector<R, N>,
+    pub turn: Vector<R, N>,
+    pub length: R,
 }
 
-impl Element {
-    /// The element's motion by `q`, `w` and `θ`, each once, and the energy of their sums.
-    pub fn link(&self) -> Link {
-        let motion = |q: [f64; 2], w: f64, theta: f64| self.deflection(self.strains(q), w, theta);
-        let motions = [
-            motion([1.0, 0.0], 0.0, 0.0),
-            motion([0.0, 1.0], 0.0, 0.0),
-            motion([0.0; 2], 1.0, 0.0),
-            motion([0.0; 2], 0.0, 1.0),
-        ];
-        let loads = motions.map(|w| self.load(&w));
-        let dot =
-            |a: &Deflection, b: &Deflection| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-        let carried = [[1.0, 0.0], [0.0, 1.0]].map(|q| self.growth(self.strains(q), 0.0));
-        Link {
-            mass: loads.map(|load| motions.map(|w| dot(&w, &load))),
-            lift: carried.map(|(_, risen)| risen),
-            turn: carried.map(|(turned, _)| turned),
-            length: self.length,
-        }
-    }
-}
-
-impl Link {
+impl<R: Real, const N: usize> Link<R, N> {
     /// The element's generalised loads `∂T/∂(q, w, θ)` in that motion (times ω²).
     #[inline(always)]
-    pub fn load(&self, q: [f64; 2], w: f64, theta: f64) -> [f64; 4] {
-        let [a, b, c, d] = &self.mass;
-        std::array::from_fn(|i| (a[i] * q[0] + b[i] * q[1]) + (c[i] * w + d[i] * theta))
-    }
-
-    /// By how much deflection and slope differ between the two ends.
-    #[inline(always)]
-    pub fn growth(&self, q: [f64; 2], theta: f64) -> [f64; 2] {
-        let risen = self.lift[0] * q[0] + self.lift[1] * q[1];
-        [self.length * theta + risen, self.turn[0] * q[0] + self.turn[1] * q[1]]
-    }
-}
-
-/// One quadrature point: values of the Bernstein polynomials for the radii, and the weight
-/// times the products `P_k P_l`, `k ≥ l`, for the integrals.
-struct Point {
-    bernstein: [f64; 4],
-    products: [f64; 10],
-}
-
-/// The quadrature of an element whose radii are of that degree, exact.
-///
-/// `∫ρA P₃²` has degree `2d + 6` and `∫EI P₁²` degree `4d + 2`; `n` points do `2n − 1`.
-fn points(degree: usize) -> Vec<Point> {
-    let count = (degree + 4).max(2 * degree + 2);
-    let point = |(s, weight): (f64, f64)| {
-        let (t, xi) = (1.0 - s, 2.0 * s - 1.0);
-        let legendre = [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
-        let pairs = (0..4).flat_map(|k| (0..=k).map(move |l| (k, l)));
-        let mut products = [0.0; 10];
-        for (product, (k, l)) in products.iter_mut().zip(pairs) {
-            *product = weight * legendre[k] * legendre[l];
+    pub fn load(&self, motion: &Vector<R, N>) -> Vector<R, N> {
+        let mut load = [R::default(); N];
+        for (column, part) in self.mass.iter().zip(motion) {
+            for (load, entry) in load.iter_mut().zip(column) {
+                *load += *entry * *part;
+            }
         }
-        Point { bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s], products }
-    };
-    gauss(count).into_iter().map(point).collect()
+        load
+    }
 }
 
-/// All elements of a mesh.
-pub fn elements(bat: &Bat, mesh: &mesh::Mesh) -> Vec<Element> {
-    static RULES: std::sync::LazyLock<[Vec<Point>; 3]> =
-        std::sync::LazyLock::new(|| [points(0), points(1), points(3)]);
-    let rules = &*RULES;
+/// `Σ_k a_k b_k` over the strains.
+#[inline(always)]
+pub fn over_strains<R: Real, const N: usize>(a: &Vector<R, N>, b: &Vector<R, N>) -> R {
+    let mut sum = R::default();
+    for k in 0..N - 2 {
+        sum += a[k] * b[k];
+    }
+    sum
+}
+
+/// EI (N m²) and ρA (kg/m) at the points of the rule on one element.
+#[inline(always)]
+pub fn sections(
+    bat: &Bat,
+    e: &mesh::Element,
+    rule: &Rule,
+    mut take: impl FnMut(usize, f64, f64),
+) {
+    let piece = bat.profile.pieces[e.piece].part(e.from, e.to);
+    let solid = piece.inner == [0.0; 4];
+    for (i, point) in rule.points.iter().enumerate() {
+        let v = &point.bernstein;
+        let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
+        let inner = if solid { 0.0 } else { radius(&piece.inner) };
+        let section = Section { outer: radius(&piece.outer), inner };
+        take(i, bat.bending_stiffness(section), bat.mass_per_length(section));
+    }
+}
+
+/// All elements of a mesh, as degree `N − 1` sees them.
+pub fn elements<const N: usize>(bat: &Bat, mesh: &Mesh) -> Vec<Element<f64, N>> {
+    let rule = Rule::of(bat, N - 1);
+    let (mut bending, mut line) = (vec![0.0; rule.count()], vec![0.0; rule.count()]);
     let element = |e: &mesh::Element| {
-        let piece = &bat.profile.pieces[e.piece];
-        let rule = &rules[piece.degree.min(2)];
-        energies(bat, &piece.part(e.from, e.to), e, rule)
+        sections(bat, e, rule, |i, stiffness, mass| (bending[i], line[i]) = (stiffness, mass));
+        Element::new(e.length, e.start + 0.5 * e.length, rule, &bending, &line)
     };
     mesh.elements.iter().map(element).collect()
 }
 
-/// `D_jk = ∫EI P_j P_k dx`, factored, and `∫ρA P_k P_l dx`.
-#[inline]
-fn energies(bat: &Bat, piece: &Piece, e: &mesh::Element, rule: &[Point]) -> Element {
-    let (mut d, mut mass) = ([0.0; 3], [0.0; 10]);
-    let solid = piece.inner == [0.0; 4];
-    for Point { bernstein: v, products } in rule {
-        let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
-        let inner = if solid { 0.0 } else { radius(&piece.inner) };
-        let section = Section { outer: radius(&piece.outer), inner };
-        let stiffness = e.length * bat.bending_stiffness(section);
-        let per_length = e.length * bat.mass_per_length(section);
-        d.iter_mut().zip(products).for_each(|(d, p)| *d += stiffness * p);
-        mass.iter_mut().zip(products).for_each(|(m, p)| *m += per_length * p);
+impl<const N: usize> Element<f64, N> {
+    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …]`: mean curvature `(θ₂ − θ₁)/h`, its
+    /// slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h`, and the bubbles, whose
+    /// amplitude `b_j` is the coefficient of `P_j` in the curvature.
+    pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, N> {
+        let h = self.length;
+        let chord = (u[2] - u[0]) / h;
+        let mut strains = [0.0; N];
+        strains[0] = (u[3] - u[1]) / h;
+        strains[1] = 3.0 * ((u[1] - chord) + (u[3] - chord)) / h;
+        strains[2..N - 2].copy_from_slice(&u[4..]);
+        strains
     }
-    Element {
-        length: e.length,
-        middle: e.start + 0.5 * e.length,
-        stiffness: d,
-        inverse: inverse(d),
-        mass,
+
+    /// Stiffness and mass for the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …]`.
+    ///
+    /// A bubble's deflection and slope vanish at both ends, because `P_j` with `j ≥ 2` has
+    /// neither area nor moment.
+    pub fn hermite(&self) -> (Matrix<f64, N>, Matrix<f64, N>) {
+        let unit = |i: usize| -> Vector<f64, N> {
+            std::array::from_fn(|j| f64::from(u8::from(i == j)))
+        };
+        let strains: Matrix<f64, N> = std::array::from_fn(|i| self.strains_of_hermite(&unit(i)));
+        let shapes: Matrix<f64, N> = std::array::from_fn(|i| {
+            let u = unit(i);
+            deflection(self.length, &strains[i], u[0], u[1])
+        });
+        let product = |matrix: &Matrix<f64, N>, rows: &Matrix<f64, N>| {
+            let times = |x: &Vector<f64, N>| -> Vector<f64, N> {
+                std::array::from_fn(|k| dot(&matrix[k], x))
+            };
+            let images = rows.map(|row| times(&row));
+            std::array::from_fn(|i| std::array::from_fn(|j| dot(&images[i], &rows[j])))
+        };
+        (product(&self.stiffness, &strains), product(&self.mass, &shapes))
     }
 }
 
-/// The inverse of the Cholesky factor of a 2 × 2 matrix.
-#[inline]
-fn inverse(d: [f64; 3]) -> [f64; 3] {
-    let i00 = 1.0 / d[0].sqrt();
-    let l10 = d[1] * i00;
-    let i11 = 1.0 / (d[2] - l10 * l10).sqrt();
-    [i00, -l10 * i00 * i11, i11]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -16,26 +16,24 @@ pub struct Element {
     pub length: f64,
 }
 
-/// The elements of a bat from knob to tip, equal in length within each piece of the profile.
-#[derive(Debug, Clone, PartialEq)]
+/// The elements of a bat from knob to tip.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     pub elements: Vec<Element>,
-    /// Number of elements in each piece.
-    pub counts: Vec<usize>,
 }
 
 impl Mesh {
-    /// About `wanted` elements spread by length: exactly that many if there are no more pieces
+    /// About `wanted` elements spread by length, equal within each piece: exactly that many if there are no more pieces
     /// than that, else one per piece.
     pub fn along(bat: &Bat, wanted: usize) -> Self {
         let lengths: Vec<f64> = bat.profile.pieces.iter().map(|piece| piece.length).collect();
-        Self::with_counts(bat, spread(&lengths, wanted))
+        Self::with_counts(bat, &spread(&lengths, wanted))
     }
 
-    /// A mesh with that many elements in each piece of the profile.
-    pub fn with_counts(bat: &Bat, counts: Vec<usize>) -> Self {
+    /// A mesh with that many equal elements in each piece of the profile.
+    pub fn with_counts(bat: &Bat, counts: &[usize]) -> Self {
         let mut elements = Vec::with_capacity(counts.iter().sum());
-        for (k, (piece, &count)) in bat.profile.pieces.iter().zip(&counts).enumerate() {
+        for (k, (piece, &count)) in bat.profile.pieces.iter().zip(counts).enumerate() {
             let at = |j: usize| j as f64 / count as f64;
             elements.extend((0..count).map(|j| Element {
                 piece: k,
@@ -45,18 +43,45 @@ impl Mesh {
                 length: piece.length / count as f64,
             }));
         }
-        Self { elements, counts }
+        Self { elements }
     }
 
-    /// Every element cut in two.
-    pub fn finer(&self, bat: &Bat) -> Self {
-        Self::with_counts(bat, self.counts.iter().map(|count| 2 * count).collect())
+    /// A mesh with borders at these places of each piece, `s` rising from 0 to 1.
+    pub fn with_borders(bat: &Bat, borders: &[Vec<f64>]) -> Self {
+        let mut elements = Vec::new();
+        for (k, (piece, borders)) in bat.profile.pieces.iter().zip(borders).enumerate() {
+            elements.extend(borders.windows(2).map(|s| Element {
+                piece: k,
+                from: s[0],
+                to: s[1],
+                start: piece.start + piece.length * s[0],
+                length: piece.length * (s[1] - s[0]),
+            }));
+        }
+        Self { elements }
     }
 
-    /// Every two elements made one, if each piece has an even number of them.
-    pub fn coarser(&self, bat: &Bat) -> Option<Self> {
-        let even = self.counts.iter().all(|count| count % 2 == 0);
-        even.then(|| Self::with_counts(bat, self.counts.iter().map(|count| count / 2).collect()))
+    /// The same mesh with element `k` cut into `parts(k)` equal parts.
+    pub fn refined(&self, parts: impl Fn(usize) -> usize) -> Self {
+        let mut elements = Vec::with_capacity(self.len());
+        for (k, e) in self.elements.iter().enumerate() {
+            let parts = parts(k);
+            let share = |j: usize| j as f64 / parts as f64;
+            let at = |j: usize| e.from + (e.to - e.from) * share(j);
+            elements.extend((0..parts).map(|j| Element {
+                piece: e.piece,
+                from: at(j),
+                to: if j + 1 == parts { e.to } else { at(j + 1) },
+                start: e.start + e.length * share(j),
+                length: e.length / parts as f64,
+            }));
+        }
+        Self { elements }
+    }
+
+    /// Middle and length of every element (m).
+    pub fn stretches(&self) -> Vec<(f64, f64)> {
+        self.elements.iter().map(|e| (e.start + 0.5 * e.length, e.length)).collect()
     }
 
     /// Number of elements.

@@ -1,6 +1,8 @@
 //! The bat as a beam: elements, the compliance by statics, and the assembled matrices.
 
 pub mod mesh;
+pub mod rule;
 pub mod element;
 pub mod statics;
+pub mod motion;
 pub mod assembly;

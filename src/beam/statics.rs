@@ -21,331 +21,388 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
-use std::f64::consts::PI;
-
-use crate::beam::element::{Deflection, Element, Link, STRAINS};
-use crate::eigen::lanczos::dot;
-use crate::quadrature::{RunningSum, sum};
+use crate::bat::Bat;
+use crate::beam::element::{self, Element, Link, Matrix, Vector, over_strains};
+use crate::beam::mesh::Mesh;
+use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::quadrature::RunningSum;
+use crate::real::Real;
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
 
-/// The compliance of a free bat.
+/// The compliance of free bats, one in each lane of `R`, on elements of degree `N − 1`.
 ///
-/// Vectors of strains hold the knob side first, both sides from the root outwards.
+/// Vectors of strains hold `N − 2` numbers for each element, the knob side first, both sides from
+/// the root outwards.
 #[derive(Debug, Clone)]
-pub struct Statics {
-    knob_side: Side,
-    tip_side: Side,
+pub struct Statics<R, const N: usize> {
+    pub rule: &'static Rule,
+    /// The elements in the order of the strains, each seen outwards.
+    pub cells: Vec<Cell<R, N>>,
+    /// How many of them are on the knob side.
+    pub split: usize,
+    /// EI (N m²) and ρA (kg/m) at the points of every cell, outwards.
+    pub bending_stiffness: Vec<R>,
+    pub mass_per_length: Vec<R>,
     /// Mass (kg) and line inertia about the balance point (kg m²), summed from the elements.
-    mass: f64,
-    inertia: f64,
+    pub mass: R,
+    pub inertia: R,
+    /// Position of the balance point from the knob end (m).
+    pub balance: R,
     /// Energy of `½ qᵀq = 1`: a power of two near the greatest `EI h`, so that scaling a bat by
     /// powers of two scales every number in here by powers of two, and no digit changes.
-    energy_unit: f64,
-    length: f64,
+    pub energy_unit: R,
+    pub length: R,
 }
 
-/// The elements on one side of the root, outwards, each seen in that direction.
-#[derive(Debug, Clone)]
-struct Side {
-    elements: Vec<Element>,
-    links: Vec<Link>,
-    /// Distance of each inner end from the balance point, counted outwards (m).
-    arms: Vec<f64>,
+/// An element on one side of the root, seen in that direction.
+#[derive(Debug, Clone, Copy)]
+pub struct Cell<R, const N: usize> {
+    pub link: Link<R, N>,
+    /// `L⁻¹` of the stiffness of its strains.
+    pub inverse: Matrix<R, N>,
+    /// Distance of its inner end from the balance point, counted outwards (m).
+    pub arm: R,
 }
 
-/// A bending motion, the rigid motions taken out of it.
-#[derive(Debug, Clone)]
-pub struct Motion {
-    /// Deflection of every element, from the knob.
-    pub shape: Vec<Deflection>,
-    /// `wᵀMw` (kg m²), as `qᵀAq`.
-    pub kinetic: f64,
-    /// Rayleigh's quotient: ω² (1/s²) is strain energy over kinetic energy, both from the strains.
-    pub omega: f64,
-    /// `A q`.
-    image: Vec<f64>,
+impl<R: Real, const N: usize> Cell<R, N> {
+    /// `L⁻ᵀ q`: strains (1/m) from scaled strains.
+    #[inline(always)]
+    pub fn strains(&self, q: &Vector<R, N>) -> Vector<R, N> {
+        let mut strains = [R::default(); N];
+        for i in 0..N - 2 {
+            for j in 0..=i {
+                strains[j] += self.inverse[i][j] * q[i];
+            }
+        }
+        strains
+    }
 }
 
-impl Statics {
-    /// The compliance of a bat made of these elements, knob to tip.
-    pub fn new(elements: &[Element]) -> Self {
-        let over = |f: &dyn Fn(&Element) -> f64| sum(elements.iter().map(f));
-        let mass = over(&|e| e.mass[0]);
-        let balance = over(&|e| e.middle * e.mass[0] + 0.5 * e.length * e.mass[1]) / mass;
-        let inertia = over(&|e| {
-            let (arm, half) = (e.middle - balance, 0.5 * e.length);
-            arm * (arm * e.mass[0] + 2.0 * half * e.mass[1]) + half * half * e.mass[2]
+impl<const N: usize> Cell<f64, N> {
+    /// `Lᵀ c`: scaled strains from strains.
+    pub fn scaled_strains(&self, c: &Vector<f64, N>) -> Vector<f64, N> {
+        let mut q = [0.0; N];
+        for i in (0..N - 2).rev() {
+            let known: f64 = (i + 1..N - 2).map(|k| self.inverse[k][i] * q[k]).sum();
+            q[i] = (c[i] - known) / self.inverse[i][i];
+        }
+        q
+    }
+}
+
+/// A rigid motion seen outwards: translation of the balance point and rotation.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rigid<R> {
+    pub push: R,
+    pub turn: R,
+}
+
+impl<R: Real> Rigid<R> {
+    /// The same seen from the other side: what turns outwards there turns inwards here.
+    fn mirrored(self) -> Self {
+        Self { turn: -self.turn, ..self }
+    }
+}
+
+impl<R: Real, const N: usize> Statics<R, N> {
+    /// Nothing yet; [`Self::assemble`] fills it.
+    pub fn empty(bat: &Bat) -> Self {
+        let zero = R::default();
+        Self {
+            rule: Rule::of(bat, N - 1),
+            cells: vec![],
+            split: 0,
+            bending_stiffness: vec![],
+            mass_per_length: vec![],
+            mass: zero,
+            inertia: zero,
+            balance: zero,
+            energy_unit: zero,
+            length: zero,
+        }
+    }
+
+    /// The compliance of the bats, one per lane, all on the one mesh's pattern of elements.
+    ///
+    /// Memory is reused: the second bat of the same number of elements allocates nothing.
+    pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
+        debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
+        self.rule = Rule::of(bats[0], N - 1);
+        let (points, count) = (self.rule.count(), meshes[0].len());
+        let zero = R::default();
+        self.bending_stiffness.clear();
+        self.bending_stiffness.resize(count * points, zero);
+        self.mass_per_length.clear();
+        self.mass_per_length.resize(count * points, zero);
+        let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
+        let (mut greatest, mut stiffest) = (zero, 0.0);
+        let mut at = zero;
+        for k in 0..count {
+            let range = k * points..(k + 1) * points;
+            let bending = &mut self.bending_stiffness[range.clone()];
+            let line = &mut self.mass_per_length[range];
+            let (mut length, mut start) = (zero, zero);
+            for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
+                let e = &mesh.elements[k];
+                length.set_lane(lane, e.length);
+                start.set_lane(lane, e.start);
+                element::sections(bat, e, self.rule, |i, stiffness, mass| {
+                    bending[i].set_lane(lane, stiffness);
+                    line[i].set_lane(lane, mass);
+                });
+            }
+            let [here, moment] = self.rule.integrals(line);
+            let stiffness = length * self.rule.integrals(bending)[0];
+            let here = length * here;
+            mass.add(here);
+            first.add(start * here + length * length * moment);
+            greatest = greatest.max(stiffness);
+            stiffest = f64::max(stiffest, stiffness.lane(0) / length.lane(0));
+            at = start + length;
+        }
+        self.length = at;
+        self.mass = mass.value();
+        self.balance = first.value() / self.mass;
+        self.energy_unit = greatest;
+        (0..R::LANES).for_each(|lane| {
+            self.energy_unit.set_lane(lane, power_of_two_below(greatest.lane(lane)));
         });
-        let greatest = elements.iter().map(|e| e.stiffness[0]).fold(0.0, f64::max);
-        let energy_unit = power_of_two_below(greatest);
-        let (before, after) = elements.split_at(root(elements));
-        let scaled = |e: &Element| e.with_energy_unit(energy_unit);
-        let knob_side = Side::new(
-            before.iter().rev().map(|e| scaled(e).mirrored()).collect(),
-            before.iter().rev().map(|e| balance - e.middle - 0.5 * e.length).collect(),
-        );
-        let tip_side = Side::new(
-            after.iter().map(scaled).collect(),
-            after.iter().map(|e| e.middle - 0.5 * e.length - balance).collect(),
-        );
-        let length = elements.last().map_or(0.0, |e| e.middle + 0.5 * e.length);
-        Self { knob_side, tip_side, mass, inertia, energy_unit, length }
+        self.split = self.root(count, stiffest);
+        self.fill(meshes);
+    }
+
+    /// The middle one of the elements whose bending stiffness is at least half the greatest.
+    fn root(&self, elements: usize, stiffest: f64) -> usize {
+        let points = self.rule.count();
+        let stiff = |k: &usize| {
+            let sections = &self.bending_stiffness[k * points..(k + 1) * points];
+            let weighted = self.rule.points.iter().zip(sections).map(|(p, ei)| p.weight * ei.lane(0));
+            weighted.sum::<f64>() >= 0.5 * stiffest
+        };
+        let count = (0..elements).filter(stiff).count();
+        (0..elements).filter(stiff).nth(count / 2).unwrap_or(0)
+    }
+
+    /// The cells of both sides from the sections, and the inertia.
+    fn fill(&mut self, meshes: &[&Mesh]) {
+        let (points, half, balance) = (self.rule.count(), R::splat(0.5), self.balance);
+        let mut inertia = RunningSum::<R>::default();
+        self.cells.clear();
+        let count = meshes[0].len();
+        // The knob side's sections come outwards too: last element first, points reversed.
+        self.bending_stiffness[..self.split * points].reverse();
+        self.mass_per_length[..self.split * points].reverse();
+        for place in 0..count {
+            let knob_side = place < self.split;
+            let k = if knob_side { self.split - 1 - place } else { place };
+            let (mut length, mut start) = (R::default(), R::default());
+            for (lane, mesh) in meshes.iter().enumerate() {
+                length.set_lane(lane, mesh.elements[k].length);
+                start.set_lane(lane, mesh.elements[k].start);
+            }
+            let range = place * points..(place + 1) * points;
+            let middle = start + half * length;
+            let element = Element::<R, N>::new(
+                length,
+                middle,
+                self.rule,
+                &self.bending_stiffness[range.clone()],
+                &self.mass_per_length[range],
+            );
+            let arm = if knob_side { balance - (start + length) } else { start - balance };
+            let (middle, m) = (arm + half * length, &element.mass);
+            // ∫ρA y² dx about the balance point, outwards.
+            inertia.add(
+                middle * (middle * m[0][0] + length * m[0][1])
+                    + half * half * length * length * m[1][1],
+            );
+            let inverse = element.inverse_factor(self.energy_unit);
+            self.cells.push(Cell { link: element.link(&inverse), inverse, arm });
+        }
+        self.inertia = inertia.value();
     }
 
     /// Number of unknowns: the bending modes of the discrete bat.
     pub fn dimension(&self) -> usize {
-        STRAINS * self.len()
+        (N - 2) * self.cells.len()
     }
 
-    fn len(&self) -> usize {
-        self.knob_side.elements.len() + self.tip_side.elements.len()
+    /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
+    /// `EI κ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
+    /// the moments there.
+    #[inline(always)]
+    pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
+        let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
+        let balance = self.balance * scale;
+        for (place, (cell, q)) in self.cells.iter().zip(out.chunks_exact_mut(N - 2)).enumerate() {
+            let (first, step) = (cell.arm * scale, cell.link.length * scale);
+            let mut values = [R::default(); MOST_POINTS];
+            for (s, point) in values.iter_mut().zip(&self.rule.points) {
+                let arm = first + R::splat(point.s) * step;
+                *s = if place < self.split { balance - arm } else { balance + arm };
+            }
+            moments(&mut values[..points]);
+            let mut work = [R::default(); N];
+            for (i, (value, point)) in values.iter().zip(&self.rule.points).enumerate() {
+                let share = R::splat(point.weight) * cell.link.length * *value;
+                for (work, p) in work.iter_mut().zip(self.rule.at::<N>(i)) {
+                    *work += share * R::splat(*p);
+                }
+            }
+            for i in 0..N - 2 {
+                q[i] = R::default();
+                for j in 0..=i {
+                    q[i] += cell.inverse[i][j] * work[j];
+                }
+            }
+        }
     }
 
     /// Where Lanczos starts for `count` modes: bending moments with something of each wanted mode
     /// and little of the others.
     ///
-    /// `s²(1 − s)² Σ_j a_j cos jπs`, `s` along the bat, `j ≤ count + 1`: moment and shear vanish
-    /// at the free ends as a mode's do. The `a_j` are golden-ratio fractions, all different.
-    /// A touch of every unknown is added, so that no mode is ever left out.
-    pub fn start(&self, count: usize) -> Vec<f64> {
+    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j`
+    /// Chebyshev's polynomials, so that the terms are nearly `cos jπs`: moment and shear vanish at
+    /// the free ends as a mode's do. The `a_j` are golden-ratio fractions, all different. A touch
+    /// of every unknown is added, so that no mode is ever left out.
+    #[inline(always)]
+    pub fn start(&self, count: usize, out: &mut [R]) {
         const TOUCH: f64 = 1e-9;
-        let fraction = |j: usize| ((j + 1) as f64 * 0.618_033_988_749_894_9).fract();
-        let amplitudes: Vec<f64> = (0..count + 2).map(|j| 0.2 + fraction(j)).collect();
-        let mut start = Vec::with_capacity(self.dimension());
-        let sides = self.knob_side.elements.iter().chain(&self.tip_side.elements);
-        for (k, e) in sides.enumerate() {
-            let s = e.middle / self.length;
-            let moment = 16.0 * (s * (1.0 - s)).powi(2) * cosine_series(&amplitudes, PI * s);
-            // Strain is moment over stiffness; scaled by the energy it is h/L₀₀ times the moment.
-            let scale = e.length * e.inverse[0];
-            start.push((moment + TOUCH * fraction(k)) * scale);
-            start.push(TOUCH * (fraction(k + 7) - 0.5) * scale);
+        let number = R::splat;
+        self.strains_of_moments(out, |places| {
+            let [mut wave, mut before, mut now] = [[R::default(); MOST_POINTS]; 3];
+            for (wave, s) in wave.iter_mut().zip(places.iter()) {
+                *wave = number(1.0) - number(2.0) * *s * *s * (number(3.0) - number(2.0) * *s);
+            }
+            // Clenshaw's recurrence, all points at once.
+            for j in (0..count + 2).rev() {
+                let amplitude = number(0.2 + golden(j));
+                for ((wave, before), now) in
+                    wave[..places.len()].iter().zip(&mut before).zip(&mut now)
+                {
+                    (*now, *before) = (amplitude + (*wave + *wave) * *now - *before, *now);
+                }
+            }
+            for (i, s) in places.iter_mut().enumerate() {
+                let bump = *s * (number(1.0) - *s);
+                *s = bump * bump * (now[i] - wave[i] * before[i]);
+            }
+        });
+        let mut largest = R::default();
+        out.iter().for_each(|q| largest = largest.max(q.abs()));
+        for (k, q) in out.iter_mut().enumerate() {
+            *q += number(TOUCH * (golden(k) - 0.5)) * largest;
         }
-        start
     }
 
-    /// `y = A q`; `loads` is scratch space. Returns the translation and the rotation that were
-    /// taken out of the motion with these strains when it is at rest at the root.
-    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Vec<[f64; 4]>) -> [f64; 2] {
-        if self.len() > LONG {
+    /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was taken out of the
+    /// motion with these strains when it is at rest at the root.
+    #[inline(always)]
+    pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
+        if self.cells.len() > LONG {
             self.compliance::<true>(q, y, loads)
         } else {
             self.compliance::<false>(q, y, loads)
         }
     }
 
+    #[inline(always)]
     fn compliance<const KEEP: bool>(
         &self,
-        q: &[f64],
-        y: &mut [f64],
-        loads: &mut Vec<[f64; 4]>,
-    ) -> [f64; 2] {
-        loads.resize(self.len(), [0.0; 4]);
-        let split = self.knob_side.links.len();
-        let (knob_loads, tip_loads) = loads.split_at_mut(split);
-        let (knob_q, tip_q) = q.split_at(STRAINS * split);
-        let knob = self.knob_side.outwards::<KEEP>(knob_q, knob_loads);
-        let tip = self.tip_side.outwards::<KEEP>(tip_q, tip_loads);
-        let push = (knob[0] + tip[0]) / self.mass;
-        let turn = (tip[1] - knob[1]) / self.inertia;
-        let (knob_y, tip_y) = y.split_at_mut(STRAINS * split);
-        self.knob_side.inwards::<KEEP>(knob_loads, [push, -turn], knob_y);
-        self.tip_side.inwards::<KEEP>(tip_loads, [push, turn], tip_y);
-        [push, turn]
+        q: &[R],
+        y: &mut [R],
+        loads: &mut Vec<Vector<R, N>>,
+    ) -> Rigid<R> {
+        loads.resize(self.cells.len(), [R::default(); N]);
+        let strains = (N - 2) * self.split;
+        let (knob, tip) = self.cells.split_at(self.split);
+        let (knob_loads, tip_loads) = loads.split_at_mut(self.split);
+        let (knob_q, tip_q) = q.split_at(strains);
+        let [knob_force, knob_moment] = outwards::<R, N, KEEP>(knob, knob_q, knob_loads);
+        let [tip_force, tip_moment] = outwards::<R, N, KEEP>(tip, tip_q, tip_loads);
+        let rigid = Rigid {
+            push: (knob_force + tip_force) / self.mass,
+            turn: (tip_moment - knob_moment) / self.inertia,
+        };
+        let (knob_y, tip_y) = y.split_at_mut(strains);
+        inwards::<R, N, KEEP>(knob, knob_loads, rigid.mirrored(), knob_y);
+        inwards::<R, N, KEEP>(tip, tip_loads, rigid, tip_y);
+        rigid
     }
 
-    /// The bending motion with these strains.
-    pub fn motion(&self, q: &[f64], loads: &mut Vec<[f64; 4]>) -> Motion {
-        let mut image = vec![0.0; q.len()];
-        let [push, turn] = self.apply(q, &mut image, loads);
-        let mut shape = Vec::with_capacity(self.len());
-        let (knob_q, tip_q) = q.split_at(STRAINS * self.knob_side.links.len());
-        self.knob_side.deflections(knob_q, [push, -turn], &mut shape);
-        // Outwards is backwards there: last first, and odd polynomials change sign.
-        shape.reverse();
-        shape.iter_mut().for_each(|w| [w[1], w[3]] = [-w[1], -w[3]]);
-        self.tip_side.deflections(tip_q, [push, turn], &mut shape);
-        let (strain, kinetic) = (dot(q, q), dot(q, &image));
-        Motion { shape, kinetic, omega: (strain * self.energy_unit / kinetic).sqrt(), image }
-    }
-
-    /// `‖q − ω² A q‖/‖q‖`: how far a pair is from an eigenpair of the compliance.
-    pub fn residual(&self, q: &[f64], omega: f64, motion: &Motion) -> f64 {
-        let scale = omega * omega / self.energy_unit;
-        let square = |(x, y): (&f64, &f64)| (x - scale * y).powi(2);
-        (q.iter().zip(&motion.image).map(square).sum::<f64>() / dot(q, q)).sqrt()
-    }
-
-    /// Energy-scaled strains of nodal deflections and slopes `[w₀, θ₀, w₁, θ₁, …]`.
-    pub fn strains_of_hermite(&self, u: &[f64]) -> Vec<f64> {
-        let split = self.knob_side.elements.len();
-        let knob = self.knob_side.elements.iter().enumerate().flat_map(|(k, e)| {
-            let u = &u[2 * (split - 1 - k)..];
-            e.energy_scaled(e.strains_of_hermite([u[2], -u[3], u[0], -u[1]]))
-        });
-        let tip = self.tip_side.elements.iter().enumerate().flat_map(|(k, e)| {
-            let u = &u[2 * (split + k)..];
-            e.energy_scaled(e.strains_of_hermite([u[0], u[1], u[2], u[3]]))
-        });
-        knob.chain(tip).collect()
+    /// The cells of one side, the places they take among all, and a rigid motion seen from there.
+    pub fn sides(&self, rigid: Rigid<R>) -> [(std::ops::Range<usize>, Rigid<R>); 2] {
+        [(0..self.split, rigid.mirrored()), (self.split..self.cells.len(), rigid)]
     }
 }
 
-impl Side {
-    fn new(elements: Vec<Element>, arms: Vec<f64>) -> Self {
-        let links = elements.iter().map(Element::link).collect();
-        Self { elements, links, arms }
-    }
-
-    /// Integrates strains outwards from the root at rest and keeps every element's loads; returns
-    /// the force and the moment about the balance point of the side's inertia.
-    fn outwards<const KEEP: bool>(&self, q: &[f64], loads: &mut [[f64; 4]]) -> [f64; 2] {
-        let [mut w, mut theta, mut force, mut moment] = [RunningSum::<KEEP>::default(); 4];
-        let links = self.links.iter().zip(&self.arms);
-        for (((link, arm), q), kept) in links.zip(q.chunks_exact(STRAINS)).zip(loads) {
-            let q = [q[0], q[1]];
-            let load = link.load(q, w.value(), theta.value());
-            *kept = load;
-            force.add(load[2]);
-            moment.add(arm * load[2] + load[3]);
-            let [risen, turned] = link.growth(q, theta.value());
-            w.add(risen);
-            theta.add(turned);
-        }
-        [force.value(), moment.value()]
-    }
-
-    /// Shear and bending moment inwards from the free end, and with them the scaled strains: the
-    /// adjoint of [`Self::outwards`], the loads of the rigid motion taken out.
-    fn inwards<const KEEP: bool>(&self, loads: &[[f64; 4]], [push, turn]: [f64; 2], y: &mut [f64]) {
-        let [mut shear, mut bending] = [RunningSum::<KEEP>::default(); 2];
-        let links = self.links.iter().zip(&self.arms);
-        for (((link, arm), load), y) in links.zip(loads).zip(y.chunks_exact_mut(STRAINS)).rev() {
-            let [_, _, lifted, turned] = &link.mass;
-            let lift = push + turn * arm;
-            let f: [f64; 4] =
-                std::array::from_fn(|i| load[i] - (lift * lifted[i] + turn * turned[i]));
-            let (v, m) = (shear.value(), bending.value());
-            for k in 0..STRAINS {
-                y[k] = f[k] + (link.lift[k] * v + link.turn[k] * m);
-            }
-            bending.add(link.length * v + f[3]);
-            shear.add(f[2]);
-        }
-    }
-
-    /// Deflections outwards from the root at rest, less a rigid motion.
-    fn deflections(&self, q: &[f64], [push, turn]: [f64; 2], shape: &mut Vec<Deflection>) {
-        let [mut w, mut theta] = [RunningSum::<true>::default(); 2];
-        for ((e, arm), q) in self.elements.iter().zip(&self.arms).zip(q.chunks_exact(STRAINS)) {
-            let c = e.strains([q[0], q[1]]);
-            let mut deflection = e.deflection(c, w.value(), theta.value());
-            let half = 0.5 * e.length;
-            deflection[0] -= push + turn * (arm + half);
-            deflection[1] -= turn * half;
-            shape.push(deflection);
-            let (turned, risen) = e.growth(c, theta.value());
-            w.add(risen);
-            theta.add(turned);
-        }
-    }
+/// The fractional part of `(k + 1)` golden sections: numbers of no pattern in [0, 1).
+fn golden(k: usize) -> f64 {
+    ((k + 1) as f64 * 0.618_033_988_749_894_9).fract()
 }
 
-/// The middle one of the elements whose bending stiffness is at least half the greatest.
-fn root(elements: &[Element]) -> usize {
-    let bending = |e: &Element| e.stiffness[0] / e.length;
-    let greatest = elements.iter().map(bending).fold(0.0, f64::max);
-    let stiff = |k: &usize| bending(&elements[*k]) >= 0.5 * greatest;
-    let count = (0..elements.len()).filter(stiff).count();
-    (0..elements.len()).filter(stiff).nth(count / 2).unwrap_or(0)
+/// The scaled strains of one cell with its deflection and slope in the last two places.
+#[inline(always)]
+pub fn with_ends<R: Real, const N: usize>(q: &[R], w: R, theta: R) -> Vector<R, N> {
+    let mut motion = [R::default(); N];
+    motion[..N - 2].copy_from_slice(&q[..N - 2]);
+    (motion[N - 2], motion[N - 1]) = (w, theta);
+    motion
+}
+
+/// Integrates strains outwards from the root at rest and keeps every element's loads; returns
+/// the force and the moment about the balance point of the side's inertia.
+#[inline(always)]
+fn outwards<R: Real, const N: usize, const KEEP: bool>(
+    cells: &[Cell<R, N>],
+    q: &[R],
+    loads: &mut [Vector<R, N>],
+) -> [R; 2] {
+    let [mut w, mut theta, mut force, mut moment] = [RunningSum::<R, KEEP>::default(); 4];
+    for ((cell, q), kept) in cells.iter().zip(q.chunks_exact(N - 2)).zip(loads) {
+        let link = &cell.link;
+        let motion = with_ends::<R, N>(q, w.value(), theta.value());
+        let load = link.load(&motion);
+        *kept = load;
+        force.add(load[N - 2]);
+        moment.add(cell.arm * load[N - 2] + load[N - 1]);
+        w.add(link.length * theta.value() + over_strains(&link.lift, &motion));
+        theta.add(over_strains(&link.turn, &motion));
+    }
+    [force.value(), moment.value()]
+}
+
+/// Shear and bending moment inwards from the free end, and with them the scaled strains: the
+/// adjoint of [`outwards`], the loads of the rigid motion taken out.
+#[inline(always)]
+fn inwards<R: Real, const N: usize, const KEEP: bool>(
+    cells: &[Cell<R, N>],
+    loads: &[Vector<R, N>],
+    rigid: Rigid<R>,
+    y: &mut [R],
+) {
+    let [mut shear, mut bending] = [RunningSum::<R, KEEP>::default(); 2];
+    for ((cell, load), y) in cells.iter().zip(loads).zip(y.chunks_exact_mut(N - 2)).rev() {
+        let link = &cell.link;
+        let [lifted, turned] = [&link.mass[N - 2], &link.mass[N - 1]];
+        let lift = rigid.push + rigid.turn * cell.arm;
+        let mut f = *load;
+        for i in 0..N {
+            f[i] -= lift * lifted[i] + rigid.turn * turned[i];
+        }
+        let (v, m) = (shear.value(), bending.value());
+        for k in 0..N - 2 {
+            y[k] = f[k] + (link.lift[k] * v + link.turn[k] * m);
+        }
+        bending.add(link.length * v + f[N - 1]);
+        shear.add(f[N - 2]);
+    }
 }
 
 /// The greatest power of two that is not above a positive number.
 fn power_of_two_below(value: f64) -> f64 {
     // The bits of a normal number without those of its fraction.
     f64::from_bits(value.to_bits() & !((1 << 52) - 1))
-}
-
-/// `Σ a_j cos jx` by Clenshaw's recurrence.
-fn cosine_series(amplitudes: &[f64], x: f64) -> f64 {
-    let twice = 2.0 * x.cos();
-    let step = |(b1, b2): (f64, f64), a: &f64| (a + twice * b1 - b2, b1);
-    let (b0, b1) = amplitudes.iter().rev().fold((0.0, 0.0), step);
-    b0 - 0.5 * twice * b1
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::material::Material;
-    use crate::profile::{Interpolation, Profile, Stations};
-    use crate::{bat::Bat, beam::element::elements, beam::mesh::Mesh};
-
-    fn bat(outer: [f64; 2], count: usize) -> (Vec<Element>, Statics) {
-        let stations = Stations {
-            x: vec![0.0, 0.8],
-            outer: outer.to_vec(),
-            inner: vec![0.0; 2],
-            interpolation: Interpolation::Linear,
-        };
-        let material = Material::new(700.0, 14e9).unwrap();
-        let bat = Bat::new("test", Profile::new(stations).unwrap(), material, None).unwrap();
-        let elements = elements(&bat, &Mesh::along(&bat, count));
-        let statics = Statics::new(&elements);
-        (elements, statics)
-    }
-
-    /// Strains of no particular kind.
-    fn some(dimension: usize, offset: usize) -> Vec<f64> {
-        (0..dimension).map(|k| ((k + offset) as f64 * 0.754_877).fract() - 0.5).collect()
-    }
-
-    #[test]
-    fn the_compliance_is_symmetric() {
-        let (_, statics) = bat([0.012, 0.033], 9);
-        let (x, y) = (some(18, 1), some(18, 5));
-        let (mut ax, mut ay) = (vec![0.0; 18], vec![0.0; 18]);
-        statics.apply(&x, &mut ax, &mut Vec::new());
-        statics.apply(&y, &mut ay, &mut Vec::new());
-        let (left, right) = (dot(&y, &ax), dot(&x, &ay));
-        assert!((left - right).abs() < 1e-14 * dot(&ax, &ax).sqrt());
-    }
-
-    /// `qᵀAq` is the kinetic energy of the motion with these strains, element by element in
-    /// Legendre polynomials, and that motion carries neither momentum nor angular momentum.
-    #[test]
-    fn the_quadratic_form_of_the_compliance_is_the_kinetic_energy() {
-        let (elements, statics) = bat([0.033, 0.012], 7);
-        let motion = statics.motion(&some(14, 3), &mut Vec::new());
-        let [mut kinetic, mut momentum, mut spin] = [0.0; 3];
-        for (e, w) in elements.iter().zip(&motion.shape) {
-            let load = e.load(w);
-            kinetic += load.iter().zip(w).map(|(f, w)| f * w).sum::<f64>();
-            momentum += load[0];
-            spin += e.middle * load[0] + 0.5 * e.length * load[1];
-        }
-        assert!((motion.kinetic / kinetic - 1.0).abs() < 1e-13);
-        assert!(momentum.abs() < 1e-13 * kinetic.sqrt() && spin.abs() < 1e-13 * kinetic.sqrt());
-    }
-
-    #[test]
-    fn strains_of_the_nodal_values_of_a_motion_are_its_strains() {
-        let (_, statics) = bat([0.02, 0.03], 6);
-        let q = some(12, 2);
-        let h = 0.8 / 6.0;
-        // End values of Legendre polynomials are 1; slopes are k(k + 1)/2 times 2/h.
-        let shape = statics.motion(&q, &mut Vec::new()).shape;
-        let left = |w: &Deflection| {
-            [w[0] - w[1] + w[2] - w[3], (w[1] - 3.0 * w[2] + 6.0 * w[3]) * 2.0 / h]
-        };
-        let right =
-            |w: &Deflection| [w.iter().sum::<f64>(), (w[1] + 3.0 * w[2] + 6.0 * w[3]) * 2.0 / h];
-        let mut nodal: Vec<f64> = shape.iter().flat_map(left).collect();
-        nodal.extend(right(shape.last().unwrap()));
-        for (a, b) in statics.strains_of_hermite(&nodal).iter().zip(&q) {
-            assert!((a - b).abs() < 1e-12, "{a} {b}");
-        }
-    }
 }

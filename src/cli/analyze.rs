@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
-use sweetspot::plan::Solution;
+use sweetspot::solve::Solution;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 use sweetspot::validation;

@@ -9,7 +9,7 @@ use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::error::{Error, Result, nearest};
-use sweetspot::plan::{self, Request, Solution, Solver};
+use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::units::{self, Quantity};
@@ -45,7 +45,7 @@ impl BatArgs {
     /// Reads the bat and finds its modes.
     pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
         let bat = self.read(output)?;
-        let solution = plan::solve(&bat, &solve.request(self.count()))?;
+        let solution = solve::solve(&bat, &solve.request(self.count()))?;
         solve.say_raised(&solution, output);
         Ok((bat, solution))
     }
@@ -74,15 +74,15 @@ pub struct SolveArgs {
 impl SolveArgs {
     pub fn request(&self, modes: usize) -> Request {
         let elements = self.elements.map(|n| n as usize);
-        Request { modes, tolerance: self.tol, elements, solver: self.solver }
+        Request { modes, tolerance: self.tol, elements, solver: self.solver, ..Request::default() }
     }
 
     /// Says where more elements were needed than asked for.
     pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
-        if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.elements) {
+        if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {
             output.warn(&format!(
                 "note: --elements {asked} raised to {}: one per interval between stations at least",
-                solution.elements
+                solution.mesh.len()
             ));
         }
     }

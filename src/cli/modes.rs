@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
-use sweetspot::beam::element;
-use sweetspot::beam::mesh::Mesh;
 use sweetspot::error::{Error, Result};
-use sweetspot::plan;
+use sweetspot::solve;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 
@@ -43,8 +41,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
-        let mesh = Mesh::with_counts(&bat, solution.counts.clone());
-        let pencil = Pencil::assemble(&element::elements(&bat, &mesh));
+        let pencil = Pencil::of(&bat, &solution.mesh, solution.degree);
         let failed = |source| Error::Write { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;
         for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
@@ -68,11 +65,11 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 /// What to say of an answer that is less accurate than asked.
-pub fn missed_tolerance(solution: &plan::Solution, tolerance: f64) -> String {
+pub fn missed_tolerance(solution: &solve::Solution, tolerance: f64) -> String {
     format!(
         "accuracy not reached: asked {tolerance:e}, the best answer is within {:.1e} ({} elements)",
         solution.worst(),
-        solution.elements
+        solution.mesh.len()
     )
 }
 

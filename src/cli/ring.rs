@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
-use sweetspot::plan::Solution;
+use sweetspot::solve::Solution;
 use sweetspot::report::file;
 use sweetspot::response::partial_sums;
 use sweetspot::ringing::{Ringing, Start};

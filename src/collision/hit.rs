@@ -6,7 +6,7 @@ use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::rigid::{Incoming, Motion, RigidBat};
 use crate::dowel::wpi_alpha;
 use crate::modes::Mode;
-use crate::plan::Solution;
+use crate::solve::Solution;
 
 /// How the bat's bending is counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +125,11 @@ impl<'a> Hitter<'a> {
         let rigid = self.rigid_exit(x)?;
         match self.model {
             Model::Rigid => Some(rigid),
-            Model::EnergyLoss(loss) => self.lossy_exit(loss, rigid, &self.solution.modes, x),
+            Model::EnergyLoss(loss) => {
+                let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
+                let vibration = loss.vibration(&shapes);
+                EnergyLoss::exit_velocity(-self.scene.ball_speed, rigid, vibration)
+            }
         }
     }
 
@@ -159,11 +163,6 @@ impl<'a> Hitter<'a> {
         (closing > 0.0).then(|| self.bat.strike(self.motion, self.incoming(), x).ball_velocity)
     }
 
-    fn lossy_exit(&self, loss: EnergyLoss, rigid: f64, modes: &[Mode], x: f64) -> Option<f64> {
-        let vibration = loss.vibration(&report_shapes(modes, self.bat.mass, x));
-        EnergyLoss::exit_velocity(-self.scene.ball_speed, rigid, vibration)
-    }
-
     fn outcome(&self, x: f64, bat_speed: f64, exit_speed: f64) -> Outcome {
         let Scene { ball, ball_speed, .. } = self.scene;
         let closing = bat_speed + ball_speed;
@@ -178,9 +177,11 @@ impl<'a> Hitter<'a> {
         if let Model::EnergyLoss(loss) = self.model {
             let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
             vibration_by_mode = loss.energies(&shapes, impulse, ball.mass);
-            let companion = &self.solution.companion;
-            let other = self.lossy_exit(loss, rigid.ball_velocity, companion, x);
-            error += other.map_or(1.0, |v| self.solution.share * (v - exit_speed).abs() / closing);
+            let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
+            let vibration = loss.vibration(&largest);
+            let other =
+                EnergyLoss::exit_velocity(-self.scene.ball_speed, rigid.ball_velocity, vibration);
+            error += other.map_or(1.0, |v| (v - exit_speed).abs() / closing);
         }
         Outcome {
             exit_speed,
@@ -207,4 +208,14 @@ fn report_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
         mode.shape.deflection(x) * wpi_alpha(mode.order) * (mass / mode.modal_mass).sqrt()
     };
     modes.iter().map(scaled).collect()
+}
+
+/// The same, each as large as the errors of its mode allow.
+fn largest_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
+    let with_error = |mode: &Mode| {
+        let deflection = mode.shape.deflection(x).abs() + mode.error.shape;
+        let lightest = mode.modal_mass * (1.0 - mode.error.modal_mass).max(0.0);
+        deflection * wpi_alpha(mode.order) * (mass / lightest).sqrt()
+    };
+    modes.iter().map(with_error).collect()
 }

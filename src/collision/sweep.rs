@@ -4,7 +4,7 @@ use crate::bat::Bat;
 use crate::collision::hit::{Hitter, Impact, Model, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::error::Result;
-use crate::plan::{Request, Solution, solve};
+use crate::solve::{Request, Solution, solve};
 
 /// The impacts along a bat, and its sweet spot.
 #[derive(Debug, Clone)]

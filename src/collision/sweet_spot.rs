@@ -2,7 +2,7 @@
 
 use crate::bat::Bat;
 use crate::collision::hit::{Hitter, Scene};
-use crate::plan::Solution;
+use crate::solve::Solution;
 
 /// A place and the value there (m/s or J).
 #[derive(Debug, Clone, Copy, PartialEq)]

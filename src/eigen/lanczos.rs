@@ -1,130 +1,181 @@
 //! The largest eigenvalues of a symmetric operator, by Lanczos with full reorthogonalisation.
 //!
-//! The compliance of a beam has eigenvalues that fall like n⁻⁴, so about `count + 8` steps find
-//! the `count` largest to full precision; keeping every basis vector costs nothing then, and
-//! none of Lanczos' ghosts appear.
+//! The compliance of a beam has eigenvalues that fall like n⁻⁴, so about `count + 5` steps find
+//! the `count` largest; keeping every basis vector costs nothing then, and none of Lanczos'
+//! ghosts appear.
 
-use crate::eigen::tridiagonal;
+use crate::eigen::tridiagonal::Tridiagonal;
 use crate::error::{Error, Result};
+use crate::real::Real;
 
-/// Ritz pairs of a symmetric operator and how the iteration went.
-#[derive(Debug, Clone)]
-pub struct Ritz {
-    /// Eigenvalues, largest first.
-    pub values: Vec<f64>,
-    /// Orthonormal eigenvectors, in the order of the values.
-    pub vectors: Vec<Vec<f64>>,
-    /// Lanczos steps taken: products with the operator.
+/// The iteration with its memory, which the next run uses again.
+#[derive(Debug, Clone, Default)]
+pub struct Lanczos<R> {
+    /// Orthonormal vectors, one after the other.
+    basis: Vec<R>,
+    next: Vec<R>,
+    parts: Vec<R>,
+    alpha: Vec<R>,
+    beta: Vec<R>,
+    small: Tridiagonal<R>,
+    /// Steps taken: products with the operator.
     pub steps: usize,
+    /// Eigenvalues, largest first in every lane.
+    pub values: Vec<R>,
+    /// The same number of orthonormal eigenvectors, one after the other.
+    pub vectors: Vec<R>,
 }
 
-/// Convergence is looked for from this many steps beyond the wanted number on, and so often.
-const EARLIEST: usize = 8;
-const EVERY: usize = 1;
+/// What is asked of the iteration.
+#[derive(Debug, Clone, Copy)]
+pub struct Wanted {
+    /// Number of eigenpairs.
+    pub count: usize,
+    /// Largest residual `‖A v − θ v‖/θ`.
+    pub residual: f64,
+    /// Convergence is looked for from this many steps beyond `count` on.
+    pub earliest: usize,
+}
 
-/// The `count` largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`.
-///
-/// Lanczos' three-term recurrence from the vector `start`, each new vector orthogonalised
-/// against all before it, twice where cancellation calls for it (Daniel, Gragg, Kaufman and
-/// Stewart, Math. Comp. 30 (1976) 772). Stops when `|β s_j|/θ`, the residual
-/// `‖A v − θ v‖/θ` of each wanted Ritz pair, is below `residual`, or when the whole space is spanned.
-///
-/// # Errors
-///
-/// [`Error::NotConverged`] if any wanted pair misses that: a list with a hole would be read as
-/// complete.
-pub fn largest(
-    start: Vec<f64>,
-    count: usize,
-    residual: f64,
-    mut apply: impl FnMut(&[f64], &mut [f64]),
-) -> Result<Ritz> {
-    let dimension = start.len();
-    let most = dimension.min(3 * count + 60);
-    let size = dot(&start, &start).sqrt();
-    let mut basis: Vec<Vec<f64>> = vec![start.into_iter().map(|v| v / size).collect()];
-    let (mut alpha, mut beta): (Vec<f64>, Vec<f64>) = (vec![], vec![]);
-    let mut next = vec![0.0; dimension];
-    loop {
-        let steps = basis.len();
-        apply(&basis[steps - 1], &mut next);
-        alpha.push(dot(&basis[steps - 1], &next));
-        subtract(alpha[steps - 1], &basis[steps - 1], &mut next);
-        if let (Some(beta), [.., before, _]) = (beta.last(), &basis[..]) {
-            subtract(*beta, before, &mut next);
-        }
-        let rest = orthogonalise(&basis, &mut next);
-        let spanned = steps == dimension || rest <= f64::EPSILON * f64::EPSILON * alpha[0];
-        // The small eigenproblem costs steps³, so many modes are looked at less often.
-        let every = EVERY.max(count / 8);
-        let due = steps >= count + EARLIEST && (steps - count - EARLIEST).is_multiple_of(every);
-        if spanned || steps == most || due {
-            let failed = Error::NotConverged { wanted: count, converged: 0, steps };
-            let (values, weights) = tridiagonal::eigen(&alpha, &beta).ok_or(failed)?;
-            let wanted = count.min(steps);
-            let misses = |k: &usize| rest * weights[*k][steps - 1].abs() > residual * values[*k];
-            let missed = if spanned { 0 } else { (0..wanted).filter(misses).count() };
-            if missed == 0 && wanted == count {
-                return Ok(Ritz { vectors: combine(&basis, &weights[..count]), values, steps });
+impl<R: Real> Lanczos<R> {
+    /// The largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`, from
+    /// the vector that `start` writes.
+    ///
+    /// Lanczos' three-term recurrence, each new vector orthogonalised against all before it, twice
+    /// where cancellation calls for it (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30 (1976)
+    /// 772). Stops when `|β s_j|/θ`, the residual of each wanted Ritz pair, is below the wanted
+    /// one, or when the whole space is spanned.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotConverged`] if any wanted pair misses that: a list with a hole would be read
+    /// as complete.
+    #[inline(always)]
+    pub fn largest(
+        &mut self,
+        dimension: usize,
+        wanted: Wanted,
+        start: impl FnOnce(&mut [R]),
+        mut apply: impl FnMut(&[R], &mut [R]),
+    ) -> Result<()> {
+        let count = wanted.count;
+        let most = dimension.min(3 * count + 60);
+        self.next.clear();
+        self.next.resize(dimension, R::default());
+        self.basis.clear();
+        (self.alpha.clear(), self.beta.clear());
+        start(&mut self.next);
+        let size = dot(&self.next, &self.next).sqrt();
+        self.take(size);
+        loop {
+            self.steps = self.alpha.len() + 1;
+            let steps = self.steps;
+            let last = &self.basis[(steps - 1) * dimension..];
+            apply(last, &mut self.next);
+            let alpha = dot(last, &self.next);
+            self.alpha.push(alpha);
+            let rest = self.orthogonalise();
+            let spanned = steps == dimension
+                || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
+            // The small eigenproblem costs steps³, so many modes are looked at less often.
+            let beyond = steps.checked_sub(count + wanted.earliest);
+            let due = beyond.is_some_and(|beyond| beyond.is_multiple_of(1 + count / 8));
+            if spanned || steps == most || due {
+                let failed = Error::NotConverged { wanted: count, converged: 0, steps };
+                self.small.solve(&self.alpha, &self.beta).ok_or(failed)?;
+                let found = count.min(steps);
+                let misses = |k: &usize| {
+                    let residual = rest * self.small.weight(*k, steps - 1).abs();
+                    !residual.within(R::splat(wanted.residual) * self.small.value(*k))
+                };
+                let missed = if spanned { 0 } else { (0..found).filter(misses).count() };
+                if missed == 0 && found == count {
+                    self.combine(count, dimension);
+                    return Ok(());
+                }
+                if spanned || steps == most {
+                    return Err(Error::NotConverged {
+                        wanted: count,
+                        converged: found - missed,
+                        steps,
+                    });
+                }
             }
-            if spanned || steps == most {
-                let converged = wanted - missed;
-                return Err(Error::NotConverged { wanted: count, converged, steps });
+            self.beta.push(rest);
+            self.take(rest);
+        }
+    }
+
+    /// Makes `next`, of that length, the next basis vector.
+    #[inline(always)]
+    fn take(&mut self, size: R) {
+        let scale = R::splat(1.0) / size;
+        self.basis.extend(self.next.iter().map(|v| *v * scale));
+    }
+
+    /// Takes everything of the basis out of `next`; the length that is left.
+    #[inline(always)]
+    fn orthogonalise(&mut self) -> R {
+        let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
+        let mut size = dot(next, next).sqrt();
+        for _ in 0..3 {
+            parts.clear();
+            parts.extend(basis.chunks_exact(next.len()).map(|b| dot(b, next)));
+            for (b, part) in basis.chunks_exact(next.len()).zip(parts.iter()) {
+                subtract(*part, b, next);
+            }
+            let rest = dot(next, next).sqrt();
+            if (R::splat(0.7) * size).within(rest) {
+                return rest;
+            }
+            size = rest;
+        }
+        size
+    }
+
+    /// `Σ weights[k][j] basis[j]` for the first `count` pairs.
+    #[inline(always)]
+    fn combine(&mut self, count: usize, dimension: usize) {
+        self.vectors.clear();
+        self.vectors.resize(count * dimension, R::default());
+        self.values.clear();
+        for (k, vector) in self.vectors.chunks_exact_mut(dimension).enumerate() {
+            self.values.push(self.small.value(k));
+            for (j, b) in self.basis.chunks_exact(dimension).enumerate() {
+                subtract(-self.small.weight(k, j), b, vector);
             }
         }
-        beta.push(rest);
-        let scale = 1.0 / rest;
-        basis.push(next.iter().map(|v| v * scale).collect());
     }
 }
 
-fn subtract(part: f64, from: &[f64], vector: &mut [f64]) {
-    vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * b);
-}
-
-/// Takes everything of `basis` out of `vector`; the length that is left.
-fn orthogonalise(basis: &[Vec<f64>], vector: &mut [f64]) -> f64 {
-    let mut size = dot(vector, vector).sqrt();
-    for _ in 0..3 {
-        for b in basis.iter().rev() {
-            subtract(dot(b, vector), b, vector);
-        }
-        let rest = dot(vector, vector).sqrt();
-        if rest > 0.7 * size {
-            return rest;
-        }
-        size = rest;
-    }
-    size
-}
-
-/// `Σ weights[k][j] basis[j]` for every `k`, scaled to length 1.
-fn combine(basis: &[Vec<f64>], weights: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    weights
-        .iter()
-        .map(|weights| {
-            let mut vector = vec![0.0; basis[0].len()];
-            for (weight, b) in weights.iter().zip(basis) {
-                vector.iter_mut().zip(b).for_each(|(v, b)| *v += weight * b);
-            }
-            vector
-        })
-        .collect()
+#[inline(always)]
+fn subtract<R: Real>(part: R, from: &[R], vector: &mut [R]) {
+    vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * *b);
 }
 
 /// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
-pub fn dot(x: &[f64], y: &[f64]) -> f64 {
+#[inline(always)]
+pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
     const BLOCK: usize = 1024;
-    let block = |x: &[f64], y: &[f64]| {
-        let mut lanes = [0.0; 8];
-        let (x8, y8) = (x.chunks_exact(8), y.chunks_exact(8));
-        let tail: f64 = x8.remainder().iter().zip(y8.remainder()).map(|(x, y)| x * y).sum();
-        for (x, y) in x8.zip(y8) {
-            for k in 0..8 {
-                lanes[k] += x[k] * y[k];
-            }
+    let mut total = R::default();
+    for (x, y) in x.chunks(BLOCK).zip(y.chunks(BLOCK)) {
+        total += short_dot(x, y);
+    }
+    total
+}
+
+#[inline(always)]
+fn short_dot<R: Real>(x: &[R], y: &[R]) -> R {
+    const SUMS: usize = 8;
+    let mut sums = [R::default(); SUMS];
+    let (x8, y8) = (x.chunks_exact(SUMS), y.chunks_exact(SUMS));
+    let mut rest = R::default();
+    x8.remainder().iter().zip(y8.remainder()).for_each(|(x, y)| rest += *x * *y);
+    for (x, y) in x8.zip(y8) {
+        for k in 0..SUMS {
+            sums[k] += x[k] * y[k];
         }
-        tail + lanes.iter().sum::<f64>()
-    };
-    x.chunks(BLOCK).zip(y.chunks(BLOCK)).map(|(x, y)| block(x, y)).sum()
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    rest + (((a + b) + (c + d)) + ((e + f) + (g + h)))
 }

@@ -1,66 +1,122 @@
 //! Eigenpairs of a small symmetric tridiagonal matrix.
 
-/// Eigenvalues, largest first, and the components of their unit eigenvectors, `[pair][row]`.
-///
-/// `diagonal` has n entries, `off` the n − 1 (or more; the rest is not read) beside it.
-/// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11
-/// (1968) 293). Run from the far end, because a Lanczos matrix is graded downwards and QL keeps
-/// the digits of matrices graded upwards. None if it does not settle, which only numbers beyond
-/// the range of f64 can cause.
-pub fn eigen(diagonal: &[f64], off: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
-    let n = diagonal.len();
-    let mut d: Vec<f64> = diagonal.iter().rev().copied().collect();
-    let mut e: Vec<f64> = off[..n - 1].iter().rev().copied().chain([0.0]).collect();
-    // Columns of the product of all rotations, one after the other.
-    let mut vectors = vec![0.0; n * n];
-    (0..n).for_each(|k| vectors[k * n + k] = 1.0);
-    for low in 0..n {
-        for sweeps in 0.. {
-            let Some(high) = block_end(&d, &e, low) else { break };
-            if sweeps == MOST_SWEEPS {
-                return None;
-            }
-            sweep(&mut d, &mut e, &mut vectors, low, high);
-        }
-    }
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| d[b].total_cmp(&d[a]));
-    let pair = |k: usize| vectors[k * n..(k + 1) * n].iter().rev().copied().collect();
-    Some((order.iter().map(|&k| d[k]).collect(), order.iter().map(|&k| pair(k)).collect()))
+use crate::real::Real;
+
+/// The eigenpairs with their memory, which the next problem uses again.
+#[derive(Debug, Clone, Default)]
+pub struct Tridiagonal<R> {
+    d: Vec<R>,
+    e: Vec<R>,
+    /// Columns of the product of all rotations, one after the other.
+    vectors: Vec<R>,
+    /// Which columns hold the pairs, largest eigenvalue first.
+    order: Vec<usize>,
+    sorted: Vec<R>,
+    values: Vec<R>,
 }
 
 /// An eigenvalue takes two sweeps or three; EISPACK gives up after thirty.
 const MOST_SWEEPS: usize = 60;
 
+impl<R: Real> Tridiagonal<R> {
+    /// Finds all eigenpairs of the matrix with that diagonal of n entries and the n − 1 (or more;
+    /// the rest is not read) beside it.
+    ///
+    /// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11
+    /// (1968) 293). Run from the far end, because a Lanczos matrix is graded downwards and QL keeps
+    /// the digits of matrices graded upwards. None if it does not settle, which only numbers beyond
+    /// the range of f64 can cause.
+    #[inline(always)]
+    pub fn solve(&mut self, diagonal: &[R], off: &[R]) -> Option<()> {
+        let n = diagonal.len();
+        self.d.clear();
+        self.d.extend(diagonal.iter().rev());
+        self.e.clear();
+        self.e.extend(off[..n - 1].iter().rev());
+        self.e.push(R::default());
+        self.vectors.clear();
+        self.vectors.resize(n * n, R::default());
+        (0..n).for_each(|k| self.vectors[k * n + k] = R::splat(1.0));
+        for low in 0..n {
+            for sweeps in 0.. {
+                let Some(high) = block_end(&self.d, &self.e, low) else { break };
+                if sweeps == MOST_SWEEPS {
+                    return None;
+                }
+                sweep(&mut self.d, &mut self.e, &mut self.vectors, low, high);
+            }
+        }
+        self.sort();
+        Some(())
+    }
+
+    /// Eigenvalue `k`, the largest first.
+    #[inline(always)]
+    pub fn value(&self, k: usize) -> R {
+        self.values[k]
+    }
+
+    /// Component `row` of the unit eigenvector `k`.
+    #[inline(always)]
+    pub fn weight(&self, k: usize, row: usize) -> R {
+        let n = self.d.len();
+        self.sorted[k * n + (n - 1 - row)]
+    }
+
+    /// Values and vectors, largest first in every lane.
+    #[inline(always)]
+    fn sort(&mut self) {
+        let n = self.d.len();
+        self.values.clear();
+        self.values.resize(n, R::default());
+        self.sorted.clear();
+        self.sorted.resize(n * n, R::default());
+        for lane in 0..R::LANES {
+            self.order.clear();
+            self.order.extend(0..n);
+            let d = &self.d;
+            self.order.sort_unstable_by(|&a, &b| d[b].lane(lane).total_cmp(&d[a].lane(lane)));
+            for (k, &column) in self.order.iter().enumerate() {
+                self.values[k].set_lane(lane, d[column].lane(lane));
+                let from = &self.vectors[column * n..(column + 1) * n];
+                let to = &mut self.sorted[k * n..(k + 1) * n];
+                to.iter_mut().zip(from).for_each(|(to, v)| to.set_lane(lane, v.lane(lane)));
+            }
+        }
+    }
+}
+
 /// The end of the unreduced block that begins at `low`, or None if it is a single eigenvalue.
-fn block_end(d: &[f64], e: &[f64], low: usize) -> Option<usize> {
-    let split = |k: &usize| e[*k].abs() <= f64::EPSILON * (d[*k].abs() + d[*k + 1].abs()) * 0.5;
+#[inline(always)]
+fn block_end<R: Real>(d: &[R], e: &[R], low: usize) -> Option<usize> {
+    let split = |k: &usize| {
+        e[*k].abs().within(R::splat(0.5 * f64::EPSILON) * (d[*k].abs() + d[*k + 1].abs()))
+    };
     let high = (low..d.len() - 1).find(split).unwrap_or(d.len() - 1);
     (high > low).then_some(high)
 }
 
 /// One implicit QL sweep on the block from `low` to `high`.
-fn sweep(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], low: usize, high: usize) {
-    let g = (d[low + 1] - d[low]) / (2.0 * e[low]);
-    let mut g = d[high] - d[low] + e[low] / (g + (g * g + 1.0).sqrt().copysign(g));
-    let (mut sine, mut cosine, mut shift) = (1.0, 1.0, 0.0);
+#[inline(always)]
+fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, high: usize) {
+    let (zero, one) = (R::default(), R::splat(1.0));
+    // A lane that is done already has e = 0 there and must not divide by it.
+    let beside = e[low].if_zero(R::splat(f64::MIN_POSITIVE), e[low]);
+    let g = (d[low + 1] - d[low]) / (beside + beside);
+    let mut g = d[high] - d[low] + e[low] / (g + (g * g + one).sqrt().copysign(g));
+    let (mut sine, mut cosine, mut shift) = (one, one, zero);
+    let n = d.len();
     for i in (low..high).rev() {
         let (f, b) = (sine * e[i], cosine * e[i]);
         let r = (f * f + g * g).sqrt();
         e[i + 1] = r;
-        if r == 0.0 {
-            d[i + 1] -= shift;
-            e[high] = 0.0;
-            return;
-        }
-        let inverse = 1.0 / r;
-        (sine, cosine) = (f * inverse, g * inverse);
+        let inverse = one / r.if_zero(one, r);
+        (sine, cosine) = (f * inverse, r.if_zero(one, g * inverse));
         g = d[i + 1] - shift;
-        let r = (d[i] - g) * sine + 2.0 * cosine * b;
+        let r = (d[i] - g) * sine + (cosine + cosine) * b;
         shift = sine * r;
         d[i + 1] = g + shift;
         g = cosine * r - b;
-        let n = d.len();
         let (left, right) = vectors[i * n..(i + 2) * n].split_at_mut(n);
         for (a, b) in left.iter_mut().zip(right) {
             (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
@@ -68,7 +124,17 @@ fn sweep(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], low: usize, high: us
     }
     d[low] -= shift;
     e[low] = g;
-    e[high] = 0.0;
+    e[high] = zero;
+}
+
+/// Eigenvalues, largest first, and the components of their unit eigenvectors, `[pair][row]`, as
+/// [`Tridiagonal::solve`].
+pub fn eigen(diagonal: &[f64], off: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    let mut small = Tridiagonal::default();
+    small.solve(diagonal, off)?;
+    let rows = 0..diagonal.len();
+    let vector = |k| rows.clone().map(|row| small.weight(k, row)).collect();
+    Some((small.values.clone(), rows.clone().map(vector).collect()))
 }
 
 #[cfg(test)]

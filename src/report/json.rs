@@ -10,7 +10,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::modes::Mode;
-use crate::plan::{Solution, Solver};
+use crate::solve::{Solution, Solver};
 use crate::profile::Interpolation;
 use crate::theory::ignored;
 
@@ -34,11 +34,13 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
         "summary": summary(bat),
         "model": {
             "theory": "euler-bernoulli",
-            "elements": solution.elements,
-            "degree": 3,
+            "elements": solution.mesh.len(),
+            "degree": solution.degree,
             "solver": solver_name(solution.solver),
-            "degrees_of_freedom": 2 * (solution.elements + 1),
+            "degrees_of_freedom": solution.degrees_of_freedom(),
+            "plan": solution.reason,
             "tolerance_met": solution.met,
+            "no_mode_missing": solution.complete(),
             "ignored": ignored(bat, solution),
         },
         "rigid_modes": 2,
@@ -81,6 +83,7 @@ fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
             "residual": mode.error.residual,
             "nodes_m": mode.error.nodes,
             "modal_mass": mode.error.modal_mass,
+            "shape": mode.error.shape,
         },
         "shape": {
             "x_m": places,

@@ -6,7 +6,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::SweetSpot;
-use crate::plan::Solution;
+use crate::solve::Solution;
 use crate::report::curve;
 use crate::report::json::solver_name;
 use crate::theory::ignored;
@@ -131,8 +131,9 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
 /// How the modes were found, and what the model left out.
 pub fn model(bat: &Bat, solution: &Solution) -> String {
     let mut out = format!(
-        "Model: Euler-Bernoulli, {} cubic elements, solver {}",
-        solution.elements,
+        "Model: Euler-Bernoulli, {} elements of degree {}, solver {}",
+        solution.mesh.len(),
+        solution.degree,
         solver_name(solution.solver)
     );
     if solution.steps > 0 {

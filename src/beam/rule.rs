@@ -1,0 +1,169 @@
+//! Where an element is sampled: Gauss points, and all that depends on them alone.
+
+use std::sync::OnceLock;
+
+use crate::bat::Bat;
+use crate::quadrature::{gauss, legendre};
+use crate::real::Real;
+
+/// Lowest and highest degree of the elements' deflection.
+pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
+
+/// Gauss points of an element of one degree, with integrals of what is given there.
+#[derive(Debug)]
+pub struct Rule {
+    /// Places in (0, 1), weights of sum 1, and the place as ξ in (−1, 1).
+    pub points: Vec<Point>,
+    /// `P_0 … P_{N−1}` at the points, `N` the degree plus 1: point by point.
+    legendre: Vec<f64>,
+    /// The same polynomial by polynomial.
+    by_term: Vec<f64>,
+    /// `∫₀^{s_j} (s_j − s) ℓ_i(s) ds`, `[i][j]`: twice integrated from the left end, for a
+    /// function given at the points (`ℓ_i` the polynomial that is 1 at point `i`, 0 at the others).
+    from_left: Vec<f64>,
+    /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: the same from the right end.
+    from_right: Vec<f64>,
+}
+
+/// Room for a number at every point of any rule.
+pub const MOST_POINTS: usize = 32;
+/// Numbers at the points of a rule; those beyond its last point are not used.
+pub type AtPoints<R> = [R; MOST_POINTS];
+
+/// One Gauss point.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    pub s: f64,
+    pub weight: f64,
+    /// The cubic Bernstein polynomials there.
+    pub bernstein: [f64; 4],
+}
+
+/// Kinds of profile by the degree of the radii: constant, linear, cubic.
+const KINDS: usize = 3;
+
+impl Rule {
+    /// The rule for elements of that degree on this bat.
+    ///
+    /// With radii of degree `d` and deflections of degree `p` the load `ρA w` has degree
+    /// `2d + p`: so many points and one more hold it exactly, and then the mass too. The stiffness
+    /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly.
+    pub fn of(bat: &Bat, degree: usize) -> &'static Self {
+        static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
+        let radii = bat.profile.pieces.iter().map(|piece| piece.degree).max().unwrap_or(0);
+        let kind = radii.min(2);
+        RULES[KINDS * degree + kind].get_or_init(|| {
+            let loads = 2 * radii + degree + 1;
+            Self::new(degree + 1, loads.max(2 * radii + degree - 1).max(degree + 3))
+        })
+    }
+
+    /// `count` points for `terms` Legendre polynomials.
+    fn new(terms: usize, count: usize) -> Self {
+        let point = |&(s, weight): &(f64, f64)| {
+            let t = 1.0 - s;
+            Point { s, weight, bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s] }
+        };
+        let places = gauss(count);
+        let at: Vec<Vec<f64>> =
+            places.iter().map(|(s, _)| legendre(count.max(terms) + 2, 2.0 * s - 1.0)).collect();
+        let legendre = at.iter().flat_map(|p| p[..terms].to_vec()).collect();
+        let by_term = (0..terms).flat_map(|k| at.iter().map(move |p| p[k])).collect();
+        // ℓ_i = Σ_k (2k + 1) weight_i P_k(ξ_i) P_k, and the integrals of P_k over ξ from −1.
+        let twice = |p: &[f64], k: usize| {
+            let once = |k: usize| match k {
+                0 => p[1] + p[0],
+                _ => (p[k + 1] - p[k - 1]) / (2 * k + 1) as f64,
+            };
+            match k {
+                0 => once(1) + once(0),
+                _ => (once(k + 1) - once(k - 1)) / (2 * k + 1) as f64,
+            }
+        };
+        let entry = |j: usize, i: usize| {
+            let term = |k: usize| (2 * k + 1) as f64 * at[i][k] * twice(&at[j], k);
+            0.25 * places[i].1 * (0..count).map(term).sum::<f64>()
+        };
+        let pairs = || (0..count).flat_map(|i| (0..count).map(move |j| (j, i)));
+        let from_left = pairs().map(|(j, i)| entry(j, i)).collect();
+        let from_right = pairs().map(|(j, i)| entry(count - 1 - j, count - 1 - i)).collect();
+        let points = places.iter().map(point).collect();
+        Self { points, legendre, by_term, from_left, from_right }
+    }
+
+    /// Number of points.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The `N` Legendre polynomials at one point.
+    #[inline(always)]
+    pub fn at<const N: usize>(&self, point: usize) -> &[f64; N] {
+        self.legendre[N * point..][..N].try_into().expect("a slice of that length")
+    }
+
+    /// The values at the points of `Σ c_k P_k`.
+    #[inline(always)]
+    pub fn values<R: Real>(&self, coefficients: &[R]) -> AtPoints<R> {
+        self.combine(&self.by_term, coefficients)
+    }
+
+    /// A function given at the points, twice integrated from the left end.
+    #[inline(always)]
+    pub fn twice_from_left<R: Real>(&self, values: &[R]) -> AtPoints<R> {
+        self.combine(&self.from_left, values)
+    }
+
+    /// A function given at the points, twice integrated from the right end.
+    #[inline(always)]
+    pub fn twice_from_right<R: Real>(&self, values: &[R]) -> AtPoints<R> {
+        self.combine(&self.from_right, values)
+    }
+
+    /// `Σ parts[k] rows[k]`.
+    #[inline(always)]
+    fn combine<R: Real>(&self, rows: &[f64], parts: &[R]) -> AtPoints<R> {
+        let mut sum = [R::default(); MOST_POINTS];
+        for (row, part) in rows.chunks_exact(self.count()).zip(parts) {
+            for (sum, value) in sum.iter_mut().zip(row) {
+                *sum += R::splat(*value) * *part;
+            }
+        }
+        sum
+    }
+
+    /// `∫ f ds` and `∫ f s ds` over the element of a function given at the points.
+    #[inline(always)]
+    pub fn integrals<R: Real>(&self, values: &[R]) -> [R; 2] {
+        let [mut whole, mut first] = [R::default(); 2];
+        for (point, value) in self.points.iter().zip(values) {
+            let share = R::splat(point.weight) * *value;
+            whole += share;
+            first += R::splat(point.s) * share;
+        }
+        [whole, first]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_integrated_twice_exactly_from_both_ends() {
+        let rule = Rule::new(5, 9);
+        for power in 0..9 {
+            let n = f64::from(power);
+            let values: Vec<f64> = rule.points.iter().map(|p| p.s.powi(power)).collect();
+            let [left, right] = [rule.twice_from_left(&values), rule.twice_from_right(&values)];
+            for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {
+                let s = at.s;
+                let exact = s.powf(n + 2.0) / ((n + 1.0) * (n + 2.0));
+                assert!((left - exact).abs() < 1e-15);
+                let exact = 1.0 / (n + 2.0) - s / (n + 1.0) + exact;
+                assert!((right - exact).abs() < 1e-15);
+            }
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! The modes of a bat, as accurately as asked: plan, solve, look at the error, refine.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::bat::Bat;
+use crate::beam::assembly::{Pencil, places};
+use crate::beam::element::{self, Element};
+use crate::beam::mesh::Mesh;
+use crate::beam::motion::Motion;
+use crate::beam::statics::Statics;
+use crate::eigen::dense;
+use crate::eigen::lanczos::{Lanczos, Wanted};
+use crate::error::{Error, Result};
+use crate::modes::Mode;
+use crate::plan::Plan;
+
+/// How the eigenvalues are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solver {
+    /// Lanczos on the compliance by running sums: any size, round-off of order ε.
+    Statics,
+    /// Cholesky reduction and a dense eigensolve: small meshes, round-off of order ε n⁴.
+    Dense,
+}
+
+/// What is asked of a solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Number of bending modes.
+    pub modes: usize,
+    /// Wanted relative accuracy of every frequency; not enforced where `elements` is given.
+    pub tolerance: f64,
+    /// This many elements, whatever accuracy that gives.
+    pub elements: Option<usize>,
+    /// Elements of this degree; with `elements` alone it is 3.
+    pub degree: Option<usize>,
+    pub solver: Solver,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self { modes: 10, tolerance: 1e-4, elements: None, degree: None, solver: Solver::Statics }
+    }
+}
+
+/// The modes of a bat, how they were found and how far they may be trusted.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    pub modes: Vec<Mode>,
+    pub solver: Solver,
+    pub mesh: Mesh,
+    /// Degree of the elements' deflection.
+    pub degree: usize,
+    /// Why this mesh and this degree.
+    pub reason: String,
+    /// Products with the compliance (Lanczos steps); 0 for the dense solver.
+    pub steps: usize,
+    /// Whether every frequency is within the wanted tolerance by its own estimate, and none missing.
+    pub met: bool,
+    pub timing: Timing,
+}
+
+impl Solution {
+    /// The largest relative error of a frequency, by its own estimate.
+    pub fn worst(&self) -> f64 {
+        self.modes.iter().map(|mode| mode.error.total()).fold(0.0, f64::max)
+    }
+
+    /// Whether every mode n has the n + 1 nodes that theory demands: then none is missing.
+    pub fn complete(&self) -> bool {
+        self.modes.iter().all(Mode::has_its_nodes)
+    }
+
+    /// Unknowns of the assembled matrices.
+    pub fn degrees_of_freedom(&self) -> usize {
+        (self.degree - 1) * self.mesh.len() + 2
+    }
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Timing {
+    pub plan: Duration,
+    pub assemble: Duration,
+    pub solve: Duration,
+}
+
+/// More unknowns than this and the answer is given as it is.
+const MOST_UNKNOWNS: usize = 1 << 21;
+/// The dense solver needs n² memory and n³ time.
+const MOST_DENSE: usize = 4098;
+/// Residual of an eigenpair that is as good as arithmetic allows.
+const CONVERGED: f64 = 1e-13;
+/// Refinements before the answer is given as it is.
+const MOST_ROUNDS: usize = 12;
+
+/// Finds the lowest bending modes of a free bat, as accurately as asked.
+///
+/// # Errors
+///
+/// [`Error::TooFewElements`] where the asked elements cannot bend in so many ways,
+/// [`Error::TooLarge`] for the dense solver, [`Error::NotConverged`]. An accuracy that
+/// cannot be reached is no error: the best answer comes back with `met` false.
+pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
+    let started = Instant::now();
+    let mut timing = Timing::default();
+    let mut plan = match request.elements {
+        Some(elements) => Plan::fixed(bat, elements, request.degree.unwrap_or(3)),
+        None => Plan::cheapest(bat, request.modes, request.tolerance, request.degree),
+    };
+    timing.plan = started.elapsed();
+    let unknowns = |plan: &Plan| (plan.degree - 1) * plan.mesh.len();
+    if unknowns(&plan) < request.modes {
+        let least = request.modes.div_ceil(plan.degree - 1);
+        let found = plan.mesh.len();
+        return Err(Error::TooFewElements { wanted: request.modes, least, found });
+    }
+    let mut best: Option<Solution> = None;
+    // Stop the eigensolve when its part of the error is small beside the mesh's: the eigenvalue's
+    // is the square of the residual, the shape's is the residual itself.
+    let mut residual = (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3);
+    for round in 0..MOST_ROUNDS {
+        let answer = on_mesh(bat, &plan, request, residual, &mut timing)?;
+        if residual > CONVERGED && !answer.modes.iter().all(Mode::has_its_nodes) {
+            // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
+            residual = CONVERGED;
+            continue;
+        }
+        let next = plan.refined(&answer.defects, request.tolerance);
+        let solution = answer.solution(plan, request, timing);
+        let gain = best.as_ref().map_or(0.0, |best| solution.worst() / best.worst());
+        let floor = solution.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
+        let done = solution.met
+            || request.elements.is_some()
+            || floor > request.tolerance
+            || (round > 2 && gain > 0.7)
+            || unknowns(&next) > most_unknowns(request.solver);
+        if best.is_none() || gain < 1.0 {
+            best = Some(solution);
+        }
+        if done {
+            break;
+        }
+        plan = next;
+    }
+    Ok(best.expect("there was a round"))
+}
+
+fn most_unknowns(solver: Solver) -> usize {
+    match solver {
+        Solver::Statics => MOST_UNKNOWNS,
+        Solver::Dense => MOST_DENSE - 2,
+    }
+}
+
+/// Modes on one mesh.
+struct Answer {
+    modes: Vec<Mode>,
+    steps: usize,
+    /// Each element's part in the worst mode's defect.
+    defects: Vec<f64>,
+}
+
+impl Answer {
+    fn solution(self, plan: Plan, request: &Request, timing: Timing) -> Solution {
+        let within = |mode: &Mode| mode.error.total() <= request.tolerance && mode.has_its_nodes();
+        Solution {
+            met: self.modes.iter().all(within),
+            modes: self.modes,
+            solver: request.solver,
+            mesh: plan.mesh,
+            degree: plan.degree,
+            reason: plan.reason,
+            steps: self.steps,
+            timing,
+        }
+    }
+}
+
+/// The modes on one mesh, whatever accuracy that gives.
+fn on_mesh(
+    bat: &Bat,
+    plan: &Plan,
+    request: &Request,
+    residual: f64,
+    timing: &mut Timing,
+) -> Result<Answer> {
+    match plan.degree {
+        3 => of_degree::<4>(bat, plan, request, residual, timing),
+        4 => of_degree::<5>(bat, plan, request, residual, timing),
+        5 => of_degree::<6>(bat, plan, request, residual, timing),
+        6 => of_degree::<7>(bat, plan, request, residual, timing),
+        7 => of_degree::<8>(bat, plan, request, residual, timing),
+        8 => of_degree::<9>(bat, plan, request, residual, timing),
+        9 => of_degree::<10>(bat, plan, request, residual, timing),
+        10 => of_degree::<11>(bat, plan, request, residual, timing),
+        11 => of_degree::<12>(bat, plan, request, residual, timing),
+        _ => of_degree::<13>(bat, plan, request, residual, timing),
+    }
+}
+
+fn of_degree<const N: usize>(
+    bat: &Bat,
+    plan: &Plan,
+    request: &Request,
+    residual: f64,
+    timing: &mut Timing,
+) -> Result<Answer> {
+    let started = Instant::now();
+    let mut statics = Statics::<f64, N>::empty(bat);
+    statics.assemble(&[bat], &[&plan.mesh]);
+    let assembled = Instant::now();
+    timing.assemble += assembled - started;
+    let (strains, steps) = match request.solver {
+        _ if request.modes == 0 => (vec![], 0),
+        Solver::Statics => by_statics(&statics, request.modes, residual)?,
+        Solver::Dense => (by_dense(bat, plan, &statics, request.modes)?, 0),
+    };
+    let stretches = Arc::new(plan.mesh.stretches());
+    let mut motion = Motion::default();
+    let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
+    let mut defects = vec![0.0; plan.mesh.len()];
+    for (k, strains) in strains.chunks_exact(statics.dimension()).enumerate() {
+        motion.take(&statics, strains);
+        let mut mode = Mode::new(k + 1, &statics, &motion, 0, &stretches);
+        account(&mut mode, modes.first(), plan.mesh.len(), request.solver);
+        motion.add_defects(&statics, &mut defects);
+        modes.push(mode);
+    }
+    timing.solve += assembled.elapsed();
+    Ok(Answer { modes, steps, defects })
+}
+
+/// What is the mesh's fault and what the arithmetic's.
+///
+/// The running sums keep ε of the slowest motion; a faster mode keeps ε times the ratio of their
+/// frequencies, and long sums lose a little more: measured, on cones, steps and dowels of up to
+/// 10⁶ elements. A factored `K` loses ε n⁴, which shows in the residual; its square is the error
+/// of Rayleigh's quotient.
+fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, solver: Solver) {
+    let ratio = (mode.omega / first.map_or(mode.omega, |m| m.omega)).max(1.0);
+    let length = 1.0 + (elements as f64).sqrt() / 25.0;
+    let sums = f64::EPSILON * (4.0 + 1.5 * ratio * length);
+    mode.error.round_off = sums;
+    if solver != Solver::Statics {
+        let solver = 0.5 * mode.error.residual.powi(2);
+        mode.error.discretization = (mode.error.discretization - solver).max(0.0);
+        mode.error.round_off += solver;
+    }
+    mode.error.nodes += 10.0 * sums * mode.shape.length() / mode.nodes.len().max(1) as f64;
+    mode.error.modal_mass += 10.0 * sums;
+    mode.error.shape += 10.0 * sums;
+}
+
+fn by_statics<const N: usize>(
+    statics: &Statics<f64, N>,
+    count: usize,
+    residual: f64,
+) -> Result<(Vec<f64>, usize)> {
+    let mut loads = Vec::new();
+    let mut lanczos = Lanczos::default();
+    // Looking for convergence costs ten steps' time: not before it is likely.
+    let earliest = (3.6 - 0.56 * residual.log10()).clamp(4.0, 9.0) as usize;
+    let wanted = Wanted { count, residual, earliest };
+    lanczos.largest(
+        statics.dimension(),
+        wanted,
+        |start| statics.start(count, start),
+        |x, y| {
+            statics.apply(x, y, &mut loads);
+        },
+    )?;
+    Ok((lanczos.vectors, lanczos.steps))
+}
+
+fn by_dense<const N: usize>(
+    bat: &Bat,
+    plan: &Plan,
+    statics: &Statics<f64, N>,
+    count: usize,
+) -> Result<Vec<f64>> {
+    let unknowns = statics.dimension() + 2;
+    if unknowns > MOST_DENSE {
+        return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
+    }
+    let elements = element::elements::<N>(bat, &plan.mesh);
+    let pencil = Pencil::assemble(&elements);
+    let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
+    let (_, vectors) =
+        dense::generalized(&pencil.stiffness, &pencil.mass, shift(statics)).ok_or(failed)?;
+    // The first two are the rigid motions, zero but for round-off; a free bat always has two.
+    let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
+    Ok(vectors.iter().skip(2).take(count).flat_map(strains).collect())
+}
+
+/// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
+fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
+    let mut start = vec![0.0; statics.dimension()];
+    statics.start(1, &mut start);
+    let mut motion = Motion::default();
+    motion.take(statics, &start);
+    motion.omega.powi(2)
+}
+
+/// Scaled strains, in the order of the statics, of the unknowns of the assembled matrices.
+fn strains_of<const N: usize>(
+    statics: &Statics<f64, N>,
+    elements: &[Element<f64, N>],
+    u: &[f64],
+) -> Vec<f64> {
+    let mut strains = Vec::with_capacity(statics.dimension());
+    for (place, cell) in statics.cells.iter().enumerate() {
+        let knob_side = place < statics.split;
+        let e = if knob_side { statics.split - 1 - place } else { place };
+        let own = places::<N>(e).map(|at| u[at]);
+        let mut c = elements[e].strains_of_hermite(&own);
+        if knob_side {
+            c.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+        }
+        strains.extend_from_slice(&cell.scaled_strains(&c)[..N - 2]);
+    }
+    strains
+}
