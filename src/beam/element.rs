@@ -13,8 +13,8 @@
 
 use crate::bat::Bat;
 use crate::beam::mesh;
-use crate::profile::{Piece, Section};
-use crate::quadrature::gauss;
+use crate::profile::{Cubics, Piece, Radii, Section};
+use crate::quadrature::{converged, gauss};
 
 /// Strain unknowns of an element: the coefficients of `P₀` and `P₁` in its curvature.
 pub const STRAINS: usize = 2;
@@ -200,16 +200,23 @@ struct Point {
 fn points(degree: usize) -> Vec<Point> {
     let count = (degree + 4).max(2 * degree + 2);
     let point = |(s, weight): (f64, f64)| {
-        let (t, xi) = (1.0 - s, 2.0 * s - 1.0);
-        let legendre = [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
-        let pairs = (0..4).flat_map(|k| (0..=k).map(move |l| (k, l)));
-        let mut products = [0.0; 10];
-        for (product, (k, l)) in products.iter_mut().zip(pairs) {
-            *product = weight * legendre[k] * legendre[l];
-        }
+        let t = 1.0 - s;
+        let products = products(s, weight);
         Point { bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s], products }
     };
     gauss(count).into_iter().map(point).collect()
+}
+
+/// `P_k P_l` times the weight, `k ≥ l`, row by row, at `s` in [0, 1].
+fn products(s: f64, weight: f64) -> [f64; 10] {
+    let xi = 2.0 * s - 1.0;
+    let legendre = [1.0, xi, 0.5 * (3.0 * xi * xi - 1.0), 0.5 * xi * (5.0 * xi * xi - 3.0)];
+    let pairs = (0..4).flat_map(|k| (0..=k).map(move |l| (k, l)));
+    let mut products = [0.0; 10];
+    for (product, (k, l)) in products.iter_mut().zip(pairs) {
+        *product = weight * legendre[k] * legendre[l];
+    }
+    products
 }
 
 /// All elements of a mesh.
@@ -219,26 +226,51 @@ pub fn elements(bat: &Bat, mesh: &mesh::Mesh) -> Vec<Element> {
     let rules = &*RULES;
     let element = |e: &mesh::Element| {
         let piece = &bat.profile.pieces[e.piece];
-        let rule = &rules[piece.degree.min(2)];
-        energies(bat, &piece.part(e.from, e.to), e, rule)
+        match &piece.radii {
+            Radii::Cubic(cubics) => {
+                energies(bat, &cubics.part(e.from, e.to), e, &rules[cubics.degree.min(2)])
+            }
+            Radii::Formula(_) => converged_energies(bat, piece, e),
+        }
     };
     mesh.elements.iter().map(element).collect()
 }
 
 /// `D_jk = ∫EI P_j P_k dx`, factored, and `∫ρA P_k P_l dx`.
 #[inline]
-fn energies(bat: &Bat, piece: &Piece, e: &mesh::Element, rule: &[Point]) -> Element {
+fn energies(bat: &Bat, cubics: &Cubics, e: &mesh::Element, rule: &[Point]) -> Element {
     let (mut d, mut mass) = ([0.0; 3], [0.0; 10]);
-    let solid = piece.inner == [0.0; 4];
+    let solid = cubics.inner == [0.0; 4];
     for Point { bernstein: v, products } in rule {
         let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
-        let inner = if solid { 0.0 } else { radius(&piece.inner) };
-        let section = Section { outer: radius(&piece.outer), inner };
+        let inner = if solid { 0.0 } else { radius(&cubics.inner) };
+        let section = Section { outer: radius(&cubics.outer), inner };
         let stiffness = e.length * bat.bending_stiffness(section);
         let per_length = e.length * bat.mass_per_length(section);
         d.iter_mut().zip(products).for_each(|(d, p)| *d += stiffness * p);
         mass.iter_mut().zip(products).for_each(|(m, p)| *m += per_length * p);
     }
+    with_energies(e, d, mass)
+}
+
+/// The same where the radii are formulas, by as many points as it takes.
+fn converged_energies(bat: &Bat, piece: &Piece, e: &mesh::Element) -> Element {
+    let both = converged(|s| -> [f64; 13] {
+        let section = piece.at(e.from + (e.to - e.from) * s);
+        let stiffness = e.length * bat.bending_stiffness(section);
+        let per_length = e.length * bat.mass_per_length(section);
+        let products = products(s, 1.0);
+        std::array::from_fn(|i| match i {
+            0..3 => stiffness * products[i],
+            _ => per_length * products[i - 3],
+        })
+    });
+    let (d, mass) = both.values.split_at(3);
+    with_energies(e, std::array::from_fn(|i| d[i]), std::array::from_fn(|i| mass[i]))
+}
+
+#[inline]
+fn with_energies(e: &mesh::Element, d: [f64; 3], mass: [f64; 10]) -> Element {
     Element {
         length: e.length,
         middle: e.start + 0.5 * e.length,
