@@ -462,6 +462,8 @@ fn known_names(unknown: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn value(text: &str, x: f64) -> f64 {
@@ -496,7 +498,7 @@ mod tests {
         ("x*(x+1)", 1.19),
         ("(((x)))", 0.7),
         ("-(x-1)**2", -0.09000000000000002),
-        ("2**0.5", 1.4142135623730951),
+        ("3**0.5", 1.7320508075688772),
         ("2**x**2", 1.404444875737997),
         ("-x**2*3", -1.4699999999999998),
         ("1 - -x", 1.7),
@@ -509,7 +511,7 @@ mod tests {
         ("max(x,0.5,0.9)", 0.9),
         ("min(3,2,1,x)", 0.7),
         ("pi*x", 2.199114857512855),
-        ("2*pi", 6.283185307179586),
+        ("3*pi", 9.42477796076938),
         ("0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))", 0.03257629963846353),
         ("log(exp(2))", 2.0),
         ("\t1\n+ 2 ", 3.0),
@@ -656,5 +658,42 @@ mod tests {
         }
         assert!(value("max(sqrt(-x), 1)", 1.0).is_nan());
         assert!(value("1/(x - 1)", 1.0).is_infinite());
+    }
+
+    /// Random expressions with a bracket around every part, and what Rust makes of the parts.
+    fn bracketed() -> impl Strategy<Value = (String, f64)> {
+        let leaf = prop_oneof![
+            (0.1..10.0_f64).prop_map(|v| (v.to_string(), v)),
+            Just(("x".to_owned(), 0.7)),
+        ];
+        leaf.prop_recursive(6, 40, 2, |inner| {
+            (0..8, inner.clone(), inner).prop_map(|(kind, (a, u), (b, v))| match kind {
+                0 => (format!("({a} + {b})"), u + v),
+                1 => (format!("({a}-{b})"), u - v),
+                2 => (format!("({a} * {b})"), u * v),
+                3 => (format!("({a}/{b})"), u / v),
+                4 => (format!("({a})**({b})"), u.powf(v)),
+                5 => (format!("(-{a})"), -u),
+                6 => (format!("tanh({a})"), u.tanh()),
+                _ => (format!("min({a}, {b})"), if v < u { v } else { u }),
+            })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn bracketed_expressions_are_their_parts((text, expected) in bracketed()) {
+            let got = value(&text, 0.7);
+            let same = got == expected || got.is_nan() || expected.is_nan();
+            prop_assert!(same, "{text}: {got} {expected}");
+        }
+
+        #[test]
+        fn any_text_is_a_formula_or_told_why_not(text in "[x0-9.e+*/^(),a-z−²\\- ]{0,30}") {
+            match Formula::parse(&text) {
+                Ok(formula) => prop_assert_eq!(formula.text(), text),
+                Err(complaint) => prop_assert!(!complaint.expected.is_empty(), "{complaint}"),
+            }
+        }
     }
 }

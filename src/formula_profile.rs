@@ -224,7 +224,8 @@ impl Named<'_> {
             return of_inner(&format!("less than the outer radius there, {}", metres(outer)));
         }
         let stiffness = section.second_moment();
-        if !at_end && !(stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX) {
+        let in_range = stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX;
+        if !at_end && !in_range {
             return of_outer("a radius whose fourth power is within the range of numbers");
         }
         Ok(())

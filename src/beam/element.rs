@@ -254,6 +254,7 @@ fn energies(bat: &Bat, cubics: &Cubics, e: &mesh::Element, rule: &[Point]) -> El
 }
 
 /// The same where the radii are formulas, by as many points as it takes.
+#[inline(never)] // It would crowd the loop over the cubics.
 fn converged_energies(bat: &Bat, piece: &Piece, e: &mesh::Element) -> Element {
     let both = converged(|s| -> [f64; 13] {
         let section = piece.at(e.from + (e.to - e.from) * s);
@@ -269,7 +270,7 @@ fn converged_energies(bat: &Bat, piece: &Piece, e: &mesh::Element) -> Element {
     with_energies(e, std::array::from_fn(|i| d[i]), std::array::from_fn(|i| mass[i]))
 }
 
-#[inline]
+#[inline(always)]
 fn with_energies(e: &mesh::Element, d: [f64; 3], mass: [f64; 10]) -> Element {
     Element {
         length: e.length,
