@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::bat::Bat;
 use crate::document::{Document, Node, Object};
 use crate::error::{Error, Result};
+use crate::formula::Formula;
 use crate::material::{BUILT_IN, Material};
-use crate::profile::{Interpolation, Profile};
+use crate::profile::{FormulaPiece, Interpolation, Profile};
 use crate::station_table::Table;
 use crate::units::{self, Quantity};
 
@@ -24,6 +25,19 @@ const KEYS: &[&str] = &[
 ];
 /// Keys of the format that this version does not model; refused, never ignored.
 const NOT_YET: &[&str] = &["regions", "attachments", "supports", "grip"];
+const PROFILE_KEYS: &[&str] = &[
+    "interpolation",
+    "unit",
+    "measured_from",
+    "csv",
+    "pieces",
+    "x",
+    "radius",
+    "diameter",
+    "inner_radius",
+    "inner_diameter",
+    "wall_thickness",
+];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),
     ("linear", Interpolation::Linear),
@@ -149,20 +163,64 @@ fn material(node: &Node, weighed: bool) -> Result<Material> {
 }
 
 fn profile(node: &Node, folder: &Path) -> Result<Profile> {
-    let object = node.object(&[
-        "interpolation",
-        "unit",
-        "measured_from",
-        "csv",
-        "pieces",
-        "x",
-        "radius",
-        "diameter",
-        "inner_radius",
-        "inner_diameter",
-        "wall_thickness",
-    ])?;
-    refuse(&object, &["pieces"])?;
+    let object = node.object(PROFILE_KEYS)?;
+    let from_tip = match object.get("measured_from") {
+        Some(node) => node.word(&[("knob", false), ("tip", true)])?,
+        None => false,
+    };
+    let profile = match object.get("pieces") {
+        Some(pieces) => formulas(&object, pieces)?,
+        None => columns(object, folder)?,
+    };
+    Ok(if from_tip { profile.reversed() } else { profile })
+}
+
+/// Formulas, in the `pieces` of a `profile` object.
+fn formulas(object: &Object, node: &Node) -> Result<Profile> {
+    for key in PROFILE_KEYS.iter().filter(|key| !["pieces", "measured_from"].contains(key)) {
+        if let Some(node) = object.get(key) {
+            let expected = "\"pieces\" alone: formulas give the radius in m from x in m";
+            return Err(node.error(format!("\"{key}\" beside \"pieces\""), expected));
+        }
+    }
+    let items = node.items()?;
+    if items.is_empty() {
+        return Err(node.error("an empty list", "one piece at least"));
+    }
+    let pieces: Vec<FormulaPiece> = items.iter().map(formula_piece).collect::<Result<_>>()?;
+    Profile::from_formulas(pieces).map_err(|error| match error {
+        Error::Value(mut complaint) => {
+            // The field is `pieces[k].key`: its value's place, or that of the piece.
+            let field = std::mem::take(&mut complaint.field);
+            let place = field.strip_prefix("pieces[").and_then(|rest| rest.split_once("]."));
+            let item = place.and_then(|(k, key)| Some((items.get(k.parse::<usize>().ok()?)?, key)));
+            let Some((item, key)) = item else { return node.complain(complaint) };
+            let value = item.members().ok().and_then(|members| members.get(key).cloned());
+            value.as_ref().unwrap_or(item).complain(complaint)
+        }
+        other => other,
+    })
+}
+
+fn formula_piece(node: &Node) -> Result<FormulaPiece> {
+    let piece = node.object(&["from", "to", "formula", "inner_formula"])?;
+    let end = |key: &str, expected: &str| piece.require(key, expected)?.quantity(Quantity::Length);
+    let formula = |node: &Node| {
+        let text = node.string().map_err(|_| {
+            node.error(node.shown(), "a formula in quotes, such as \"0.0125 + 0.02*x\"")
+        })?;
+        Formula::parse(&text).map_err(|complaint| node.complain(complaint))
+    };
+    Ok(FormulaPiece {
+        from: end("from", "\"from\": where the piece begins")?,
+        to: end("to", "\"to\": where the piece ends")?,
+        outer: formula(piece.require("formula", "\"formula\": the outer radius in m")?)?,
+        inner: piece.get("inner_formula").map(formula).transpose()?,
+    })
+}
+
+/// Columns of stations, in a `profile` object itself or in the CSV file that it names.
+fn columns(object: Object, folder: &Path) -> Result<Profile> {
     let unit = match object.get("unit") {
         Some(node) => units::factor(&node.string()?, Quantity::Length)
             .map_err(|complaint| node.complain(complaint))?,
@@ -171,10 +229,6 @@ fn profile(node: &Node, folder: &Path) -> Result<Profile> {
     let interpolation = match object.get("interpolation") {
         Some(node) => node.word(INTERPOLATIONS)?,
         None => Interpolation::Pchip,
-    };
-    let from_tip = match object.get("measured_from") {
-        Some(node) => node.word(&[("knob", false), ("tip", true)])?,
-        None => false,
     };
     let table = match object.get("csv") {
         Some(node) => {
@@ -196,6 +250,5 @@ fn profile(node: &Node, folder: &Path) -> Result<Profile> {
         }
         None => Table::from_json(object, unit)?,
     };
-    let profile = Profile::new(table.stations(interpolation)?).map_err(|e| table.locate(e))?;
-    Ok(if from_tip { profile.reversed() } else { profile })
+    Profile::new(table.stations(interpolation)?).map_err(|e| table.locate(e))
 }

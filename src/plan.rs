@@ -13,8 +13,9 @@
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
-use crate::beam::rule::DEGREES;
-use crate::profile::{Piece, Section};
+use crate::beam::element::missed;
+use crate::beam::rule::{DEGREES, Rule};
+use crate::profile::{Piece, Radii, Section};
 
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone)]
@@ -31,6 +32,10 @@ const TAPER: f64 = 3.0;
 const AIM: f64 = 0.2;
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
+
+/// A formula is resolved where its Legendre series ends below this.
+const RESOLVED: f64 = 1e-14;
+const MOST_HALVINGS: usize = 12;
 
 /// A profile as the planner sees it: phase and taper along every piece.
 struct Survey {
@@ -59,7 +64,7 @@ impl Plan {
         // Too few unknowns for so many modes: shorter elements.
         let reach = reach * (count as f64 / enough as f64).min(1.0);
         let borders: Vec<_> = survey.pieces.iter().map(|p| borders(p, wave, reach)).collect();
-        let mesh = Mesh::with_borders(bat, &borders);
+        let mesh = resolved(bat, Mesh::with_borders(bat, &borders), degree);
         let reason = format!("cheapest plan for {tolerance:.0e}");
         Self { mesh, degree, reason }
     }
@@ -85,6 +90,20 @@ impl Plan {
         let reason = format!("refined where the error was, for {tolerance:.0e}");
         Self { mesh, reason, ..*self }
     }
+}
+
+/// The mesh with every element halved where the points of its rule do not hold a formula.
+fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize) -> Mesh {
+    let rule = Rule::of(bat, degree);
+    for _ in 0..MOST_HALVINGS {
+        let unresolved: Vec<bool> =
+            mesh.elements.iter().map(|e| missed(bat, e, rule) > RESOLVED).collect();
+        if !unresolved.contains(&true) {
+            break;
+        }
+        mesh = mesh.refined(|k| 1 + usize::from(unresolved[k]));
+    }
+    mesh
 }
 
 /// The largest `a` whose error is within the tolerance.
@@ -152,11 +171,15 @@ fn samples(bat: &Bat, piece: &Piece, thin: f64) -> Vec<[f64; 3]> {
         (outer, ratio.sqrt().sqrt())
     };
     let mut samples = vec![[0.0; 3]];
-    if piece.degree == 0 {
-        samples.push([1.0, piece.length * at(0.0).1, 0.0]);
-        return samples;
-    }
-    let pieces = if piece.degree > 1 { 4 } else { 1 };
+    let pieces = match &piece.radii {
+        Radii::Cubic(cubics) if cubics.degree == 0 => {
+            samples.push([1.0, piece.length * at(0.0).1, 0.0]);
+            return samples;
+        }
+        Radii::Cubic(cubics) if cubics.degree == 1 => 1,
+        Radii::Cubic(_) => 4,
+        Radii::Formula(_) => 32,
+    };
     for k in 0..pieces {
         let (from, to) = (k as f64 / f64::from(pieces), (k + 1) as f64 / f64::from(pieces));
         let (left, right) = (at(from), at(to));

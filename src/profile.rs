@@ -1,6 +1,7 @@
 //! What is the cross-section at `x`: outer and inner radius along the bat.
 
 use crate::error::{Complaint, Error, Result};
+use crate::formula::Formula;
 use crate::pchip::{bernstein, blossom, cubics};
 
 /// How the radius runs between stations.
@@ -26,20 +27,67 @@ pub struct Stations {
     pub interpolation: Interpolation,
 }
 
-/// A stretch of the bat where both radii are one cubic each, in Bernstein form.
-///
-/// With `s` from 0 to 1 along the stretch, `r(s) = Σ bᵢ Bᵢ(s)`, `Bᵢ` the cubic Bernstein
-/// polynomials. All `bᵢ` of a monotone cubic between radii are positive, so nothing cancels,
-/// not even at the thin end of a 1:10 000 cone.
+/// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormulaPiece {
+    /// Where it begins and ends (m).
+    pub from: f64,
+    pub to: f64,
+    pub outer: Formula,
+    /// None where the bat is solid.
+    pub inner: Option<Formula>,
+}
+
+/// A whole profile in formulas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formulas {
+    /// Touching end to end, from 0.
+    pub pieces: Vec<FormulaPiece>,
+    /// Whether their `x` counts from the tip.
+    pub from_tip: bool,
+}
+
+/// A stretch of the bat where both radii are smooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
     /// Where it begins and how long it is (m).
     pub start: f64,
     pub length: f64,
+    pub radii: Radii,
+}
+
+/// Both radii along a piece.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Radii {
+    Cubic(Cubics),
+    Formula(Curves),
+}
+
+/// Both radii as one cubic each, in Bernstein form.
+///
+/// With `s` from 0 to 1 along the piece, `r(s) = Σ bᵢ Bᵢ(s)`, `Bᵢ` the cubic Bernstein
+/// polynomials. All `bᵢ` of a monotone cubic between radii are positive, so nothing cancels,
+/// not even at the thin end of a 1:10 000 cone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubics {
     pub outer: [f64; 4],
     pub inner: [f64; 4],
     /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
     pub degree: usize,
+}
+
+/// Both radii as smooth formulas of `x = from + (to − from) s`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    pub outer: Formula,
+    /// None where the bat is solid.
+    pub inner: Option<Formula>,
+    /// The formulas' `x` at the beginning and the end of the piece (m); it falls along a piece
+    /// that is measured from the tip.
+    pub from: f64,
+    pub to: f64,
+    /// Radii (m) up to this are the round-off of 0.
+    pub floor: f64,
 }
 
 /// The outer and inner radius (m) at one place.
@@ -69,8 +117,11 @@ impl Section {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     pub pieces: Vec<Piece>,
-    /// The stations it was made from, knob first.
+    /// The stations it was made from, knob first. Where it was made from formulas: the ends and
+    /// the widest place of every piece.
     pub stations: Stations,
+    /// The formulas it was made from, if it was.
+    pub formulas: Option<Formulas>,
 }
 
 impl Profile {
@@ -94,7 +145,7 @@ impl Profile {
         };
         let pieces = pieces(&stations)?;
         pieces.iter().try_for_each(|piece| check_wall(piece, &stations))?;
-        Ok(Self { pieces, stations })
+        Ok(Self { pieces, stations, formulas: None })
     }
 
     /// From the knob end to the tip (m).
@@ -108,13 +159,14 @@ impl Profile {
         let Stations { x, outer, inner, .. } = &mut self.stations;
         x.iter_mut().for_each(|x| *x = length - *x);
         [x, outer, inner].into_iter().for_each(|column| column.reverse());
-        self.pieces.reverse();
-        let starts = self.stations.x.windows(2).filter(|w| w[0] != w[1]).map(|w| w[0]);
-        for (piece, start) in self.pieces.iter_mut().zip(starts) {
-            piece.start = start;
-            piece.outer.reverse();
-            piece.inner.reverse();
+        let mut end = length;
+        for piece in self.pieces.iter_mut().rev() {
+            let start = std::mem::replace(&mut piece.start, length - end);
+            end = start;
+            piece.radii.reverse();
         }
+        self.pieces.reverse();
+        self.formulas.iter_mut().for_each(|formulas| formulas.from_tip ^= true);
         self
     }
 
@@ -129,19 +181,47 @@ impl Profile {
 impl Piece {
     /// The section at `s` in [0, 1] along the piece.
     pub fn at(&self, s: f64) -> Section {
+        match &self.radii {
+            Radii::Cubic(cubics) => cubics.at(s),
+            Radii::Formula(curves) => curves.at(s),
+        }
+    }
+
+    /// The part from `s0` to `s1` as a piece of its own.
+    pub fn part(&self, s0: f64, s1: f64) -> Self {
+        let radii = match &self.radii {
+            Radii::Cubic(cubics) => Radii::Cubic(cubics.part(s0, s1)),
+            Radii::Formula(curves) => Radii::Formula(curves.part(s0, s1)),
+        };
+        Self { start: self.start + self.length * s0, length: self.length * (s1 - s0), radii }
+    }
+}
+
+impl Radii {
+    /// The same seen from the other end.
+    fn reverse(&mut self) {
+        match self {
+            Self::Cubic(cubics) => {
+                cubics.outer.reverse();
+                cubics.inner.reverse();
+            }
+            Self::Formula(curves) => std::mem::swap(&mut curves.from, &mut curves.to),
+        }
+    }
+}
+
+impl Cubics {
+    fn at(&self, s: f64) -> Section {
         Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
     }
 
-    /// The part from `s0` to `s1` as a piece of its own, by de Casteljau's subdivision.
+    /// The same cubics between `s0` and `s1`, by de Casteljau's subdivision.
     #[inline]
-    pub fn part(&self, s0: f64, s1: f64) -> Piece {
+    pub fn part(&self, s0: f64, s1: f64) -> Self {
         if self.degree == 0 {
-            let (start, length) = (self.start + self.length * s0, self.length * (s1 - s0));
-            return Piece { start, length, ..self.clone() };
+            return *self;
         }
-        Piece {
-            start: self.start + self.length * s0,
-            length: self.length * (s1 - s0),
+        Self {
             outer: subdivide(&self.outer, s0, s1),
             inner: if self.inner[0] == 0.0 && self.inner == [0.0; 4] {
                 [0.0; 4]
@@ -150,6 +230,27 @@ impl Piece {
             },
             degree: self.degree,
         }
+    }
+}
+
+impl Curves {
+    /// The section at `s` in [0, 1] along the piece.
+    pub fn at(&self, s: f64) -> Section {
+        let x = self.x(s);
+        let radius = |formula: &Formula| {
+            let radius = formula.at(x);
+            if radius.abs() <= self.floor { 0.0 } else { radius }
+        };
+        Section { outer: radius(&self.outer), inner: self.inner.as_ref().map_or(0.0, radius) }
+    }
+
+    /// The formulas' `x` at `s` in [0, 1] along the piece; at both ends to the last bit.
+    pub fn x(&self, s: f64) -> f64 {
+        (1.0 - s) * self.from + s * self.to
+    }
+
+    fn part(&self, s0: f64, s1: f64) -> Self {
+        Self { from: self.x(s0), to: self.x(s1), ..self.clone() }
     }
 }
 
@@ -271,7 +372,8 @@ fn pieces(stations: &Stations) -> Result<Vec<Piece>> {
                 Interpolation::Pchip => 3,
                 _ => 1,
             };
-            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], outer, inner, degree });
+            let radii = Radii::Cubic(Cubics { outer, inner, degree });
+            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], radii });
         }
         first = end;
     }
@@ -287,7 +389,8 @@ fn lines(y: &[f64]) -> Vec<[f64; 4]> {
 
 /// The wall must not vanish between stations either, where two cubics may cross.
 fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
-    let wall: [f64; 4] = std::array::from_fn(|i| piece.outer[i] - piece.inner[i]);
+    let Radii::Cubic(Cubics { outer, inner, .. }) = &piece.radii else { return Ok(()) };
+    let wall: [f64; 4] = std::array::from_fn(|i| outer[i] - inner[i]);
     if wall[1] > 0.0 && wall[2] > 0.0 {
         return Ok(());
     }

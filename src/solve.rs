@@ -218,12 +218,15 @@ fn of_degree<const N: usize>(
         Solver::Dense => (by_dense(bat, plan, &statics, request.modes)?, 0),
     };
     let stretches = Arc::new(plan.mesh.stretches());
+    let missed = |e| element::missed(bat, e, statics.rule);
+    let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
     let mut motion = Motion::default();
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     let mut defects = vec![0.0; plan.mesh.len()];
     for (k, strains) in strains.chunks_exact(statics.dimension()).enumerate() {
         motion.take(&statics, strains);
         let mut mode = Mode::new(k + 1, &statics, &motion, 0, &stretches);
+        mode.error.discretization += missed;
         account(&mut mode, modes.first(), plan.mesh.len(), request.solver);
         motion.add_defects(&statics, &mut defects);
         modes.push(mode);

@@ -116,6 +116,7 @@ pub const BATS: &[(&str, &str)] = &[
     ("meshes/northwestern_aluminium.json", include_str!("../meshes/northwestern_aluminium.json")),
     ("meshes/northwestern_wood.json", include_str!("../meshes/northwestern_wood.json")),
     ("meshes/r161.json", include_str!("../meshes/r161.json")),
+    ("meshes/tanh.json", include_str!("../meshes/tanh.json")),
     ("meshes/torpedo.json", include_str!("../meshes/torpedo.json")),
 ];
 

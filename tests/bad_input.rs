@@ -562,6 +562,176 @@ fn values_that_over_or_underflow_are_refused() {
     );
 }
 
+/// A profile of one piece with that formula, and of that inner formula.
+macro_rules! piece {
+    ($formula:literal) => {
+        concat!(r#"{ "pieces": [{ "from": 0, "to": 0.8, "formula": ""#, $formula, r#"" }] }"#)
+    };
+    ($formula:literal, $inner:literal) => {
+        concat!(
+            r#"{ "pieces": [{ "from": 0, "to": 0.8, "formula": ""#,
+            $formula,
+            r#"", "inner_formula": ""#,
+            $inner,
+            r#"" }] }"#
+        )
+    };
+}
+
+#[test]
+fn a_formula_that_cannot_be_read_is_refused() {
+    refused(
+        "formulas",
+        &[
+            (
+                PROFILE,
+                piece!("0.0127 + tanhh(x)"),
+                &[
+                    "bat.json:5:62: profile.pieces[0].formula: found \"tanhh\" at character 10 of",
+                    "did you mean tanh?",
+                ],
+            ),
+            (PROFILE, piece!(""), &["pieces[0].formula: found an empty formula", "0.02*x"]),
+            (PROFILE, piece!("0.02 +"), &["found the end at character 7", "a number, x, pi"]),
+            (PROFILE, piece!("0.02 + 2x"), &["\"x\" at character 9", "an operator"]),
+            (PROFILE, piece!("0.02 * (1 + x"), &["the end at character 14", "closing bracket"]),
+            (PROFILE, piece!("0,02"), &["\",\" at character 2", "0.5 with a point"]),
+            (PROFILE, piece!("0.02 + min(x)"), &["min of 1 argument", "two or more"]),
+            (PROFILE, piece!("r"), &["\"r\" at character 1", "x, pi or a function"]),
+            (PROFILE, piece!("0.02\\u001b[2J"), &["at character 5", "an operator"]),
+            (
+                PROFILE,
+                piece!("0.02", "0.01 +"),
+                &["bat.json:5:87: profile.pieces[0].inner_formula"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.8, "formula": 0.02 }] }"#,
+                &["5:62: profile.pieces[0].formula: found 0.02, expected a formula in quotes"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.8 }] }"#,
+                &["5:27: profile.pieces[0]: found no \"formula\"", "the outer radius in m"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.8, "formulae": "0.02" }] }"#,
+                &["pieces[0].formulae: found unknown key", "\"formula\" (did you mean that?)"],
+            ),
+        ],
+    );
+    let folder = Folder::new("deep formula");
+    let mut faults = Vec::new();
+    for deep in ["(", "-", "2**", "sin(", "1+"] {
+        for (times, said) in [(1000, "formula"), (1_000_000, "characters, expected 10000 at most")]
+        {
+            let formula = deep.repeat(times);
+            let profile =
+                format!(r#"{{ "pieces": [{{ "from": 0, "to": 1, "formula": "{formula}" }}] }}"#);
+            folder.write("bat.json", BAT.replace(PROFILE, &profile));
+            faults.extend(folder.misanswer(&["modes", "bat.json"], &["bat.json:5:", said]));
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn pieces_that_make_no_bat_are_refused() {
+    refused(
+        "pieces",
+        &[
+            (PROFILE, r#"{ "pieces": [] }"#, &["5:26: profile.pieces: found an empty list"]),
+            (PROFILE, r#"{ "pieces": {} }"#, &["profile.pieces: found an object", "a list"]),
+            (PROFILE, r#"{ "pieces": ["0.02"] }"#, &["profile.pieces[0]: found \"0.02\""]),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0.1, "to": 0.8, "formula": "0.02" }] }"#,
+                &["5:37: profile.pieces[0].from: found 0.1 m, expected 0", "measured_from"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0, "formula": "0.02" }] }"#,
+                &["profile.pieces[0].to: found 0 m", "a position beyond 0 m"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 1e999, "formula": "0.02" }] }"#,
+                &["profile.pieces[0].to: found 1e999, expected a length"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": "0.8 kg", "formula": "0.02" }] }"#,
+                &["profile.pieces[0].to: found unit \"kg\"", "expected a length"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.4, "formula": "0.02" },
+                                { "from": "41 cm", "to": 0.8, "formula": "0.02" }] }"#,
+                &["6:43: profile.pieces[1].from: found 0.41 m, which leaves a gap", "0.4 m, where"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.4, "formula": "0.02" },
+                                { "from": 0.3, "to": 0.8, "formula": "0.02" }] }"#,
+                &["profile.pieces[1].from: found 0.3 m, an overlap, expected 0.4 m"],
+            ),
+            (
+                PROFILE,
+                r#"{ "unit": "in", "pieces": [{ "from": 0, "to": 0.8, "formula": "0.02" }] }"#,
+                &["profile.unit: found \"unit\" beside \"pieces\"", "radius in m from x in m"],
+            ),
+            (
+                PROFILE,
+                r#"{ "pieces": [{ "from": 0, "to": 0.8, "formula": "0.02" }], "x": [0, 1] }"#,
+                &["profile.x: found \"x\" beside \"pieces\""],
+            ),
+            (
+                PROFILE,
+                r#"{ "csv": "a.csv", "pieces": [{ "from": 0, "to": 0.8, "formula": "0.02" }] }"#,
+                &["profile.csv: found \"csv\" beside \"pieces\""],
+            ),
+            (
+                PROFILE,
+                piece!("0.02 - 0.05*x"),
+                &[
+                    "5:62: profile.pieces[0].formula: found 0 m at x = 0.4 m from \"0.02 - 0.05*x\"",
+                    "an end",
+                ],
+            ),
+            (PROFILE, piece!("0.01 - 0.03*sqrt(x)"), &["formula: found -0.00", "a radius above 0"]),
+            // Between two samples too.
+            (PROFILE, piece!("0.02 - 0.021*exp(-((x - 0.40041)/1e-3)**2)"), &["above 0"]),
+            (PROFILE, piece!("(x - 0.40041)**2"), &["formula: found 0 m at x = 0.4004", "an end"]),
+            (PROFILE, piece!("0"), &["found 0 m at x = 0.0", "only an end of the bat"]),
+            (PROFILE, piece!("sqrt(0.5 - x)"), &["found no number at x = 0.50", "m from \"sqrt"]),
+            (PROFILE, piece!("0.001/x"), &["found an infinite value at x = 0 m"]),
+            (PROFILE, piece!("0.02 + 1e-9*tan(1/(x + 0.01))**2"), &["varies too fast", "smooth"]),
+            (PROFILE, piece!("0.02 + abs(sin(1e6*x))", "0.01"), &["found"]),
+            (
+                PROFILE,
+                piece!("0.02", "0.01 + 0.02*x"),
+                &[
+                    "5:87: profile.pieces[0].inner_formula: found 0.02",
+                    "less than the outer radius there, 0.02 m",
+                ],
+            ),
+            (
+                PROFILE,
+                piece!("0.02", "0.01 - 0.05*x"),
+                &["inner_formula: found -0.00004 m at x = 0.2008 m", "0 or more"],
+            ),
+            (
+                PROFILE,
+                piece!("0.02", "log(x)"),
+                &["inner_formula: found an infinite value at x = 0"],
+            ),
+            (PROFILE, piece!("1e-90"), &["fourth power is within the range"]),
+            (PROFILE, piece!("1e90"), &["found", "range"]),
+        ],
+    );
+}
+
 #[test]
 fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
     let later: &[&str] = &["bat.json:3:", "not supported yet", "nothing is silently ignored"];
@@ -574,11 +744,6 @@ fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
             ("\"dowel\"", r#""", "grip": {}"#, later),
             ("\"dowel\"", r#""", "weighed": { "mass": 1, "balance_point": 0.5 }"#, later),
             ("\"dowel\"", r#""", "weighed": { "first_bending_hz": 170 }"#, later),
-            (
-                PROFILE,
-                r#"{ "pieces": [] }"#,
-                &["bat.json:5:26: profile.pieces", "not supported yet"],
-            ),
             ("\"dowel\"", r#""", "weighed": {}"#, &["bat.json:3:26: weighed", "no \"mass\""]),
             ("\"dowel\"", r#""", "weighed": null"#, &["weighed: found null", "an object"]),
             (

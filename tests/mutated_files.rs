@@ -15,11 +15,12 @@ use sweetspot::error::Error;
 use sweetspot::solve::{self, Request, Solution};
 use sweetspot::report::json::{self, ShapePoints};
 
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("dowel", include_str!("../meshes/dowel.json")),
     ("cone", include_str!("../meshes/cone.json")),
     ("house", include_str!("../meshes/house.json")),
     ("r161", include_str!("../meshes/r161.json")),
+    ("tanh", include_str!("../meshes/tanh.json")),
     ("torpedo", include_str!("../meshes/torpedo.json")),
     ("northwestern_wood", include_str!("../meshes/northwestern_wood.json")),
     ("northwestern_aluminium", include_str!("../meshes/northwestern_aluminium.json")),

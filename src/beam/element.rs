@@ -15,8 +15,8 @@
 
 use crate::bat::Bat;
 use crate::beam::mesh::{self, Mesh};
-use crate::beam::rule::Rule;
-use crate::profile::Section;
+use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::profile::{Radii, Section};
 use crate::real::Real;
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
@@ -256,15 +256,34 @@ pub fn sections(
     rule: &Rule,
     mut take: impl FnMut(usize, f64, f64),
 ) {
-    let piece = bat.profile.pieces[e.piece].part(e.from, e.to);
-    let solid = piece.inner == [0.0; 4];
+    let mut at = |i, section| take(i, bat.bending_stiffness(section), bat.mass_per_length(section));
+    let piece = &bat.profile.pieces[e.piece];
+    let Radii::Cubic(cubics) = &piece.radii else {
+        for (i, point) in rule.points.iter().enumerate() {
+            at(i, piece.at(e.from + (e.to - e.from) * point.s));
+        }
+        return;
+    };
+    let cubics = cubics.part(e.from, e.to);
+    let solid = cubics.inner == [0.0; 4];
     for (i, point) in rule.points.iter().enumerate() {
         let v = &point.bernstein;
         let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
-        let inner = if solid { 0.0 } else { radius(&piece.inner) };
-        let section = Section { outer: radius(&piece.outer), inner };
-        take(i, bat.bending_stiffness(section), bat.mass_per_length(section));
+        let inner = if solid { 0.0 } else { radius(&cubics.inner) };
+        at(i, Section { outer: radius(&cubics.outer), inner });
     }
+}
+
+/// How much of EI and ρA on an element the points of its rule may miss, relative: the last terms
+/// of their Legendre series through the points. 0 for stations, whose polynomials the rule holds
+/// exactly.
+pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule) -> f64 {
+    if matches!(bat.profile.pieces[e.piece].radii, Radii::Cubic(_)) {
+        return 0.0;
+    }
+    let (mut bending, mut line) = ([0.0; MOST_POINTS], [0.0; MOST_POINTS]);
+    sections(bat, e, rule, |i, stiffness, mass| (bending[i], line[i]) = (stiffness, mass));
+    f64::max(rule.tail(&bending), rule.tail(&line))
 }
 
 /// All elements of a mesh, as degree `N − 1` sees them.

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::bat::Bat;
+use crate::profile::Radii;
 use crate::quadrature::{gauss, legendre};
 use crate::real::Real;
 
@@ -39,22 +40,29 @@ pub struct Point {
     pub bernstein: [f64; 4],
 }
 
-/// Kinds of profile by the degree of the radii: constant, linear, cubic.
-const KINDS: usize = 3;
+/// Kinds of profile: constant, linear and cubic radii, and formulas.
+const KINDS: usize = 4;
+/// Points for a formula beyond the degree of the deflection.
+const FOR_FORMULAS: usize = 16;
 
 impl Rule {
     /// The rule for elements of that degree on this bat.
     ///
     /// With radii of degree `d` and deflections of degree `p` the load `ρA w` has degree
     /// `2d + p`: so many points and one more hold it exactly, and then the mass too. The stiffness
-    /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly.
+    /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly. Formulas
+    /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
     pub fn of(bat: &Bat, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
-        let radii = bat.profile.pieces.iter().map(|piece| piece.degree).max().unwrap_or(0);
-        let kind = radii.min(2);
-        RULES[KINDS * degree + kind].get_or_init(|| {
-            let loads = 2 * radii + degree + 1;
-            Self::new(degree + 1, loads.max(2 * radii + degree - 1).max(degree + 3))
+        let degrees = bat.profile.pieces.iter().map(|piece| match &piece.radii {
+            Radii::Cubic(cubics) => Some(cubics.degree),
+            Radii::Formula(_) => None,
+        });
+        let radii = degrees.fold(Some(0), |most, degree| most?.max(degree?).into());
+        let kind = radii.map_or(KINDS - 1, |radii| radii.min(2));
+        RULES[KINDS * degree + kind].get_or_init(|| match radii {
+            Some(radii) => Self::new(degree + 1, (2 * radii + degree + 1).max(degree + 3)),
+            None => Self::new(degree + 1, degree + FOR_FORMULAS),
         })
     }
 
@@ -131,6 +139,19 @@ impl Rule {
             }
         }
         sum
+    }
+
+    /// The last two coefficients of the Legendre series through values at the points, relative to
+    /// the largest value.
+    pub fn tail(&self, values: &[f64]) -> f64 {
+        let count = self.count();
+        let largest = values[..count].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let coefficient = |k: usize| -> f64 {
+            let terms = self.points.iter().zip(values);
+            let terms = terms.map(|(p, v)| p.weight * v * legendre(count, 2.0 * p.s - 1.0)[k]);
+            (2 * k + 1) as f64 * terms.sum::<f64>()
+        };
+        (coefficient(count - 1).abs() + coefficient(count - 2).abs()) / largest
     }
 
     /// `∫ f ds` and `∫ f s ds` over the element of a function given at the points.

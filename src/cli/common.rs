@@ -81,7 +81,7 @@ impl SolveArgs {
     pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
         if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {
             output.warn(&format!(
-                "note: --elements {asked} raised to {}: one per interval between stations at least",
+                "note: --elements {asked} raised to {}: one per smooth piece of the profile at least",
                 solution.mesh.len()
             ));
         }

@@ -10,8 +10,8 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::modes::Mode;
+use crate::profile::{FormulaPiece, Formulas, Interpolation, Stations};
 use crate::solve::{Solution, Solver};
-use crate::profile::Interpolation;
 use crate::theory::ignored;
 
 /// Which samples of the shapes to write.
@@ -106,7 +106,7 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
 
 /// The bat as it was understood: SI, defaults filled in, a bat file in its own right.
 fn resolved(bat: &Bat) -> Value {
-    let (material, stations) = (&bat.material, &bat.profile.stations);
+    let material = &bat.material;
     let mut numbers = json!({
         "density": material.density,
         "youngs_modulus": material.youngs_modulus,
@@ -120,6 +120,23 @@ fn resolved(bat: &Bat) -> Value {
     if let Some(kappa) = material.shear_coefficient {
         numbers["shear_coefficient"] = json!(kappa);
     }
+    let mut resolved = json!({
+        "format": "sweetspot-bat/1",
+        "name": bat.name,
+        "source": bat.source,
+        "material": numbers,
+        "profile": match &bat.profile.formulas {
+            Some(formulas) => pieces(formulas),
+            None => columns(&bat.profile.stations),
+        },
+    });
+    if let Some(mass) = bat.weighed_mass {
+        resolved["weighed"] = json!({ "mass": mass });
+    }
+    resolved
+}
+
+fn columns(stations: &Stations) -> Value {
     let interpolation =
         if stations.interpolation == Interpolation::Pchip { "pchip" } else { "linear" };
     let mut profile = json!({
@@ -131,17 +148,22 @@ fn resolved(bat: &Bat) -> Value {
     if stations.inner.iter().any(|r| *r > 0.0) {
         profile["inner_radius"] = json!(stations.inner);
     }
-    let mut resolved = json!({
-        "format": "sweetspot-bat/1",
-        "name": bat.name,
-        "source": bat.source,
-        "material": numbers,
-        "profile": profile,
-    });
-    if let Some(mass) = bat.weighed_mass {
-        resolved["weighed"] = json!({ "mass": mass });
-    }
-    resolved
+    profile
+}
+
+fn pieces(formulas: &Formulas) -> Value {
+    let piece = |piece: &FormulaPiece| {
+        let mut written =
+            json!({ "from": piece.from, "to": piece.to, "formula": piece.outer.text() });
+        if let Some(inner) = &piece.inner {
+            written["inner_formula"] = json!(inner.text());
+        }
+        written
+    };
+    json!({
+        "measured_from": if formulas.from_tip { "tip" } else { "knob" },
+        "pieces": formulas.pieces.iter().map(piece).collect::<Vec<_>>(),
+    })
 }
 
 fn summary(bat: &Bat) -> Value {

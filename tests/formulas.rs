@@ -1,0 +1,219 @@
+//! A profile in formulas is the same bat as one in stations, where stations can say the same.
+
+mod common;
+
+use common::{DENSITY, LENGTH, MODULUS, RADIUS, bat, cone, dowel, dowel_frequency};
+use serde_json::{Value, json};
+use std::path::Path;
+use sweetspot::material::Material;
+use sweetspot::profile::{Interpolation, Profile, Stations};
+use sweetspot::report::json::{ShapePoints, modes};
+use sweetspot::validation::bundled_bat;
+use sweetspot::{Bat, Request, solve};
+
+const REQUEST: Request =
+    Request { modes: 8, tolerance: 1e-8, elements: Some(64), solver: sweetspot::Solver::Statics };
+
+/// A bat of the common material with that `profile`.
+fn read(profile: Value) -> Bat {
+    let file = json!({
+        "format": "sweetspot-bat/1",
+        "material": { "density": DENSITY, "youngs_modulus": MODULUS },
+        "profile": profile,
+    });
+    Bat::from_text("bat.json", &file.to_string(), Path::new("")).unwrap()
+}
+
+fn piece(from: f64, to: f64, formula: &str) -> Value {
+    json!({ "from": from, "to": to, "formula": formula })
+}
+
+fn one(formula: &str) -> Bat {
+    read(json!({ "pieces": [piece(0.0, LENGTH, formula)] }))
+}
+
+fn frequencies(bat: &Bat) -> Vec<f64> {
+    solve(bat, &REQUEST).unwrap().modes.iter().map(|mode| mode.frequency()).collect()
+}
+
+/// Same frequencies and same rigid body, to these relative errors.
+fn assert_same(a: &Bat, b: &Bat, frequency: f64, rigid: f64) {
+    for (n, (a, b)) in frequencies(a).iter().zip(frequencies(b)).enumerate() {
+        assert!((a / b - 1.0).abs() < frequency, "mode {}: {:e}", n + 1, a / b - 1.0);
+    }
+    let body = |bat: &Bat| {
+        let body = bat.inertia();
+        [body.mass, body.balance_point, body.about_balance, body.line_about_balance]
+    };
+    for (a, b) in body(a).into_iter().zip(body(b)) {
+        assert!((a / b - 1.0).abs() < rigid, "{a} {b}: {:e}", a / b - 1.0);
+    }
+}
+
+#[test]
+fn a_straight_line_is_the_cone_of_stations() {
+    let formula = one(&format!("0.0125 + 0.0205*x/{LENGTH}"));
+    assert_same(&formula, &cone(0.0125, 0.033), 1e-12, 1e-13);
+}
+
+#[test]
+fn a_cone_may_come_to_a_point() {
+    let formula = one(&format!("0.033*x/{LENGTH}"));
+    assert_same(&formula, &cone(0.0, 0.033), 1e-12, 1e-13);
+    // The formula's own round-off at the tip is no radius.
+    let turned = one(&format!("0.033 - 0.033/{LENGTH}*x"));
+    assert_same(&turned, &cone(0.033, 0.0), 1e-12, 1e-13);
+    let stations = &one("0.03*(0.1 + 0.2 - 0.3 + x)").profile.stations;
+    assert_eq!(stations.outer[0], 0.0);
+}
+
+#[test]
+fn a_constant_is_the_dowel() {
+    let formula = one(&RADIUS.to_string());
+    assert_same(&formula, &dowel(), 1e-13, 1e-13);
+    let fine = Request { elements: None, ..REQUEST };
+    for mode in solve(&formula, &fine).unwrap().modes {
+        let exact = dowel_frequency(mode.order);
+        assert!((mode.frequency() / exact - 1.0).abs() < 1e-8, "{}", mode.frequency());
+    }
+}
+
+#[test]
+fn a_jump_between_pieces_is_the_step_of_stations() {
+    let formula = read(json!({ "pieces": [
+        piece(0.0, 0.3, "0.02"), piece(0.3, 0.5, "0.03"), piece(0.5, LENGTH, "0.025 + 0.01*(x - 0.5)"),
+    ] }));
+    let (x, end) = ([0.0, 0.3, 0.3, 0.5, 0.5, LENGTH], 0.025 + 0.01 * (LENGTH - 0.5));
+    let outer = [0.02, 0.02, 0.03, 0.03, 0.025, end];
+    assert_same(&formula, &bat(&x, &outer, &[0.0; 6], Interpolation::Linear), 1e-12, 1e-13);
+    assert_eq!(formula.profile.stations.x, x);
+}
+
+#[test]
+fn a_bore_is_the_bore_of_stations() {
+    let formula = read(json!({ "pieces": [{
+        "from": "0 in", "to": "33 in",
+        "formula": "0.0125 + 0.0205*x/0.8382", "inner_formula": "0.004 + 0.02*x/0.8382",
+    }] }));
+    let stations = bat(&[0.0, LENGTH], &[0.0125, 0.033], &[0.004, 0.024], Interpolation::Linear);
+    assert_same(&formula, &stations, 1e-12, 1e-13);
+    // A radius is no more than the square root of its square, a bore no less than nothing.
+    let solid = read(json!({ "pieces": [{
+        "from": 0, "to": LENGTH, "formula": "sqrt((0.0125 + 0.02*x)**2)", "inner_formula": "0*x",
+    }] }));
+    assert_same(&solid, &one("0.0125 + 0.02*x"), 1e-13, 1e-13);
+}
+
+#[test]
+fn a_polynomial_is_the_cubic_of_stations() {
+    // Through three points of a parabola that SciPy's cubic keeps: rising, not straight.
+    let stations = bat(&[0.0, LENGTH], &[0.02, 0.03], &[0.0; 2], Interpolation::Pchip);
+    assert_same(&one(&format!("0.02 + 0.01*x/{LENGTH}")), &stations, 1e-12, 1e-13);
+}
+
+#[test]
+fn counted_from_the_tip_it_is_the_same_bat() {
+    let shape = "0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11)) + max(0, 0.3 - x)/90";
+    let turned = shape.replace('x', "(0.84 - x)").replace("ma(0.84 - x)", "max");
+    let from_knob = read(json!({ "pieces": [
+        piece(0.0, 0.2, shape), piece(0.2, 0.84, &format!("0.002 + {shape}")),
+    ] }));
+    let from_tip = read(json!({ "measured_from": "tip", "pieces": [
+        piece(0.0, 0.84 - 0.2, &format!("0.002 + {turned}")), piece(0.84 - 0.2, 0.84, &turned),
+    ] }));
+    assert_same(&from_tip, &from_knob, 1e-12, 1e-12);
+    assert_eq!(from_knob.profile.pieces.len(), 3);
+    for x in [0.0, 0.1, 0.19, 0.21, 0.29, 0.31, 0.5, 0.84] {
+        let (a, b) = (from_tip.profile.at(x).outer, from_knob.profile.at(x).outer);
+        assert!((a / b - 1.0).abs() < 1e-14, "{x}: {a} {b}");
+    }
+    let twice = from_knob.profile.clone().reversed().reversed();
+    assert_eq!(twice.formulas, from_knob.profile.formulas);
+    assert!((twice.at(0.3).outer / from_knob.profile.at(0.3).outer - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn a_corner_is_the_end_of_a_piece() {
+    let roof = one("0.02 + 0.01*abs(x - 0.4)");
+    let starts: Vec<f64> = roof.profile.pieces.iter().map(|piece| piece.start).collect();
+    assert_eq!(starts, [0.0, 0.4]);
+    let radius = |x: f64| 0.02 + 0.01 * (x - 0.4_f64).abs();
+    let (x, outer) = ([0.0, 0.4, LENGTH], [0.0, 0.4, LENGTH].map(radius));
+    assert_same(&roof, &bat(&x, &outer, &[0.0; 3], Interpolation::Linear), 1e-12, 1e-13);
+    let clamped = one("min(0.033, max(0.0125, 0.07*x - 0.02))");
+    assert_eq!(clamped.profile.pieces.len(), 3);
+    assert!((clamped.profile.pieces[1].start - 0.0325 / 0.07).abs() < 1e-15);
+}
+
+/// The same smooth bat as 2000 straight stations, whose chords err by `h² r″/8`.
+#[test]
+fn a_smooth_bat_is_the_limit_of_its_stations() {
+    let formula = bundled_bat("meshes/tanh.json").unwrap();
+    let x: Vec<f64> = (0..=2000).map(|k| 0.84 * f64::from(k) / 2000.0).collect();
+    let radius = |x: &f64| 0.0127 + 0.0102 * (1.0 + ((x - 0.50) / 0.11).tanh());
+    let outer: Vec<f64> = x.iter().map(radius).collect();
+    for (x, r) in x.iter().zip(&outer) {
+        assert!((formula.profile.at(*x).outer / r - 1.0).abs() < 1e-15);
+    }
+    let inner = vec![0.0; x.len()];
+    let profile =
+        Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear }).unwrap();
+    let stations = Bat::new("stations", profile, formula.material.clone(), None).unwrap();
+    let fine = Request { elements: Some(2000), ..REQUEST };
+    let of = |bat: &Bat| solve(bat, &fine).unwrap().modes;
+    for (a, b) in of(&formula).iter().zip(of(&stations)) {
+        let error = a.frequency() / b.frequency() - 1.0;
+        assert!(error.abs() < 3e-6, "mode {}: {error:e}", a.order);
+    }
+    // A Riemann sum of a function that is nearly flat at its ends, to the chords' error.
+    let mass = formula.inertia().mass;
+    assert!((mass / stations.inertia().mass - 1.0).abs() < 3e-6, "{mass}");
+}
+
+/// `∫ r² dx` of a shape with a square root at its end, against its closed form.
+#[test]
+fn mass_is_exact_for_a_round_end() {
+    // An ellipsoid of half-axes a and b: volume 4/3 π a b².
+    let half = 0.4;
+    let round =
+        read(json!({ "pieces": [piece(0.0, 0.8, "0.03*sqrt(max(0, 1 - (x/0.4 - 1)**2))")] }));
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * half * 0.03 * 0.03;
+    let body = round.inertia();
+    assert!((body.mass / (DENSITY * volume) - 1.0).abs() < 1e-13);
+    assert!((body.balance_point / half - 1.0).abs() < 1e-13);
+    // Transverse inertia of an ellipsoid: m (a² + b²)/5.
+    let inertia = body.mass * (half * half + 9e-4) / 5.0;
+    assert!((body.about_balance / inertia - 1.0).abs() < 1e-13);
+    assert!(solve(&round, &Request { modes: 3, ..Request::default() }).unwrap().met);
+}
+
+#[test]
+fn the_bat_in_a_report_is_a_bat_file_of_the_same_bat() {
+    for from in ["knob", "tip"] {
+        let original = read(json!({ "measured_from": from, "pieces": [
+            { "from": 0, "to": "10 in", "formula": "0.02 - 0.01*x", "inner_formula": "0.01" },
+            { "from": 0.254, "to": 0.8, "formula": "0.03" },
+        ] }));
+        let solution = solve(&original, &REQUEST).unwrap();
+        let report = modes(&original, &solution, ShapePoints::Even(0), false);
+        assert_eq!(report["bat"]["profile"]["measured_from"], from);
+        assert_eq!(report["bat"]["profile"]["pieces"][0]["inner_formula"], "0.01");
+        let again = Bat::from_text("echo", &report["bat"].to_string(), Path::new("")).unwrap();
+        assert_eq!(again.profile, original.profile);
+    }
+}
+
+#[test]
+fn warnings_know_the_widest_place() {
+    let warned = |formula: &str| one(formula).warnings().join("\n");
+    assert!(warned("0.02 + 0.05*exp(-((x - 0.4)/0.05)**2)").contains("largest radius is 0.07 m"));
+    assert!(!warned("0.02 + 0.01*exp(-((x - 0.4)/0.05)**2)").contains("largest radius"));
+}
+
+#[test]
+fn a_weighed_mass_sets_the_density_of_a_formula() {
+    let shape = one("0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))").profile;
+    let material = Material::new(DENSITY, MODULUS).unwrap();
+    let weighed = Bat::new("weighed", shape, material, Some(0.9)).unwrap();
+    assert!((weighed.inertia().mass / 0.9 - 1.0).abs() < 1e-13);
+}
