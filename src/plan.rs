@@ -12,8 +12,8 @@
 //! element counts as a wave of `a = 1.5 |Δ ln r|`, measured on cones.
 
 use crate::bat::Bat;
-use crate::beam::mesh::Mesh;
 use crate::beam::element::missed;
+use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
 use crate::profile::{Piece, Radii, Section};
 

@@ -2,10 +2,10 @@
 
 use crate::bat::Bat;
 use crate::modes::Mode;
-use crate::solve::Solution;
 use crate::quadrature::gauss;
 use crate::response::{Oscillator, expansion, struck};
 use crate::shape_file::InitialShape;
+use crate::solve::Solution;
 
 /// How the motion begins: mode by mode, an impulse response or a displacement.
 #[derive(Debug, Clone)]

@@ -119,7 +119,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let mut best: Option<Solution> = None;
     // Stop the eigensolve when its part of the error is small beside the mesh's: the eigenvalue's
     // is the square of the residual, the shape's is the residual itself.
-    let mut residual = (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3);
+    let mut residual = match request.elements {
+        Some(_) => 1e-10,
+        None => (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3),
+    };
     for round in 0..MOST_ROUNDS {
         let answer = on_mesh(bat, &plan, request, residual, &mut timing)?;
         if residual > CONVERGED && !answer.modes.iter().all(Mode::has_its_nodes) {

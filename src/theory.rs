@@ -4,8 +4,8 @@
 
 use crate::bat::Bat;
 use crate::modes::Mode;
-use crate::solve::Solution;
 use crate::profile::Section;
+use crate::solve::Solution;
 
 /// Relative change of a mode's frequency by effects that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,8 +11,13 @@ use sweetspot::report::json::{ShapePoints, modes};
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
-const REQUEST: Request =
-    Request { modes: 8, tolerance: 1e-8, elements: Some(64), solver: sweetspot::Solver::Statics };
+const REQUEST: Request = Request {
+    modes: 8,
+    tolerance: 1e-8,
+    elements: Some(64),
+    degree: None,
+    solver: sweetspot::Solver::Statics,
+};
 
 /// A bat of the common material with that `profile`.
 fn read(profile: Value) -> Bat {

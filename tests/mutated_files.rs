@@ -12,8 +12,8 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Hitter, Model, Scene};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::error::Error;
-use sweetspot::solve::{self, Request, Solution};
 use sweetspot::report::json::{self, ShapePoints};
+use sweetspot::solve::{self, Request, Solution};
 
 const FILES: [(&str, &str); 8] = [
     ("dowel", include_str!("../meshes/dowel.json")),

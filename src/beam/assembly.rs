@@ -59,11 +59,7 @@ pub fn places<const N: usize>(e: usize) -> [usize; N] {
     })
 }
 
-fn scatter<const N: usize>(
-    into: &mut CooMatrix<f64>,
-    places: &[usize; N],
-    block: &Matrix<f64, N>,
-) {
+fn scatter<const N: usize>(into: &mut CooMatrix<f64>, places: &[usize; N], block: &Matrix<f64, N>) {
     for (i, row) in places.iter().zip(block) {
         for (j, value) in places.iter().zip(row) {
             into.push(*i, *j, *value);
@@ -80,7 +76,10 @@ fn scatter<const N: usize>(
 pub fn write_matrix_market(matrix: &CscMatrix<f64>, out: &mut impl Write) -> io::Result<()> {
     let lower: Vec<_> = matrix.triplet_iter().filter(|(i, j, _)| i >= j).collect();
     writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
-    writeln!(out, "% unknowns knob to tip: deflection (m), slope (rad) of a node, then bubbles (1/m); SI")?;
+    writeln!(
+        out,
+        "% unknowns knob to tip: deflection (m), slope (rad) of a node, then bubbles (1/m); SI"
+    )?;
     writeln!(out, "{} {} {}", matrix.nrows(), matrix.ncols(), lower.len())?;
     lower.into_iter().try_for_each(|(i, j, v)| writeln!(out, "{} {} {v:e}", i + 1, j + 1))
 }

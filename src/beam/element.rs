@@ -51,12 +51,7 @@ const ODD: [f64; 16] = {
 /// The deflection with strains `c` of an element of length `h` whose left end is at `w` with
 /// slope `theta`, in Legendre polynomials (m).
 #[inline(always)]
-pub fn deflection<R: Real, const N: usize>(
-    h: R,
-    c: &Vector<R, N>,
-    w: R,
-    theta: R,
-) -> Vector<R, N> {
+pub fn deflection<R: Real, const N: usize>(h: R, c: &Vector<R, N>, w: R, theta: R) -> Vector<R, N> {
     let half = R::splat(0.5) * h;
     let integral = |below: R, k: usize, above: R| {
         half * (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above)
@@ -250,12 +245,7 @@ pub fn over_strains<R: Real, const N: usize>(a: &Vector<R, N>, b: &Vector<R, N>)
 
 /// EI (N m²) and ρA (kg/m) at the points of the rule on one element.
 #[inline(always)]
-pub fn sections(
-    bat: &Bat,
-    e: &mesh::Element,
-    rule: &Rule,
-    mut take: impl FnMut(usize, f64, f64),
-) {
+pub fn sections(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(usize, f64, f64)) {
     let mut at = |i, section| take(i, bat.bending_stiffness(section), bat.mass_per_length(section));
     let piece = &bat.profile.pieces[e.piece];
     let Radii::Cubic(cubics) = &piece.radii else {
@@ -316,9 +306,8 @@ impl<const N: usize> Element<f64, N> {
     /// A bubble's deflection and slope vanish at both ends, because `P_j` with `j ≥ 2` has
     /// neither area nor moment.
     pub fn hermite(&self) -> (Matrix<f64, N>, Matrix<f64, N>) {
-        let unit = |i: usize| -> Vector<f64, N> {
-            std::array::from_fn(|j| f64::from(u8::from(i == j)))
-        };
+        let unit =
+            |i: usize| -> Vector<f64, N> { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
         let strains: Matrix<f64, N> = std::array::from_fn(|i| self.strains_of_hermite(&unit(i)));
         let shapes: Matrix<f64, N> = std::array::from_fn(|i| {
             let u = unit(i);

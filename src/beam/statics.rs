@@ -178,7 +178,8 @@ impl<R: Real, const N: usize> Statics<R, N> {
         let points = self.rule.count();
         let stiff = |k: &usize| {
             let sections = &self.bending_stiffness[k * points..(k + 1) * points];
-            let weighted = self.rule.points.iter().zip(sections).map(|(p, ei)| p.weight * ei.lane(0));
+            let weighted =
+                self.rule.points.iter().zip(sections).map(|(p, ei)| p.weight * ei.lane(0));
             weighted.sum::<f64>() >= 0.5 * stiffest
         };
         let count = (0..elements).filter(stiff).count();

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
-use sweetspot::solve::Solution;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
+use sweetspot::solve::Solution;
 use sweetspot::validation;
 
 use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, curve_csv};

@@ -9,9 +9,9 @@ use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::error::{Error, Result, nearest};
-use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
+use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::units::{self, Quantity};
 
 use crate::cli::printable;

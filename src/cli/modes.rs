@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
-use sweetspot::solve;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
+use sweetspot::solve;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs};
 use crate::cli::{Done, NOT_REACHED};

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
-use sweetspot::solve::Solution;
 use sweetspot::report::file;
 use sweetspot::response::partial_sums;
 use sweetspot::ringing::{Ringing, Start};
 use sweetspot::shape_file;
+use sweetspot::solve::Solution;
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
