@@ -3,3 +3,5 @@
 pub mod tridiagonal;
 pub mod lanczos;
 pub mod dense;
+pub mod factor;
+pub mod shift_invert;
