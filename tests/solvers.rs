@@ -13,7 +13,11 @@ use sweetspot::{Bat, Error, Result};
 
 type Solve = fn(&CscMatrix<f64>, &CscMatrix<f64>, f64, usize, f64) -> Result<Pairs>;
 
-const SOLVERS: &[(&str, Solve)] = &[("shift-invert", shift_invert::lowest)];
+const SOLVERS: &[(&str, Solve)] = &[
+    ("shift-invert", shift_invert::lowest),
+    #[cfg(feature = "arpack")]
+    ("arpack", sweetspot::eigen::arpack::lowest),
+];
 
 const RESIDUAL: f64 = 1e-12;
 
@@ -239,4 +243,19 @@ fn a_shift_that_is_not_positive_is_refused() {
             assert!(message.starts_with("shift: found"), "{name}: {message}");
         }
     }
+}
+
+#[cfg(feature = "arpack")]
+#[test]
+fn four_threads_that_ask_arpack_at_once_get_the_same_bits() {
+    let pencils: Vec<Pencil> = [1, 2, 20, 41].map(|n| pencil(&dowel(), n)).into();
+    let solve = sweetspot::eigen::arpack::lowest;
+    let all = || -> Vec<Pairs> { pencils.iter().map(|pencil| solved(solve, pencil, 4)).collect() };
+    let alone = all();
+    std::thread::scope(|scope| {
+        let workers = [(); 4].map(|()| scope.spawn(|| (0..20).map(|_| all()).collect::<Vec<_>>()));
+        for worker in workers {
+            worker.join().unwrap().iter().for_each(|answer| assert_eq!(*answer, alone));
+        }
+    });
 }

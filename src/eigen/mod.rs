@@ -5,3 +5,6 @@ pub mod lanczos;
 pub mod dense;
 pub mod factor;
 pub mod shift_invert;
+#[cfg(feature = "arpack")]
+#[allow(unsafe_code)] // It calls C; nothing else in this crate does.
+pub mod arpack;
