@@ -40,6 +40,10 @@ pub enum Error {
     )]
     NotConverged { wanted: usize, converged: usize, steps: usize },
 
+    /// `K + σM` could not be factored; with too many elements round-off makes it indefinite.
+    #[error("cannot factor the stiffness matrix of {unknowns} unknowns: {reason}")]
+    Factorization { unknowns: usize, reason: &'static str },
+
     /// A mesh that cannot hold what was asked of it.
     #[error("{wanted} bending modes need at least {least} elements, {found} were asked for")]
     TooFewElements { wanted: usize, least: usize, found: usize },
