@@ -33,6 +33,10 @@ pub enum Error {
     #[error("{what} is not supported yet: {advice}")]
     NotYet { what: String, advice: &'static str },
 
+    /// Something that was left out when the program was built.
+    #[error("{what} is not in this build: {advice}")]
+    NotBuilt { what: &'static str, advice: &'static str },
+
     /// The iteration stopped before every wanted mode had converged.
     #[error(
         "{converged} of {wanted} modes converged in {steps} Lanczos steps; \

@@ -33,8 +33,6 @@ const AIM: f64 = 0.2;
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
 
-/// A formula is resolved where its Legendre series ends below this.
-const RESOLVED: f64 = 1e-14;
 const MOST_HALVINGS: usize = 12;
 
 /// A profile as the planner sees it: phase and taper along every piece.
@@ -97,7 +95,7 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize) -> Mesh {
     let rule = Rule::of(bat, degree);
     for _ in 0..MOST_HALVINGS {
         let unresolved: Vec<bool> =
-            mesh.elements.iter().map(|e| missed(bat, e, rule) > RESOLVED).collect();
+            mesh.elements.iter().map(|e| missed(bat, e, rule) > 0.0).collect();
         if !unresolved.contains(&true) {
             break;
         }

@@ -9,11 +9,13 @@ use crate::beam::element::{self, Element};
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
-use crate::eigen::dense;
 use crate::eigen::lanczos::{Lanczos, Wanted};
+use crate::eigen::{dense, shift_invert};
 use crate::error::{Error, Result};
 use crate::modes::Mode;
 use crate::plan::Plan;
+
+type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
 /// How the eigenvalues are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +24,10 @@ pub enum Solver {
     Statics,
     /// Cholesky reduction and a dense eigensolve: small meshes, round-off of order ε n⁴.
     Dense,
+    /// Lanczos on a sparsely factored `K + σM`: round-off of order ε n⁴.
+    ShiftInvert,
+    /// ARPACK on the same, behind the cargo feature `arpack`: the outside referee.
+    Arpack,
 }
 
 /// What is asked of a solution.
@@ -54,7 +60,7 @@ pub struct Solution {
     pub degree: usize,
     /// Why this mesh and this degree.
     pub reason: String,
-    /// Products with the compliance (Lanczos steps); 0 for the dense solver.
+    /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
     /// Whether every frequency is within the wanted tolerance by its own estimate, and none missing.
     pub met: bool,
@@ -70,6 +76,24 @@ impl Solution {
     /// Whether every mode n has the n + 1 nodes that theory demands: then none is missing.
     pub fn complete(&self) -> bool {
         self.modes.iter().all(Mode::has_its_nodes)
+    }
+
+    /// Why the wanted tolerance was not met, for a person; empty if it was.
+    pub fn shortfall(&self, tolerance: f64) -> String {
+        let round_off = self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
+        let lost = self.modes.iter().find(|mode| !mode.has_its_nodes());
+        match lost {
+            _ if self.met => String::new(),
+            _ if round_off > tolerance => format!("round-off alone is {round_off:.1e}"),
+            Some(mode) => format!(
+                "mode {} has {} nodes, not {}: two frequencies are too near each other to tell \
+                 their shapes apart, or a mode is missing",
+                mode.order,
+                mode.nodes.len(),
+                mode.order + 1
+            ),
+            None => "further refinement gained nothing or grew too large".to_owned(),
+        }
     }
 
     /// Unknowns of the assembled matrices.
@@ -90,6 +114,8 @@ pub struct Timing {
 const MOST_UNKNOWNS: usize = 1 << 21;
 /// The dense solver needs n² memory and n³ time.
 const MOST_DENSE: usize = 4098;
+/// Beyond this a factored `K` has lost all digits.
+const MOST_FACTORED: usize = 20_000;
 /// Residual of an eigenpair that is as good as arithmetic allows.
 const CONVERGED: f64 = 1e-13;
 /// Refinements before the answer is given as it is.
@@ -100,7 +126,8 @@ const MOST_ROUNDS: usize = 12;
 /// # Errors
 ///
 /// [`Error::TooFewElements`] where the asked elements cannot bend in so many ways,
-/// [`Error::TooLarge`] for the dense solver, [`Error::NotConverged`]. An accuracy that
+/// [`Error::TooLarge`] for the dense solver, [`Error::Factorization`] for those that factor `K`,
+/// [`Error::NotBuilt`] without ARPACK, [`Error::NotConverged`]. An accuracy that
 /// cannot be reached is no error: the best answer comes back with `met` false.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let started = Instant::now();
@@ -150,10 +177,40 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     Ok(best.expect("there was a round"))
 }
 
+/// The most accurate answer that a time allows: one digit after the other, until the next would
+/// take too long by the time that the last took. The first digit is given in any case, `met` false
+/// if it took longer.
+///
+/// # Errors
+///
+/// As [`solve`].
+pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<Solution> {
+    let started = Instant::now();
+    let mut best: Option<Solution> = None;
+    for digits in 1..=14 {
+        let begun = Instant::now();
+        let solution =
+            solve(bat, &Request { tolerance: 10f64.powi(-digits), elements: None, ..*request })?;
+        let (last, spent) = (begun.elapsed(), started.elapsed());
+        let better = best.as_ref().is_none_or(|best| solution.worst() < best.worst());
+        let over = spent + last + last / 2 > budget || !solution.met;
+        if better && (spent <= budget || best.is_none()) {
+            best = Some(Solution { met: spent <= budget, ..solution });
+        }
+        if over {
+            break;
+        }
+    }
+    let mut best = best.expect("there was a first digit");
+    best.reason = format!("the most accurate within {budget:?}");
+    Ok(best)
+}
+
 fn most_unknowns(solver: Solver) -> usize {
     match solver {
         Solver::Statics => MOST_UNKNOWNS,
         Solver::Dense => MOST_DENSE - 2,
+        Solver::ShiftInvert | Solver::Arpack => MOST_FACTORED,
     }
 }
 
@@ -218,7 +275,7 @@ fn of_degree<const N: usize>(
     let (strains, steps) = match request.solver {
         _ if request.modes == 0 => (vec![], 0),
         Solver::Statics => by_statics(&statics, request.modes, residual)?,
-        Solver::Dense => (by_dense(bat, plan, &statics, request.modes)?, 0),
+        solver => by_pencil(bat, plan, &statics, request.modes, solver)?,
     };
     let stretches = Arc::new(plan.mesh.stretches());
     let missed = |e| element::missed(bat, e, statics.rule);
@@ -280,24 +337,49 @@ fn by_statics<const N: usize>(
     Ok((lanczos.vectors, lanczos.steps))
 }
 
-fn by_dense<const N: usize>(
+/// The other solvers: eigenvectors of the assembled matrices, as scaled strains.
+fn by_pencil<const N: usize>(
     bat: &Bat,
     plan: &Plan,
     statics: &Statics<f64, N>,
     count: usize,
-) -> Result<Vec<f64>> {
+    solver: Solver,
+) -> Result<(Vec<f64>, usize)> {
     let unknowns = statics.dimension() + 2;
-    if unknowns > MOST_DENSE {
+    if solver == Solver::Dense && unknowns > MOST_DENSE {
         return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
     }
     let elements = element::elements::<N>(bat, &plan.mesh);
-    let pencil = Pencil::assemble(&elements);
-    let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
-    let (_, vectors) =
-        dense::generalized(&pencil.stiffness, &pencil.mass, shift(statics)).ok_or(failed)?;
-    // The first two are the rigid motions, zero but for round-off; a free bat always has two.
+    let Pencil { stiffness: k, mass: m } = Pencil::assemble(&elements);
+    // The rigid motions are found too, and left: a free bat always has two.
+    let (shift, all) = (shift(statics), count + 2);
+    let (vectors, steps) = match solver {
+        Solver::Arpack => arpack(&k, &m, shift, all)?,
+        Solver::ShiftInvert => {
+            let pairs = shift_invert::lowest(&k, &m, shift, all, 1e-12)?;
+            (pairs.vectors, pairs.steps)
+        }
+        _ => {
+            let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
+            (dense::generalized(&k, &m, shift).ok_or(failed)?.1, 0)
+        }
+    };
     let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
-    Ok(vectors.iter().skip(2).take(count).flat_map(strains).collect())
+    Ok((vectors.iter().skip(2).take(count).flat_map(strains).collect(), steps))
+}
+
+#[cfg(feature = "arpack")]
+fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<(Vec<Vec<f64>>, usize)> {
+    let pairs = crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?;
+    Ok((pairs.vectors, pairs.steps))
+}
+
+#[cfg(not(feature = "arpack"))]
+fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<(Vec<Vec<f64>>, usize)> {
+    Err(Error::NotBuilt {
+        what: "the solver arpack",
+        advice: "install libarpack2-dev and pkg-config, then build with --features arpack",
+    })
 }
 
 /// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.

@@ -932,8 +932,9 @@ fn a_wrong_command_line_is_refused() {
             &["50 bending modes", "25 elements"],
         ),
         (&["modes", "bat.json", "--solver", "dense", "--elements", "5000"], &["dense", "statics"]),
-        (&["modes", "bat.json", "--solver", "arpack"], &["not supported yet", "statics"]),
-        (&["modes", "bat.json", "--solver", "shift-invert"], &["not supported yet", "statics"]),
+        #[cfg(not(feature = "arpack"))]
+        (&["modes", "bat.json", "--solver", "arpack"], &["not in this build", "--features arpack"]),
+        (&["modes", "bat.json", "--solver", "shift"], &["expected one of auto, statics"]),
         (&["modes", "bat.json", "--solver", "static"], &["'static'", "did you mean statics?"]),
         (
             &["modes", "bat.json", "--theory", "timoshenko"],
@@ -947,7 +948,10 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--json"], &["a value is required", "--json <FILE>"]),
         (&["modes", "bat.json", "--up-to", "2000"], &["--up-to is not supported yet", "--help"]),
         (&["modes", "bat.json", "--up-to=2000"], &["--up-to is not supported yet"]),
-        (&["modes", "bat.json", "--degree", "5"], &["--degree is not supported yet"]),
+        (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
+        (&["modes", "bat.json", "--budget", "5"], &["--budget"]),
+        (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
+        (&["modes", "bat.json", "--budget", "5 ms", "--tol", "1e-3"], &["cannot be used with"]),
         (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
         (&["analyze", "bat.json", "--plots", "p"], &["--plots is not supported yet"]),
         (&["analyze", "bat.json", "--model", "contact"], &["contact", "not supported yet"]),

@@ -4,7 +4,7 @@ mod common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel};
 use nalgebra_sparse::{CooMatrix, CscMatrix};
-use sweetspot::beam::{assembly::Pencil, element, mesh::Mesh};
+use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
 use sweetspot::eigen::lanczos::dot;
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
@@ -32,7 +32,7 @@ fn shift() -> f64 {
 }
 
 fn pencil(bat: &Bat, elements: usize) -> Pencil {
-    Pencil::assemble(&element::elements(bat, &Mesh::along(bat, elements)))
+    Pencil::of(bat, &Mesh::along(bat, elements), 3)
 }
 
 fn solved(solve: Solve, pencil: &Pencil, count: usize) -> Pairs {

@@ -264,16 +264,20 @@ pub fn sections(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(
     }
 }
 
+/// The Legendre series of a formula ends in its round-off below this.
+const RESOLVED: f64 = 1e-13;
+
 /// How much of EI and ρA on an element the points of its rule may miss, relative: the last terms
-/// of their Legendre series through the points. 0 for stations, whose polynomials the rule holds
-/// exactly.
+/// of their Legendre series through the points, 0 where these are mere round-off. 0 for stations,
+/// whose polynomials the rule holds exactly.
 pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule) -> f64 {
     if matches!(bat.profile.pieces[e.piece].radii, Radii::Cubic(_)) {
         return 0.0;
     }
     let (mut bending, mut line) = ([0.0; MOST_POINTS], [0.0; MOST_POINTS]);
     sections(bat, e, rule, |i, stiffness, mass| (bending[i], line[i]) = (stiffness, mass));
-    f64::max(rule.tail(&bending), rule.tail(&line))
+    let tail = f64::max(rule.tail(&bending), rule.tail(&line));
+    if tail > RESOLVED { tail } else { 0.0 }
 }
 
 /// All elements of a mesh, as degree `N − 1` sees them.

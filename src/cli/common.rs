@@ -2,6 +2,7 @@
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::bat::Bat;
@@ -45,7 +46,11 @@ impl BatArgs {
     /// Reads the bat and finds its modes.
     pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
         let bat = self.read(output)?;
-        let solution = solve::solve(&bat, &solve.request(self.count()))?;
+        let request = solve.request(self.count());
+        let solution = match solve.budget {
+            Some(budget) => solve::solve_within(&bat, &request, budget)?,
+            None => solve::solve(&bat, &request)?,
+        };
         solve.say_raised(&solution, output);
         Ok((bat, solution))
     }
@@ -66,7 +71,17 @@ pub struct SolveArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     elements: Option<u32>,
 
-    /// Eigensolver: auto, statics or dense
+    /// Degree of the elements, 3 to 12 (alone: as many as the tolerance needs; with --elements
+    /// the default is 3)
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(3..=12))]
+    degree: Option<u8>,
+
+    /// The most accurate answer within this time, such as "5 ms", in place of --tol
+    #[arg(long, value_name = "TIME", conflicts_with_all = ["tol", "elements"],
+          value_parser = budget)]
+    pub budget: Option<Duration>,
+
+    /// Eigensolver: auto (statics), statics, dense, shift-invert or arpack
     #[arg(long, default_value = "auto", value_parser = solver)]
     solver: Solver,
 }
@@ -74,7 +89,8 @@ pub struct SolveArgs {
 impl SolveArgs {
     pub fn request(&self, modes: usize) -> Request {
         let elements = self.elements.map(|n| n as usize);
-        Request { modes, tolerance: self.tol, elements, solver: self.solver, ..Request::default() }
+        let degree = self.degree.map(usize::from);
+        Request { modes, tolerance: self.tol, elements, degree, solver: self.solver }
     }
 
     /// Says where more elements were needed than asked for.
@@ -259,6 +275,16 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
+fn budget(text: &str) -> std::result::Result<Duration, String> {
+    let seconds = quantity(text, Quantity::Time)?;
+    let expected = "expected a time from 1 us to 1 day, such as \"5 ms\"";
+    if (1e-6..=86_400.0).contains(&seconds) {
+        Duration::try_from_secs_f64(seconds).map_err(|_| expected.into())
+    } else {
+        Err(expected.into())
+    }
+}
+
 fn cor(text: &str) -> std::result::Result<f64, String> {
     text.parse().ok().and_then(|e| restitution(e).ok()).ok_or("expected 0 to 1".into())
 }
@@ -288,8 +314,13 @@ fn theory(text: &str) -> std::result::Result<String, String> {
 }
 
 fn solver(text: &str) -> std::result::Result<Solver, String> {
-    let name = choice(text, &["auto", "statics", "dense"], &["shift-invert", "arpack"])?;
-    Ok(if name == "dense" { Solver::Dense } else { Solver::Statics })
+    let names = ["auto", "statics", "dense", "shift-invert", "arpack"];
+    Ok(match choice(text, &names, &[])?.as_str() {
+        "dense" => Solver::Dense,
+        "shift-invert" => Solver::ShiftInvert,
+        "arpack" => Solver::Arpack,
+        _ => Solver::Statics,
+    })
 }
 
 fn model(text: &str) -> std::result::Result<String, String> {

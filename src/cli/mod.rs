@@ -46,16 +46,8 @@ const LATER_VERBS: &[&str] = &[
     "trade", "convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new",
 ];
 /// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] = &[
-    "--up-to",
-    "--degree",
-    "--budget",
-    "--report",
-    "--plots",
-    "--pulse-duration",
-    "--loss-share",
-    "--extremes",
-];
+const LATER_OPTIONS: &[&str] =
+    &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share", "--extremes"];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {

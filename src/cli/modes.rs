@@ -67,9 +67,12 @@ pub fn run(args: &Args) -> Result<Done> {
 /// What to say of an answer that is less accurate than asked.
 pub fn missed_tolerance(solution: &solve::Solution, tolerance: f64) -> String {
     format!(
-        "accuracy not reached: asked {tolerance:e}, the best answer is within {:.1e} ({} elements)",
+        "accuracy not reached: asked {tolerance:e}, the best answer is within {:.1e} ({} elements \
+         of degree {}); {}",
         solution.worst(),
-        solution.mesh.len()
+        solution.mesh.len(),
+        solution.degree,
+        solution.shortfall(tolerance)
     )
 }
 

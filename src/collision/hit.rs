@@ -181,6 +181,8 @@ impl<'a> Hitter<'a> {
             let vibration = loss.vibration(&largest);
             let other =
                 EnergyLoss::exit_velocity(-self.scene.ball_speed, rigid.ball_velocity, vibration);
+            // No bound on the shapes is no bound on the loss.
+            let other = other.filter(|v| v.is_finite());
             error += other.map_or(1.0, |v| (v - exit_speed).abs() / closing);
         }
         Outcome {

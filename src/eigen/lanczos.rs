@@ -148,6 +148,36 @@ impl<R: Real> Lanczos<R> {
     }
 }
 
+/// Ritz pairs of a symmetric operator and how the iteration went.
+#[derive(Debug, Clone)]
+pub struct Ritz {
+    /// Eigenvalues, largest first.
+    pub values: Vec<f64>,
+    /// Orthonormal eigenvectors, in the order of the values.
+    pub vectors: Vec<Vec<f64>>,
+    /// Lanczos steps taken: products with the operator.
+    pub steps: usize,
+}
+
+/// The `count` largest eigenpairs of one operator from one start vector, as [`Lanczos::largest`].
+///
+/// # Errors
+///
+/// As [`Lanczos::largest`].
+pub fn largest(
+    start: Vec<f64>,
+    count: usize,
+    residual: f64,
+    apply: impl FnMut(&[f64], &mut [f64]),
+) -> Result<Ritz> {
+    let mut lanczos = Lanczos::default();
+    let wanted = Wanted { count, residual, earliest: 8 };
+    let dimension = start.len();
+    lanczos.largest(dimension, wanted, |next| next.copy_from_slice(&start), apply)?;
+    let vectors = lanczos.vectors.chunks_exact(dimension).map(<[f64]>::to_vec).collect();
+    Ok(Ritz { values: lanczos.values, vectors, steps: lanczos.steps })
+}
+
 #[inline(always)]
 fn subtract<R: Real>(part: R, from: &[R], vector: &mut [R]) {
     vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * *b);

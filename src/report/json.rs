@@ -61,6 +61,8 @@ pub fn solver_name(solver: Solver) -> &'static str {
     match solver {
         Solver::Statics => "statics",
         Solver::Dense => "dense",
+        Solver::ShiftInvert => "shift-invert",
+        Solver::Arpack => "arpack",
     }
 }
 

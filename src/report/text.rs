@@ -140,6 +140,17 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
         let _ = write!(out, " ({} Lanczos steps)", solution.steps);
     }
     out += "\n";
+    let count = if solution.complete() {
+        "none is missing: mode n has its n + 1 nodes".to_owned()
+    } else {
+        "A MODE MAY BE MISSING: not every mode n has n + 1 nodes".to_owned()
+    };
+    let plan = format!(
+        "  why: {}; every frequency within {:.0e}; {count}",
+        solution.reason,
+        solution.worst()
+    );
+    out += &wrapped(&plan, 7);
     for effect in ignored(bat, solution) {
         out += &wrapped(&format!("  left out: {effect}"), 12);
     }
