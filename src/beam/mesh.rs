@@ -79,6 +79,19 @@ impl Mesh {
         Self { elements }
     }
 
+    /// Becomes the pattern's mesh on another bat of as many pieces, in the memory that it has.
+    pub fn fit(&mut self, bat: &Bat, pattern: &Self) {
+        self.elements.clear();
+        for e in &pattern.elements {
+            let piece = &bat.profile.pieces[e.piece];
+            self.elements.push(Element {
+                start: piece.start + piece.length * e.from,
+                length: piece.length * (e.to - e.from),
+                ..*e
+            });
+        }
+    }
+
     /// Middle and length of every element (m).
     pub fn stretches(&self) -> Vec<(f64, f64)> {
         self.elements.iter().map(|e| (e.start + 0.5 * e.length, e.length)).collect()

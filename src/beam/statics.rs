@@ -127,6 +127,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     /// The compliance of the bats, one per lane, all on the one mesh's pattern of elements.
     ///
     /// Memory is reused: the second bat of the same number of elements allocates nothing.
+    #[inline(always)]
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
         self.rule = Rule::of(bats[0], N - 1);
@@ -174,6 +175,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     }
 
     /// The middle one of the elements whose bending stiffness is at least half the greatest.
+    #[inline(always)]
     fn root(&self, elements: usize, stiffest: f64) -> usize {
         let points = self.rule.count();
         let stiff = |k: &usize| {
@@ -187,6 +189,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     }
 
     /// The cells of both sides from the sections, and the inertia.
+    #[inline(always)]
     fn fill(&mut self, meshes: &[&Mesh]) {
         let (points, half, balance) = (self.rule.count(), R::splat(0.5), self.balance);
         let mut inertia = RunningSum::<R>::default();
