@@ -88,6 +88,7 @@ pub mod ringing;
 pub mod collision;
 pub mod report;
 pub mod validation;
+pub mod promise;
 
 pub use bat::Bat;
 pub use error::{Error, Result};

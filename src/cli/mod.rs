@@ -5,6 +5,7 @@ mod common;
 mod hit;
 mod materials;
 mod modes;
+mod promise_table;
 mod ring;
 mod validate;
 
