@@ -89,6 +89,7 @@ pub mod collision;
 pub mod report;
 pub mod validation;
 pub mod promise;
+pub mod extremes;
 
 pub use bat::Bat;
 pub use error::{Error, Result};

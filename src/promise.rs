@@ -20,14 +20,14 @@ pub const MODES: usize = 60;
 /// The asked tolerances, as negative powers of ten.
 pub const DIGITS: std::ops::RangeInclusive<i32> = 2..=12;
 
-/// How often a true error may exceed the stated one.
-const ALWAYS: f64 = 3.0;
-/// How often a stated error may exceed the true one, nine times of ten.
+/// How many times the stated error a true one may be.
+pub const ALWAYS: f64 = 3.0;
+/// How many times the true error a stated one may be in nine cases of ten.
 const MOSTLY: f64 = 30.0;
 /// True errors below this are luck or round-off: whether they are near the stated ones says nothing.
 const VISIBLE: f64 = 1e-13;
 /// The known frequencies and masses are doubles: right to half a unit in the last place (relative).
-const KNOWN_TO: f64 = 1.2e-16;
+pub const KNOWN_TO: f64 = 1.2e-16;
 /// A node is a zero of a sum of as many terms as the degree has: its own round-off (m).
 const NODE_KNOWN_TO: f64 = 1e-12;
 
@@ -197,7 +197,7 @@ fn node_ratio(mode: &Mode, exact: &[f64]) -> f64 {
 }
 
 /// The maximum, for which a number that is none is as bad as can be.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
+pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(|v| if v.is_nan() { f64::INFINITY } else { v }).fold(0.0, f64::max)
 }
 

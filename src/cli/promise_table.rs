@@ -4,15 +4,19 @@ use std::fmt::Write;
 
 use sweetspot::promise::{BATS, DIGITS, Row, Summary};
 
-const LEGEND: &str = "+ met, ~ met by the estimate but not quite by the truth, \
-- out of reach and said so,\n! an error beyond three times the stated one\n";
+const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
+30 times the true ones in nine of ten above 1e-13. Worst true/stated error:
+
+bat           modes  frequency   nodes  masses  within 30  1e-2 ... 1e-12
+";
+const LEGEND: &str =
+    "+ met; ~ met by the estimate, not quite by the truth; - out of reach, and said
+so; ! an error beyond three times the stated one
+";
 
 /// One line per bat: the worst ratios of true to stated errors, and what became of every tolerance.
 pub fn summary(rows: &[Row]) -> String {
-    let mut out = String::from("The promise: true errors within 3 times the stated ones, always; ");
-    out += "stated within 30\ntimes the true ones in nine of ten above 1e-13. ";
-    out += "Worst true/stated error of any mode:\n\n";
-    out += "bat           modes  frequency   nodes  masses  within 30  1e-2 ... 1e-12\n";
+    let mut out = TITLE.to_owned();
     for (bat, _) in BATS {
         let of_bat: Vec<Row> = rows.iter().filter(|row| row.bat == *bat).cloned().collect();
         let modes = of_bat.iter().map(|row| row.modes).max().unwrap_or(0);

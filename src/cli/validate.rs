@@ -6,7 +6,7 @@ use sweetspot::error::Result;
 use sweetspot::promise::{self, Summary};
 use sweetspot::validation::{CASES, Row, run as run_case};
 
-use crate::cli::{Done, FAILED, promise_table};
+use crate::cli::{Done, FAILED, extremes_table, promise_table};
 
 /// Every case under validation/ and the promise about errors, as tables; exit 1 if any fails
 #[derive(clap::Args)]
@@ -16,11 +16,19 @@ pub struct Args {
     summary: bool,
 
     /// The promise only: true beside stated errors, one line per bat and tolerance
-    #[arg(long)]
+    #[arg(long, conflicts_with = "summary")]
     promise: bool,
+
+    /// The extremes only: huge, tiny, thin and stepped bats, a million elements
+    #[arg(long, conflicts_with_all = ["summary", "promise"])]
+    extremes: bool,
 }
 
 pub fn run(args: &Args) -> Result<Done> {
+    if args.extremes {
+        let (out, good) = extremes_table::table();
+        return Ok((out, if good { 0 } else { FAILED }));
+    }
     let mut out = String::new();
     let mut good = true;
     if !args.promise {
