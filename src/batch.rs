@@ -8,12 +8,13 @@ use rayon::prelude::*;
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
+use crate::certificate::round_off;
 use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
 use crate::plan::Plan;
 use crate::real::Real;
-use crate::solve::{Request, round_off, solve, stop_at};
+use crate::solve::{Request, solve, stop_at};
 
 /// The modes of one bat of many. The slices hold until the next bat.
 #[derive(Debug, Clone, Copy)]
@@ -105,20 +106,23 @@ fn with_degree<const N: usize>(
         return;
     }
     alone.steps = alone.pairs.lanczos.steps;
-    if way == Way::OneByOne {
-        bats.iter().enumerate().for_each(|(k, bat)| alone.run(k, &[bat], request, visit));
-        return;
-    }
     let mut together = Worker::<Lanes, N>::new(&bats[0], plan, alone.steps);
-    for (group, bats) in bats.chunks(WIDTH).enumerate() {
-        let first = WIDTH * group;
-        let alike = bats.iter().all(|bat| same_pattern(bat, &bats[0]));
-        if let (Ok(bats), true) = (<&[Bat; WIDTH]>::try_from(bats), alike) {
-            together.run(first, &bats.each_ref(), request, visit);
-        } else {
-            bats.iter()
-                .enumerate()
-                .for_each(|(k, bat)| alone.run(first + k, &[bat], request, visit));
+    let lanes = if way == Way::SideBySide { WIDTH } else { 1 };
+    for (group, group_bats) in bats.chunks(lanes).enumerate() {
+        let first = lanes * group;
+        let alike = |bat: &Bat| same_pattern(bat, &bats[0]);
+        if let (Ok(group), true) =
+            (<&[Bat; WIDTH]>::try_from(group_bats), group_bats.iter().all(alike))
+        {
+            together.run(first, &group.each_ref(), request, visit);
+            continue;
+        }
+        for (k, bat) in group_bats.iter().enumerate() {
+            if alike(bat) {
+                alone.run(first + k, &[bat], request, visit);
+            } else {
+                solved_alone(first + k, bat, request, visit);
+            }
         }
     }
 }

@@ -60,6 +60,8 @@
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]
 #![cfg_attr(not(feature = "arpack"), forbid(unsafe_code))]
+// Matrices are written with the indices of their formulas.
+#![allow(clippy::needless_range_loop)]
 
 pub mod error;
 pub mod units;
@@ -81,6 +83,7 @@ pub mod eigen;
 pub mod beam;
 pub mod eigenpairs;
 pub mod modes;
+pub mod certificate;
 pub mod plan;
 pub mod solve;
 pub mod batch;
@@ -91,6 +94,8 @@ pub mod ringing;
 pub mod collision;
 pub mod report;
 pub mod validation;
+pub mod promise;
+pub mod extremes;
 
 pub use bat::Bat;
 pub use error::{Error, Result};

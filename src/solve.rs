@@ -9,6 +9,7 @@ use crate::beam::element::{self, Element};
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
+use crate::certificate::{account, add_neighbours};
 use crate::eigen::{dense, shift_invert};
 use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
@@ -286,6 +287,7 @@ fn of_degree<const N: usize>(
     let stretches = Arc::new(plan.mesh.stretches());
     let missed = |e| element::missed(bat, e, pairs.statics.rule);
     let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
+    let factored = request.solver != Solver::Statics;
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     let mut defects = vec![0.0; plan.mesh.len()];
     for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
@@ -293,10 +295,11 @@ fn of_degree<const N: usize>(
         let (statics, motion) = (&pairs.statics, &pairs.motion);
         let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
         mode.error.discretization += missed;
-        account(&mut mode, modes.first(), plan.mesh.len(), request.solver);
+        account(&mut mode, modes.first(), plan.mesh.len(), factored);
         motion.add_defects(statics, &mut defects);
         modes.push(mode);
     }
+    add_neighbours(&mut modes, factored);
     timing.solve += assembled.elapsed();
     Ok(Answer { modes, steps, defects })
 }
@@ -339,32 +342,6 @@ pub fn stop_at(request: &Request) -> f64 {
         Some(_) => 1e-10,
         None => (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3),
     }
-}
-
-/// Relative round-off of a frequency by the running sums.
-///
-/// They keep ε of the slowest motion; a faster mode keeps ε times the ratio of their frequencies,
-/// and long sums lose a little more: measured, on cones, steps and dowels of up to 10⁶ elements.
-pub fn round_off(ratio: f64, elements: usize) -> f64 {
-    let length = 1.0 + (elements as f64).sqrt() / 25.0;
-    f64::EPSILON * (4.0 + 1.5 * ratio.max(1.0) * length)
-}
-
-/// What is the mesh's fault and what the arithmetic's.
-///
-/// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
-/// quotient.
-fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, solver: Solver) {
-    let sums = round_off(mode.omega / first.map_or(mode.omega, |m| m.omega), elements);
-    mode.error.round_off = sums;
-    if solver != Solver::Statics {
-        let solver = 0.5 * mode.error.residual.powi(2);
-        mode.error.discretization = (mode.error.discretization - solver).max(0.0);
-        mode.error.round_off += solver;
-    }
-    mode.error.nodes += 10.0 * sums * mode.shape.length() / mode.nodes.len().max(1) as f64;
-    mode.error.modal_mass += 10.0 * sums;
-    mode.error.shape += 10.0 * sums;
 }
 
 /// The other solvers: eigenvectors of the assembled matrices, as scaled strains.

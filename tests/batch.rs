@@ -20,7 +20,8 @@ fn found(bats: &[Bat], request: &Request, way: Way) -> Vec<[Vec<f64>; 4]> {
 }
 
 fn cones(count: usize) -> Vec<Bat> {
-    (0..count).map(|k| cone(0.010 + 3e-4 * k as f64, 0.033 - 1e-4 * k as f64)).collect()
+    let cone = |k: usize| cone(0.010 + 1e-4 * (k % 50) as f64, 0.033 - 1e-5 * k as f64);
+    (0..count).map(cone).collect()
 }
 
 #[test]

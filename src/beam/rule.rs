@@ -56,11 +56,11 @@ impl Rule {
     /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
     pub fn of(bat: &Bat, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
-        let degrees = bat.profile.pieces.iter().map(|piece| match &piece.radii {
-            Radii::Cubic(cubics) => Some(cubics.degree),
+        let mut pieces = bat.profile.pieces.iter();
+        let radii = pieces.try_fold(0, |most: usize, piece| match &piece.radii {
+            Radii::Cubic(cubics) => Some(most.max(cubics.degree)),
             Radii::Formula(_) => None,
         });
-        let radii = degrees.fold(Some(0), |most, degree| most?.max(degree?).into());
         let kind = radii.map_or(KINDS - 1, |radii| radii.min(2));
         RULES[KINDS * degree + kind].get_or_init(|| match radii {
             Some(radii) => Self::new(degree + 1, (2 * radii + degree + 1).max(degree + 3)),

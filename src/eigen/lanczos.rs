@@ -64,7 +64,8 @@ impl<R: Real> Lanczos<R> {
         self.next.resize(dimension, R::default());
         self.basis.clear();
         self.basis.reserve_exact(dimension * most.min(count + wanted.earliest));
-        (self.alpha.clear(), self.beta.clear());
+        self.alpha.clear();
+        self.beta.clear();
         start(&mut self.next);
         let size = dot(&self.next, &self.next).sqrt();
         self.take(size);
