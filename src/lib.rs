@@ -81,6 +81,7 @@ pub mod beam;
 pub mod modes;
 pub mod plan;
 pub mod solve;
+pub mod trade;
 pub mod theory;
 pub mod dowel;
 pub mod response;
