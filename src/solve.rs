@@ -113,7 +113,7 @@ pub struct Timing {
 /// More unknowns than this and the answer is given as it is.
 const MOST_UNKNOWNS: usize = 1 << 21;
 /// The dense solver needs n² memory and n³ time.
-const MOST_DENSE: usize = 4098;
+pub const MOST_DENSE: usize = 4098;
 /// Beyond this a factored `K` has lost all digits.
 const MOST_FACTORED: usize = 20_000;
 /// Residual of an eigenpair that is as good as arithmetic allows.

@@ -1026,6 +1026,12 @@ fn a_wrong_command_line_is_refused() {
             &["--initial"],
         ),
         (&["ring", "bat.json", "--initial", "w.csv"], &["cannot read w.csv", "No such file"]),
+        (&["trade"], &["BAT"]),
+        (&["trade", "bat.json", "-n", "0"], &["1..=200"]),
+        (&["trade", "bat.json", "--budget", "0 s"], &["expected a time"]),
+        (&["trade", "bat.json", "--units", "si"], &["unexpected argument '--units'"]),
+        (&["trade", "bat.json", "--json", "-", "--csv", "-"], &["--csv: found", "one of --json"]),
+        (&["trade", "none.json"], &["cannot read none.json"]),
         (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
         (&["materials", "--json", "-"], &["unexpected argument '--json'"]),
     ];

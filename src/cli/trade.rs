@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::bat::Bat;
-use sweetspot::error::Result;
+use sweetspot::error::{Error, Result};
 use sweetspot::report::{file, trade, u_curve};
 use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;
@@ -56,6 +56,11 @@ const U_CURVE: u64 = 120;
 const MOST: usize = 1_000_000;
 
 pub fn run(args: &Args) -> Result<Done> {
+    let standard = Some(Path::new("-"));
+    if args.json.as_deref() == standard && args.csv.as_deref() == standard {
+        let expected = "one of --json and --csv on standard output";
+        return Err(Error::value("--csv", "- and --json -", expected));
+    }
     let bat = read(args)?;
     let modes = usize::from(args.count);
     let mut progress = Progress::new(args.quiet);
@@ -73,7 +78,6 @@ pub fn run(args: &Args) -> Result<Done> {
         let trade = measure(&bat, modes, time(TRADE), &mut |what| progress.say(what))?;
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
     };
-    progress.clear();
     Ok((deliver(args, table, &document, rows)?, 0))
 }
 
@@ -120,8 +124,10 @@ impl Progress {
             let _ = write!(std::io::stderr(), "\r\x1b[Kmeasuring {what}");
         }
     }
+}
 
-    fn clear(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         if self.shown {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }

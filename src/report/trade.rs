@@ -13,18 +13,25 @@ use crate::trade::measure::Trade;
 use crate::trade::reference::solver_name;
 use crate::trade::words::time;
 
+/// Runs of the front with a larger error are shown only if there are no others.
+const COARSEST: f64 = 1e-2;
+
 /// The reference, the front, the planner's choices and what follows, 80 columns wide.
 pub fn text(bat: &Bat, trade: &Trade) -> String {
     let reference = &trade.reference;
     let modes = reference.omegas.len();
     let mut out = heading("Speed against accuracy", bat, reference);
-    let runs = trade.runs.len();
-    let _ = writeln!(out, "Front: of {runs} ways measured, none is both faster and more accurate");
+    let ways = match trade.runs.len() {
+        1 => "the only way".to_owned(),
+        runs => format!("of {runs} ways"),
+    };
+    let _ = writeln!(out, "Front: {ways} measured, none is both faster and more accurate");
     let _ = writeln!(
         out,
         "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planner's for"
     );
-    for run in front(&trade.runs) {
+    let good = front(&trade.runs).any(|run| run.error() <= COARSEST);
+    for run in front(&trade.runs).filter(|run| !good || run.error() <= COARSEST) {
         let (choice, floor) = (&run.choice, reference.floor());
         let line = format!(
             "  {:>10}  {:>9} {:>7} {:>9} {:>9}  {:<12}  {}",
@@ -59,14 +66,14 @@ fn planned(trade: &Trade) -> Vec<(f64, &Run)> {
 fn planner(trade: &Trade) -> String {
     let floor = trade.reference.floor();
     let mut out = String::from(
-        "The planner's choices\n   asked       time      error     stated  degree  elements  \
-         fastest within it\n",
+        "The planner's choices, beside the fastest run within the same tolerance\n  asked      \
+         time     error   stated  degree elements    fastest, n x degree\n",
     );
     for (tolerance, run) in planned(trade) {
         let best = fastest(&trade.runs, tolerance);
         let _ = writeln!(
             out,
-            "  {:>6} {:>10}  {:>9}  {:>9} {:>7} {:>9}  {}",
+            "  {:>5}{:>10}{:>10}{:>9}{:>8}{:>9}  {}",
             format!("{tolerance:.0e}"),
             time(run.seconds),
             error(run.error(), floor),
@@ -74,7 +81,7 @@ fn planner(trade: &Trade) -> String {
             run.choice.degree,
             run.choice.elements,
             best.map_or(String::new(), |best| format!(
-                "{:>9}: {} x degree {}",
+                "{:>9}, {} x {}",
                 time(best.seconds),
                 best.choice.elements,
                 best.choice.degree

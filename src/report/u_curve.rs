@@ -45,6 +45,7 @@ pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
         out += &table(columns, mode);
     }
     out += &losses(columns);
+    out += "  (> n: not up to n elements)\n";
     for column in columns {
         let name = solver_name(column.solver);
         let why = match &column.end {
@@ -81,17 +82,18 @@ fn table(columns: &[Column], mode: usize) -> String {
         let cells: String = cells.iter().map(|cell| format!("{cell:>10}")).collect();
         format!("{}\n", format!("{first:>9}{cells}").trim_end())
     };
-    let heads = ways.iter().map(|(column, way)| match way {
-        Way::Own => short(column.solver).to_owned(),
-        Way::Recomputed if column.solver == Solver::Statics => "statics".to_owned(),
-        Way::Recomputed => String::new(),
-    });
     let second = ways.iter().map(|(column, way)| match (column.solver, way) {
         (Solver::Statics, _) => "",
         (_, Way::Own) => "own λ",
         (_, Way::Recomputed) => "again",
     });
-    let mut out = line("", heads.collect());
+    let mut out = format!("{:>9}", "");
+    for column in columns {
+        // Over both of its columns, if it has two.
+        let width = 10 * column.ways().len();
+        let _ = write!(out, "{:>width$}", solver_name(column.solver));
+    }
+    out.push('\n');
     out += &line("elements", second.map(str::to_owned).collect());
     let mut counts: Vec<usize> =
         columns.iter().flat_map(|column| column.points.iter().map(|p| p.elements)).collect();
@@ -108,26 +110,22 @@ fn table(columns: &[Column], mode: usize) -> String {
     out
 }
 
-fn short(solver: Solver) -> &'static str {
-    if solver == Solver::ShiftInvert { "sh.-invert" } else { solver_name(solver) }
-}
-
 /// Where each loses what, for mode 1.
 fn losses(columns: &[Column]) -> String {
-    let mut out = String::from(
-        "Where frequency 1 is lost: the first n beyond the best with an error of\n                       \
-         best n     error  1e-8 (8 digits)  1e-4 (4 left)     1 (none)\n",
-    );
+    let mut out =
+        String::from("Where frequency 1 is lost: the first n beyond the best with such an error\n");
+    let row = |cells: [&str; 6]| {
+        let [name, best, error, eight, four, none] = cells;
+        format!("  {name:<19} {best:>7} {error:>8}{eight:>14}{four:>14}{none:>14}\n")
+    };
+    out += &row(["", "best n", "error", "1e-8", "1e-4", "1"]);
+    out += &row(["", "", "", "8 digits left", "4 left", "none"]);
     for (column, way) in ways(columns) {
         let series = column.series(way, 0);
         let Some((least, error)) = best(&series) else { continue };
-        let cell = |threshold: f64| lost(column, &series, threshold);
-        let [eight, four, none] = THRESHOLDS.map(cell);
-        let _ = writeln!(
-            out,
-            "  {:<20} {least:>7}  {error:>8.1e} {eight:>16} {four:>14} {none:>12}",
-            name(column, way)
-        );
+        let [eight, four, none] = THRESHOLDS.map(|threshold| lost(column, &series, threshold));
+        let (name, least) = (name(column, way), least.to_string());
+        out += &row([&name, &least, &format!("{error:.1e}"), &eight, &four, &none]);
     }
     out
 }
@@ -136,7 +134,7 @@ fn lost(column: &Column, series: &[(usize, f64)], threshold: f64) -> String {
     match (loss(series, threshold), &column.end, series.last()) {
         (Some((n, _)), ..) => n.to_string(),
         (None, Some(End::Refused { elements, .. }), _) => format!("refuses {elements}"),
-        (None, _, Some((n, _))) => format!("not to {n}"),
+        (None, _, Some((n, _))) => format!("> {n}"),
         (None, ..) => String::new(),
     }
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::error::Result;
-use crate::solve::{Request, Solver, own_and_recomputed, solve};
+use crate::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
 use crate::trade::reference::{Reference, solver_name};
 
 /// The solvers of a U-curve, those of this build.
@@ -126,7 +126,9 @@ fn column(
     let mut column = Column { solver, points: vec![], end: None };
     for &elements in counts {
         let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
-        if expected(column.points.last(), elements, solver) > left {
+        // What is too large is refused at once.
+        let refused = solver == Solver::Dense && 2 * elements + 2 > MOST_DENSE;
+        if !refused && expected(column.points.last(), elements, solver) > left {
             column.end = Some(End::NoTime { elements });
             break;
         }

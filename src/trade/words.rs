@@ -77,6 +77,9 @@ pub fn planner(runs: &[Run]) -> Vec<String> {
         ));
     }
     words.extend(broken);
+    if runs.iter().all(|run| run.planned_for.is_some()) {
+        words.push("there was time for the planner's choices only: give more with --budget".into());
+    }
     words
 }
 
@@ -147,6 +150,7 @@ mod tests {
         assert!(words[0].contains("4.0 to 4.0 times as long"), "{words:?}");
         assert_eq!(words[1], "the planner's choice for 1e-8 has 1.0e-6");
         assert!(planner(&runs[..2]).is_empty());
+        assert!(planner(&runs[2..])[2].contains("--budget"));
     }
 
     #[test]
