@@ -949,7 +949,6 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--up-to", "2000"], &["--up-to is not supported yet", "--help"]),
         (&["modes", "bat.json", "--up-to=2000"], &["--up-to is not supported yet"]),
         (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
-        (&["modes", "bat.json", "--budget", "5"], &["--budget"]),
         (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
         (&["modes", "bat.json", "--budget", "5 ms", "--tol", "1e-3"], &["cannot be used with"]),
         (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
