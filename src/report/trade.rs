@@ -28,7 +28,7 @@ pub fn text(bat: &Bat, trade: &Trade) -> String {
     let _ = writeln!(out, "Front: {ways} measured, none is both faster and more accurate");
     let _ = writeln!(
         out,
-        "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planner's for"
+        "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planned for"
     );
     let good = front(&trade.runs).any(|run| run.error() <= COARSEST);
     for run in front(&trade.runs).filter(|run| !good || run.error() <= COARSEST) {

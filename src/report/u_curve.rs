@@ -52,6 +52,9 @@ pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
             Some(End::Refused { elements, reason }) => {
                 format!("  {name} ends at {elements} elements: {reason}")
             }
+            Some(End::TooLarge { elements }) => {
+                format!("  {name} ends before {elements} elements: more than it takes")
+            }
             Some(End::NoTime { elements }) => {
                 format!("  {name} ends before {elements} elements: too long for the --budget")
             }
@@ -190,6 +193,7 @@ fn of_column(column: &Column) -> Value {
     });
     let end = column.end.as_ref().map(|end| match end {
         End::Refused { elements, reason } => json!({ "elements": elements, "reason": reason }),
+        End::TooLarge { elements } => json!({ "elements": elements, "reason": "too large" }),
         End::NoTime { elements } => json!({ "elements": elements, "reason": "no time" }),
     });
     json!({

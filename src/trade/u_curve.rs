@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
 use crate::trade::reference::{Reference, solver_name};
 
@@ -35,6 +35,8 @@ pub struct Column {
 pub enum End {
     /// The solver gave an error on so many elements.
     Refused { elements: usize, reason: String },
+    /// So many elements are more than the solver takes.
+    TooLarge { elements: usize },
     /// So many elements would have taken longer than there was time for.
     NoTime { elements: usize },
 }
@@ -136,7 +138,10 @@ fn column(
         match point(bat, reference, solver, elements) {
             Ok(point) => column.points.push(point),
             Err(error) => {
-                column.end = Some(End::Refused { elements, reason: error.to_string() });
+                column.end = Some(match error {
+                    Error::TooLarge { .. } => End::TooLarge { elements },
+                    error => End::Refused { elements, reason: error.to_string() },
+                });
                 break;
             }
         }

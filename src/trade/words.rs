@@ -70,14 +70,15 @@ pub fn planner(runs: &[Run]) -> Vec<String> {
     let least = shares.iter().copied().fold(f64::INFINITY, f64::min);
     let most = shares.iter().copied().fold(0.0, f64::max);
     let mut words = Vec::new();
-    if !shares.is_empty() {
+    let alone = runs.iter().all(|run| run.planned_for.is_some());
+    if !shares.is_empty() && !alone {
         words.push(format!(
             "the planner's choices take {least:.1} to {most:.1} times as long as the fastest run \
              within the same tolerance"
         ));
     }
     words.extend(broken);
-    if runs.iter().all(|run| run.planned_for.is_some()) {
+    if alone && !runs.is_empty() {
         words.push("there was time for the planner's choices only: give more with --budget".into());
     }
     words
@@ -115,7 +116,7 @@ fn refusal(column: &Column) -> Option<String> {
     let name = solver_name(column.solver);
     match column.end.as_ref()? {
         End::Refused { elements, .. } => Some(format!("{name}: no answer on {elements} elements")),
-        End::NoTime { .. } => None,
+        End::TooLarge { .. } | End::NoTime { .. } => None,
     }
 }
 
@@ -150,7 +151,7 @@ mod tests {
         assert!(words[0].contains("4.0 to 4.0 times as long"), "{words:?}");
         assert_eq!(words[1], "the planner's choice for 1e-8 has 1.0e-6");
         assert!(planner(&runs[..2]).is_empty());
-        assert!(planner(&runs[2..])[2].contains("--budget"));
+        assert!(planner(&runs[2..]).last().unwrap().contains("--budget"));
     }
 
     #[test]
