@@ -87,6 +87,7 @@ pub mod certificate;
 pub mod plan;
 pub mod solve;
 pub mod batch;
+pub mod trade;
 pub mod theory;
 pub mod dowel;
 pub mod response;

@@ -114,7 +114,7 @@ pub struct Timing {
 /// More unknowns than this and the answer is given as it is.
 const MOST_UNKNOWNS: usize = 1 << 21;
 /// The dense solver needs n² memory and n³ time.
-const MOST_DENSE: usize = 4098;
+pub const MOST_DENSE: usize = 4098;
 /// Beyond this a factored `K` has lost all digits.
 const MOST_FACTORED: usize = 20_000;
 /// Residual of an eigenpair that is as good as arithmetic allows.
@@ -416,4 +416,53 @@ fn strains_of<const N: usize>(
         strains.extend_from_slice(&cell.scaled_strains(&c)[..N - 2]);
     }
     strains
+}
+
+/// The frequencies of the lowest bending modes on a mesh of cubic elements, each as the solver's
+/// own eigenvalue gives it, `√λ`, and recomputed from its shape as strain energy over kinetic
+/// energy (both rad/s). A λ below 0 counts as 0. Not for [`Solver::Statics`], which has one answer
+/// only.
+///
+/// # Errors
+///
+/// As [`solve`].
+pub fn own_and_recomputed(
+    bat: &Bat,
+    mesh: &Mesh,
+    modes: usize,
+    solver: Solver,
+) -> Result<Vec<[f64; 2]>> {
+    let mut statics = Statics::<f64, 4>::empty(bat);
+    statics.assemble(&[bat], &[mesh]);
+    let unknowns = statics.dimension() + 2;
+    if solver == Solver::Dense && unknowns > MOST_DENSE {
+        return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
+    }
+    let elements = element::elements::<4>(bat, mesh);
+    let Pencil { stiffness: k, mass: m } = Pencil::assemble(&elements);
+    let (shift, all) = (shift(&statics), modes + 2);
+    let (values, vectors) = match solver {
+        #[cfg(feature = "arpack")]
+        Solver::Arpack => {
+            let pairs = crate::eigen::arpack::lowest(&k, &m, shift, all, 1e-12)?;
+            (pairs.values, pairs.vectors)
+        }
+        #[cfg(not(feature = "arpack"))]
+        Solver::Arpack => (vec![], arpack(&k, &m, shift, all)?.0),
+        Solver::Dense => {
+            let failed = Error::NotConverged { wanted: modes, converged: 0, steps: 0 };
+            dense::generalized(&k, &m, shift).ok_or(failed)?
+        }
+        Solver::ShiftInvert | Solver::Statics => {
+            let pairs = shift_invert::lowest(&k, &m, shift, all, 1e-12)?;
+            (pairs.values, pairs.vectors)
+        }
+    };
+    let mut motion = Motion::default();
+    let pairs = values.iter().zip(&vectors).skip(2).take(modes);
+    let both = pairs.map(|(value, vector)| {
+        motion.take(&statics, &strains_of(&statics, &elements, vector));
+        [value.max(0.0).sqrt(), motion.omega]
+    });
+    Ok(both.collect())
 }

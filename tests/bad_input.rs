@@ -1025,6 +1025,12 @@ fn a_wrong_command_line_is_refused() {
             &["--initial"],
         ),
         (&["ring", "bat.json", "--initial", "w.csv"], &["cannot read w.csv", "No such file"]),
+        (&["trade"], &["BAT"]),
+        (&["trade", "bat.json", "-n", "0"], &["1..=200"]),
+        (&["trade", "bat.json", "--budget", "0 s"], &["expected a time"]),
+        (&["trade", "bat.json", "--units", "si"], &["unexpected argument '--units'"]),
+        (&["trade", "bat.json", "--json", "-", "--csv", "-"], &["--csv: found", "one of --json"]),
+        (&["trade", "none.json"], &["cannot read none.json"]),
         (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
         (&["materials", "--json", "-"], &["unexpected argument '--json'"]),
     ];
@@ -1032,7 +1038,7 @@ fn a_wrong_command_line_is_refused() {
     for (args, says) in rows {
         faults.extend(folder.misanswer(args, says));
     }
-    for verb in ["trade", "convert", "schema", "compare", "fit", "tune", "sweep", "lab"] {
+    for verb in ["convert", "schema", "compare", "fit", "tune", "sweep", "lab"] {
         let says = format!("\"{verb}\" is not supported yet");
         faults.extend(folder.misanswer(&[verb, "bat.json"], &[&says]));
     }

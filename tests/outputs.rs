@@ -394,6 +394,68 @@ fn the_hit_document_has_the_keys_of_the_contract_and_its_energies_sum() {
 }
 
 #[test]
+fn the_trade_documents_have_their_keys_and_tell_the_truth() {
+    let folder = Folder::new("trade-keys");
+    let bat = mesh("r161");
+    let args = ["trade", &bat, "-n", "3", "--budget", "400 ms", "--csv", "t.csv", "--json", "-"];
+    let trade = folder.json(&args);
+    let top = "format generator bat modes reference runs planner more_elements words";
+    assert_eq!(keys(&trade), set(top));
+    assert_eq!((&trade["format"], &trade["modes"]), (&"sweetspot-trade/1".into(), &3.into()));
+    let choice = "degree elements solver degrees_of_freedom";
+    let reference = &trade["reference"];
+    let own = format!("{choice} frequencies_hz stated_error floor confirmed_by");
+    assert_eq!(keys(reference), set(&own));
+    assert_eq!(keys(&reference["confirmed_by"]), set(&format!("{choice} agreement")));
+    assert_eq!(floats(&reference["frequencies_hz"]).len(), 3);
+    let floor = reference["floor"].as_f64().unwrap();
+    assert!(reference["confirmed_by"]["agreement"].as_f64().unwrap() <= floor && floor < 1e-13);
+    let runs = trade["runs"].as_array().unwrap();
+    let own =
+        format!("{choice} seconds repeats error error_by_mode stated_error planned_for on_front");
+    for run in runs {
+        assert_eq!(keys(run), set(&own));
+        let by_mode = floats(&run["error_by_mode"]);
+        assert_eq!(run["error"].as_f64(), by_mode.iter().copied().reduce(f64::max));
+    }
+    for plan in trade["planner"].as_array().unwrap() {
+        assert!(runs.contains(plan), "{plan}");
+        assert!(plan["error"].as_f64() <= plan["planned_for"].as_f64(), "{plan}");
+    }
+    let csv = fs::read_to_string(folder.0.join("t.csv")).unwrap();
+    assert!(csv.starts_with("degree,elements,solver,") && csv.lines().count() == runs.len() + 1);
+    let table = folder.text(&["trade", &bat, "--budget", "100 ms"]);
+    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+}
+
+#[test]
+fn the_u_curve_is_shown() {
+    let folder = Folder::new("u-curve");
+    let bat = mesh("dowel");
+    let args = ["trade", &bat, "--u-curve", "-n", "2", "--budget", "200 ms"];
+    let curve = folder.json(&[&args[..], &["--csv", "u.csv", "--json", "-"]].concat());
+    assert_eq!(keys(&curve), set("format generator bat modes degree reference columns"));
+    assert_eq!(curve["format"], "sweetspot-u-curve/1");
+    let mut rows = 1;
+    for column in curve["columns"].as_array().unwrap() {
+        assert_eq!(keys(column), set("solver points end own_lost_at recomputed_lost_at"));
+        for point in column["points"].as_array().unwrap() {
+            let own = "elements seconds own_error_by_mode recomputed_error_by_mode";
+            assert_eq!(keys(point), set(own));
+            assert_eq!(floats(&point["recomputed_error_by_mode"]).len(), 2);
+            let statics = column["solver"] == "statics";
+            assert_eq!(point["own_error_by_mode"].is_null(), statics);
+            rows += if statics { 2 } else { 4 };
+        }
+    }
+    let csv = fs::read_to_string(folder.0.join("u.csv")).unwrap();
+    assert!(csv.starts_with("solver,frequency,elements,mode,error\n"), "{csv}");
+    assert_eq!(csv.lines().count(), rows);
+    let table = folder.text(&args);
+    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+}
+
+#[test]
 fn matrices_are_written_whole() {
     let folder = Folder::new("matrices");
     let bat = mesh("dowel");

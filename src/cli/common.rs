@@ -275,7 +275,8 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-fn budget(text: &str) -> std::result::Result<Duration, String> {
+/// How long something may take, from the command line.
+pub fn budget(text: &str) -> std::result::Result<Duration, String> {
     let seconds = quantity(text, Quantity::Time)?;
     let expected = "expected a time from 1 us to 1 day, such as \"5 ms\"";
     if (1e-6..=86_400.0).contains(&seconds) {

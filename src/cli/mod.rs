@@ -8,6 +8,7 @@ mod materials;
 mod modes;
 mod promise_table;
 mod ring;
+mod trade;
 mod validate;
 
 use clap::{Parser, Subcommand};
@@ -39,14 +40,14 @@ enum Verb {
     Modes(modes::Args),
     Hit(hit::Args),
     Ring(ring::Args),
+    Trade(trade::Args),
     Validate(validate::Args),
     Materials(materials::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] = &[
-    "trade", "convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new",
-];
+const LATER_VERBS: &[&str] =
+    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] =
     &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
@@ -60,6 +61,7 @@ pub fn run() -> Result<Done> {
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
         Verb::Ring(args) => ring::run(&args),
+        Verb::Trade(args) => trade::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
     }

@@ -11,8 +11,9 @@ use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::modes::Mode;
 use crate::profile::{FormulaPiece, Formulas, Interpolation, Stations};
-use crate::solve::{Solution, Solver};
+use crate::solve::Solution;
 use crate::theory::ignored;
+use crate::trade::reference::solver_name;
 
 /// Which samples of the shapes to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,17 +57,8 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
     document
 }
 
-/// The name that the command line and the files use.
-pub fn solver_name(solver: Solver) -> &'static str {
-    match solver {
-        Solver::Statics => "statics",
-        Solver::Dense => "dense",
-        Solver::ShiftInvert => "shift-invert",
-        Solver::Arpack => "arpack",
-    }
-}
-
-fn generator() -> Value {
+/// Which program wrote this.
+pub fn generator() -> Value {
     json!({ "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") })
 }
 

@@ -4,3 +4,5 @@ pub mod file;
 pub mod curve;
 pub mod json;
 pub mod text;
+pub mod u_curve;
+pub mod trade;

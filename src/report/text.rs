@@ -7,9 +7,9 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::SweetSpot;
 use crate::report::curve;
-use crate::report::json::solver_name;
 use crate::solve::Solution;
 use crate::theory::ignored;
+use crate::trade::reference::solver_name;
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 
 /// Which units the tables are in.
