@@ -461,7 +461,7 @@ pub fn own_and_recomputed(
     let mut motion = Motion::default();
     let pairs = values.iter().zip(&vectors).skip(2).take(modes);
     let both = pairs.map(|(value, vector)| {
-        motion.take(&statics, &strains_of(&statics, &elements, vector));
+        motion.take(&statics, &strains_of(&statics, &elements, vector), false);
         [value.max(0.0).sqrt(), motion.omega]
     });
     Ok(both.collect())
