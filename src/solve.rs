@@ -322,13 +322,14 @@ struct Moments {
 }
 
 impl Moments {
-    /// None where the mesh is not large, or where a coarse one would be: one of a bat of many
-    /// stations.
+    /// None where the mesh is not large or not the user's own, or where a coarse one would be
+    /// large too: that of a bat of many stations.
     fn of(bat: &Bat, plan: &Plan, request: &Request) -> Result<Option<Self>> {
+        let asked = request.elements.is_some();
         let request = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };
         let large = |plan: &Plan| (plan.degree - 1) * plan.mesh.len() > LARGE;
         let stations = bat.profile.pieces.len() > LARGE;
-        if stations || !large(plan) {
+        if !asked || stations || !large(plan) {
             return Ok(None);
         }
         if large(&Plan::cheapest(bat, request.modes, request.tolerance, None)) {
