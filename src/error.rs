@@ -54,7 +54,7 @@ pub enum Error {
 
     /// A problem too large for the solver that was asked for.
     #[error(
-        "the dense solver takes at most {most} elements, this mesh has {found}: use --solver statics"
+        "the dense solver takes at most {most} unknowns, this mesh has {found}: use --solver statics"
     )]
     TooLarge { most: usize, found: usize },
 }

@@ -60,10 +60,13 @@
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]
 #![cfg_attr(not(feature = "arpack"), forbid(unsafe_code))]
+// Matrices are written with the indices of their formulas.
+#![allow(clippy::needless_range_loop)]
 
 pub mod error;
 pub mod units;
 pub mod real;
+pub mod lanes;
 pub mod quadrature;
 pub mod material;
 mod pchip;
@@ -78,9 +81,12 @@ mod bat_file;
 pub mod shape_file;
 pub mod eigen;
 pub mod beam;
+pub mod eigenpairs;
 pub mod modes;
+pub mod certificate;
 pub mod plan;
 pub mod solve;
+pub mod batch;
 pub mod trade;
 pub mod theory;
 pub mod dowel;
@@ -89,6 +95,8 @@ pub mod ringing;
 pub mod collision;
 pub mod report;
 pub mod validation;
+pub mod promise;
+pub mod extremes;
 
 pub use bat::Bat;
 pub use error::{Error, Result};

@@ -199,6 +199,23 @@ impl Shape {
         self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1
     }
 
+    /// Curvature `d²φ/dx²` at `x` (1/m² of largest deflection).
+    pub fn curvature(&self, x: f64) -> f64 {
+        let (k, xi) = self.locate(x);
+        self.derivatives(k, xi)[2] * (2.0 / self.stretches[k].1).powi(2)
+    }
+
+    /// `Σ part · shape` of shapes on one mesh.
+    pub fn sum(parts: &[(f64, &Self)]) -> Self {
+        let mut sum = parts[0].1.clone();
+        sum.coefficients.iter_mut().for_each(|w| *w = 0.0);
+        for (part, shape) in parts {
+            let all = sum.coefficients.iter_mut().zip(&shape.coefficients);
+            all.for_each(|(sum, w)| *sum += part * w);
+        }
+        sum
+    }
+
     /// Length of the bat (m).
     pub fn length(&self) -> f64 {
         self.stretches.last().map_or(0.0, |(middle, length)| middle + 0.5 * length)

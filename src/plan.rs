@@ -47,11 +47,16 @@ impl Plan {
     /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes,
     /// with that degree if one is given.
     pub fn cheapest(bat: &Bat, modes: usize, tolerance: f64, degree: Option<usize>) -> Self {
+        let all: Vec<usize> = degree.map_or(DEGREES, |degree| degree..=degree).collect();
+        Self::cheapest_among(bat, modes, tolerance, &all)
+    }
+
+    /// The same with one of these degrees.
+    pub fn cheapest_among(bat: &Bat, modes: usize, tolerance: f64, degrees: &[usize]) -> Self {
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
         let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase;
-        let degrees = degree.map_or(DEGREES, |degree| degree..=degree);
-        let candidates = degrees.map(|degree| {
+        let candidates = degrees.iter().map(|&degree| {
             let reach = reach(degree, AIM * tolerance);
             let count: usize = survey.pieces.iter().map(|piece| elements(piece, wave, reach)).sum();
             let enough = count.max(modes.div_ceil(degree - 1));
@@ -71,6 +76,11 @@ impl Plan {
     pub fn fixed(bat: &Bat, elements: usize, degree: usize) -> Self {
         let reason = "as asked".to_owned();
         Self { mesh: Mesh::along(bat, elements), degree, reason }
+    }
+
+    /// The same mesh with elements of that degree.
+    pub fn of_degree(self, degree: usize) -> Self {
+        Self { degree, ..self }
     }
 
     /// The plan after a solve that missed: every element cut into as many parts as its own part of

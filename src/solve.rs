@@ -9,10 +9,11 @@ use crate::beam::element::{self, Element};
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
-use crate::eigen::lanczos::{Lanczos, Wanted};
+use crate::certificate::{account, add_neighbours};
 use crate::eigen::{dense, shift_invert};
+use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
-use crate::modes::Mode;
+use crate::modes::{Mode, Shape};
 use crate::plan::Plan;
 
 type Sparse = nalgebra_sparse::CscMatrix<f64>;
@@ -144,12 +145,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
         return Err(Error::TooFewElements { wanted: request.modes, least, found });
     }
     let mut best: Option<Solution> = None;
-    // Stop the eigensolve when its part of the error is small beside the mesh's: the eigenvalue's
-    // is the square of the residual, the shape's is the residual itself.
-    let mut residual = match request.elements {
-        Some(_) => 1e-10,
-        None => (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3),
-    };
+    let mut residual = stop_at(request);
     for round in 0..MOST_ROUNDS {
         let answer = on_mesh(bat, &plan, request, residual, &mut timing)?;
         if residual > CONVERGED && !answer.modes.iter().all(Mode::has_its_nodes) {
@@ -157,22 +153,24 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             residual = CONVERGED;
             continue;
         }
-        let next = plan.refined(&answer.defects, request.tolerance);
+        let next = match request.elements {
+            Some(_) => None,
+            None => Some(plan.refined(&answer.defects, request.tolerance)),
+        };
         let solution = answer.solution(plan, request, timing);
         let gain = best.as_ref().map_or(0.0, |best| solution.worst() / best.worst());
         let floor = solution.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
         let done = solution.met
-            || request.elements.is_some()
             || floor > request.tolerance
             || (round > 2 && gain > 0.7)
-            || unknowns(&next) > most_unknowns(request.solver);
+            || next.as_ref().is_none_or(|n| unknowns(n) > most_unknowns(request.solver));
         if best.is_none() || gain < 1.0 {
             best = Some(solution);
         }
-        if done {
-            break;
+        match next {
+            Some(next) if !done => plan = next,
+            _ => break,
         }
-        plan = next;
     }
     Ok(best.expect("there was a round"))
 }
@@ -268,73 +266,82 @@ fn of_degree<const N: usize>(
     timing: &mut Timing,
 ) -> Result<Answer> {
     let started = Instant::now();
-    let mut statics = Statics::<f64, N>::empty(bat);
-    statics.assemble(&[bat], &[&plan.mesh]);
+    let mut pairs = Eigenpairs::<f64, N>::new(bat);
+    pairs.assemble(&[bat], &[&plan.mesh]);
     let assembled = Instant::now();
     timing.assemble += assembled - started;
     let (strains, steps) = match request.solver {
         _ if request.modes == 0 => (vec![], 0),
-        Solver::Statics => by_statics(&statics, request.modes, residual)?,
-        solver => by_pencil(bat, plan, &statics, request.modes, solver)?,
+        Solver::Statics => {
+            if pairs.statics.dimension() > LARGE {
+                let coarse = Moments::of(bat, request.modes)?;
+                pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
+            } else {
+                pairs.solve(request.modes, residual)?;
+            }
+            let lanczos = std::mem::take(&mut pairs.lanczos);
+            (lanczos.vectors, lanczos.steps)
+        }
+        solver => by_pencil(bat, plan, &pairs.statics, request.modes, solver)?,
     };
     let stretches = Arc::new(plan.mesh.stretches());
-    let missed = |e| element::missed(bat, e, statics.rule);
+    let missed = |e| element::missed(bat, e, pairs.statics.rule);
     let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
-    let mut motion = Motion::default();
+    let factored = request.solver != Solver::Statics;
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     let mut defects = vec![0.0; plan.mesh.len()];
-    for (k, strains) in strains.chunks_exact(statics.dimension()).enumerate() {
-        motion.take(&statics, strains);
-        let mut mode = Mode::new(k + 1, &statics, &motion, 0, &stretches);
+    for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
+        pairs.look_at(strains);
+        let (statics, motion) = (&pairs.statics, &pairs.motion);
+        let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
         mode.error.discretization += missed;
-        account(&mut mode, modes.first(), plan.mesh.len(), request.solver);
-        motion.add_defects(&statics, &mut defects);
+        account(&mut mode, modes.first(), plan.mesh.len(), factored);
+        motion.add_defects(statics, &mut defects);
         modes.push(mode);
     }
+    add_neighbours(&mut modes, factored);
     timing.solve += assembled.elapsed();
     Ok(Answer { modes, steps, defects })
 }
 
-/// What is the mesh's fault and what the arithmetic's.
-///
-/// The running sums keep ε of the slowest motion; a faster mode keeps ε times the ratio of their
-/// frequencies, and long sums lose a little more: measured, on cones, steps and dowels of up to
-/// 10⁶ elements. A factored `K` loses ε n⁴, which shows in the residual; its square is the error
-/// of Rayleigh's quotient.
-fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, solver: Solver) {
-    let ratio = (mode.omega / first.map_or(mode.omega, |m| m.omega)).max(1.0);
-    let length = 1.0 + (elements as f64).sqrt() / 25.0;
-    let sums = f64::EPSILON * (4.0 + 1.5 * ratio * length);
-    mode.error.round_off = sums;
-    if solver != Solver::Statics {
-        let solver = 0.5 * mode.error.residual.powi(2);
-        mode.error.discretization = (mode.error.discretization - solver).max(0.0);
-        mode.error.round_off += solver;
-    }
-    mode.error.nodes += 10.0 * sums * mode.shape.length() / mode.nodes.len().max(1) as f64;
-    mode.error.modal_mass += 10.0 * sums;
-    mode.error.shape += 10.0 * sums;
+/// Beyond so many unknowns the iteration starts from a coarse solution.
+const LARGE: usize = 20_000;
+
+/// Bending moments of all wanted modes together, from a coarse solution: a start from which the
+/// iteration needs as many steps as there are modes and hardly more.
+struct Moments {
+    bat: Bat,
+    /// The sum of the shapes, each with the same strain energy.
+    sum: Shape,
 }
 
-fn by_statics<const N: usize>(
-    statics: &Statics<f64, N>,
-    count: usize,
-    residual: f64,
-) -> Result<(Vec<f64>, usize)> {
-    let mut loads = Vec::new();
-    let mut lanczos = Lanczos::default();
-    // Looking for convergence costs ten steps' time: not before it is likely.
-    let earliest = (3.6 - 0.56 * residual.log10()).clamp(4.0, 9.0) as usize;
-    let wanted = Wanted { count, residual, earliest };
-    lanczos.largest(
-        statics.dimension(),
-        wanted,
-        |start| statics.start(count, start),
-        |x, y| {
-            statics.apply(x, y, &mut loads);
-        },
-    )?;
-    Ok((lanczos.vectors, lanczos.steps))
+impl Moments {
+    fn of(bat: &Bat, modes: usize) -> Result<Self> {
+        let request = Request { modes, tolerance: 1e-12, ..Request::default() };
+        let coarse = solve(bat, &request)?;
+        let scale = |mode: &Mode| 1.0 / (mode.omega * mode.modal_mass.sqrt());
+        let parts: Vec<_> = coarse.modes.iter().map(|mode| (scale(mode), &mode.shape)).collect();
+        Ok(Self { bat: bat.clone(), sum: Shape::sum(&parts) })
+    }
+
+    /// From places, 0 to 1 along the bat, to the moments there.
+    fn at(&self, places: &mut [f64]) {
+        let length = self.bat.length();
+        for place in places {
+            let x = *place * length;
+            let stiffness = self.bat.bending_stiffness(self.bat.profile.at(x));
+            *place = stiffness * self.sum.curvature(x);
+        }
+    }
+}
+
+/// The residual to stop the eigensolve at: its part of the error is then small beside the mesh's.
+/// The eigenvalue's is the square of the residual, the shape's is the residual itself.
+pub fn stop_at(request: &Request) -> f64 {
+    match request.elements {
+        Some(_) => 1e-10,
+        None => (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3),
+    }
 }
 
 /// The other solvers: eigenvectors of the assembled matrices, as scaled strains.
@@ -387,7 +394,7 @@ fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
     statics.start(1, &mut start);
     let mut motion = Motion::default();
-    motion.take(statics, &start);
+    motion.take(statics, &start, false);
     motion.omega.powi(2)
 }
 
@@ -454,7 +461,7 @@ pub fn own_and_recomputed(
     let mut motion = Motion::default();
     let pairs = values.iter().zip(&vectors).skip(2).take(modes);
     let both = pairs.map(|(value, vector)| {
-        motion.take(&statics, &strains_of(&statics, &elements, vector));
+        motion.take(&statics, &strains_of(&statics, &elements, vector), false);
         [value.max(0.0).sqrt(), motion.omega]
     });
     Ok(both.collect())

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::bat::{Bat, STANDARD_PIVOT};
-use crate::dowel::{Dowel, Ends};
+use crate::dowel::{Dowel, Ends, UniformMode};
 use crate::error::{Error, Result};
 use crate::solve::{Request, Solution, solve};
 use crate::units::ounce_square_inches;
@@ -149,6 +149,78 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
     Bat::from_text(path, text, Path::new(""))
 }
 
+/// What is known of a bat to all digits of a number.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    pub bat: Bat,
+    /// Of mode 1, 2, … (Hz).
+    pub frequencies: Vec<f64>,
+    /// From the knob end (m), of as many of the lowest modes as are known.
+    pub nodes: Vec<Vec<f64>>,
+    /// In kg, of as many of the lowest modes as are known.
+    pub modal_masses: Vec<f64>,
+}
+
+impl Truth {
+    /// What those cases, all of the same bat, say together.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where there is no case of that name or its bat is none.
+    pub fn of_cases(names: &[&str]) -> Result<Self> {
+        let mut truth: Option<Self> = None;
+        for name in names {
+            let (case, bat) = read(name, text(name)?)?;
+            let empty = Self { bat, frequencies: vec![], nodes: vec![], modal_masses: vec![] };
+            case.checks.iter().for_each(|check| truth.get_or_insert(empty.clone()).add(check));
+        }
+        truth.ok_or_else(|| Error::value("cases", "none", "at least one"))
+    }
+
+    /// The `modes` lowest modes of the free dowel of `meshes/dowel.json`, in closed form.
+    ///
+    /// # Errors
+    ///
+    /// As [`bundled_bat`].
+    pub fn of_dowel(modes: usize) -> Result<Self> {
+        let bat = bundled_bat("meshes/dowel.json")?;
+        let (dowel, length) = (dowel(&bat), bat.length());
+        let nodes = |n| UniformMode::new(Ends::FreeFree, n).nodes();
+        Ok(Self {
+            bat,
+            frequencies: (1..=modes).map(|n| dowel.frequency(Ends::FreeFree, n)).collect(),
+            nodes: (1..=modes).map(|n| nodes(n).iter().map(|x| x * length).collect()).collect(),
+            modal_masses: (1..=modes).map(|n| dowel.modal_mass(Ends::FreeFree, n)).collect(),
+        })
+    }
+
+    /// Takes in one known number; the cases list modes and nodes by their order.
+    fn add(&mut self, check: &Check) {
+        let mode = check.mode.unwrap_or(0);
+        match check.quantity {
+            Known::FrequencyHz if mode > self.frequencies.len() => {
+                self.frequencies.push(check.expected);
+            }
+            Known::ModalMassKg => self.modal_masses.push(check.expected),
+            Known::NodeM => {
+                self.nodes.resize(mode.max(self.nodes.len()), vec![]);
+                self.nodes.last_mut().into_iter().for_each(|nodes| nodes.push(check.expected));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The uniform bar that a bat with one radius is.
+fn dowel(bat: &Bat) -> Dowel {
+    Dowel {
+        length: bat.length(),
+        radius: bat.profile.at(0.0).outer,
+        youngs_modulus: bat.material.youngs_modulus,
+        density: bat.material.density,
+    }
+}
+
 /// The worst true and the worst stated relative error of the free dowel's frequencies, solved as
 /// requested, against `cos β cosh β = 1`.
 ///
@@ -158,24 +230,22 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
 pub fn dowel_proof(request: &Request) -> Result<[f64; 2]> {
     let bat = bundled_bat("meshes/dowel.json")?;
     let solution = solve(&bat, request)?;
-    let dowel = Dowel {
-        length: bat.length(),
-        radius: bat.profile.at(0.0).outer,
-        youngs_modulus: bat.material.youngs_modulus,
-        density: bat.material.density,
-    };
-    let exact = |order: usize| dowel.frequency(Ends::FreeFree, order);
+    let exact = |order: usize| dowel(&bat).frequency(Ends::FreeFree, order);
     let errors =
         solution.modes.iter().map(|mode| (mode.frequency() / exact(mode.order) - 1.0).abs());
     Ok([errors.fold(0.0, f64::max), solution.worst()])
 }
 
-/// Runs one case: a row for every known number.
-///
-/// # Errors
-///
-/// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
-pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
+/// The text of the case of that name.
+fn text(name: &str) -> Result<&'static str> {
+    let found = CASES.iter().find(|(case, _)| *case == name);
+    found
+        .map(|(_, text)| *text)
+        .ok_or_else(|| Error::value("case", name, "a case that travels with the program"))
+}
+
+/// A case and its bat.
+fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
     let case: Case = serde_json::from_str(text)
         .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))?;
     if case.format != "sweetspot-validation/1" {
@@ -185,6 +255,16 @@ pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
         Value::String(path) => bundled_bat(path)?,
         inline => Bat::from_text(name, &inline.to_string(), Path::new(""))?,
     };
+    Ok((case, bat))
+}
+
+/// Runs one case: a row for every known number.
+///
+/// # Errors
+///
+/// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
+pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
+    let (case, bat) = read(name, text)?;
     let request = Request {
         modes: case.solve.modes,
         tolerance: case.solve.tolerance.unwrap_or(Request::default().tolerance),

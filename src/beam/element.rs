@@ -331,3 +331,88 @@ impl<const N: usize> Element<f64, N> {
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A uniform element of length h with EI and ρA.
+    fn uniform<const N: usize>(h: f64, bending: f64, line: f64) -> Element<f64, N> {
+        let mut element =
+            Element { length: h, middle: 0.5 * h, stiffness: [[0.0; N]; N], mass: [[0.0; N]; N] };
+        for k in 0..N {
+            element.mass[k][k] = line * h * ODD[k];
+            if k < N - 2 {
+                element.stiffness[k][k] = bending * h * ODD[k];
+            }
+        }
+        element
+    }
+
+    /// The textbook matrices of the uniform Euler–Bernoulli element.
+    #[test]
+    fn a_uniform_cubic_has_the_matrices_of_the_textbooks() {
+        let (h, bending, line) = (0.3, 250.0, 0.9);
+        let (k, m) = uniform::<4>(h, bending, line).hermite();
+        let stiffness = [
+            [12.0, 6.0 * h, -12.0, 6.0 * h],
+            [6.0 * h, 4.0 * h * h, -6.0 * h, 2.0 * h * h],
+            [-12.0, -6.0 * h, 12.0, -6.0 * h],
+            [6.0 * h, 2.0 * h * h, -6.0 * h, 4.0 * h * h],
+        ];
+        let mass = [
+            [156.0, 22.0 * h, 54.0, -13.0 * h],
+            [22.0 * h, 4.0 * h * h, 13.0 * h, -3.0 * h * h],
+            [54.0, 13.0 * h, 156.0, -22.0 * h],
+            [-13.0 * h, -3.0 * h * h, -22.0 * h, 4.0 * h * h],
+        ];
+        for i in 0..4 {
+            for j in 0..4 {
+                let (exact, scale) = (bending / h.powi(3) * stiffness[i][j], bending / h.powi(3));
+                assert!((k[i][j] - exact).abs() < 1e-13 * scale, "K {i} {j}");
+                let (exact, scale) = (line * h / 420.0 * mass[i][j], line * h);
+                assert!((m[i][j] - exact).abs() < 1e-14 * scale, "M {i} {j}");
+            }
+        }
+    }
+
+    /// The hierarchical family contains the cubics: the first four rows and columns do not change.
+    #[test]
+    fn bubbles_leave_the_cubics_as_they_are() {
+        let (h, bending, line) = (0.2, 100.0, 1.5);
+        let (k4, m4) = uniform::<4>(h, bending, line).hermite();
+        let (k, m) = uniform::<9>(h, bending, line).hermite();
+        for i in 0..4 {
+            for j in 0..4 {
+                assert!((k[i][j] - k4[i][j]).abs() < 1e-12 * k4[0][0].abs());
+                assert!((m[i][j] - m4[i][j]).abs() < 1e-13 * m4[0][0].abs());
+            }
+            // Nor does a bubble of a uniform element do work on the bending of a cubic.
+            for j in 4..9 {
+                assert!(k[i][j].abs() < 1e-12 * k4[0][0]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_factor_is_that_of_the_stiffness() {
+        let mut element = uniform::<7>(0.4, 3.0, 1.0);
+        // Any symmetric positive matrix.
+        for i in 0..5 {
+            for j in 0..5 {
+                element.stiffness[i][j] += 0.1 / (i + j + 1) as f64;
+            }
+        }
+        let inverse = element.inverse_factor(2.0);
+        // L⁻¹ D L⁻ᵀ = 1 in that unit.
+        for i in 0..5 {
+            for j in 0..5 {
+                let sum = |k: usize| -> f64 {
+                    (0..5).map(|l| element.stiffness[k][l] * inverse[j][l]).sum()
+                };
+                let entry: f64 = (0..5).map(|k| inverse[i][k] * sum(k)).sum::<f64>() / 2.0;
+                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-13, "{i} {j} {entry}");
+            }
+        }
+    }
+}

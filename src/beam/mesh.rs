@@ -79,6 +79,19 @@ impl Mesh {
         Self { elements }
     }
 
+    /// Becomes the pattern's mesh on another bat of as many pieces, in the memory that it has.
+    pub fn fit(&mut self, bat: &Bat, pattern: &Self) {
+        self.elements.clear();
+        for e in &pattern.elements {
+            let piece = &bat.profile.pieces[e.piece];
+            self.elements.push(Element {
+                start: piece.start + piece.length * e.from,
+                length: piece.length * (e.to - e.from),
+                ..*e
+            });
+        }
+    }
+
     /// Middle and length of every element (m).
     pub fn stretches(&self) -> Vec<(f64, f64)> {
         self.elements.iter().map(|e| (e.start + 0.5 * e.length, e.length)).collect()
@@ -120,7 +133,8 @@ fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
     // Pieces of nearly equal length leave a remainder: one more for the longest elements.
     let missing = total.saturating_sub(counts.iter().sum());
     let mut order: Vec<usize> = (0..lengths.len()).collect();
-    let size = |k: usize, counts: &[usize]| lengths[k] / counts[k] as f64;
+    // In few digits, so that lengths equal but for their rounding tie, whatever the unit.
+    let size = |k: usize, counts: &[usize]| (lengths[k] / (whole * counts[k] as f64)) as f32;
     order.sort_by(|&a, &b| size(b, &counts).total_cmp(&size(a, &counts)));
     order.iter().cycle().take(missing).for_each(|&k| counts[k] += 1);
     counts
@@ -138,6 +152,18 @@ mod tests {
         for total in 3..40 {
             assert_eq!(spread(&[0.3, 0.3, 0.3], total).iter().sum::<usize>(), total);
             assert_eq!(spread(&[0.01, 2.0, 0.4], total).iter().sum::<usize>(), total);
+        }
+    }
+
+    #[test]
+    fn lengths_equal_but_for_their_rounding_tie_in_any_unit() {
+        let x = [0.0, 0.065, 0.09, 0.25, 0.275, 0.475, 0.5];
+        let lengths =
+            |unit: f64| -> Vec<f64> { x.windows(2).map(|x| x[1] * unit - x[0] * unit).collect() };
+        for total in 7..30 {
+            for unit in [10.0, 1e-3, 25.4] {
+                assert_eq!(spread(&lengths(unit), total), spread(&lengths(1.0), total), "{total}");
+            }
         }
     }
 }

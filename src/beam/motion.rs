@@ -52,9 +52,9 @@ pub struct Motion<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Motion<R, N> {
-    /// The motion with those scaled strains.
+    /// The motion with those scaled strains and its energies; its defect too if wanted.
     #[inline(always)]
-    pub fn take(&mut self, statics: &Statics<R, N>, q: &[R]) {
+    pub fn take(&mut self, statics: &Statics<R, N>, q: &[R], with_defect: bool) {
         self.image.resize(q.len(), R::default());
         let rigid = statics.apply(q, &mut self.image, &mut self.loads);
         let strain = dot(q, q);
@@ -71,7 +71,12 @@ impl<R: Real, const N: usize> Motion<R, N> {
         self.defects.resize(count, R::default());
         for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
             self.outwards(statics, q, cells.clone(), rigid, side);
-            self.inwards(statics, q, cells, lambda);
+            if with_defect {
+                self.inwards(statics, q, cells, lambda);
+            }
+        }
+        if !with_defect {
+            return;
         }
         let scale = R::splat(1.0) / (strain * statics.energy_unit);
         self.defect = R::default();
@@ -79,7 +84,6 @@ impl<R: Real, const N: usize> Motion<R, N> {
             *defect = *defect * scale;
             self.defect += *defect;
         }
-        self.integrate_changes(statics);
     }
 
     /// Deflections outwards from the root at rest, less a rigid motion; loads `ρA w` at the points.
@@ -164,9 +168,9 @@ impl<R: Real, const N: usize> Motion<R, N> {
         }
     }
 
-    /// `κ − κ*` at the points becomes `w − w*`, the rigid motions taken out.
+    /// After [`Self::take`], `κ − κ*` at the points becomes `w − w*`, the rigid motions taken out.
     #[inline(always)]
-    fn integrate_changes(&mut self, statics: &Statics<R, N>) {
+    pub fn take_changes(&mut self, statics: &Statics<R, N>) {
         let points = statics.rule.count();
         let mut total = [R::default(); 2];
         for (side, (cells, _)) in statics.sides(Rigid::default()).into_iter().enumerate() {

@@ -26,6 +26,8 @@ pub struct Rule {
     from_right: Vec<f64>,
 }
 
+/// Points whose numbers are computed together; the tables are filled up to a multiple.
+const BLOCK: usize = 4;
 /// Room for a number at every point of any rule.
 pub const MOST_POINTS: usize = 32;
 /// Numbers at the points of a rule; those beyond its last point are not used.
@@ -54,11 +56,11 @@ impl Rule {
     /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
     pub fn of(bat: &Bat, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
-        let degrees = bat.profile.pieces.iter().map(|piece| match &piece.radii {
-            Radii::Cubic(cubics) => Some(cubics.degree),
+        let mut pieces = bat.profile.pieces.iter();
+        let radii = pieces.try_fold(0, |most: usize, piece| match &piece.radii {
+            Radii::Cubic(cubics) => Some(most.max(cubics.degree)),
             Radii::Formula(_) => None,
         });
-        let radii = degrees.fold(Some(0), |most, degree| most?.max(degree?).into());
         let kind = radii.map_or(KINDS - 1, |radii| radii.min(2));
         RULES[KINDS * degree + kind].get_or_init(|| match radii {
             Some(radii) => Self::new(degree + 1, (2 * radii + degree + 1).max(degree + 3)),
@@ -76,7 +78,11 @@ impl Rule {
         let at: Vec<Vec<f64>> =
             places.iter().map(|(s, _)| legendre(count.max(terms) + 2, 2.0 * s - 1.0)).collect();
         let legendre = at.iter().flat_map(|p| p[..terms].to_vec()).collect();
-        let by_term = (0..terms).flat_map(|k| at.iter().map(move |p| p[k])).collect();
+        let stride = count.next_multiple_of(BLOCK);
+        let padded = |f: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            (0..stride).map(|j| if j < count { f(j) } else { 0.0 }).collect()
+        };
+        let by_term = (0..terms).flat_map(|k| padded(&|j| at[j][k])).collect();
         // ℓ_i = Σ_k (2k + 1) weight_i P_k(ξ_i) P_k, and the integrals of P_k over ξ from −1.
         let twice = |p: &[f64], k: usize| {
             let once = |k: usize| match k {
@@ -92,9 +98,11 @@ impl Rule {
             let term = |k: usize| (2 * k + 1) as f64 * at[i][k] * twice(&at[j], k);
             0.25 * places[i].1 * (0..count).map(term).sum::<f64>()
         };
-        let pairs = || (0..count).flat_map(|i| (0..count).map(move |j| (j, i)));
-        let from_left = pairs().map(|(j, i)| entry(j, i)).collect();
-        let from_right = pairs().map(|(j, i)| entry(count - 1 - j, count - 1 - i)).collect();
+        let table = |entry: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+            (0..count).flat_map(|i| padded(&|j| entry(j, i))).collect()
+        };
+        let from_left = table(&entry);
+        let from_right = table(&|j, i| entry(count - 1 - j, count - 1 - i));
         let points = places.iter().map(point).collect();
         Self { points, legendre, by_term, from_left, from_right }
     }
@@ -103,6 +111,12 @@ impl Rule {
     #[inline(always)]
     pub fn count(&self) -> usize {
         self.points.len()
+    }
+
+    /// Length of a row of the tables.
+    #[inline(always)]
+    fn stride(&self) -> usize {
+        self.points.len().next_multiple_of(BLOCK)
     }
 
     /// The `N` Legendre polynomials at one point.
@@ -132,13 +146,19 @@ impl Rule {
     /// `Σ parts[k] rows[k]`.
     #[inline(always)]
     fn combine<R: Real>(&self, rows: &[f64], parts: &[R]) -> AtPoints<R> {
-        let mut sum = [R::default(); MOST_POINTS];
-        for (row, part) in rows.chunks_exact(self.count()).zip(parts) {
-            for (sum, value) in sum.iter_mut().zip(row) {
-                *sum += R::splat(*value) * *part;
+        let mut sums = [R::default(); MOST_POINTS];
+        let stride = self.stride();
+        // Four points at a time stay in registers while the parts go by.
+        for first in (0..stride).step_by(BLOCK) {
+            let mut sum = [R::default(); BLOCK];
+            for (row, part) in rows.chunks_exact(stride).zip(parts) {
+                for (sum, value) in sum.iter_mut().zip(&row[first..first + BLOCK]) {
+                    *sum += R::splat(*value) * *part;
+                }
             }
+            sums[first..first + BLOCK].copy_from_slice(&sum);
         }
-        sum
+        sums
     }
 
     /// The last two coefficients of the Legendre series through values at the points, relative to

@@ -127,6 +127,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     /// The compliance of the bats, one per lane, all on the one mesh's pattern of elements.
     ///
     /// Memory is reused: the second bat of the same number of elements allocates nothing.
+    #[inline(always)]
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
         self.rule = Rule::of(bats[0], N - 1);
@@ -174,6 +175,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     }
 
     /// The middle one of the elements whose bending stiffness is at least half the greatest.
+    #[inline(always)]
     fn root(&self, elements: usize, stiffest: f64) -> usize {
         let points = self.rule.count();
         let stiff = |k: &usize| {
@@ -187,6 +189,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     }
 
     /// The cells of both sides from the sections, and the inertia.
+    #[inline(always)]
     fn fill(&mut self, meshes: &[&Mesh]) {
         let (points, half, balance) = (self.rule.count(), R::splat(0.5), self.balance);
         let mut inertia = RunningSum::<R>::default();
@@ -406,4 +409,92 @@ fn inwards<R: Real, const N: usize, const KEEP: bool>(
 fn power_of_two_below(value: f64) -> f64 {
     // The bits of a normal number without those of its fraction.
     f64::from_bits(value.to_bits() & !((1 << 52) - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beam::element::elements;
+    use crate::beam::motion::Motion;
+    use crate::eigen::lanczos::dot;
+    use crate::material::Material;
+    use crate::profile::{Interpolation, Profile, Stations};
+
+    fn bat(outer: [f64; 2]) -> Bat {
+        let stations = Stations {
+            x: vec![0.0, 0.8],
+            outer: outer.to_vec(),
+            inner: vec![0.0; 2],
+            interpolation: Interpolation::Linear,
+        };
+        let material = Material::new(700.0, 14e9).unwrap();
+        Bat::new("test", Profile::new(stations).unwrap(), material, None).unwrap()
+    }
+
+    fn statics<const N: usize>(bat: &Bat, count: usize) -> Statics<f64, N> {
+        let mut statics = Statics::empty(bat);
+        statics.assemble(&[bat], &[&Mesh::along(bat, count)]);
+        statics
+    }
+
+    /// Strains of no particular kind.
+    fn some(dimension: usize, offset: usize) -> Vec<f64> {
+        (0..dimension).map(|k| ((k + offset) as f64 * 0.754_877).fract() - 0.5).collect()
+    }
+
+    fn symmetric<const N: usize>() {
+        let statics = statics::<N>(&bat([0.012, 0.033]), 9);
+        let size = statics.dimension();
+        let (x, y) = (some(size, 1), some(size, 5));
+        let (mut ax, mut ay) = (vec![0.0; size], vec![0.0; size]);
+        statics.apply(&x, &mut ax, &mut Vec::new());
+        statics.apply(&y, &mut ay, &mut Vec::new());
+        let (left, right) = (dot(&y, &ax), dot(&x, &ay));
+        assert!((left - right).abs() < 1e-14 * dot(&ax, &ax).sqrt(), "{N}");
+    }
+
+    #[test]
+    fn the_compliance_is_symmetric() {
+        symmetric::<4>();
+        symmetric::<7>();
+        symmetric::<13>();
+    }
+
+    /// `qᵀAq` is the kinetic energy of the motion with these strains, element by element in
+    /// Legendre polynomials, and that motion carries neither momentum nor angular momentum.
+    #[test]
+    fn the_quadratic_form_of_the_compliance_is_the_kinetic_energy() {
+        let bat = bat([0.033, 0.012]);
+        let statics = statics::<6>(&bat, 7);
+        let mut motion = Motion::default();
+        motion.take(&statics, &some(statics.dimension(), 3), false);
+        let elements = elements::<6>(&bat, &Mesh::along(&bat, 7));
+        let [mut kinetic, mut momentum, mut spin] = [0.0; 3];
+        for (place, outwards) in motion.shape.iter().enumerate() {
+            let knob_side = place < statics.split;
+            let e = &elements[if knob_side { statics.split - 1 - place } else { place }];
+            // Seen outwards, odd polynomials change sign on the knob side.
+            let turned = |k: usize| if knob_side && k % 2 == 1 { -1.0 } else { 1.0 };
+            let w: [f64; 6] = std::array::from_fn(|k| turned(k) * outwards[k]);
+            let load: [f64; 6] = std::array::from_fn(|k| dot(&e.mass[k], &w));
+            kinetic += dot(&load, &w);
+            momentum += load[0];
+            spin += e.middle * load[0] + 0.5 * e.length * load[1];
+        }
+        assert!((motion.kinetic / kinetic - 1.0).abs() < 1e-13);
+        assert!(momentum.abs() < 1e-13 * kinetic.sqrt() && spin.abs() < 1e-13 * kinetic.sqrt());
+    }
+
+    #[test]
+    fn scaled_strains_of_strains_are_what_they_were() {
+        let statics = statics::<9>(&bat([0.02, 0.03]), 3);
+        for cell in &statics.cells {
+            let mut q = [0.0; 9];
+            q[..7].copy_from_slice(&some(7, 2));
+            let back = cell.scaled_strains(&cell.strains(&q));
+            for (a, b) in back.iter().zip(&q) {
+                assert!((a - b).abs() < 1e-13, "{a} {b}");
+            }
+        }
+    }
 }

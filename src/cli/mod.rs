@@ -2,9 +2,11 @@
 
 mod analyze;
 mod common;
+mod extremes_table;
 mod hit;
 mod materials;
 mod modes;
+mod promise_table;
 mod ring;
 mod trade;
 mod validate;
@@ -48,7 +50,7 @@ const LATER_VERBS: &[&str] =
     &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] =
-    &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share", "--extremes"];
+    &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {

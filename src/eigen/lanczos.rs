@@ -63,7 +63,9 @@ impl<R: Real> Lanczos<R> {
         self.next.clear();
         self.next.resize(dimension, R::default());
         self.basis.clear();
-        (self.alpha.clear(), self.beta.clear());
+        self.basis.reserve_exact(dimension * most.min(count + wanted.earliest));
+        self.alpha.clear();
+        self.beta.clear();
         start(&mut self.next);
         let size = dot(&self.next, &self.next).sqrt();
         self.take(size);
@@ -74,6 +76,11 @@ impl<R: Real> Lanczos<R> {
             apply(last, &mut self.next);
             let alpha = dot(last, &self.next);
             self.alpha.push(alpha);
+            subtract(alpha, last, &mut self.next);
+            if let Some(beta) = self.beta.last() {
+                let before = &self.basis[(steps - 2) * dimension..(steps - 1) * dimension];
+                subtract(*beta, before, &mut self.next);
+            }
             let rest = self.orthogonalise();
             let spanned = steps == dimension
                 || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
@@ -110,7 +117,9 @@ impl<R: Real> Lanczos<R> {
     #[inline(always)]
     fn take(&mut self, size: R) {
         let scale = R::splat(1.0) / size;
-        self.basis.extend(self.next.iter().map(|v| *v * scale));
+        for v in &self.next {
+            self.basis.push(*v * scale);
+        }
     }
 
     /// Takes everything of the basis out of `next`; the length that is left.
@@ -120,7 +129,9 @@ impl<R: Real> Lanczos<R> {
         let mut size = dot(next, next).sqrt();
         for _ in 0..3 {
             parts.clear();
-            parts.extend(basis.chunks_exact(next.len()).map(|b| dot(b, next)));
+            for b in basis.chunks_exact(next.len()) {
+                parts.push(dot(b, next));
+            }
             for (b, part) in basis.chunks_exact(next.len()).zip(parts.iter()) {
                 subtract(*part, b, next);
             }

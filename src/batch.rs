@@ -1,0 +1,282 @@
+//! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
+//!
+//! All share the plan of the first until one of them misses the tolerance by its own estimate:
+//! that one is planned and solved on its own. Once warm nothing is allocated for a bat.
+
+use rayon::prelude::*;
+
+use crate::bat::Bat;
+use crate::beam::mesh::Mesh;
+use crate::beam::rule::Rule;
+use crate::certificate::round_off;
+use crate::eigenpairs::{Depth, Eigenpairs};
+use crate::error::{Error, Result};
+use crate::lanes::{Lanes, WIDTH};
+use crate::plan::Plan;
+use crate::real::Real;
+use crate::solve::{Request, solve, stop_at};
+
+/// The modes of one bat of many. The slices hold until the next bat.
+#[derive(Debug, Clone, Copy)]
+pub struct Found<'a> {
+    /// Angular frequencies ω (rad/s), rising.
+    pub omegas: &'a [f64],
+    /// Relative errors of the frequencies, estimated; of round-off only where a mesh was asked for.
+    pub errors: &'a [f64],
+    /// `∫ρA φ² dx` (kg).
+    pub modal_masses: &'a [f64],
+    /// Deflections φ in Legendre polynomials, `degree + 1` numbers an element, knob to tip, mode
+    /// after mode; the largest |φ| at the ends and the elements' sample points is 1, the tip
+    /// positive.
+    pub shapes: &'a [f64],
+    pub mesh: &'a Mesh,
+    pub degree: usize,
+}
+
+/// How the bats are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    OneByOne,
+    /// Eight at a time in the lanes of a vector.
+    SideBySide,
+}
+
+/// Degrees that a batch plans with: a program for every one would be large.
+const DEGREES: [usize; 5] = [3, 4, 6, 8, 10];
+
+/// Solves every bat with the statics solver and shows each result to `visit`, with its place
+/// among the bats.
+///
+/// With `request.elements` every bat gets that mesh and no error is estimated; else every
+/// frequency is within the tolerance by its estimate, as far as [`solve`] can reach it.
+pub fn each(
+    bats: &[Bat],
+    request: &Request,
+    way: Way,
+    mut visit: impl FnMut(usize, Result<Found<'_>>),
+) {
+    let Some(first) = bats.first() else { return };
+    let plan = match request.elements {
+        Some(elements) => Plan::fixed(first, elements, request.degree.unwrap_or(3)),
+        None => {
+            let degrees = request.degree.map_or(DEGREES.to_vec(), |degree| vec![degree]);
+            Plan::cheapest_among(first, request.modes, request.tolerance, &degrees)
+        }
+    };
+    let visit: Visit = &mut visit;
+    match plan.degree {
+        3 => with_degree::<4>(bats, request, way, plan, visit),
+        4 => with_degree::<5>(bats, request, way, plan, visit),
+        5 | 6 => with_degree::<7>(bats, request, way, plan.of_degree(6), visit),
+        7 | 8 => with_degree::<9>(bats, request, way, plan.of_degree(8), visit),
+        _ => with_degree::<11>(bats, request, way, plan.of_degree(10), visit),
+    }
+}
+
+/// The same on all cores, the results gathered by `read`, in the order of the bats.
+pub fn all<T: Send>(
+    bats: &[Bat],
+    request: &Request,
+    way: Way,
+    read: impl Fn(usize, Result<Found<'_>>) -> T + Sync,
+) -> Vec<T> {
+    const SHARE: usize = 256;
+    let share = |(k, bats): (usize, &[Bat])| {
+        let mut results = Vec::with_capacity(bats.len());
+        each(bats, request, way, |i, found| results.push(read(k * SHARE + i, found)));
+        results
+    };
+    bats.par_chunks(SHARE).enumerate().flat_map_iter(share).collect()
+}
+
+type Visit<'a> = &'a mut dyn FnMut(usize, Result<Found<'_>>);
+
+fn with_degree<const N: usize>(
+    bats: &[Bat],
+    request: &Request,
+    way: Way,
+    plan: Plan,
+    visit: Visit,
+) {
+    let mut alone = Worker::<f64, N>::new(&bats[0], plan.clone(), 0);
+    if let Err(error) = alone.solve(&[&bats[0]], request) {
+        // The first bat tells how many Lanczos steps there are to be; without it each is on its own.
+        drop(error);
+        bats.iter().enumerate().for_each(|(k, bat)| solved_alone(k, bat, request, visit));
+        return;
+    }
+    alone.steps = alone.pairs.lanczos.steps;
+    let mut together = Worker::<Lanes, N>::new(&bats[0], plan, alone.steps);
+    let lanes = if way == Way::SideBySide { WIDTH } else { 1 };
+    for (group, group_bats) in bats.chunks(lanes).enumerate() {
+        let first = lanes * group;
+        let alike = |bat: &Bat| same_pattern(bat, &bats[0]);
+        if let (Ok(group), true) =
+            (<&[Bat; WIDTH]>::try_from(group_bats), group_bats.iter().all(alike))
+        {
+            together.run(first, &group.each_ref(), request, visit);
+            continue;
+        }
+        for (k, bat) in group_bats.iter().enumerate() {
+            if alike(bat) {
+                alone.run(first + k, &[bat], request, visit);
+            } else {
+                solved_alone(first + k, bat, request, visit);
+            }
+        }
+    }
+}
+
+/// Whether two bats can be counted side by side: as many pieces, sampled at as many points.
+fn same_pattern(a: &Bat, b: &Bat) -> bool {
+    let pieces = |bat: &Bat| bat.profile.pieces.len();
+    pieces(a) == pieces(b) && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
+}
+
+/// The memory of one way through the bats.
+struct Worker<R, const N: usize> {
+    plan: Plan,
+    /// Lanczos steps for every bat, so that a bat's answer does not depend on its neighbours; 0 for
+    /// as many as it takes.
+    steps: usize,
+    pairs: Eigenpairs<R, N>,
+    meshes: Vec<Mesh>,
+    /// Lane after lane, what [`Found`] shows.
+    omegas: Vec<f64>,
+    errors: Vec<f64>,
+    modal_masses: Vec<f64>,
+    shapes: Vec<f64>,
+}
+
+impl<R: Real, const N: usize> Worker<R, N> {
+    fn new(bat: &Bat, plan: Plan, steps: usize) -> Self {
+        Self {
+            steps,
+            pairs: Eigenpairs::new(bat),
+            meshes: vec![Mesh::default(); R::LANES],
+            plan,
+            omegas: vec![],
+            errors: vec![],
+            modal_masses: vec![],
+            shapes: vec![],
+        }
+    }
+
+    /// Solves as many bats as there are lanes; those that miss are solved on their own.
+    fn run(&mut self, first: usize, bats: &[&Bat], request: &Request, visit: Visit) {
+        if self.solve(bats, request).is_err() {
+            for (k, bat) in bats.iter().enumerate() {
+                solved_alone(first + k, bat, request, visit);
+            }
+            return;
+        }
+        let (modes, coefficients) = (request.modes, N * self.plan.mesh.len());
+        for lane in 0..R::LANES {
+            let own = |values: &'_ [f64], each: usize| -> std::ops::Range<usize> {
+                debug_assert!(values.len() == R::LANES * modes * each);
+                lane * modes * each..(lane + 1) * modes * each
+            };
+            let errors = &self.errors[own(&self.errors, 1)];
+            if request.elements.is_none() && !errors.iter().all(|e| *e <= request.tolerance) {
+                solved_alone(first + lane, bats[lane], request, visit);
+                continue;
+            }
+            let found = Found {
+                omegas: &self.omegas[own(&self.omegas, 1)],
+                errors,
+                modal_masses: &self.modal_masses[own(&self.modal_masses, 1)],
+                shapes: &self.shapes[own(&self.shapes, coefficients)],
+                mesh: &self.meshes[lane],
+                degree: N - 1,
+            };
+            visit(first + lane, Ok(found));
+        }
+    }
+
+    fn solve(&mut self, bats: &[&Bat], request: &Request) -> Result<()> {
+        for (mesh, bat) in self.meshes.iter_mut().zip(bats) {
+            mesh.fit(bat, &self.plan.mesh);
+        }
+        let modes = request.modes;
+        let numbers = R::LANES * modes;
+        for values in [&mut self.omegas, &mut self.errors, &mut self.modal_masses] {
+            values.resize(numbers, 0.0);
+        }
+        self.shapes.resize(numbers * N * self.plan.mesh.len(), 0.0);
+        if R::LANES == 1 {
+            self.pairs.assemble(bats, &[&self.meshes[0]]);
+        } else {
+            let meshes: [&Mesh; WIDTH] = std::array::from_fn(|lane| &self.meshes[lane]);
+            self.pairs.assemble(bats, &meshes);
+        }
+        if self.pairs.statics.dimension() < modes {
+            let (least, found) = (modes.div_ceil(N - 2), self.plan.mesh.len());
+            return Err(Error::TooFewElements { wanted: modes, least, found });
+        }
+        match self.steps {
+            0 => self.pairs.solve(modes, stop_at(request))?,
+            steps => self.pairs.solve_in(modes, steps)?,
+        }
+        let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };
+        for k in 0..modes {
+            self.pairs.look(k, depth);
+            self.keep(k, modes, depth);
+        }
+        Ok(())
+    }
+
+    /// Writes the motion that was looked at down as mode `k` of every lane.
+    fn keep(&mut self, k: usize, modes: usize, depth: Depth) {
+        let (statics, motion) = (&self.pairs.statics, &self.pairs.motion);
+        let mut largest = motion.ends[0][0].abs().max(motion.ends[1][0].abs());
+        motion.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
+        let scale = R::splat(1.0).copysign(motion.ends[1][0]) / largest;
+        let mass = motion.kinetic * scale * scale;
+        let elements = statics.cells.len();
+        for lane in 0..R::LANES {
+            let place = lane * modes + k;
+            let omega = motion.omega.lane(lane);
+            self.omegas[place] = omega;
+            self.modal_masses[place] = mass.lane(lane);
+            let ratio = omega / self.omegas[lane * modes];
+            let defect = if depth == Depth::Defect { motion.defect.lane(lane) } else { 0.0 };
+            self.errors[place] = 0.5 * defect + round_off(ratio, elements);
+            let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
+            let (knob, tip) = motion.shape.split_at(statics.split);
+            let scale = scale.lane(lane);
+            // Outwards is backwards on the knob side, where odd polynomials change sign.
+            for (to, from) in shape.chunks_exact_mut(N).zip(knob.iter().rev()) {
+                for (j, (to, w)) in to.iter_mut().zip(from).enumerate() {
+                    *to = if j % 2 == 1 { -scale } else { scale } * w.lane(lane);
+                }
+            }
+            for (to, from) in shape[N * statics.split..].chunks_exact_mut(N).zip(tip) {
+                to.iter_mut().zip(from).for_each(|(to, w)| *to = scale * w.lane(lane));
+            }
+        }
+    }
+}
+
+/// One bat with a plan of its own.
+fn solved_alone(place: usize, bat: &Bat, request: &Request, visit: Visit) {
+    let solution = match solve(bat, request) {
+        Ok(solution) => solution,
+        Err(error) => return visit(place, Err(error)),
+    };
+    let of = |f: &dyn Fn(&crate::modes::Mode) -> f64| solution.modes.iter().map(f).collect();
+    let (omegas, errors, modal_masses): (Vec<f64>, Vec<f64>, Vec<f64>) =
+        (of(&|m| m.omega), of(&|m| m.error.total()), of(&|m| m.modal_mass));
+    let shapes: Vec<f64> =
+        solution.modes.iter().flat_map(|m| m.shape.coefficients()).copied().collect();
+    visit(
+        place,
+        Ok(Found {
+            omegas: &omegas,
+            errors: &errors,
+            modal_masses: &modal_masses,
+            shapes: &shapes,
+            mesh: &solution.mesh,
+            degree: solution.degree,
+        }),
+    );
+}

@@ -1,0 +1,58 @@
+//! The extremes as a table.
+
+use std::fmt::Write;
+
+use sweetspot::extremes::{EXTREMES, Outcome, Verdict};
+
+/// Every row, and whether all are right or refused with a reason.
+pub fn table() -> (String, bool) {
+    let mut out = String::from("Right within three times the stated error, or refused");
+    out += " with the reason:\n\n";
+    let _ = writeln!(out, "{:<40}{:>8}{:>9}{:>9}  verdict", "what", "asked", "found", "stated");
+    // Right, refused, wrong.
+    let mut counts = [0; 3];
+    for extreme in EXTREMES {
+        let Outcome { asked, found, stated, verdict, note } = extreme.run();
+        let (which, word, remark) = match verdict {
+            Verdict::Right => (0, "right", note),
+            Verdict::Refused(reason) => (1, "refused", reason),
+            Verdict::Wrong(reason) => (2, "WRONG", reason),
+        };
+        counts[which] += 1;
+        let (asked, found, stated) = (asking(asked), number(found), number(stated));
+        let _ = writeln!(out, "{:<40}{asked:>8}{found:>9}{stated:>9}  {word}", extreme.what);
+        wrapped(&remark, &mut out);
+    }
+    let [right, refused, wrong] = counts;
+    let _ = writeln!(out, "{right} right, {refused} refused, {wrong} wrong");
+    (out, wrong == 0)
+}
+
+/// A remark below its row, in lines of at most 80 columns.
+fn wrapped(remark: &str, out: &mut String) {
+    let mut room = 0;
+    for word in remark.split_whitespace() {
+        let width = word.chars().count() + 1;
+        if width > room {
+            *out += if room == 0 { "   " } else { "\n   " };
+            room = 77;
+        }
+        room = room.saturating_sub(width).max(1);
+        *out += " ";
+        *out += word;
+    }
+    if room > 0 {
+        out.push('\n');
+    }
+}
+
+fn asking(value: f64) -> String {
+    match value {
+        0.0 => "bits".into(),
+        value => number(value),
+    }
+}
+
+fn number(value: f64) -> String {
+    if value.is_finite() { format!("{value:.1e}") } else { String::new() }
+}
