@@ -64,7 +64,11 @@ fn main() {
         let [mut one, mut side, mut cores] = [f64::INFINITY; 3];
         for _ in 0..TURNS {
             let job = |way| {
-                time(|| each(&bats, &request, way, |_, f| drop(black_box(f.unwrap().shapes[0]))))
+                time(|| {
+                    each(&bats, &request, way, |_, f| {
+                        black_box(f.unwrap().shapes[0]);
+                    })
+                })
             };
             one = one.min(job(Way::OneByOne));
             side = side.min(job(Way::SideBySide));

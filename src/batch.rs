@@ -214,7 +214,7 @@ impl<R: Real, const N: usize> Worker<R, N> {
             return Err(Error::TooFewElements { wanted: modes, least, found });
         }
         match self.steps {
-            0 => self.pairs.solve(modes, stop_at(request))?,
+            0 => self.pairs.solve(modes, stop_at(&Request { elements: None, ..*request }))?,
             steps => self.pairs.solve_in(modes, steps)?,
         }
         let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };

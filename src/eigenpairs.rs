@@ -97,18 +97,21 @@ impl<R: Real, const N: usize> Eigenpairs<R, N> {
         Arch::new().dispatch(Iteration { statics, lanczos, loads, wanted, start: None })
     }
 
-    /// Looks at the motion number `k` of those found, as closely as wanted.
+    /// Looks at the motion number `k` of those found, as closely as wanted, its frequency from the
+    /// eigenvalue.
     pub fn look(&mut self, k: usize, depth: Depth) {
         let dimension = self.statics.dimension();
         let Self { statics, motion, lanczos, .. } = self;
         let strains = &lanczos.vectors[k * dimension..(k + 1) * dimension];
-        Arch::new().dispatch(Look { statics, motion, strains, depth });
+        let value = Some(lanczos.values[k]);
+        Arch::new().dispatch(Look { statics, motion, strains, value, depth });
     }
 
-    /// Looks at the motion with those scaled strains.
-    pub fn look_at(&mut self, strains: &[R]) {
+    /// Looks at the motion with those scaled strains as closely as wanted, its frequency from both
+    /// energies.
+    pub fn look_at(&mut self, strains: &[R], depth: Depth) {
         let Self { statics, motion, .. } = self;
-        Arch::new().dispatch(Look { statics, motion, strains, depth: Depth::Changes });
+        Arch::new().dispatch(Look { statics, motion, strains, value: None, depth });
     }
 }
 
@@ -162,6 +165,7 @@ struct Look<'a, R, const N: usize> {
     statics: &'a Statics<R, N>,
     motion: &'a mut Motion<R, N>,
     strains: &'a [R],
+    value: Option<R>,
     depth: Depth,
 }
 
@@ -170,9 +174,12 @@ impl<R: Real, const N: usize> WithSimd for Look<'_, R, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.motion.take(self.statics, self.strains, self.depth != Depth::Shape);
+        let with_defect = self.depth != Depth::Shape;
+        self.motion.take(self.statics, self.strains, self.value, with_defect);
         if self.depth == Depth::Changes {
             self.motion.take_changes(self.statics);
+        } else {
+            self.motion.no_changes(self.statics);
         }
     }
 }

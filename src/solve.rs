@@ -11,7 +11,7 @@ use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
 use crate::certificate::{account, add_neighbours};
 use crate::eigen::{dense, shift_invert};
-use crate::eigenpairs::Eigenpairs;
+use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::modes::{Mode, Shape};
 use crate::plan::Plan;
@@ -287,11 +287,14 @@ fn of_degree<const N: usize>(
     let stretches = Arc::new(plan.mesh.stretches());
     let missed = |e| element::missed(bat, e, pairs.statics.rule);
     let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
+    // On a mesh so fine the shapes change by round-off only.
+    let large = pairs.statics.dimension() > LARGE;
+    let depth = if large { Depth::Defect } else { Depth::Changes };
     let factored = request.solver != Solver::Statics;
     let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
     let mut defects = vec![0.0; plan.mesh.len()];
     for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
-        pairs.look_at(strains);
+        pairs.look_at(strains, depth);
         let (statics, motion) = (&pairs.statics, &pairs.motion);
         let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
         mode.error.discretization += missed;
@@ -352,37 +355,64 @@ fn by_pencil<const N: usize>(
     count: usize,
     solver: Solver,
 ) -> Result<(Vec<f64>, usize)> {
+    let elements = element::elements::<N>(bat, &plan.mesh);
+    let pairs = of_pencil(statics, &elements, count, solver)?;
+    let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
+    Ok((pairs.vectors.iter().flat_map(strains).collect(), pairs.steps))
+}
+
+/// What a solver makes of the assembled matrices.
+struct Pairs {
+    /// Its own λ = ω² (1/s²), rising.
+    values: Vec<f64>,
+    vectors: Vec<Vec<f64>>,
+    steps: usize,
+}
+
+/// The `count` lowest bending modes by a solver that factors `K`; for the statics, which factors
+/// nothing, by shift-invert.
+fn of_pencil<const N: usize>(
+    statics: &Statics<f64, N>,
+    elements: &[Element<f64, N>],
+    count: usize,
+    solver: Solver,
+) -> Result<Pairs> {
     let unknowns = statics.dimension() + 2;
     if solver == Solver::Dense && unknowns > MOST_DENSE {
         return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
     }
-    let elements = element::elements::<N>(bat, &plan.mesh);
-    let Pencil { stiffness: k, mass: m } = Pencil::assemble(&elements);
-    // The rigid motions are found too, and left: a free bat always has two.
+    let Pencil { stiffness: k, mass: m } = Pencil::assemble(elements);
     let (shift, all) = (shift(statics), count + 2);
-    let (vectors, steps) = match solver {
+    let mut pairs = match solver {
         Solver::Arpack => arpack(&k, &m, shift, all)?,
-        Solver::ShiftInvert => {
-            let pairs = shift_invert::lowest(&k, &m, shift, all, 1e-12)?;
-            (pairs.vectors, pairs.steps)
-        }
-        _ => {
+        Solver::Dense => {
             let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
-            (dense::generalized(&k, &m, shift).ok_or(failed)?.1, 0)
+            let (values, vectors) = dense::generalized(&k, &m, shift).ok_or(failed)?;
+            Pairs { values, vectors, steps: 0 }
+        }
+        Solver::ShiftInvert | Solver::Statics => {
+            shift_invert::lowest(&k, &m, shift, all, 1e-12)?.into()
         }
     };
-    let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
-    Ok((vectors.iter().skip(2).take(count).flat_map(strains).collect(), steps))
+    // The rigid motions are found too, and left: a free bat always has two.
+    pairs.values = pairs.values.drain(2..all.min(pairs.values.len())).collect();
+    pairs.vectors = pairs.vectors.drain(2..all.min(pairs.vectors.len())).collect();
+    Ok(pairs)
+}
+
+impl From<shift_invert::Pairs> for Pairs {
+    fn from(pairs: shift_invert::Pairs) -> Self {
+        Self { values: pairs.values, vectors: pairs.vectors, steps: pairs.steps }
+    }
 }
 
 #[cfg(feature = "arpack")]
-fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<(Vec<Vec<f64>>, usize)> {
-    let pairs = crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?;
-    Ok((pairs.vectors, pairs.steps))
+fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<Pairs> {
+    Ok(crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?.into())
 }
 
 #[cfg(not(feature = "arpack"))]
-fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<(Vec<Vec<f64>>, usize)> {
+fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
     Err(Error::NotBuilt {
         what: "the solver arpack",
         advice: "install libarpack2-dev and pkg-config, then build with --features arpack",
@@ -394,7 +424,7 @@ fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
     statics.start(1, &mut start);
     let mut motion = Motion::default();
-    motion.take(statics, &start, false);
+    motion.take(statics, &start, None, false);
     motion.omega.powi(2)
 }
 
@@ -434,34 +464,11 @@ pub fn own_and_recomputed(
 ) -> Result<Vec<[f64; 2]>> {
     let mut statics = Statics::<f64, 4>::empty(bat);
     statics.assemble(&[bat], &[mesh]);
-    let unknowns = statics.dimension() + 2;
-    if solver == Solver::Dense && unknowns > MOST_DENSE {
-        return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
-    }
     let elements = element::elements::<4>(bat, mesh);
-    let Pencil { stiffness: k, mass: m } = Pencil::assemble(&elements);
-    let (shift, all) = (shift(&statics), modes + 2);
-    let (values, vectors) = match solver {
-        #[cfg(feature = "arpack")]
-        Solver::Arpack => {
-            let pairs = crate::eigen::arpack::lowest(&k, &m, shift, all, 1e-12)?;
-            (pairs.values, pairs.vectors)
-        }
-        #[cfg(not(feature = "arpack"))]
-        Solver::Arpack => (vec![], arpack(&k, &m, shift, all)?.0),
-        Solver::Dense => {
-            let failed = Error::NotConverged { wanted: modes, converged: 0, steps: 0 };
-            dense::generalized(&k, &m, shift).ok_or(failed)?
-        }
-        Solver::ShiftInvert | Solver::Statics => {
-            let pairs = shift_invert::lowest(&k, &m, shift, all, 1e-12)?;
-            (pairs.values, pairs.vectors)
-        }
-    };
+    let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
-    let pairs = values.iter().zip(&vectors).skip(2).take(modes);
-    let both = pairs.map(|(value, vector)| {
-        motion.take(&statics, &strains_of(&statics, &elements, vector), false);
+    let both = pairs.values.iter().zip(&pairs.vectors).map(|(value, vector)| {
+        motion.take(&statics, &strains_of(&statics, &elements, vector), None, false);
         [value.max(0.0).sqrt(), motion.omega]
     });
     Ok(both.collect())

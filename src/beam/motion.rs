@@ -53,17 +53,30 @@ pub struct Motion<R, const N: usize> {
 
 impl<R: Real, const N: usize> Motion<R, N> {
     /// The motion with those scaled strains and its energies; its defect too if wanted.
+    ///
+    /// With `value`, the eigenvalue of the compliance that the strains belong to, the kinetic
+    /// energy is taken from it: half the work, no residual, and round-off of ε times the greatest
+    /// eigenvalue over this one.
     #[inline(always)]
-    pub fn take(&mut self, statics: &Statics<R, N>, q: &[R], with_defect: bool) {
-        self.image.resize(q.len(), R::default());
-        let rigid = statics.apply(q, &mut self.image, &mut self.loads);
+    pub fn take(&mut self, statics: &Statics<R, N>, q: &[R], value: Option<R>, with_defect: bool) {
         let strain = dot(q, q);
-        self.kinetic = dot(q, &self.image);
+        let rigid = match value {
+            Some(value) => {
+                self.kinetic = value * strain;
+                statics.rigid(q, &mut self.loads)
+            }
+            None => {
+                self.image.resize(q.len(), R::default());
+                let rigid = statics.apply(q, &mut self.image, &mut self.loads);
+                self.kinetic = dot(q, &self.image);
+                let scale = strain / self.kinetic;
+                self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
+                self.residual = (dot(&self.image, &self.image) / strain).sqrt();
+                rigid
+            }
+        };
         let lambda = strain * statics.energy_unit / self.kinetic;
         self.omega = lambda.sqrt();
-        let scale = lambda / statics.energy_unit;
-        self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
-        self.residual = (dot(&self.image, &self.image) / strain).sqrt();
         let count = statics.cells.len();
         self.shape.resize(count, [R::default(); N]);
         self.deflections.resize(count * statics.rule.count(), R::default());
@@ -166,6 +179,15 @@ impl<R: Real, const N: usize> Motion<R, N> {
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
             (0..R::LANES).for_each(|lane| *most = most.max(defect.lane(lane)));
         }
+    }
+
+    /// After [`Self::take`], leaves out what [`Self::take_changes`] would find.
+    #[inline(always)]
+    pub fn no_changes(&mut self, statics: &Statics<R, N>) {
+        self.changes.clear();
+        self.changes.resize(statics.cells.len() * statics.rule.count(), R::default());
+        self.ends[0][1] = R::default();
+        self.ends[1][1] = R::default();
     }
 
     /// After [`Self::take`], `κ − κ*` at the points becomes `w − w*`, the rigid motions taken out.
