@@ -55,6 +55,10 @@ pub fn each(
     way: Way,
     mut visit: impl FnMut(usize, Result<Found<'_>>),
 ) {
+    shown_to(bats, request, way, &mut visit);
+}
+
+fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
     let Some(first) = bats.first() else { return };
     let plan = match request.elements {
         Some(elements) => Plan::fixed(first, elements, request.degree.unwrap_or(3)),
@@ -63,7 +67,6 @@ pub fn each(
             Plan::cheapest_among(first, request.modes, request.tolerance, &degrees)
         }
     };
-    let visit: Visit = &mut visit;
     match plan.degree {
         3 => with_degree::<4>(bats, request, way, plan, visit),
         4 => with_degree::<5>(bats, request, way, plan, visit),
