@@ -5,7 +5,8 @@
 //! vibration and where the sweet spot is. Every frequency comes with an estimate of its error.
 //!
 //! ```text
-//! bat.json ─▶ Bat ─▶ Mesh ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit ─▶ report ─▶ JSON, table
+//! bat.json ─▶ Bat ─▶ Plan ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit ─▶ report ─▶ JSON, table
+//!                     └─ refined until the modes' errors are small enough
 //! ```
 //!
 //! Each arrow borrows what lies to its left and returns a new value; a module uses only those
@@ -44,6 +45,8 @@
 //! | `ρ`, `E`, `G`, `κ` | density, Young's and shear modulus, shear coefficient | kg/m³, Pa, Pa, 1 |
 //! | `A`, `I` | area and second moment of area of a section | m², m⁴ |
 //! | `w`, `θ` | deflection, rotation of the section (θ = dw/dx) | m, rad |
+//! | `p`, `N` | degree of an element's deflection, its number of coefficients `p + 1` | 1 |
+//! | `w″`, `M` | curvature, bending moment (elsewhere M is the mass matrix) | 1/m, N m |
 //! | `c`, `q` | strains of an element, the same scaled by the strain energy | 1/m, √J |
 //! | `ω = 2πf`, `λ = ω²` | angular frequency, eigenvalue | rad/s, 1/s² |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |

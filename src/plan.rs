@@ -18,7 +18,7 @@ use crate::beam::rule::{DEGREES, Rule};
 use crate::profile::{Piece, Radii, Section};
 
 /// A mesh and the degree of its elements.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Plan {
     pub mesh: Mesh,
     pub degree: usize,
@@ -56,18 +56,21 @@ impl Plan {
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
         let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase;
+        let lengths: Vec<f64> = survey.pieces.iter().map(|piece| total(piece, wave)).collect();
         let candidates = degrees.iter().map(|&degree| {
             let reach = reach(degree, AIM * tolerance);
-            let count: usize = survey.pieces.iter().map(|piece| elements(piece, wave, reach)).sum();
-            let enough = count.max(modes.div_ceil(degree - 1));
-            (cost(degree) * enough as f64, degree, reach, count, enough)
+            let count: usize = lengths.iter().map(|length| elements(*length, reach)).sum();
+            (cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64, degree, reach)
         });
         let best = candidates.min_by(|a, b| a.0.total_cmp(&b.0));
-        let (_, degree, reach, count, enough) = best.expect("there is a degree");
+        let (_, degree, reach) = best.expect("there is a degree");
+        let places = survey.pieces.iter().zip(&lengths);
+        let places: Vec<_> = places.map(|(piece, l)| borders(piece, wave, *l, reach)).collect();
+        let mut mesh = resolved(bat, Mesh::with_borders(bat, &places), degree);
         // Too few unknowns for so many modes: shorter elements.
-        let reach = reach * (count as f64 / enough as f64).min(1.0);
-        let borders: Vec<_> = survey.pieces.iter().map(|p| borders(p, wave, reach)).collect();
-        let mesh = resolved(bat, Mesh::with_borders(bat, &borders), degree);
+        while (degree - 1) * mesh.len() < modes {
+            mesh = mesh.refined(|_| 2);
+        }
         let reason = format!("cheapest plan for {tolerance:.0e}");
         Self { mesh, degree, reason }
     }
@@ -127,28 +130,29 @@ fn cost(degree: usize) -> f64 {
     1.0 + 0.12 * p * p
 }
 
-/// Half waves per reach between two samples.
-fn measure(a: &[f64; 3], b: &[f64; 3], wave: f64, reach: f64) -> f64 {
-    f64::hypot(0.5 * wave * (b[1] - a[1]), 0.5 * TAPER * (b[2] - a[2])) / reach
+/// Half the phase between two samples, taper and all: the `a` of an element from one to the other.
+fn measure(a: &[f64; 3], b: &[f64; 3], wave: f64) -> f64 {
+    let (phase, taper) = (wave * (b[1] - a[1]), TAPER * (b[2] - a[2]));
+    0.5 * (phase * phase + taper * taper).sqrt()
 }
 
-fn total(piece: &[[f64; 3]], wave: f64, reach: f64) -> f64 {
-    piece.windows(2).map(|w| measure(&w[0], &w[1], wave, reach)).sum()
+fn total(piece: &[[f64; 3]], wave: f64) -> f64 {
+    piece.windows(2).map(|w| measure(&w[0], &w[1], wave)).sum()
 }
 
-fn elements(piece: &[[f64; 3]], wave: f64, reach: f64) -> usize {
-    (total(piece, wave, reach).ceil() as usize).max(1)
+fn elements(length: f64, reach: f64) -> usize {
+    ((length / reach).ceil() as usize).max(1)
 }
 
-/// Borders of the elements of a piece: equal measure between them.
-fn borders(piece: &[[f64; 3]], wave: f64, reach: f64) -> Vec<f64> {
-    let count = elements(piece, wave, reach);
-    let step = total(piece, wave, reach) / count as f64;
+/// Borders of the elements of a piece of that length in phase: equal phase between them.
+fn borders(piece: &[[f64; 3]], wave: f64, length: f64, reach: f64) -> Vec<f64> {
+    let count = elements(length, reach);
+    let step = length / count as f64;
     let mut borders = Vec::with_capacity(count + 1);
     borders.push(0.0);
     let mut sum = 0.0;
     for w in piece.windows(2) {
-        let here = measure(&w[0], &w[1], wave, reach);
+        let here = measure(&w[0], &w[1], wave);
         while borders.len() < count && sum + here >= step * borders.len() as f64 {
             let share = (step * borders.len() as f64 - sum) / here;
             borders.push(w[0][0] + share * (w[1][0] - w[0][0]));

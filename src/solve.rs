@@ -153,22 +153,23 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             residual = CONVERGED;
             continue;
         }
-        let next = match request.elements {
-            Some(_) => None,
-            None => Some(plan.refined(&answer.defects, request.tolerance)),
-        };
-        let solution = answer.solution(plan, request, timing);
+        let (solution, defects) = answer.solution(plan, request, timing);
         let gain = best.as_ref().map_or(0.0, |best| solution.worst() / best.worst());
         let floor = solution.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
         let done = solution.met
+            || request.elements.is_some()
             || floor > request.tolerance
-            || (round > 2 && gain > 0.7)
-            || next.as_ref().is_none_or(|n| unknowns(n) > most_unknowns(request.solver));
+            || (round > 2 && gain > 0.7);
+        let next = (!done).then(|| {
+            let plan =
+                Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
+            plan.refined(&defects, request.tolerance)
+        });
         if best.is_none() || gain < 1.0 {
             best = Some(solution);
         }
         match next {
-            Some(next) if !done => plan = next,
+            Some(next) if unknowns(&next) <= most_unknowns(request.solver) => plan = next,
             _ => break,
         }
     }
@@ -221,9 +222,10 @@ struct Answer {
 }
 
 impl Answer {
-    fn solution(self, plan: Plan, request: &Request, timing: Timing) -> Solution {
+    /// The solution, and each element's part in its worst defect.
+    fn solution(self, plan: Plan, request: &Request, timing: Timing) -> (Solution, Vec<f64>) {
         let within = |mode: &Mode| mode.error.total() <= request.tolerance && mode.has_its_nodes();
-        Solution {
+        let solution = Solution {
             met: self.modes.iter().all(within),
             modes: self.modes,
             solver: request.solver,
@@ -232,7 +234,8 @@ impl Answer {
             reason: plan.reason,
             steps: self.steps,
             timing,
-        }
+        };
+        (solution, self.defects)
     }
 }
 
@@ -273,11 +276,11 @@ fn of_degree<const N: usize>(
     let (strains, steps) = match request.solver {
         _ if request.modes == 0 => (vec![], 0),
         Solver::Statics => {
-            if pairs.statics.dimension() > LARGE {
-                let coarse = Moments::of(bat, request.modes)?;
-                pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
-            } else {
-                pairs.solve(request.modes, residual)?;
+            match Moments::of(bat, plan, request)? {
+                Some(coarse) => {
+                    pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
+                }
+                None => pairs.solve(request.modes, residual)?,
             }
             let lanczos = std::mem::take(&mut pairs.lanczos);
             (lanczos.vectors, lanczos.steps)
@@ -319,12 +322,23 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(bat: &Bat, modes: usize) -> Result<Self> {
-        let request = Request { modes, tolerance: 1e-12, ..Request::default() };
+    /// None where the mesh is not large or not the user's own, or where a coarse one would be
+    /// large too: that of a bat of many stations.
+    fn of(bat: &Bat, plan: &Plan, request: &Request) -> Result<Option<Self>> {
+        let asked = request.elements.is_some();
+        let request = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };
+        let large = |plan: &Plan| (plan.degree - 1) * plan.mesh.len() > LARGE;
+        let stations = bat.profile.pieces.len() > LARGE;
+        if !asked || stations || !large(plan) {
+            return Ok(None);
+        }
+        if large(&Plan::cheapest(bat, request.modes, request.tolerance, None)) {
+            return Ok(None);
+        }
         let coarse = solve(bat, &request)?;
         let scale = |mode: &Mode| 1.0 / (mode.omega * mode.modal_mass.sqrt());
         let parts: Vec<_> = coarse.modes.iter().map(|mode| (scale(mode), &mode.shape)).collect();
-        Ok(Self { bat: bat.clone(), sum: Shape::sum(&parts) })
+        Ok(Some(Self { bat: bat.clone(), sum: Shape::sum(&parts) }))
     }
 
     /// From places, 0 to 1 along the bat, to the moments there.

@@ -2,8 +2,11 @@
 
 mod common;
 
+use std::time::Duration;
+
 use common::{LENGTH, bat, beta, cone, dowel, dowel_frequency};
 use sweetspot::profile::Interpolation;
+use sweetspot::solve::solve_within;
 use sweetspot::validation::{CASES, bundled_bat};
 use sweetspot::{Bat, Request, Solver, solve};
 
@@ -201,5 +204,39 @@ fn a_bat_that_ends_in_a_point_rings_within_its_stated_error() {
     for (a, b) in coarse.modes.iter().zip(&fine.modes) {
         let difference = (a.omega / b.omega - 1.0).abs();
         assert!(difference <= 3.0 * a.error.total(), "{difference:e} {:e}", a.error.total());
+    }
+}
+
+/// Whatever the time, an answer comes with its error; more time never makes it worse.
+#[test]
+fn a_budget_gives_the_best_answer_that_fits() {
+    let bat = cone(0.0125, 0.033);
+    let request = Request { modes: 5, ..Request::default() };
+    let plenty = solve_within(&bat, &request, Duration::from_secs(5)).unwrap();
+    assert!(plenty.met && plenty.worst() < 1e-12, "{:e}", plenty.worst());
+    let nothing = solve_within(&bat, &request, Duration::from_nanos(1)).unwrap();
+    assert!(!nothing.met && nothing.worst() <= 0.1 && nothing.modes.len() == 5);
+    for (a, b) in nothing.modes.iter().zip(&plenty.modes) {
+        let truth = (a.omega / b.omega - 1.0).abs();
+        assert!(truth <= 3.0 * (a.error.total() + b.error.total()), "{truth:e}");
+    }
+}
+
+/// What the planner may choose from, all degrees reach a tolerance, each on its own mesh.
+#[test]
+fn every_degree_keeps_the_promise() {
+    let bat = cone(0.0125, 0.033);
+    let exact = solve(&bat, &Request { tolerance: 1e-13, ..Request::default() }).unwrap();
+    let mut elements = usize::MAX;
+    for degree in 3..=12 {
+        let request = Request { degree: Some(degree), tolerance: 1e-7, ..Request::default() };
+        let solution = solve(&bat, &request).unwrap();
+        assert!(solution.met && solution.degree == degree);
+        assert!(solution.mesh.len() <= elements, "a higher degree needs fewer elements");
+        elements = solution.mesh.len();
+        for (mode, exact) in solution.modes.iter().zip(&exact.modes) {
+            let truth = (mode.omega / exact.omega - 1.0).abs();
+            assert!(truth <= 3.0 * mode.error.total() + 1e-13, "p{degree} {truth:e}");
+        }
     }
 }

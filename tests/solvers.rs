@@ -8,8 +8,9 @@ use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
 use sweetspot::eigen::lanczos::dot;
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
+use sweetspot::solve::own_and_recomputed;
 use sweetspot::validation::bundled_bat;
-use sweetspot::{Bat, Error, Result};
+use sweetspot::{Bat, Error, Request, Result, Solver, solve};
 
 type Solve = fn(&CscMatrix<f64>, &CscMatrix<f64>, f64, usize, f64) -> Result<Pairs>;
 
@@ -258,4 +259,72 @@ fn four_threads_that_ask_arpack_at_once_get_the_same_bits() {
             worker.join().unwrap().iter().for_each(|answer| assert_eq!(*answer, alone));
         }
     });
+}
+
+/// Every solver's frequencies are strain over kinetic energy of its own shapes, so that all agree
+/// within what they state, on elements of any degree, and none states less than it is off.
+#[test]
+fn four_solvers_give_one_answer() {
+    let solvers = [
+        Solver::Dense,
+        Solver::ShiftInvert,
+        #[cfg(feature = "arpack")]
+        Solver::Arpack,
+    ];
+    for name in ["meshes/r161.json", "meshes/cone.json", "meshes/northwestern_aluminium.json"] {
+        let bat = bundled_bat(name).unwrap();
+        for (elements, degree) in [(40, 3), (300, 3), (33, 5), (32, 8)] {
+            let request = Request {
+                modes: 8,
+                elements: Some(elements),
+                degree: Some(degree),
+                ..Request::default()
+            };
+            let ours = solve(&bat, &request).unwrap();
+            for solver in solvers {
+                let theirs = solve(&bat, &Request { solver, ..request }).unwrap();
+                for (a, b) in ours.modes.iter().zip(&theirs.modes) {
+                    let apart = (a.omega / b.omega - 1.0).abs();
+                    // Both stand on one mesh, whose own error they share.
+                    let stated = a.error.round_off + b.error.round_off;
+                    let order = a.order;
+                    assert!(
+                        apart <= 3.0 * stated + 1e-12,
+                        "{name} {elements} x p{degree} {solver:?} mode {order}: {apart:e} {stated:e}"
+                    );
+                    for (x, y) in a.nodes.iter().zip(&b.nodes) {
+                        assert!((x - y).abs() < 1e-5 * bat.length(), "{name} {solver:?}: {x} {y}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The U-curve: the dense solver's own eigenvalue loses digits as elements are added, the running
+/// sums lose none, and strain over kinetic energy brings most of them back.
+#[test]
+fn more_elements_hurt_a_factored_matrix_and_not_the_sums() {
+    let bat = dowel();
+    let exact = beta(1).powi(2) * unit().sqrt();
+    let error = |omega: f64| (omega / exact - 1.0).abs();
+    let own = |n: usize| {
+        let mesh = Mesh::along(&bat, n);
+        own_and_recomputed(&bat, &mesh, 1, Solver::Dense).unwrap()[0].map(error)
+    };
+    let sums = |n: usize| {
+        let request = Request { modes: 1, elements: Some(n), ..Request::default() };
+        error(solve(&bat, &request).unwrap().modes[0].omega)
+    };
+    let ([few, _], [many, recomputed]) = (own(64), own(1000));
+    assert!(many > 10.0 * few && recomputed < 1e-3 * many, "{few:e} {many:e} {recomputed:e}");
+    assert!(sums(1000) < 1e-12 && sums(20_000) < 1e-13, "{:e} {:e}", sums(1000), sums(20_000));
+}
+
+#[cfg(not(feature = "arpack"))]
+#[test]
+fn a_solver_that_is_not_built_in_says_how_to_get_it() {
+    let request = Request { solver: Solver::Arpack, ..Request::default() };
+    let said = solve(&dowel(), &request).unwrap_err().to_string();
+    assert!(said.contains("libarpack2-dev") && said.contains("--features arpack"), "{said}");
 }

@@ -2,11 +2,11 @@
 //!
 //! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a
 //! computed mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free
-//! ends, and these make the curvature `κ* = M/EI`. The computed curvature κ differs, because it is
+//! ends, and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it is
 //! a polynomial in every element and because the eigensolve stops somewhere, and
 //!
 //! ```text
-//! η = ∫EI (κ − κ*)² dx / ∫EI κ² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
+//! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
 //! ```
 //!
 //! with `c_j` the share of the exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error
@@ -137,7 +137,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
     }
 
     /// Bending moments inwards from the free end under these loads, and the other curvature that
-    /// they make: leaves `κ − κ*` at the points and `∫EI (κ − κ*)² dx` of every cell.
+    /// they make: leaves `w″ − w*″` at the points and `∫EI (w″ − w*″)² dx` of every cell.
     #[inline(always)]
     fn inwards(
         &mut self,
@@ -190,7 +190,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
         self.ends[1][1] = R::default();
     }
 
-    /// After [`Self::take`], `κ − κ*` at the points becomes `w − w*`, the rigid motions taken out.
+    /// After [`Self::take`], `w″ − w*″` at the points becomes `w − w*`, the rigid motions taken out.
     #[inline(always)]
     pub fn take_changes(&mut self, statics: &Statics<R, N>) {
         let points = statics.rule.count();

@@ -234,7 +234,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     }
 
     /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
-    /// `EI κ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
+    /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
     /// the moments there.
     #[inline(always)]
     pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {

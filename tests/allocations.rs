@@ -1,0 +1,28 @@
+//! A batch that is warm allocates nothing for a bat: a test of its own, because it counts.
+
+mod common;
+
+use common::cone;
+use sweetspot::batch::{Way, each};
+use sweetspot::{Bat, Request};
+
+#[test]
+fn ten_times_the_bats_take_no_more_allocations() {
+    let cone = |k: usize| cone(0.010 + 1e-5 * k as f64, 0.033 - 1e-6 * k as f64);
+    let bats: Vec<Bat> = (0..320).map(cone).collect();
+    let planned = Request { modes: 6, ..Request::default() };
+    let fixed = Request { elements: Some(40), ..planned };
+    for (request, way) in [
+        (planned, Way::OneByOne),
+        (planned, Way::SideBySide),
+        (fixed, Way::OneByOne),
+        (fixed, Way::SideBySide),
+    ] {
+        let count = |bats: &[Bat]| {
+            let job = || each(bats, &request, way, |_, found| assert!(found.is_ok()));
+            allocation_counter::measure(job).count_total
+        };
+        let (few, many) = (count(&bats[..32]), count(&bats));
+        assert_eq!(few, many, "{way:?}");
+    }
+}
