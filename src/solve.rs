@@ -163,7 +163,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
         let next = (!done).then(|| {
             let plan =
                 Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
-            plan.refined(&defects, request.tolerance)
+            plan.refined(&defects, request.tolerance, request.degree.is_none())
         });
         if best.is_none() || gain < 1.0 {
             best = Some(solution);
