@@ -30,6 +30,8 @@ pub struct Plan {
 const TAPER: f64 = 3.0;
 /// The plan aims at this share of the wanted error, because no element is like the formula's.
 const AIM: f64 = 0.2;
+/// The smallest relative error worth planning for.
+const FINEST: f64 = 1e-16;
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
 
@@ -53,6 +55,8 @@ impl Plan {
 
     /// The same with one of these degrees.
     pub fn cheapest_among(bat: &Bat, modes: usize, tolerance: f64, degrees: &[usize]) -> Self {
+        // No finer than arithmetic can tell; the verdict stays on what was asked.
+        let tolerance = tolerance.max(FINEST);
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
         let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase;

@@ -148,7 +148,8 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let mut residual = stop_at(request);
     for round in 0..MOST_ROUNDS {
         let answer = on_mesh(bat, &plan, request, residual, &mut timing)?;
-        if residual > CONVERGED && !answer.modes.iter().all(Mode::has_its_nodes) {
+        let again = request.solver == Solver::Statics && residual > CONVERGED;
+        if again && !answer.modes.iter().all(Mode::has_its_nodes) {
             // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
             residual = CONVERGED;
             continue;
@@ -194,7 +195,7 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
         let better = best.as_ref().is_none_or(|best| solution.worst() < best.worst());
         let over = spent + last + last / 2 > budget || !solution.met;
         if better && (spent <= budget || best.is_none()) {
-            best = Some(Solution { met: spent <= budget, ..solution });
+            best = Some(Solution { met: spent <= budget && solution.complete(), ..solution });
         }
         if over {
             break;

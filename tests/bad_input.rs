@@ -950,6 +950,8 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--up-to=2000"], &["--up-to is not supported yet"]),
         (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
         (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
+        (&["hit", "bat.json", "--budget", "5 ms"], &["--budget", "with hit"]),
+        (&["analyze", "bat.json", "--budget", "5 ms"], &["--budget", "with analyze"]),
         (&["modes", "bat.json", "--budget", "5 ms", "--tol", "1e-3"], &["cannot be used with"]),
         (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
         (&["analyze", "bat.json", "--plots", "p"], &["--plots is not supported yet"]),

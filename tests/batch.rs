@@ -66,7 +66,9 @@ fn each_bat_is_the_bat_that_is_solved_alone() {
                     errors[k]
                 );
                 assert!(errors[k] <= request.tolerance);
-                assert!((masses[k] / mode.modal_mass - 1.0).abs() < 1e-3);
+                // A frequency's error is the square of its shape's.
+                let mass = (masses[k] / mode.modal_mass - 1.0).abs();
+                assert!(mass <= 3.0 * request.tolerance.sqrt(), "mode {}: {mass:e}", k + 1);
             }
         }
     }

@@ -88,6 +88,14 @@ impl<R: Real, const N: usize> Motion<R, N> {
                 self.inwards(statics, q, cells, lambda);
             }
         }
+        if statics.split == 0 {
+            // The root is the knob end itself: odd polynomials change sign there.
+            let mut end = R::default();
+            for (k, w) in self.shape[0].iter().enumerate() {
+                end += if k % 2 == 1 { -*w } else { *w };
+            }
+            self.ends[0][0] = end;
+        }
         if !with_defect {
             return;
         }

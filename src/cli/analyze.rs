@@ -45,6 +45,7 @@ const POINTS: usize = 101;
 pub fn run(args: &Args) -> Result<Done> {
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.output.progress("solving …");
+    args.solve.refuse_budget("analyze")?;
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     let half = 0.5 * bat.length();
     let places: Vec<f64> =

@@ -93,6 +93,21 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver }
     }
 
+    /// A time for the modes alone says nothing of a whole hit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if a budget was given.
+    pub fn refuse_budget(&self, verb: &str) -> Result<()> {
+        match self.budget {
+            None => Ok(()),
+            Some(budget) => {
+                let expected = "it with modes or ring; here --tol sets the accuracy";
+                Err(Error::value("--budget", format!("{budget:?} with {verb}"), expected))
+            }
+        }
+    }
+
     /// Says where more elements were needed than asked for.
     pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
         if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {

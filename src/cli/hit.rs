@@ -85,6 +85,7 @@ impl PlaceArgs {
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
+    args.solve.refuse_budget("hit")?;
     let request = args.solve.request(args.bat.count());
     let sweep = sweep(&bat, model, &scene, &request, &args.place.places(&bat)?)?;
     args.solve.say_raised(&sweep.solution, &args.output);

@@ -41,6 +41,8 @@ const WHOLE: f64 = 0.97;
 const LONGEST: f64 = 0.025;
 /// Longest time for all the repeats of one rung, likewise.
 const SLICE: f64 = 0.0005;
+/// A run that was measured while the machine was busy may take this part of its time.
+const CHANCE: f64 = 0.5;
 /// Repeats of a run, at most.
 const MOST_REPEATS: usize = 61;
 
@@ -222,15 +224,16 @@ impl Bench<'_> {
         Ok((solution, started.elapsed().as_secs_f64()))
     }
 
-    /// Times what decides, the front and the planner's choices, again and in turn, so that all of
-    /// them meet the same machine.
+    /// Times what decides, again and in turn, so that all of it meets the same machine: the
+    /// planner's choices, and what would be on the front if its first times were slow by chance.
     fn repeat_front(&mut self) {
-        let mut runs: Vec<Run> = self.runs.iter().map(|measured| measured.run.clone()).collect();
-        mark(&mut runs, self.reference.floor());
+        let floor = self.reference.floor();
+        let beats = |other: &Run, run: &Run| {
+            other.seconds < CHANCE * run.seconds
+                && other.error().max(floor) <= run.error().max(floor)
+        };
         let decides = |run: &Run| {
-            let same =
-                |other: &&Run| other.choice == run.choice && other.planned_for == run.planned_for;
-            run.planned_for.is_some() || runs.iter().find(same).is_some_and(|run| run.on_front)
+            run.planned_for.is_some() || !self.runs.iter().any(|other| beats(&other.run, run))
         };
         let chosen: Vec<usize> =
             (0..self.runs.len()).filter(|k| decides(&self.runs[*k].run)).collect();
