@@ -130,10 +130,21 @@ fn with_degree<const N: usize>(
     }
 }
 
-/// Whether two bats can be counted side by side: as many pieces, sampled at as many points.
+/// Whether a bat can share the plan of another: as many pieces, sampled at as many points, and of
+/// like proportions, so that the same elements serve both.
 fn same_pattern(a: &Bat, b: &Bat) -> bool {
-    let pieces = |bat: &Bat| bat.profile.pieces.len();
-    pieces(a) == pieces(b) && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
+    const ALIKE: f64 = 2.5;
+    let widest = |bat: &Bat| bat.profile.stations.outer.iter().fold(0.0_f64, |m, r| m.max(*r));
+    let (widest_a, widest_b) = (widest(a), widest(b));
+    let pieces = a.profile.pieces.iter().zip(&b.profile.pieces);
+    a.profile.pieces.len() == b.profile.pieces.len()
+        && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
+        && pieces.flat_map(|(a, b)| [0.0, 1.0].map(|s| (a.at(s).outer, b.at(s).outer))).all(
+            |(of_a, of_b)| {
+                let (of_a, of_b) = (of_a * widest_b, of_b * widest_a);
+                of_a <= ALIKE * of_b && of_b <= ALIKE * of_a
+            },
+        )
 }
 
 /// The memory of one way through the bats.
