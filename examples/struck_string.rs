@@ -1,8 +1,8 @@
 //! How does a damped string move when it is struck at a quarter of its length?
 //!
 //! The worked example of the WPI report, chapter 3 (Eqs 3-1 to 3-8), on the code that rings bats:
-//! a string of length `l`, tension `T`, line mass `ρ`, with damping `c` per length, at rest until an
-//! impulse `J` at `a = l/4`.
+//! a string of length `l`, tension `T`, line mass `ρ`, with damping `c` per length, at rest until
+//! an impulse `J` at `a = l/4`.
 //!
 //! ```text
 //! ρ ÿ + c ẏ = T y″                       φ_n = sin(nπx/l),  m_n = ρl/2
@@ -50,8 +50,8 @@ impl DampedString {
 
     /// `y(x, t)` by the first `count` modes.
     ///
-    /// `smoothed` fades the last terms out by `e^(−36 (n/count)⁸)`: the string's shape has jumps, and
-    /// a sum cut off sharply is wrong by `1/count` everywhere, not just at the jumps.
+    /// `smoothed` fades the last terms out by `e^(−36 (n/count)⁸)`: the string's shape has jumps,
+    /// and a sum cut off sharply is wrong by `1/count` everywhere, not just at the jumps.
     pub fn by_modes(&self, count: usize, blow: Blow, x: f64, t: f64, smoothed: bool) -> f64 {
         let orders = || 1..=count;
         let modes: Vec<_> = orders().map(|n| self.mode(n)).collect();
@@ -64,8 +64,8 @@ impl DampedString {
 
     /// `y(x, t)` in closed form.
     ///
-    /// On an endless string `y = J/(2ρv) e^(−bt) I₀(b √(t² − d²/v²))` within the distance `d < vt` of
-    /// the blow and 0 beyond, `b = c/2ρ`, `v = √(T/ρ)`. Fixed ends add mirror images with the
+    /// On an endless string `y = J/(2ρv) e^(−bt) I₀(b √(t² − d²/v²))` within the distance `d < vt`
+    /// of the blow and 0 beyond, `b = c/2ρ`, `v = √(T/ρ)`. Fixed ends add mirror images with the
     /// opposite sign.
     pub fn by_fronts(&self, blow: Blow, x: f64, t: f64) -> f64 {
         let (v, b) = (self.wave_speed(), self.damping / (2.0 * self.line_mass));

@@ -1,7 +1,9 @@
 //! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
 //!
-//! All share the plan of the first until one of them misses the tolerance by its own estimate:
-//! that one is planned and solved on its own. Once warm nothing is allocated for a bat.
+//! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
+//! depend on its neighbours. A bat of other proportions, of a formula, or whose answer misses the
+//! tolerance or a node by its own account is planned and solved on its own. Once warm nothing is
+//! allocated for the others.
 
 use rayon::prelude::*;
 
@@ -13,15 +15,17 @@ use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
 use crate::plan::Plan;
+use crate::profile::Radii;
 use crate::real::Real;
-use crate::solve::{Request, solve, stop_at};
+use crate::solve::{Request, Solver, solve, stop_at, wanted};
 
 /// The modes of one bat of many. The slices hold until the next bat.
 #[derive(Debug, Clone, Copy)]
 pub struct Found<'a> {
     /// Angular frequencies ω (rad/s), rising.
     pub omegas: &'a [f64],
-    /// Relative errors of the frequencies, estimated; of round-off only where a mesh was asked for.
+    /// Relative errors of the frequencies, estimated; where a mesh was asked for, without what the
+    /// mesh costs.
     pub errors: &'a [f64],
     /// `∫ρA φ² dx` (kg).
     pub modal_masses: &'a [f64],
@@ -41,39 +45,51 @@ pub enum Way {
     SideBySide,
 }
 
-/// Degrees that a batch plans with: a program for every one would be large.
+/// Degrees that a batch is compiled for: a program for every one would be large.
 const DEGREES: [usize; 5] = [3, 4, 6, 8, 10];
 
 /// Solves every bat with the statics solver and shows each result to `visit`, with its place
 /// among the bats.
 ///
-/// With `request.elements` every bat gets that mesh and no error is estimated; else every
-/// frequency is within the tolerance by its estimate, as far as [`solve`] can reach it.
+/// Every frequency is within the tolerance by its estimate, as far as [`solve`] can reach it. With
+/// `request.elements` every bat gets that mesh, whose cost is not counted: the tolerance is that of
+/// the iteration alone. Both ways agree to 1e-12.
 pub fn each(
     bats: &[Bat],
     request: &Request,
     way: Way,
     mut visit: impl FnMut(usize, Result<Found<'_>>),
 ) {
-    shown_to(bats, request, way, &mut visit);
+    let request = Request { solver: Solver::Statics, ..*request };
+    shown_to(bats, &request, way, &mut visit);
 }
 
 fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
-    let Some(first) = bats.first() else { return };
+    let degree = request.degree.or(request.elements.map(|_| 3));
+    let degrees = degree.map_or(DEGREES.to_vec(), |degree| vec![degree]);
+    let first = bats.first().filter(|first| {
+        request.check().is_ok() && !has_formula(first) && DEGREES.contains(&degrees[0])
+    });
+    let Some(first) = first else { return all_alone(bats, request, visit) };
     let plan = match request.elements {
-        Some(elements) => Plan::fixed(first, elements, request.degree.unwrap_or(3)),
-        None => {
-            let degrees = request.degree.map_or(DEGREES.to_vec(), |degree| vec![degree]);
-            Plan::cheapest_among(first, request.modes, request.tolerance, &degrees)
-        }
+        Some(elements) => Plan::fixed(first, elements, degrees[0]),
+        None => Plan::cheapest_among(first, &wanted(request), &degrees),
     };
     match plan.degree {
         3 => with_degree::<4>(bats, request, way, plan, visit),
         4 => with_degree::<5>(bats, request, way, plan, visit),
-        5 | 6 => with_degree::<7>(bats, request, way, plan.of_degree(6), visit),
-        7 | 8 => with_degree::<9>(bats, request, way, plan.of_degree(8), visit),
-        _ => with_degree::<11>(bats, request, way, plan.of_degree(10), visit),
+        6 => with_degree::<7>(bats, request, way, plan, visit),
+        8 => with_degree::<9>(bats, request, way, plan, visit),
+        _ => with_degree::<11>(bats, request, way, plan, visit),
     }
+}
+
+fn all_alone(bats: &[Bat], request: &Request, visit: Visit) {
+    bats.iter().enumerate().for_each(|(k, bat)| solved_alone(k, bat, request, visit));
+}
+
+fn has_formula(bat: &Bat) -> bool {
+    bat.profile.pieces.iter().any(|piece| matches!(piece.radii, Radii::Formula(_)))
 }
 
 /// The same on all cores, the results gathered by `read`, in the order of the bats.
@@ -102,11 +118,10 @@ fn with_degree<const N: usize>(
     visit: Visit,
 ) {
     let mut alone = Worker::<f64, N>::new(&bats[0], plan.clone(), 0);
-    if let Err(error) = alone.solve(&[&bats[0]], request) {
-        // The first bat tells how many Lanczos steps there are to be; without it each is on its own.
-        drop(error);
-        bats.iter().enumerate().for_each(|(k, bat)| solved_alone(k, bat, request, visit));
-        return;
+    if alone.solve(&[&bats[0]], request).is_err() {
+        // The first bat tells how many Lanczos steps there are to be; without it each is on its
+        // own.
+        return all_alone(bats, request, visit);
     }
     alone.steps = alone.pairs.lanczos.steps;
     let mut together = Worker::<Lanes, N>::new(&bats[0], plan, alone.steps);
@@ -160,6 +175,8 @@ struct Worker<R, const N: usize> {
     errors: Vec<f64>,
     modal_masses: Vec<f64>,
     shapes: Vec<f64>,
+    /// Whether a lane's modes have all nodes that theory demands.
+    counted: Vec<bool>,
 }
 
 impl<R: Real, const N: usize> Worker<R, N> {
@@ -173,6 +190,7 @@ impl<R: Real, const N: usize> Worker<R, N> {
             errors: vec![],
             modal_masses: vec![],
             shapes: vec![],
+            counted: vec![],
         }
     }
 
@@ -191,7 +209,8 @@ impl<R: Real, const N: usize> Worker<R, N> {
                 lane * modes * each..(lane + 1) * modes * each
             };
             let errors = &self.errors[own(&self.errors, 1)];
-            if request.elements.is_none() && !errors.iter().all(|e| *e <= request.tolerance) {
+            let met = errors.iter().all(|error| *error <= request.tolerance);
+            if !met || !self.counted[lane] {
                 solved_alone(first + lane, bats[lane], request, visit);
                 continue;
             }
@@ -217,6 +236,8 @@ impl<R: Real, const N: usize> Worker<R, N> {
             values.resize(numbers, 0.0);
         }
         self.shapes.resize(numbers * N * self.plan.mesh.len(), 0.0);
+        self.counted.clear();
+        self.counted.resize(R::LANES, true);
         if R::LANES == 1 {
             self.pairs.assemble(bats, &[&self.meshes[0]]);
         } else {
@@ -246,15 +267,23 @@ impl<R: Real, const N: usize> Worker<R, N> {
         motion.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
         let scale = R::splat(1.0).copysign(motion.ends[1][0]) / largest;
         let mass = motion.kinetic * scale * scale;
+        let residual = self.pairs.lanczos.residuals[k];
+        let crossings = motion.crossings(statics);
         let elements = statics.cells.len();
         for lane in 0..R::LANES {
             let place = lane * modes + k;
-            let omega = motion.omega.lane(lane);
+            let (omega, residual) = (motion.omega.lane(lane), residual.lane(lane));
             self.omegas[place] = omega;
             self.modal_masses[place] = mass.lane(lane);
             let ratio = omega / self.omegas[lane * modes];
-            let defect = if depth == Depth::Defect { motion.defect.lane(lane) } else { 0.0 };
-            self.errors[place] = 0.5 * defect + round_off(ratio, elements);
+            // An eigenvalue of the compliance is known to ε of the greatest one.
+            let round_off = round_off(ratio, elements) + 0.5 * f64::EPSILON * ratio * ratio;
+            self.errors[place] = round_off
+                + match depth {
+                    Depth::Shape => 0.5 * residual * residual,
+                    _ => 0.5 * motion.defect.lane(lane),
+                };
+            self.counted[lane] &= crossings.lane(lane) == (k + 2) as f64;
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
             let (knob, tip) = motion.shape.split_at(statics.split);
             let scale = scale.lane(lane);

@@ -34,14 +34,15 @@ pub fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, factored:
 /// sees the nearest ones. The eigensolve left no more of them than `c = residual/gap` (Davis and
 /// Kahan); the mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both
 /// frequencies. Where a deflection is superconvergent, at the ends, that is all its error. Above
-/// the highest mode the gap is taken to be the one below.
+/// the highest mode the gap is taken to be the one below. Frequencies nearer to each other than ε
+/// count as that near.
 pub fn add_neighbours(modes: &mut [Mode], factored: bool) {
     let mut below: Option<(f64, f64)> = None;
     for k in 0..modes.len() {
         let above = modes.get(k + 1).map(|mode| (mode.omega, mode.error.discretization));
         let mode = &mut modes[k];
         let own = (mode.omega, mode.error.discretization);
-        let gap = |other: f64| (1.0 - (own.0 / other).powi(2)).abs();
+        let gap = |other: f64| (1.0 - (own.0 / other).powi(2)).abs().max(f64::EPSILON);
         let share = |(omega, error): (f64, f64)| 2.0 * (own.1 * error).sqrt() / gap(omega);
         let shares = [below, above].map(|other| other.map(share));
         let gaps = [below, above].map(|other| other.map_or(1.0, |other| gap(other.0).min(1.0)));

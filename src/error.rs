@@ -39,8 +39,8 @@ pub enum Error {
 
     /// The iteration stopped before every wanted mode had converged.
     #[error(
-        "{converged} of {wanted} modes converged in {steps} Lanczos steps; \
-         ask for fewer modes or report this bat"
+        "only {converged} of {wanted} modes converged in {steps} Lanczos steps, and a list with \
+         holes is no answer; ask for fewer modes or report this bat"
     )]
     NotConverged { wanted: usize, converged: usize, steps: usize },
 

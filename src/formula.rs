@@ -10,7 +10,8 @@
 //! atom    = number | "x" | "pi" | function "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
 //!
-//! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½.
+//! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. It is spelled out with the parser
+//! library winnow, because ready-made expression evaluators take `-2^2` for 4.
 
 use std::sync::Arc;
 

@@ -1,4 +1,7 @@
 //! Several numbers side by side, for as many bats at once as a vector of the machine holds.
+//!
+//! Plain loops over arrays, which the compiler turns into vector instructions;
+//! [`crate::eigenpairs`] has pulp choose the widest that the machine knows.
 
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

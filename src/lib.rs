@@ -87,6 +87,7 @@ pub mod beam;
 pub mod eigenpairs;
 pub mod modes;
 pub mod certificate;
+pub mod factored;
 pub mod plan;
 pub mod solve;
 pub mod batch;

@@ -386,7 +386,8 @@ mod tests {
 
     #[test]
     fn zeros_and_extremes_of_a_cubic_are_found_wherever_they_lie() {
-        // ξ³ − ξ/4 on one element from 0 to 2: zeros at 1, 1 ± ½; extremes inside and 3/4 at the ends.
+        // ξ³ − ξ/4 on one element from 0 to 2: zeros at 1, 1 ± ½; extremes inside and 3/4 at the
+        // ends.
         let stretches = Arc::new(vec![(1.0, 2.0)]);
         let shape = Shape { stretches, terms: 4, coefficients: vec![0.0, 0.6 - 0.25, 0.0, 0.4] };
         let zeros = zeros(&shape);

@@ -101,8 +101,8 @@ mod tests {
         }
     }
 
-    /// Name, x, y, queries, and the values there of `PchipInterpolator(x, y)`, SciPy 1.17.1, printed
-    /// with `repr`.
+    /// Name, x, y, queries, and the values there of `PchipInterpolator(x, y)`, SciPy 1.17.1,
+    /// printed with `repr`.
     const SCIPY_PCHIP: [Table; 8] = [
         (
             "MONOTONE",

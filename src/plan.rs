@@ -26,6 +26,19 @@ pub struct Plan {
     pub reason: String,
 }
 
+/// What a plan is to reach.
+#[derive(Debug, Clone, Copy)]
+pub struct Wanted {
+    /// Number of bending modes.
+    pub modes: usize,
+    /// Relative error of every frequency.
+    pub tolerance: f64,
+    /// The degree, if it is not free.
+    pub degree: Option<usize>,
+    /// More than this only if the profile has as many pieces.
+    pub most_unknowns: usize,
+}
+
 /// How much of `Δ ln r` over an element counts as half a wave.
 const TAPER: f64 = 3.0;
 /// The plan aims at this share of the wanted error, because no element is like the formula's.
@@ -48,21 +61,25 @@ struct Survey {
 impl Plan {
     /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes,
     /// with that degree if one is given.
-    pub fn cheapest(bat: &Bat, modes: usize, tolerance: f64, degree: Option<usize>) -> Self {
-        let all: Vec<usize> = degree.map_or(DEGREES, |degree| degree..=degree).collect();
-        Self::cheapest_among(bat, modes, tolerance, &all)
+    pub fn cheapest(bat: &Bat, wanted: &Wanted) -> Self {
+        let all: Vec<usize> = wanted.degree.map_or(DEGREES, |degree| degree..=degree).collect();
+        Self::cheapest_among(bat, wanted, &all)
     }
 
     /// The same with one of these degrees.
-    pub fn cheapest_among(bat: &Bat, modes: usize, tolerance: f64, degrees: &[usize]) -> Self {
+    pub fn cheapest_among(bat: &Bat, wanted: &Wanted, degrees: &[usize]) -> Self {
+        let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
         // No finer than arithmetic can tell; the verdict stays on what was asked.
         let tolerance = tolerance.max(FINEST);
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
         let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase;
         let lengths: Vec<f64> = survey.pieces.iter().map(|piece| total(piece, wave)).collect();
+        let whole: f64 = lengths.iter().sum();
         let candidates = degrees.iter().map(|&degree| {
-            let reach = reach(degree, AIM * tolerance);
+            // A plan that would be too large is made as large as it may be.
+            let least = whole * (degree - 1) as f64 / most_unknowns as f64;
+            let reach = reach(degree, AIM * tolerance).max(least);
             let count: usize = lengths.iter().map(|length| elements(*length, reach)).sum();
             (cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64, degree, reach)
         });
@@ -75,7 +92,12 @@ impl Plan {
         while (degree - 1) * mesh.len() < modes {
             mesh = mesh.refined(|_| 2);
         }
-        let reason = format!("cheapest plan for {tolerance:.0e}");
+        let among = match degrees {
+            [degree] => format!("fewest elements of degree {degree}"),
+            [.., last] => format!("cheapest of degrees {} to {last}", degrees[0]),
+            [] => String::new(),
+        };
+        let reason = format!("{among} for {tolerance:.0e}, by formula");
         Self { mesh, degree, reason }
     }
 
@@ -91,14 +113,14 @@ impl Plan {
     }
 
     /// The plan after a solve that missed, from every element's `defects` (twice the relative error
-    /// of a frequency): one degree more where little is missing and `free` to choose, else every element cut into as
-    /// many parts as its own part of the error asks for.
+    /// of a frequency): one degree more where little is missing and `free` to choose, else every
+    /// element cut into as many parts as its own part of the error asks for.
     pub fn refined(&self, defects: &[f64], tolerance: f64, free: bool) -> Self {
         // A degree more takes about two digits off the error, and costs a fifth of the time.
         const LITTLE: f64 = 100.0;
         let (count, error) = (self.mesh.len() as f64, 0.5 * defects.iter().sum::<f64>());
         if free && error < LITTLE * tolerance && self.degree < *DEGREES.end() {
-            let reason = format!("one degree more than planned, for {tolerance:.0e}");
+            let reason = format!("the planned degree missed {tolerance:.0e}, so one more");
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
@@ -109,7 +131,7 @@ impl Plan {
         };
         let worst = (0..self.mesh.len()).max_by(|&a, &b| defects[a].total_cmp(&defects[b]));
         let mesh = self.mesh.refined(|k| if Some(k) == worst { parts(k).max(2) } else { parts(k) });
-        let reason = format!("refined where the error was, for {tolerance:.0e}");
+        let reason = format!("the plan missed {tolerance:.0e}, refined where the error was");
         Self { mesh, reason, ..*self }
     }
 }

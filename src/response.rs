@@ -88,8 +88,8 @@ pub fn orthogonality(masses: &[f64], shapes: &[Vec<f64>]) -> Vec<Vec<f64>> {
 ///
 /// # Source
 ///
-/// Chapter 2 and Fig. 9 of the WPI report (named in [`crate::dowel::wpi_alpha`]), which leaves out the
-/// rigid pair: its sum then tends to `w₀` less its rigid part.
+/// Chapter 2 and Fig. 9 of the WPI report (named in [`crate::dowel::wpi_alpha`]), which leaves out
+/// the rigid pair: its sum then tends to `w₀` less its rigid part.
 pub fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
     shapes.iter().map(|shape| dot(masses, shape, w0) / dot(masses, shape, shape)).collect()
 }
@@ -97,7 +97,8 @@ pub fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
 /// `q_n(t) = J φ_n(a) h_n(t)`: each mode's displacement after an impulse `J` (N s) at `a`.
 ///
 /// `shape_at_a` holds `φ_n(a)`. With the shapes at `x` this is the response `w(x, t)`; its velocity
-/// at `t = 0` is a series that does not converge, for a force that lasts no time has no finite power.
+/// at `t = 0` is a series that does not converge, for a force that lasts no time has no finite
+/// power.
 pub fn struck(modes: &[Oscillator], shape_at_a: &[f64], impulse: f64, t: f64) -> Vec<f64> {
     modes.iter().zip(shape_at_a).map(|(m, phi)| impulse * phi * m.impulse_response(t)).collect()
 }
@@ -141,7 +142,8 @@ mod tests {
         (1..=count).map(|n| sample(UniformMode::new(Ends::FreeFree, n))).collect()
     }
 
-    /// `q̈ + 2ζω q̇ + ω² q = 0`, with derivatives by central differences (error h²/6 × ω³ and ω⁴ q).
+    /// `q̈ + 2ζω q̇ + ω² q = 0`, with derivatives by central differences (error h²/6 × ω³ and ω⁴
+    /// q).
     #[test]
     fn free_motion_obeys_its_equation_under_over_and_at_critical_damping() {
         let h = 1e-5;
@@ -185,7 +187,8 @@ mod tests {
     #[test]
     fn rigid_motions_are_orthogonal_and_weigh_the_mass_and_the_inertia() {
         let x = grid(1000);
-        // A bar of 3 kg/m growing to 5: mass 4 kg, balance point 13/24 m, inertia 13/4 − 4 (13/24)².
+        // A bar of 3 kg/m growing to 5: mass 4 kg, balance point 13/24 m, inertia 13/4 − 4
+        // (13/24)².
         let density: Vec<f64> = x.iter().map(|x| 3.0 + 2.0 * x).collect();
         let masses = trapezoid_masses(&x, &density);
         let [[m, cross], [_, inertia]] = {

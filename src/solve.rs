@@ -4,32 +4,17 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::bat::Bat;
-use crate::beam::assembly::{Pencil, places};
-use crate::beam::element::{self, Element};
+use crate::beam::element;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
-use crate::beam::statics::Statics;
-use crate::certificate::{account, add_neighbours};
-use crate::eigen::{dense, shift_invert};
+use crate::beam::rule::DEGREES;
+use crate::certificate::{account, add_neighbours, round_off};
 use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
+use crate::factored;
 use crate::modes::{Mode, Shape};
-use crate::plan::Plan;
+use crate::plan::{Plan, Wanted};
 
-type Sparse = nalgebra_sparse::CscMatrix<f64>;
-
-/// How the eigenvalues are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Solver {
-    /// Lanczos on the compliance by running sums: any size, round-off of order ε.
-    Statics,
-    /// Cholesky reduction and a dense eigensolve: small meshes, round-off of order ε n⁴.
-    Dense,
-    /// Lanczos on a sparsely factored `K + σM`: round-off of order ε n⁴.
-    ShiftInvert,
-    /// ARPACK on the same, behind the cargo feature `arpack`: the outside referee.
-    Arpack,
-}
+pub use crate::factored::{MOST_DENSE, Solver, own_and_recomputed};
 
 /// What is asked of a solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +36,39 @@ impl Default for Request {
     }
 }
 
+impl Request {
+    /// Whether that can be asked of that bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, and for a
+    /// mesh that would not fit into memory.
+    pub fn check(&self) -> Result<()> {
+        if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
+            let expected = "a number between 0 and 1, such as 1e-6";
+            return Err(Error::value("tolerance", self.tolerance, expected));
+        }
+        if let Some(degree) = self.degree.filter(|degree| !DEGREES.contains(degree)) {
+            return Err(Error::value("degree", degree, "3 to 12"));
+        }
+        let Some(elements) = self.elements else { return Ok(()) };
+        if elements == 0 {
+            return Err(Error::value("elements", 0, "1 or more"));
+        }
+        // A link, its factor and samples for each element, a vector for each step and shape.
+        let terms = self.degree.unwrap_or(3) as f64 + 1.0;
+        let numbers = 2.0 * terms * terms + 12.0 * terms + 40.0;
+        let vectors = 3.0 * terms * (self.modes as f64 + 10.0);
+        let gigabytes = 8e-9 * elements as f64 * (numbers + vectors);
+        if gigabytes > MOST_GIGABYTES {
+            let found = format!("{elements} with {} modes, {gigabytes:.0} GB", self.modes);
+            let expected = format!("what fits into {MOST_GIGABYTES} GB: fewer elements or modes");
+            return Err(Error::value("elements", found, expected));
+        }
+        Ok(())
+    }
+}
+
 /// The modes of a bat, how they were found and how far they may be trusted.
 #[derive(Debug, Clone)]
 pub struct Solution {
@@ -63,15 +81,20 @@ pub struct Solution {
     pub reason: String,
     /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
-    /// Whether every frequency is within the wanted tolerance by its own estimate, and none missing.
+    /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
+    /// missing.
     pub met: bool,
+    /// What ended the refinement before the tolerance was met, if something did.
+    pub stopped: Option<String>,
     pub timing: Timing,
 }
 
 impl Solution {
     /// The largest relative error of a frequency, by its own estimate.
     pub fn worst(&self) -> f64 {
-        self.modes.iter().map(|mode| mode.error.total()).fold(0.0, f64::max)
+        // No number is no bound, which a maximum would pass over.
+        let known = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
+        self.modes.iter().map(|mode| known(mode.error.total())).fold(0.0, f64::max)
     }
 
     /// Whether every mode n has the n + 1 nodes that theory demands: then none is missing.
@@ -93,7 +116,10 @@ impl Solution {
                 mode.nodes.len(),
                 mode.order + 1
             ),
-            None => "further refinement gained nothing or grew too large".to_owned(),
+            None => match &self.stopped {
+                Some(reason) => reason.clone(),
+                None => "further refinement gained nothing".to_owned(),
+            },
         }
     }
 
@@ -111,12 +137,8 @@ pub struct Timing {
     pub solve: Duration,
 }
 
-/// More unknowns than this and the answer is given as it is.
-const MOST_UNKNOWNS: usize = 1 << 21;
-/// The dense solver needs n² memory and n³ time.
-pub const MOST_DENSE: usize = 4098;
-/// Beyond this a factored `K` has lost all digits.
-const MOST_FACTORED: usize = 20_000;
+/// A mesh that needs more memory is refused.
+const MOST_GIGABYTES: f64 = 8.0;
 /// Residual of an eigenpair that is as good as arithmetic allows.
 const CONVERGED: f64 = 1e-13;
 /// Refinements before the answer is given as it is.
@@ -126,16 +148,17 @@ const MOST_ROUNDS: usize = 12;
 ///
 /// # Errors
 ///
-/// [`Error::TooFewElements`] where the asked elements cannot bend in so many ways,
-/// [`Error::TooLarge`] for the dense solver, [`Error::Factorization`] for those that factor `K`,
-/// [`Error::NotBuilt`] without ARPACK, [`Error::NotConverged`]. An accuracy that
-/// cannot be reached is no error: the best answer comes back with `met` false.
+/// Those of [`Request::check`]; [`Error::TooFewElements`] where the asked elements cannot bend in
+/// so many ways, [`Error::TooLarge`] for the dense solver, [`Error::Factorization`] for those that
+/// factor `K`, [`Error::NotBuilt`] without ARPACK, [`Error::NotConverged`]. An accuracy that cannot
+/// be reached is no error: the best answer comes back with `met` false.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
+    request.check()?;
     let started = Instant::now();
     let mut timing = Timing::default();
     let mut plan = match request.elements {
         Some(elements) => Plan::fixed(bat, elements, request.degree.unwrap_or(3)),
-        None => Plan::cheapest(bat, request.modes, request.tolerance, request.degree),
+        None => Plan::cheapest(bat, &wanted(request)),
     };
     timing.plan = started.elapsed();
     let unknowns = |plan: &Plan| (plan.degree - 1) * plan.mesh.len();
@@ -147,7 +170,16 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
     for round in 0..MOST_ROUNDS {
-        let answer = on_mesh(bat, &plan, request, residual, &mut timing)?;
+        let task = Task { bat, plan: &plan, request, residual };
+        let answer = match (task.run(&mut timing), &mut best) {
+            (Ok(answer), _) => answer,
+            (Err(error), Some(best)) => {
+                // The answer before this refinement stands.
+                best.stopped = Some(error.to_string());
+                break;
+            }
+            (Err(error), None) => return Err(error),
+        };
         let again = request.solver == Solver::Statics && residual > CONVERGED;
         if again && !answer.modes.iter().all(Mode::has_its_nodes) {
             // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
@@ -170,8 +202,13 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             best = Some(solution);
         }
         match next {
-            Some(next) if unknowns(&next) <= most_unknowns(request.solver) => plan = next,
-            _ => break,
+            Some(next) if unknowns(&next) <= request.solver.most_unknowns() => plan = next,
+            Some(next) => {
+                let too_many = format!("a refinement would take {} unknowns", unknowns(&next));
+                best.iter_mut().for_each(|best| best.stopped = Some(too_many.clone()));
+                break;
+            }
+            None => break,
         }
     }
     Ok(best.expect("there was a round"))
@@ -186,12 +223,20 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
 /// As [`solve`].
 pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<Solution> {
     let started = Instant::now();
-    let mut best: Option<Solution> = None;
+    let (mut best, mut first) = (None::<Solution>, Duration::ZERO);
     for digits in 1..=14 {
         let begun = Instant::now();
-        let solution =
-            solve(bat, &Request { tolerance: 10f64.powi(-digits), elements: None, ..*request })?;
+        let digit = Request { tolerance: 10f64.powi(-digits), elements: None, ..*request };
+        let solution = match solve(bat, &digit) {
+            Ok(solution) => solution,
+            // A digit that cannot be had ends the search, not the answer.
+            Err(_) if best.is_some() => break,
+            Err(error) => return Err(error),
+        };
         let (last, spent) = (begun.elapsed(), started.elapsed());
+        if best.is_none() {
+            first = spent;
+        }
         let better = best.as_ref().is_none_or(|best| solution.worst() < best.worst());
         let over = spent + last + last / 2 > budget || !solution.met;
         if better && (spent <= budget || best.is_none()) {
@@ -203,15 +248,10 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
     }
     let mut best = best.expect("there was a first digit");
     best.reason = format!("the most accurate within {budget:?}");
-    Ok(best)
-}
-
-fn most_unknowns(solver: Solver) -> usize {
-    match solver {
-        Solver::Statics => MOST_UNKNOWNS,
-        Solver::Dense => MOST_DENSE - 2,
-        Solver::ShiftInvert | Solver::Arpack => MOST_FACTORED,
+    if first > budget {
+        best.stopped = Some(format!("the first digit took {first:?}, {budget:?} were allowed"));
     }
+    Ok(best)
 }
 
 /// Modes on one mesh.
@@ -234,81 +274,97 @@ impl Answer {
             degree: plan.degree,
             reason: plan.reason,
             steps: self.steps,
+            stopped: None,
             timing,
         };
         (solution, self.defects)
     }
 }
 
-/// The modes on one mesh, whatever accuracy that gives.
-fn on_mesh(
-    bat: &Bat,
-    plan: &Plan,
-    request: &Request,
+/// One mesh to solve, to a residual.
+struct Task<'a> {
+    bat: &'a Bat,
+    plan: &'a Plan,
+    request: &'a Request,
     residual: f64,
-    timing: &mut Timing,
-) -> Result<Answer> {
-    match plan.degree {
-        3 => of_degree::<4>(bat, plan, request, residual, timing),
-        4 => of_degree::<5>(bat, plan, request, residual, timing),
-        5 => of_degree::<6>(bat, plan, request, residual, timing),
-        6 => of_degree::<7>(bat, plan, request, residual, timing),
-        7 => of_degree::<8>(bat, plan, request, residual, timing),
-        8 => of_degree::<9>(bat, plan, request, residual, timing),
-        9 => of_degree::<10>(bat, plan, request, residual, timing),
-        10 => of_degree::<11>(bat, plan, request, residual, timing),
-        11 => of_degree::<12>(bat, plan, request, residual, timing),
-        _ => of_degree::<13>(bat, plan, request, residual, timing),
+}
+
+impl Task<'_> {
+    /// The modes on the mesh, whatever accuracy that gives.
+    fn run(&self, timing: &mut Timing) -> Result<Answer> {
+        match self.plan.degree {
+            3 => self.of_degree::<4>(timing),
+            4 => self.of_degree::<5>(timing),
+            5 => self.of_degree::<6>(timing),
+            6 => self.of_degree::<7>(timing),
+            7 => self.of_degree::<8>(timing),
+            8 => self.of_degree::<9>(timing),
+            9 => self.of_degree::<10>(timing),
+            10 => self.of_degree::<11>(timing),
+            11 => self.of_degree::<12>(timing),
+            _ => self.of_degree::<13>(timing),
+        }
+    }
+
+    fn of_degree<const N: usize>(&self, timing: &mut Timing) -> Result<Answer> {
+        let Self { bat, plan, request, .. } = *self;
+        let started = Instant::now();
+        let mut pairs = Eigenpairs::<f64, N>::new(bat);
+        pairs.assemble(&[bat], &[&plan.mesh]);
+        let assembled = Instant::now();
+        timing.assemble += assembled - started;
+        let (strains, steps) = self.strains(&mut pairs)?;
+        let stretches = Arc::new(plan.mesh.stretches());
+        let missed = |e| element::missed(bat, e, pairs.statics.rule);
+        let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
+        let factored = request.solver != Solver::Statics;
+        let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
+        let mut defects = vec![0.0; plan.mesh.len()];
+        for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
+            look_at(&mut pairs, strains, modes.first());
+            let (statics, motion) = (&pairs.statics, &pairs.motion);
+            let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
+            mode.error.discretization += missed;
+            account(&mut mode, modes.first(), plan.mesh.len(), factored);
+            motion.add_defects(statics, &mut defects);
+            modes.push(mode);
+        }
+        add_neighbours(&mut modes, factored);
+        timing.solve += assembled.elapsed();
+        Ok(Answer { modes, steps, defects })
+    }
+
+    /// Scaled strains of the wanted modes, and the steps that the solver took.
+    fn strains<const N: usize>(&self, pairs: &mut Eigenpairs<f64, N>) -> Result<(Vec<f64>, usize)> {
+        let Self { bat, plan, request, residual } = *self;
+        match request.solver {
+            _ if request.modes == 0 => Ok((vec![], 0)),
+            Solver::Statics => {
+                match Moments::of(bat, plan, request) {
+                    Some(coarse) => {
+                        pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
+                    }
+                    None => pairs.solve(request.modes, residual)?,
+                }
+                let lanczos = std::mem::take(&mut pairs.lanczos);
+                Ok((lanczos.vectors, lanczos.steps))
+            }
+            solver => factored::strains(bat, &plan.mesh, &pairs.statics, request.modes, solver),
+        }
     }
 }
 
-fn of_degree<const N: usize>(
-    bat: &Bat,
-    plan: &Plan,
-    request: &Request,
-    residual: f64,
-    timing: &mut Timing,
-) -> Result<Answer> {
-    let started = Instant::now();
-    let mut pairs = Eigenpairs::<f64, N>::new(bat);
-    pairs.assemble(&[bat], &[&plan.mesh]);
-    let assembled = Instant::now();
-    timing.assemble += assembled - started;
-    let (strains, steps) = match request.solver {
-        _ if request.modes == 0 => (vec![], 0),
-        Solver::Statics => {
-            match Moments::of(bat, plan, request)? {
-                Some(coarse) => {
-                    pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
-                }
-                None => pairs.solve(request.modes, residual)?,
-            }
-            let lanczos = std::mem::take(&mut pairs.lanczos);
-            (lanczos.vectors, lanczos.steps)
+/// Looks at a motion with its changes, but for a mesh so fine that there are none but round-off:
+/// a third of the work.
+fn look_at<const N: usize>(pairs: &mut Eigenpairs<f64, N>, strains: &[f64], first: Option<&Mode>) {
+    if pairs.statics.dimension() > LARGE {
+        pairs.look_at(strains, Depth::Defect);
+        let ratio = pairs.motion.omega / first.map_or(pairs.motion.omega, |mode| mode.omega);
+        if 0.5 * pairs.motion.defect <= round_off(ratio, pairs.statics.cells.len()) {
+            return;
         }
-        solver => by_pencil(bat, plan, &pairs.statics, request.modes, solver)?,
-    };
-    let stretches = Arc::new(plan.mesh.stretches());
-    let missed = |e| element::missed(bat, e, pairs.statics.rule);
-    let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
-    // On a mesh so fine the shapes change by round-off only.
-    let large = pairs.statics.dimension() > LARGE;
-    let depth = if large { Depth::Defect } else { Depth::Changes };
-    let factored = request.solver != Solver::Statics;
-    let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
-    let mut defects = vec![0.0; plan.mesh.len()];
-    for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
-        pairs.look_at(strains, depth);
-        let (statics, motion) = (&pairs.statics, &pairs.motion);
-        let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
-        mode.error.discretization += missed;
-        account(&mut mode, modes.first(), plan.mesh.len(), factored);
-        motion.add_defects(statics, &mut defects);
-        modes.push(mode);
     }
-    add_neighbours(&mut modes, factored);
-    timing.solve += assembled.elapsed();
-    Ok(Answer { modes, steps, defects })
+    pairs.look_at(strains, Depth::Changes);
 }
 
 /// Beyond so many unknowns the iteration starts from a coarse solution.
@@ -316,30 +372,25 @@ const LARGE: usize = 20_000;
 
 /// Bending moments of all wanted modes together, from a coarse solution: a start from which the
 /// iteration needs as many steps as there are modes and hardly more.
-struct Moments {
-    bat: Bat,
+struct Moments<'a> {
+    bat: &'a Bat,
     /// The sum of the shapes, each with the same strain energy.
     sum: Shape,
 }
 
-impl Moments {
-    /// None where the mesh is not large or not the user's own, or where a coarse one would be
-    /// large too: that of a bat of many stations.
-    fn of(bat: &Bat, plan: &Plan, request: &Request) -> Result<Option<Self>> {
-        let asked = request.elements.is_some();
-        let request = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };
-        let large = |plan: &Plan| (plan.degree - 1) * plan.mesh.len() > LARGE;
-        let stations = bat.profile.pieces.len() > LARGE;
-        if !asked || stations || !large(plan) {
-            return Ok(None);
+impl<'a> Moments<'a> {
+    /// None where the mesh is not large or not the user's own, and where there is no small and
+    /// certain coarse solution: that of a bat of many stations is large too.
+    fn of(bat: &'a Bat, plan: &Plan, request: &Request) -> Option<Self> {
+        let large = (plan.degree - 1) * plan.mesh.len() > LARGE;
+        if request.elements.is_none() || !large || bat.profile.pieces.len() > LARGE / 16 {
+            return None;
         }
-        if large(&Plan::cheapest(bat, request.modes, request.tolerance, None)) {
-            return Ok(None);
-        }
-        let coarse = solve(bat, &request)?;
+        let wanted = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };
+        let coarse = solve(bat, &wanted).ok().filter(Solution::complete)?;
         let scale = |mode: &Mode| 1.0 / (mode.omega * mode.modal_mass.sqrt());
         let parts: Vec<_> = coarse.modes.iter().map(|mode| (scale(mode), &mode.shape)).collect();
-        Ok(Some(Self { bat: bat.clone(), sum: Shape::sum(&parts) }))
+        Some(Self { bat, sum: Shape::sum(&parts) })
     }
 
     /// From places, 0 to 1 along the bat, to the moments there.
@@ -353,6 +404,16 @@ impl Moments {
     }
 }
 
+/// What the planner is asked for.
+pub fn wanted(request: &Request) -> Wanted {
+    Wanted {
+        modes: request.modes,
+        tolerance: request.tolerance,
+        degree: request.degree,
+        most_unknowns: request.solver.most_unknowns(),
+    }
+}
+
 /// The residual to stop the eigensolve at: its part of the error is then small beside the mesh's.
 /// The eigenvalue's is the square of the residual, the shape's is the residual itself.
 pub fn stop_at(request: &Request) -> f64 {
@@ -360,131 +421,4 @@ pub fn stop_at(request: &Request) -> f64 {
         Some(_) => 1e-10,
         None => (0.1 * request.tolerance.powf(0.75)).clamp(CONVERGED, 1e-3),
     }
-}
-
-/// The other solvers: eigenvectors of the assembled matrices, as scaled strains.
-fn by_pencil<const N: usize>(
-    bat: &Bat,
-    plan: &Plan,
-    statics: &Statics<f64, N>,
-    count: usize,
-    solver: Solver,
-) -> Result<(Vec<f64>, usize)> {
-    let elements = element::elements::<N>(bat, &plan.mesh);
-    let pairs = of_pencil(statics, &elements, count, solver)?;
-    let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
-    Ok((pairs.vectors.iter().flat_map(strains).collect(), pairs.steps))
-}
-
-/// What a solver makes of the assembled matrices.
-struct Pairs {
-    /// Its own λ = ω² (1/s²), rising.
-    values: Vec<f64>,
-    vectors: Vec<Vec<f64>>,
-    steps: usize,
-}
-
-/// The `count` lowest bending modes by a solver that factors `K`; for the statics, which factors
-/// nothing, by shift-invert.
-fn of_pencil<const N: usize>(
-    statics: &Statics<f64, N>,
-    elements: &[Element<f64, N>],
-    count: usize,
-    solver: Solver,
-) -> Result<Pairs> {
-    let unknowns = statics.dimension() + 2;
-    if solver == Solver::Dense && unknowns > MOST_DENSE {
-        return Err(Error::TooLarge { most: MOST_DENSE, found: unknowns });
-    }
-    let Pencil { stiffness: k, mass: m } = Pencil::assemble(elements);
-    let (shift, all) = (shift(statics), count + 2);
-    let mut pairs = match solver {
-        Solver::Arpack => arpack(&k, &m, shift, all)?,
-        Solver::Dense => {
-            let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
-            let (values, vectors) = dense::generalized(&k, &m, shift).ok_or(failed)?;
-            Pairs { values, vectors, steps: 0 }
-        }
-        Solver::ShiftInvert | Solver::Statics => {
-            shift_invert::lowest(&k, &m, shift, all, 1e-12)?.into()
-        }
-    };
-    // The rigid motions are found too, and left: a free bat always has two.
-    pairs.values = pairs.values.drain(2..all.min(pairs.values.len())).collect();
-    pairs.vectors = pairs.vectors.drain(2..all.min(pairs.vectors.len())).collect();
-    Ok(pairs)
-}
-
-impl From<shift_invert::Pairs> for Pairs {
-    fn from(pairs: shift_invert::Pairs) -> Self {
-        Self { values: pairs.values, vectors: pairs.vectors, steps: pairs.steps }
-    }
-}
-
-#[cfg(feature = "arpack")]
-fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<Pairs> {
-    Ok(crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?.into())
-}
-
-#[cfg(not(feature = "arpack"))]
-fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
-    Err(Error::NotBuilt {
-        what: "the solver arpack",
-        advice: "install libarpack2-dev and pkg-config, then build with --features arpack",
-    })
-}
-
-/// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
-fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
-    let mut start = vec![0.0; statics.dimension()];
-    statics.start(1, &mut start);
-    let mut motion = Motion::default();
-    motion.take(statics, &start, None, false);
-    motion.omega.powi(2)
-}
-
-/// Scaled strains, in the order of the statics, of the unknowns of the assembled matrices.
-fn strains_of<const N: usize>(
-    statics: &Statics<f64, N>,
-    elements: &[Element<f64, N>],
-    u: &[f64],
-) -> Vec<f64> {
-    let mut strains = Vec::with_capacity(statics.dimension());
-    for (place, cell) in statics.cells.iter().enumerate() {
-        let knob_side = place < statics.split;
-        let e = if knob_side { statics.split - 1 - place } else { place };
-        let own = places::<N>(e).map(|at| u[at]);
-        let mut c = elements[e].strains_of_hermite(&own);
-        if knob_side {
-            c.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
-        }
-        strains.extend_from_slice(&cell.scaled_strains(&c)[..N - 2]);
-    }
-    strains
-}
-
-/// The frequencies of the lowest bending modes on a mesh of cubic elements, each as the solver's
-/// own eigenvalue gives it, `√λ`, and recomputed from its shape as strain energy over kinetic
-/// energy (both rad/s). A λ below 0 counts as 0. Not for [`Solver::Statics`], which has one answer
-/// only.
-///
-/// # Errors
-///
-/// As [`solve`].
-pub fn own_and_recomputed(
-    bat: &Bat,
-    mesh: &Mesh,
-    modes: usize,
-    solver: Solver,
-) -> Result<Vec<[f64; 2]>> {
-    let mut statics = Statics::<f64, 4>::empty(bat);
-    statics.assemble(&[bat], &[mesh]);
-    let elements = element::elements::<4>(bat, mesh);
-    let pairs = of_pencil(&statics, &elements, modes, solver)?;
-    let mut motion = Motion::default();
-    let both = pairs.values.iter().zip(&pairs.vectors).map(|(value, vector)| {
-        motion.take(&statics, &strains_of(&statics, &elements, vector), None, false);
-        [value.max(0.0).sqrt(), motion.omega]
-    });
-    Ok(both.collect())
 }

@@ -1,4 +1,5 @@
-//! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its place.
+//! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its
+//! place.
 
 use std::path::Path;
 

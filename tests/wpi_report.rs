@@ -127,8 +127,8 @@ fn the_orthogonality_matrix_is_the_printed_one_up_to_its_noise() {
     }
 }
 
-/// What the script's shapes lose to cancellation in the sum of 1, 2, … 9 modes, as measured: it grows
-/// like e^b, by 23 from mode to mode, unless the seventh root's own error leads.
+/// What the script's shapes lose to cancellation in the sum of 1, 2, … 9 modes, as measured: it
+/// grows like e^b, by 23 from mode to mode, unless the seventh root's own error leads.
 const NOISE: [f64; 9] = [0.0, 0.0, 2e-14, 2e-13, 2e-12, 1.2e-11, 6e-10, 2.5e-9, 1.6e-8];
 
 #[test]
@@ -172,8 +172,8 @@ fn the_empirical_loss_is_the_reference_one_and_has_no_value_where_that_has_none(
     hold_all(&hit::three_speeds(), 25, 0.0);
 }
 
-/// The place of a flat maximum, found by comparing values, is good to √ε = 1.5e-8 on either side, and
-/// so is what depends on it in first order.
+/// The place of a flat maximum, found by comparing values, is good to √ε = 1.5e-8 on either side,
+/// and so is what depends on it in first order.
 #[test]
 fn the_summary_of_figure_18_is_the_reference_one() {
     let ours = hit::summary();

@@ -8,8 +8,9 @@ use crate::bat::Bat;
 use crate::beam::element::{Element, Matrix, elements};
 use crate::beam::mesh::Mesh;
 
-/// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and slope
-/// of every node and, after those of its left node, the bubbles of an element of degree above 3.
+/// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and
+/// slope of every node and, after those of its left node, the bubbles of an element of degree
+/// above 3.
 ///
 /// Units: deflections in m, slopes in rad, bubbles (curvatures) in 1/m; `K` in N/m to N m³, `M` in
 /// kg to kg m⁴.

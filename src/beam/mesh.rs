@@ -23,8 +23,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// About `wanted` elements spread by length, equal within each piece: exactly that many if there are no more pieces
-    /// than that, else one per piece.
+    /// About `wanted` elements spread by length, equal within each piece: exactly that many if
+    /// there are no more pieces than that, else one per piece.
     pub fn along(bat: &Bat, wanted: usize) -> Self {
         let lengths: Vec<f64> = bat.profile.pieces.iter().map(|piece| piece.length).collect();
         Self::with_counts(bat, &spread(&lengths, wanted))

@@ -2,8 +2,8 @@
 //!
 //! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a
 //! computed mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free
-//! ends, and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it is
-//! a polynomial in every element and because the eigensolve stops somewhere, and
+//! ends, and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it
+//! is a polynomial in every element and because the eigensolve stops somewhere, and
 //!
 //! ```text
 //! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
@@ -39,7 +39,8 @@ pub struct Motion<R, const N: usize> {
     pub ends: [[R; 2]; 2],
     /// `∫ρA w² dx` (kg m²).
     pub kinetic: R,
-    /// Rayleigh's quotient: ω² (1/s²) is strain energy over kinetic energy, both from the strains.
+    /// ω (rad/s): its square, Rayleigh's quotient, is strain energy over kinetic energy, both from
+    /// the strains.
     pub omega: R,
     /// `‖q − ω² A q‖/‖q‖`: how far the strains are from an eigenvector of the compliance.
     pub residual: R,
@@ -55,14 +56,15 @@ impl<R: Real, const N: usize> Motion<R, N> {
     /// The motion with those scaled strains and its energies; its defect too if wanted.
     ///
     /// With `value`, the eigenvalue of the compliance that the strains belong to, the kinetic
-    /// energy is taken from it: half the work, no residual, and round-off of ε times the greatest
-    /// eigenvalue over this one.
+    /// energy is taken from it: half the work, no residual (0), and round-off of ε times the
+    /// greatest eigenvalue over this one.
     #[inline(always)]
     pub fn take(&mut self, statics: &Statics<R, N>, q: &[R], value: Option<R>, with_defect: bool) {
         let strain = dot(q, q);
         let rigid = match value {
             Some(value) => {
                 self.kinetic = value * strain;
+                self.residual = R::default();
                 statics.rigid(q, &mut self.loads)
             }
             None => {
@@ -96,11 +98,11 @@ impl<R: Real, const N: usize> Motion<R, N> {
             }
             self.ends[0][0] = end;
         }
+        self.defect = R::default();
         if !with_defect {
             return;
         }
         let scale = R::splat(1.0) / (strain * statics.energy_unit);
-        self.defect = R::default();
         for defect in &mut self.defects {
             *defect = *defect * scale;
             self.defect += *defect;
@@ -181,6 +183,21 @@ impl<R: Real, const N: usize> Motion<R, N> {
         }
     }
 
+    /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
+    /// most as often as it is zero.
+    #[inline(always)]
+    pub fn crossings(&self, statics: &Statics<R, N>) -> R {
+        let (knob, tip) = self.deflections.split_at(statics.split * statics.rule.count());
+        let sign = |w: &R| R::splat(1.0).copysign(*w);
+        let (mut count, mut before) = (R::default(), sign(&self.ends[0][0]));
+        for w in knob.iter().rev().chain(tip).chain([&self.ends[1][0]]) {
+            let now = sign(w);
+            count += R::splat(0.5) * (R::splat(1.0) - before * now);
+            before = now;
+        }
+        count
+    }
+
     /// Raises every element's number, knob to tip, to its part of the defect, in any lane.
     pub fn add_defects(&self, statics: &Statics<R, N>, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(statics.split);
@@ -198,7 +215,8 @@ impl<R: Real, const N: usize> Motion<R, N> {
         self.ends[1][1] = R::default();
     }
 
-    /// After [`Self::take`], `w″ − w*″` at the points becomes `w − w*`, the rigid motions taken out.
+    /// After [`Self::take`], `w″ − w*″` at the points becomes `w − w*`, the rigid motions taken
+    /// out.
     #[inline(always)]
     pub fn take_changes(&mut self, statics: &Statics<R, N>) {
         let points = statics.rule.count();

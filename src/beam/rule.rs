@@ -24,6 +24,8 @@ pub struct Rule {
     from_left: Vec<f64>,
     /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: the same from the right end.
     from_right: Vec<f64>,
+    /// Weights that give the last two coefficients of the Legendre series through the points.
+    last: [Vec<f64>; 2],
 }
 
 /// Points whose numbers are computed together; the tables are filled up to a multiple.
@@ -103,8 +105,12 @@ impl Rule {
         };
         let from_left = table(&entry);
         let from_right = table(&|j, i| entry(count - 1 - j, count - 1 - i));
+        let last = [count - 2, count - 1].map(|k| {
+            let weight = |i: usize| (2 * k + 1) as f64 * places[i].1 * at[i][k];
+            (0..count).map(weight).collect()
+        });
         let points = places.iter().map(point).collect();
-        Self { points, legendre, by_term, from_left, from_right }
+        Self { points, legendre, by_term, from_left, from_right, last }
     }
 
     /// Number of points.
@@ -164,14 +170,11 @@ impl Rule {
     /// The last two coefficients of the Legendre series through values at the points, relative to
     /// the largest value.
     pub fn tail(&self, values: &[f64]) -> f64 {
-        let count = self.count();
-        let largest = values[..count].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-        let coefficient = |k: usize| -> f64 {
-            let terms = self.points.iter().zip(values);
-            let terms = terms.map(|(p, v)| p.weight * v * legendre(count, 2.0 * p.s - 1.0)[k]);
-            (2 * k + 1) as f64 * terms.sum::<f64>()
+        let largest = values[..self.count()].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let coefficient = |weights: &Vec<f64>| -> f64 {
+            weights.iter().zip(values).map(|(weight, v)| weight * v).sum()
         };
-        (coefficient(count - 1).abs() + coefficient(count - 2).abs()) / largest
+        (coefficient(&self.last[0]).abs() + coefficient(&self.last[1]).abs()) / largest
     }
 
     /// `∫ f ds` and `∫ f s ds` over the element of a function given at the points.

@@ -9,9 +9,9 @@ use sweetspot::report::{file, text};
 use sweetspot::solve::Solution;
 use sweetspot::validation;
 
+use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, curve_csv};
-use crate::cli::modes::missed_tolerance;
-use crate::cli::{Done, NOT_REACHED};
+use crate::cli::hit::verdict as hit_verdict;
 
 /// Everything about a bat: modes, proof on the dowel, collision, sweet spot
 ///
@@ -50,7 +50,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let hits = sweep(&bat, model, &scene, &args.solve.request(10), &places)?;
+    let hits =
+        sweep(&bat, model, &scene, &args.solve.request(args.solve.modes_within(10)), &places)?;
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
@@ -76,16 +77,14 @@ pub fn run(args: &Args) -> Result<Done> {
         file::write(&folder.join("curve.csv"), curve_csv(&hits.impacts).as_bytes())?;
     }
     let both = serde_json::json!({ "modes": modes, "hit": hit });
-    let missed = args.solve.enforced() && !(solution.met && hits.met);
-    if missed {
-        args.output.warn(&missed_tolerance(&solution, args.solve.tol));
-    }
-    Ok((args.output.deliver(table, &both)?, if missed { NOT_REACHED } else { 0 }))
+    let code = args.solve.verdict(&solution, &args.output);
+    let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
+    Ok((args.output.deliver(table, || both)?, code))
 }
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(args: &Args, solution: &Solution) -> Result<String> {
-    let count = args.bat.count().max(10);
+    let count = args.solve.modes_within(args.bat.count().max(10));
     let [truth, stated] = validation::dowel_proof(&args.solve.request(count))?;
     let here = match solution.modes.is_empty() {
         true => String::new(),

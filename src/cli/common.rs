@@ -15,7 +15,7 @@ use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::units::{self, Quantity};
 
-use crate::cli::printable;
+use crate::cli::{NOT_REACHED, printable};
 
 /// Which bat, and how many of its modes.
 #[derive(clap::Args)]
@@ -118,9 +118,34 @@ impl SolveArgs {
         }
     }
 
-    /// Whether a solution that missed the tolerance ends with exit code 3.
+    /// As many modes as wanted, or as the asked elements can bend in.
+    pub fn modes_within(&self, wanted: usize) -> usize {
+        let degree = self.degree.map_or(3, usize::from);
+        self.elements.map_or(wanted, |elements| wanted.min((degree - 1) * elements as usize))
+    }
+
+    /// Whether an accuracy was asked for: asked elements are the user's own choice of it.
     pub fn enforced(&self) -> bool {
         self.elements.is_none()
+    }
+
+    /// The exit code, after a word about an answer that is less accurate than asked or later.
+    pub fn verdict(&self, solution: &Solution, output: &OutputArgs) -> u8 {
+        if solution.met || !self.enforced() {
+            return 0;
+        }
+        let asked = match self.budget {
+            Some(budget) => format!("budget not kept: asked {budget:?}"),
+            None => format!("accuracy not reached: asked {:e}", self.tol),
+        };
+        output.warn(&format!(
+            "{asked}, the best answer is within {:.1e} ({} elements of degree {}); {}",
+            solution.worst(),
+            solution.mesh.len(),
+            solution.degree,
+            solution.shortfall(self.tol)
+        ));
+        NOT_REACHED
     }
 }
 
@@ -142,8 +167,8 @@ pub struct OutputArgs {
 
 impl OutputArgs {
     /// Writes the JSON where it was asked for; what is left for standard output.
-    pub fn deliver(&self, table: String, document: &Value) -> Result<String> {
-        let text = || format!("{document:#}\n");
+    pub fn deliver(&self, table: String, document: impl FnOnce() -> Value) -> Result<String> {
+        let text = || format!("{:#}\n", document());
         match &self.json {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
             Some(path) => file::write(path, text().as_bytes()).map(|()| table),

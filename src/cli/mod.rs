@@ -19,7 +19,7 @@ pub type Done = (String, u8);
 
 /// A check or a validation failed.
 pub const FAILED: u8 = 1;
-/// The asked accuracy could not be reached; the best answer is given.
+/// The asked accuracy could not be reached; the best answer, if there is one, is given.
 pub const NOT_REACHED: u8 = 3;
 
 /// What a baseball bat does when it meets a ball.
@@ -27,7 +27,7 @@ pub const NOT_REACHED: u8 = 3;
 #[command(
     version,
     after_help = "Exit codes: 0 done; 1 a check failed; 2 the input or the command \
-line is wrong;\n3 the asked accuracy could not be reached (the best answer is still given)."
+line is wrong;\n3 the asked accuracy could not be reached (the best answer, if any, is still given)."
 )]
 struct Cli {
     #[command(subcommand)]

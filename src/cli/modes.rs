@@ -6,10 +6,9 @@ use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
-use sweetspot::solve;
 
+use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs};
-use crate::cli::{Done, NOT_REACHED};
 
 /// Natural frequencies, shapes and nodes of the free bat
 ///
@@ -56,24 +55,9 @@ pub fn run(args: &Args) -> Result<Done> {
         text::modes(&bat, &solution, args.bat.count(), args.output.units),
         text::model(&bat, &solution)
     );
-    let document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);
-    let missed = args.solve.enforced() && !solution.met;
-    if missed {
-        args.output.warn(&missed_tolerance(&solution, args.solve.tol));
-    }
-    Ok((args.output.deliver(table, &document)?, if missed { NOT_REACHED } else { 0 }))
-}
-
-/// What to say of an answer that is less accurate than asked.
-pub fn missed_tolerance(solution: &solve::Solution, tolerance: f64) -> String {
-    format!(
-        "accuracy not reached: asked {tolerance:e}, the best answer is within {:.1e} ({} elements \
-         of degree {}); {}",
-        solution.worst(),
-        solution.mesh.len(),
-        solution.degree,
-        solution.shortfall(tolerance)
-    )
+    let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
+    let code = args.solve.verdict(&solution, &args.output);
+    Ok((args.output.deliver(table, document)?, code))
 }
 
 fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {

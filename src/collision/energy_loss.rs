@@ -5,8 +5,8 @@
 //! v′ = v + [−v + √(v² + 2(½ + E_v)(v_r² − v²))]/(1 + 2 E_v)       v_r the rigid model's v′
 //! ```
 //!
-//! The second line solves `½ v_r² − ½ v² = ½ v′² − ½ v² + E_v (J/m)²` with `J/m = v′ − v`: the ball's
-//! energy change of the rigid collision, less the vibration's.
+//! The second line solves `½ v_r² − ½ v² = ½ v′² − ½ v² + E_v (J/m)²` with `J/m = v′ − v`: the
+//! ball's energy change of the rigid collision, less the vibration's.
 //!
 //! **Empirical, and kept for comparison only.** What is wrong with it:
 //! - `γ = 0.2` and `p = 2` are fitted to no stated measurement. Theory has in their place
@@ -41,8 +41,10 @@ impl Default for EnergyLoss {
 impl EnergyLoss {
     /// `E_v(a)` (dimensionless), for the deflections `W_1(a), W_2(a), …` of the bending modes.
     ///
-    /// The report's shapes are not normalised: on its dowel they are [`crate::dowel::wpi_shape`], so
-    /// `(1/M) ∫ρA W_n² dx = α_n²`. Scale another bat's modes the same way to compare like with like.
+    /// The report's shapes are not normalised: on its dowel they are [`crate::dowel::wpi_shape`],
+    /// so
+    /// `(1/M) ∫ρA W_n² dx = α_n²`. Scale another bat's modes the same way to compare like with
+    /// like.
     pub fn vibration(&self, shape_at_a: &[f64]) -> f64 {
         let share = |(i, w): (usize, &f64)| w * w / ((2 * i + 3) as f64).powf(self.decay);
         self.gamma * shape_at_a.iter().enumerate().map(share).sum::<f64>()
@@ -118,13 +120,14 @@ mod tests {
         let mean = (0..cells).map(at).sum::<f64>() / cells as f64;
         let term = |n: usize| (wpi_alpha(n) / (2 * n + 1) as f64).powi(2);
         let series = 0.2 * (1..=10).map(term).sum::<f64>();
-        // The midpoint rule's end error, h²/24 [d(W²)/dX]₀¹ = −2 h² βL/3 |α| a mode, times γ/(2n + 1)².
+        // The midpoint rule's end error, h²/24 [d(W²)/dX]₀¹ = −2 h² βL/3 |α| a mode, times γ/(2n +
+        // 1)².
         assert!((mean - series).abs() < 1e-6, "{mean} {series}");
         assert!((series - 0.042_98).abs() < 1e-5);
     }
 
-    /// At 0.75 L and 50 rad/s, in inches per second: the rigid gain is 3421.7 for every observer, the
-    /// empirical one 3275.9 at rest and 3326.6 or 3080.5 for one who moves at ∓1000.
+    /// At 0.75 L and 50 rad/s, in inches per second: the rigid gain is 3421.7 for every observer,
+    /// the empirical one 3275.9 at rest and 3326.6 or 3080.5 for one who moves at ∓1000.
     #[test]
     fn it_depends_on_the_observer() {
         let vibration = dowel_vibration(0.75);

@@ -1,8 +1,9 @@
 //! The lowest eigenpairs of a sparse pencil, by ARPACK: a second opinion on our own Lanczos.
 //!
 //! ARPACK keeps state between calls in variables of its own, so one search runs at a time in a
-//! process, however many threads ask. It is handed `K/σ` and `M`, whose `μ = λ/σ` has no unit: where
-//! an eigenvalue of the inverse is less than 4e-11, ARPACK would measure convergence absolutely.
+//! process, however many threads ask. It is handed `K/σ` and `M`, whose `μ = λ/σ` has no unit:
+//! where an eigenvalue of the inverse is less than 4e-11, ARPACK would measure convergence
+//! absolutely.
 
 use std::any::Any;
 use std::ffi::{c_int, c_void};

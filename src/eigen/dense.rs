@@ -1,4 +1,4 @@
-//! All eigenpairs of a small pencil, by faer's dense algorithms: the outside check.
+//! Eigenpairs of a small pencil, by faer's dense algorithms: the outside check.
 
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -6,17 +6,19 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par, Side};
 use nalgebra_sparse::CscMatrix;
 
-/// Eigenvalues of `K x = λ M x`, rising, with `xᵀMx = 1`, or None where a factorisation fails.
+/// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`, or None where a
+/// factorisation fails.
 ///
 /// `K + σM = L Lᵀ` with σ of the size of the lowest wanted λ, then the symmetric problem
 /// `L⁻¹ M L⁻ᵀ z = z/(λ + σ)`, `x = L⁻ᵀ z √(λ + σ)`. The wanted pairs are then the largest, which
 /// matters: faer's divide and conquer, used beyond 128 unknowns, is accurate relative to the
 /// largest eigenvalue only, and `L⁻¹ K L⁻ᵀ` of a beam of 264 elements came back with a first
 /// frequency of twice its value. What remains is the error of factoring `K`, about `ε n⁴`.
-pub fn generalized(
+pub fn lowest(
     k: &CscMatrix<f64>,
     m: &CscMatrix<f64>,
     shift: f64,
+    count: usize,
 ) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let n = k.nrows();
     let (mut shifted, mut reduced) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
@@ -31,11 +33,16 @@ pub fn generalized(
     let mut reduced = reduced.transpose().to_owned();
     solve_lower_triangular_in_place(lower, reduced.as_mut(), Par::Seq);
     let eigen = reduced.self_adjoint_eigen(Side::Lower).ok()?;
-    let mut vectors = eigen.U().to_owned();
+    let count = count.min(n);
+    // faer's values rise, so the lowest frequencies stand last.
+    let mut vectors = eigen.U().subcols(n - count, count).to_owned();
     solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
     let inverses: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-    // faer's values rise, so the lowest frequencies stand last.
-    let column = |j: usize| (0..n).map(|i| vectors[(i, j)] / inverses[j].sqrt()).collect();
+    let column = |j: usize| {
+        let scale = 1.0 / inverses[j].sqrt();
+        (0..n).map(|i| vectors[(i, j + count - n)] * scale).collect()
+    };
     let lambda = |j: usize| 1.0 / inverses[j] - shift;
-    Some(((0..n).rev().map(lambda).collect(), (0..n).rev().map(column).collect()))
+    let wanted = || (n - count..n).rev();
+    Some((wanted().map(lambda).collect(), wanted().map(column).collect()))
 }

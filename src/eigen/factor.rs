@@ -21,7 +21,7 @@ use crate::error::{Error, Result};
 
 /// `L` of `K + σM = L Lᵀ`.
 ///
-/// The unknowns keep their order: a beam's, numbered from knob to tip, form a band of seven, and
+/// The unknowns keep their order: a beam's, numbered from knob to tip, form a narrow band, and
 /// a band fills in nowhere.
 #[derive(Debug)]
 pub struct Factor {

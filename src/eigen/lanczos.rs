@@ -22,6 +22,8 @@ pub struct Lanczos<R> {
     pub steps: usize,
     /// Eigenvalues, largest first in every lane.
     pub values: Vec<R>,
+    /// `‖A v − θ v‖/θ` of each.
+    pub residuals: Vec<R>,
     /// The same number of orthonormal eigenvectors, one after the other.
     pub vectors: Vec<R>,
 }
@@ -91,11 +93,13 @@ impl<R: Real> Lanczos<R> {
                 let failed = Error::NotConverged { wanted: count, converged: 0, steps };
                 self.small.solve(&self.alpha, &self.beta).ok_or(failed)?;
                 let found = count.min(steps);
-                let misses = |k: &usize| {
-                    let residual = rest * self.small.weight(*k, steps - 1).abs();
-                    !residual.within(R::splat(wanted.residual) * self.small.value(*k))
-                };
-                let missed = if spanned { 0 } else { (0..found).filter(misses).count() };
+                self.residuals.clear();
+                for k in 0..found {
+                    let residual = rest * self.small.weight(k, steps - 1).abs();
+                    self.residuals.push(residual / self.small.value(k));
+                }
+                let misses = |residual: &&R| !residual.within(R::splat(wanted.residual));
+                let missed = if spanned { 0 } else { self.residuals.iter().filter(misses).count() };
                 if missed == 0 && found == count {
                     self.combine(count, dimension);
                     return Ok(());

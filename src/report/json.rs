@@ -39,6 +39,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
             "degree": solution.degree,
             "solver": solver_name(solution.solver),
             "degrees_of_freedom": solution.degrees_of_freedom(),
+            "lanczos_steps": solution.steps,
             "plan": solution.reason,
             "tolerance_met": solution.met,
             "no_mode_missing": solution.complete(),

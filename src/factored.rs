@@ -1,0 +1,181 @@
+//! The bending modes by solvers that factor the assembled stiffness: the outside checks.
+
+use crate::bat::Bat;
+use crate::beam::assembly::{Pencil, places};
+use crate::beam::element::{self, Element};
+use crate::beam::mesh::Mesh;
+use crate::beam::motion::Motion;
+use crate::beam::statics::Statics;
+use crate::eigen::{dense, shift_invert};
+use crate::error::{Error, Result};
+
+type Sparse = nalgebra_sparse::CscMatrix<f64>;
+
+/// How the eigenvalues are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solver {
+    /// Lanczos on the compliance by running sums: any size, round-off of order ε.
+    Statics,
+    /// Cholesky reduction and a dense eigensolve: small meshes, round-off of order ε n⁴.
+    Dense,
+    /// Lanczos on a sparsely factored `K + σM`: round-off of order ε n⁴.
+    ShiftInvert,
+    /// ARPACK on the same, behind the cargo feature `arpack`: the outside referee.
+    Arpack,
+}
+
+/// The running sums take more unknowns than this if asked to; a plan does not.
+const MOST_UNKNOWNS: usize = 1 << 21;
+/// The dense solver needs n² memory and n³ time.
+pub const MOST_DENSE: usize = 4098;
+/// Beyond this a factored `K` has lost all digits.
+const MOST_FACTORED: usize = 20_000;
+impl Solver {
+    /// The most unknowns that a plan should have for it.
+    pub fn most_unknowns(self) -> usize {
+        match self {
+            Self::Statics => MOST_UNKNOWNS,
+            Self::Dense => MOST_DENSE - 2,
+            Self::ShiftInvert | Self::Arpack => MOST_FACTORED,
+        }
+    }
+}
+
+/// The `count` lowest bending modes as scaled strains in the order of the statics, and the steps
+/// that were taken.
+///
+/// # Errors
+///
+/// [`Error::TooLarge`], [`Error::Factorization`], [`Error::NotBuilt`], [`Error::NotConverged`].
+pub fn strains<const N: usize>(
+    bat: &Bat,
+    mesh: &Mesh,
+    statics: &Statics<f64, N>,
+    count: usize,
+    solver: Solver,
+) -> Result<(Vec<f64>, usize)> {
+    check_size(statics.dimension() + 2, solver)?;
+    let elements = element::elements::<N>(bat, mesh);
+    let pairs = of_pencil(statics, &elements, count, solver)?;
+    let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
+    Ok((pairs.vectors.iter().flat_map(strains).collect(), pairs.steps))
+}
+
+fn check_size(unknowns: usize, solver: Solver) -> Result<()> {
+    match solver {
+        Solver::Dense if unknowns > MOST_DENSE => {
+            Err(Error::TooLarge { most: MOST_DENSE, found: unknowns })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What a solver makes of the assembled matrices.
+struct Pairs {
+    /// Its own λ = ω² (1/s²), rising.
+    values: Vec<f64>,
+    vectors: Vec<Vec<f64>>,
+    steps: usize,
+}
+
+/// The `count` lowest bending modes by a solver that factors `K`; for the statics, which factors
+/// nothing, by shift-invert.
+fn of_pencil<const N: usize>(
+    statics: &Statics<f64, N>,
+    elements: &[Element<f64, N>],
+    count: usize,
+    solver: Solver,
+) -> Result<Pairs> {
+    let Pencil { stiffness: k, mass: m } = Pencil::assemble(elements);
+    let (shift, all) = (shift(statics), count + 2);
+    let mut pairs = match solver {
+        Solver::Arpack => arpack(&k, &m, shift, all)?,
+        Solver::Dense => {
+            let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
+            let (values, vectors) = dense::lowest(&k, &m, shift, all).ok_or(failed)?;
+            Pairs { values, vectors, steps: 0 }
+        }
+        Solver::ShiftInvert | Solver::Statics => {
+            shift_invert::lowest(&k, &m, shift, all, 1e-12)?.into()
+        }
+    };
+    // The rigid motions are found too, and left: a free bat always has two.
+    pairs.values = pairs.values.drain(2..all.min(pairs.values.len())).collect();
+    pairs.vectors = pairs.vectors.drain(2..all.min(pairs.vectors.len())).collect();
+    Ok(pairs)
+}
+
+impl From<shift_invert::Pairs> for Pairs {
+    fn from(pairs: shift_invert::Pairs) -> Self {
+        Self { values: pairs.values, vectors: pairs.vectors, steps: pairs.steps }
+    }
+}
+
+#[cfg(feature = "arpack")]
+fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<Pairs> {
+    Ok(crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?.into())
+}
+
+#[cfg(not(feature = "arpack"))]
+fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
+    Err(Error::NotBuilt {
+        what: "the solver arpack",
+        advice: "install libarpack2-dev and pkg-config, then build with --features arpack",
+    })
+}
+
+/// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
+fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
+    let mut start = vec![0.0; statics.dimension()];
+    statics.start(1, &mut start);
+    let mut motion = Motion::default();
+    motion.take(statics, &start, None, false);
+    motion.omega.powi(2)
+}
+
+/// Scaled strains, in the order of the statics, of the unknowns of the assembled matrices.
+fn strains_of<const N: usize>(
+    statics: &Statics<f64, N>,
+    elements: &[Element<f64, N>],
+    u: &[f64],
+) -> Vec<f64> {
+    let mut strains = Vec::with_capacity(statics.dimension());
+    for (place, cell) in statics.cells.iter().enumerate() {
+        let knob_side = place < statics.split;
+        let e = if knob_side { statics.split - 1 - place } else { place };
+        let own = places::<N>(e).map(|at| u[at]);
+        let mut c = elements[e].strains_of_hermite(&own);
+        if knob_side {
+            c.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+        }
+        strains.extend_from_slice(&cell.scaled_strains(&c)[..N - 2]);
+    }
+    strains
+}
+
+/// The frequencies of the lowest bending modes on a mesh of cubic elements, each as the solver's
+/// own eigenvalue gives it, `√λ`, and recomputed from its shape as strain energy over kinetic
+/// energy (both rad/s). A λ below 0 counts as 0. Not for [`Solver::Statics`], which has one answer
+/// only.
+///
+/// # Errors
+///
+/// [`Error::TooLarge`], [`Error::Factorization`], [`Error::NotBuilt`], [`Error::NotConverged`].
+pub fn own_and_recomputed(
+    bat: &Bat,
+    mesh: &Mesh,
+    modes: usize,
+    solver: Solver,
+) -> Result<Vec<[f64; 2]>> {
+    let mut statics = Statics::<f64, 4>::empty(bat);
+    statics.assemble(&[bat], &[mesh]);
+    check_size(statics.dimension() + 2, solver)?;
+    let elements = element::elements::<4>(bat, mesh);
+    let pairs = of_pencil(&statics, &elements, modes, solver)?;
+    let mut motion = Motion::default();
+    let both = pairs.values.iter().zip(&pairs.vectors).map(|(value, vector)| {
+        motion.take(&statics, &strains_of(&statics, &elements, vector), None, false);
+        [value.max(0.0).sqrt(), motion.omega]
+    });
+    Ok(both.collect())
+}
