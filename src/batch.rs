@@ -73,7 +73,7 @@ fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
     let Some(first) = first else { return all_alone(bats, request, visit) };
     let plan = match request.elements {
         Some(elements) => Plan::fixed(first, elements, degrees[0]),
-        None => Plan::cheapest_among(first, &wanted(request), &degrees),
+        None => Plan::cheapest_among(first, &wanted(request), degrees),
     };
     match plan.degree {
         3 => with_degree::<4>(bats, request, way, plan, visit),

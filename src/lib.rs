@@ -88,6 +88,7 @@ pub mod eigenpairs;
 pub mod modes;
 pub mod certificate;
 pub mod factored;
+pub mod survey;
 pub mod plan;
 pub mod solve;
 pub mod batch;

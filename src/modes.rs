@@ -332,24 +332,24 @@ impl Shape {
     }
 
     /// The zero between `left` and `right` on element `k`, where the deflection is of different
-    /// sign: Newton's steps where they stay inside the shrinking bracket, halving where not.
+    /// sign: Halley's steps where they stay inside the shrinking bracket, halving where not.
     fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
         let rising = after > 0.0;
         let mut xi = left + (right - left) * (before / (before - after));
         for _ in 0..100 {
-            let [value, slope, _] = self.derivatives(k, xi);
+            let [value, slope, bend] = self.derivatives(k, xi);
             if (value > 0.0) == rising {
                 right = xi
             } else {
                 left = xi
             }
-            let newton = xi - value / slope;
-            let next = if newton > left && newton < right { newton } else { 0.5 * (left + right) };
+            let halley = xi - value * slope / (slope * slope - 0.5 * value * bend);
+            let next = if halley > left && halley < right { halley } else { 0.5 * (left + right) };
             if (next - xi).abs() <= f64::EPSILON {
                 return next;
             }
-            // Newton's error is the square of the step: after a step of 1e-8 there is none left.
-            if (next - xi).abs() < 1e-8 && next == newton {
+            // The error is about the cube of the step: after a step of 1e-5 there is none left.
+            if (next - xi).abs() < 1e-5 && next == halley {
                 return next;
             }
             xi = next;

@@ -8,22 +8,70 @@
 //! Δf/f = ½ Σ_{l ≥ p−1} (2l + 1) j_l(a)² ≈ ½ (2p − 1) [a^{p−1}/(2p − 1)!!]²,
 //! ```
 //!
-//! which for `p = 3` is the known `(kh)⁴/1440`. A taper bends the curvature too: `EI ∝ r⁴` over one
-//! element counts as a wave of `a = 1.5 |Δ ln r|`, measured on cones.
+//! which for `p = 3` is the known `(kh)⁴/1440`.
+//!
+//! A taper bends the curvature too: under a constant moment it goes as `1/EI ∝ r⁻⁴`, whose series on
+//! an element over which `ln r` changes by `t` gives, with `m = p − 1`,
+//!
+//! ```text
+//! Δf/f = ½/(2m + 1) [(m+3 choose 3) m! 2^m/(2m − 1)!!]² tanh(t/4)^{2m}
+//! ```
+//!
+//! (the leading term of the product `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to
+//! `t = 1`). An element may have as much of both as lies on an ellipse.
+
+use std::fmt;
+use std::time::Duration;
 
 use crate::bat::Bat;
 use crate::beam::element::missed;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
-use crate::profile::{Piece, Radii, Section};
+use crate::survey::{Sample, Survey};
 
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     pub mesh: Mesh,
     pub degree: usize,
-    /// Why this one, for a person.
-    pub reason: String,
+    pub reason: Reason,
+}
+
+/// Why a plan is as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Reason {
+    /// The user asked for it.
+    #[default]
+    Asked,
+    /// The cheapest of these degrees for that tolerance, by the formula.
+    Cheapest { degrees: [usize; 2], tolerance: f64 },
+    /// The plan before missed the tolerance, by little: one degree more.
+    OneDegreeMore { tolerance: f64 },
+    /// The plan before missed the tolerance: more elements where the error was.
+    Refined { tolerance: f64 },
+    /// The most accurate plan within a time.
+    Budget(Duration),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Asked => write!(f, "as asked"),
+            Self::Cheapest { degrees: [from, to], tolerance } if from == to => {
+                write!(f, "fewest elements of degree {to} for {tolerance:.0e}, by formula")
+            }
+            Self::Cheapest { degrees: [from, to], tolerance } => {
+                write!(f, "cheapest of degrees {from} to {to} for {tolerance:.0e}, by formula")
+            }
+            Self::OneDegreeMore { tolerance } => {
+                write!(f, "the planned degree missed {tolerance:.0e}, so one more")
+            }
+            Self::Refined { tolerance } => {
+                write!(f, "the plan missed {tolerance:.0e}, refined where the error was")
+            }
+            Self::Budget(time) => write!(f, "the most accurate within {time:?}"),
+        }
+    }
 }
 
 /// What a plan is to reach.
@@ -39,77 +87,63 @@ pub struct Wanted {
     pub most_unknowns: usize,
 }
 
-/// How much of `Δ ln r` over an element counts as half a wave.
-const TAPER: f64 = 3.0;
 /// The plan aims at this share of the wanted error, because no element is like the formula's.
-const AIM: f64 = 0.2;
+const AIM: f64 = 0.4;
 /// The smallest relative error worth planning for.
 const FINEST: f64 = 1e-16;
-/// A piece is sampled until the radius changes by no more than this factor between samples.
-const SMOOTH: f64 = 1.35;
-
+/// Halvings of an element for a formula.
 const MOST_HALVINGS: usize = 12;
-
-/// A profile as the planner sees it: phase and taper along every piece.
-struct Survey {
-    /// Of every piece, samples of `(s, ∫(ρA/EI)^¼ dx, |Δ ln r|)`, both summed up from its left end.
-    pieces: Vec<Vec<[f64; 3]>>,
-    /// The first over the whole bat.
-    phase: f64,
-}
 
 impl Plan {
     /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes,
     /// with that degree if one is given.
     pub fn cheapest(bat: &Bat, wanted: &Wanted) -> Self {
-        let all: Vec<usize> = wanted.degree.map_or(DEGREES, |degree| degree..=degree).collect();
-        Self::cheapest_among(bat, wanted, &all)
+        let (least, most) = DEGREES.into_inner();
+        let range = wanted.degree.map_or(least..=most, |degree| degree..=degree);
+        Self::cheapest_among(bat, wanted, range)
     }
 
-    /// The same with one of these degrees.
-    pub fn cheapest_among(bat: &Bat, wanted: &Wanted, degrees: &[usize]) -> Self {
+    /// The same with one of these degrees, which rise.
+    pub fn cheapest_among(
+        bat: &Bat,
+        wanted: &Wanted,
+        degrees: impl IntoIterator<Item = usize>,
+    ) -> Self {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
         // No finer than arithmetic can tell; the verdict stays on what was asked.
         let tolerance = tolerance.max(FINEST);
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
-        let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase;
-        let lengths: Vec<f64> = survey.pieces.iter().map(|piece| total(piece, wave)).collect();
-        let whole: f64 = lengths.iter().sum();
-        let candidates = degrees.iter().map(|&degree| {
-            // A plan that would be too large is made as large as it may be.
-            let least = whole * (degree - 1) as f64 / most_unknowns as f64;
-            let reach = reach(degree, AIM * tolerance).max(least);
-            let count: usize = lengths.iter().map(|length| elements(*length, reach)).sum();
-            (cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64, degree, reach)
-        });
-        let best = candidates.min_by(|a, b| a.0.total_cmp(&b.0));
-        let (_, degree, reach) = best.expect("there is a degree");
-        let places = survey.pieces.iter().zip(&lengths);
-        let places: Vec<_> = places.map(|(piece, l)| borders(piece, wave, *l, reach)).collect();
-        let mut mesh = resolved(bat, Mesh::with_borders(bat, &places), degree);
+        let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase();
+        let mut best: Option<(f64, usize, Reach)> = None;
+        let mut range: Option<[usize; 2]> = None;
+        for degree in degrees {
+            range = Some([range.map_or(degree, |[from, _]| from), degree]);
+            let mut reach = Reach::of(degree, AIM * tolerance, wave);
+            let mut count = reach.elements(&survey);
+            if (degree - 1) * count > most_unknowns {
+                // A plan that would be too large is made as large as it may be.
+                reach.scale(((degree - 1) * count) as f64 / most_unknowns as f64);
+                count = reach.elements(&survey);
+            }
+            let cost = cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, degree, reach));
+            }
+        }
+        let ((_, degree, reach), degrees) = best.zip(range).expect("there is a degree");
+        let borders = |k: usize, borders: &mut Vec<f64>| reach.borders(survey.piece(k), borders);
+        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree);
         // Too few unknowns for so many modes: shorter elements.
         while (degree - 1) * mesh.len() < modes {
             mesh = mesh.refined(|_| 2);
         }
-        let among = match degrees {
-            [degree] => format!("fewest elements of degree {degree}"),
-            [.., last] => format!("cheapest of degrees {} to {last}", degrees[0]),
-            [] => String::new(),
-        };
-        let reason = format!("{among} for {tolerance:.0e}, by formula");
-        Self { mesh, degree, reason }
+        Self { mesh, degree, reason: Reason::Cheapest { degrees, tolerance } }
     }
 
     /// So many elements in all, spread by length, of that degree.
     pub fn fixed(bat: &Bat, elements: usize, degree: usize) -> Self {
-        let reason = "as asked".to_owned();
-        Self { mesh: Mesh::along(bat, elements), degree, reason }
-    }
-
-    /// The same mesh with elements of that degree.
-    pub fn of_degree(self, degree: usize) -> Self {
-        Self { degree, ..self }
+        Self { mesh: Mesh::along(bat, elements), degree, reason: Reason::Asked }
     }
 
     /// The plan after a solve that missed, from every element's `defects` (twice the relative error
@@ -120,7 +154,7 @@ impl Plan {
         const LITTLE: f64 = 100.0;
         let (count, error) = (self.mesh.len() as f64, 0.5 * defects.iter().sum::<f64>());
         if free && error < LITTLE * tolerance && self.degree < *DEGREES.end() {
-            let reason = format!("the planned degree missed {tolerance:.0e}, so one more");
+            let reason = Reason::OneDegreeMore { tolerance };
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
@@ -131,13 +165,15 @@ impl Plan {
         };
         let worst = (0..self.mesh.len()).max_by(|&a, &b| defects[a].total_cmp(&defects[b]));
         let mesh = self.mesh.refined(|k| if Some(k) == worst { parts(k).max(2) } else { parts(k) });
-        let reason = format!("the plan missed {tolerance:.0e}, refined where the error was");
-        Self { mesh, reason, ..*self }
+        Self { mesh, degree: self.degree, reason: Reason::Refined { tolerance } }
     }
 }
 
 /// The mesh with every element halved where the points of its rule do not hold a formula.
 fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize) -> Mesh {
+    if bat.profile.formulas.is_none() {
+        return mesh;
+    }
     let rule = Rule::of(bat, degree);
     for _ in 0..MOST_HALVINGS {
         let unresolved: Vec<bool> =
@@ -150,108 +186,86 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize) -> Mesh {
     mesh
 }
 
-/// The largest `a` whose error is within the tolerance.
-fn reach(degree: usize, tolerance: f64) -> f64 {
+/// How far an element of one degree reaches within a tolerance: what share of it takes a unit of
+/// `∫(ρA/EI)^¼ dx` and a unit of taper.
+struct Reach {
+    phase: f64,
+    taper: f64,
+}
+
+impl Reach {
+    fn of(degree: usize, tolerance: f64, wave: f64) -> Self {
+        Self {
+            phase: 0.5 * wave / of_waves(degree, tolerance),
+            taper: 1.0 / of_tapers(degree, tolerance),
+        }
+    }
+
+    fn scale(&mut self, by: f64) {
+        self.phase /= by;
+        self.taper /= by;
+    }
+
+    /// The share that lies between two samples.
+    fn share(&self, a: &Sample, b: &Sample) -> f64 {
+        let (phase, taper) = (self.phase * (b.phase - a.phase), self.taper * (b.taper - a.taper));
+        (phase * phase + taper * taper).sqrt()
+    }
+
+    /// A piece in elements.
+    fn length(&self, piece: &[Sample]) -> f64 {
+        piece.windows(2).map(|w| self.share(&w[0], &w[1])).sum()
+    }
+
+    /// How many elements the bat takes.
+    fn elements(&self, survey: &Survey) -> usize {
+        survey.pieces().map(|piece| whole(self.length(piece))).sum()
+    }
+
+    /// Adds the borders of the elements of a piece, 0 to 1: equal shares between them.
+    fn borders(&self, piece: &[Sample], borders: &mut Vec<f64>) {
+        let length = self.length(piece);
+        let count = whole(length);
+        let step = length / count as f64;
+        borders.push(0.0);
+        let mut sum = 0.0;
+        for w in piece.windows(2) {
+            let here = self.share(&w[0], &w[1]);
+            while borders.len() < count && sum + here >= step * borders.len() as f64 {
+                let part = (step * borders.len() as f64 - sum) / here;
+                borders.push(w[0].s + part * (w[1].s - w[0].s));
+            }
+            sum += here;
+        }
+        borders.push(1.0);
+    }
+}
+
+/// One element at least.
+fn whole(length: f64) -> usize {
+    (length.ceil() as usize).max(1)
+}
+
+/// The largest `a` of a wave whose error is within the tolerance.
+fn of_waves(degree: usize, tolerance: f64) -> f64 {
     let m = degree - 1;
     let odd: f64 = (1..=m).map(|k| (2 * k + 1) as f64).product();
     ((2.0 * tolerance / (2 * m + 1) as f64).sqrt() * odd).powf(1.0 / m as f64)
+}
+
+/// The largest `t` of a taper whose error is within the tolerance.
+fn of_tapers(degree: usize, tolerance: f64) -> f64 {
+    let m = (degree - 1) as f64;
+    let ratio: f64 = (1..degree).map(|k| 2.0 * k as f64 / (2 * k - 1) as f64).product();
+    let first = (m + 1.0) * (m + 2.0) * (m + 3.0) / 6.0 * ratio;
+    let root = ((2.0 * tolerance * (2.0 * m + 1.0)).sqrt() / first).powf(1.0 / m);
+    4.0 * root.min(0.9).atanh()
 }
 
 /// What an element of that degree costs beside others: measured, assembly to error estimate.
 fn cost(degree: usize) -> f64 {
     let p = degree as f64;
     1.0 + 0.12 * p * p
-}
-
-/// Half the phase between two samples, taper and all: the `a` of an element from one to the other.
-fn measure(a: &[f64; 3], b: &[f64; 3], wave: f64) -> f64 {
-    let (phase, taper) = (wave * (b[1] - a[1]), TAPER * (b[2] - a[2]));
-    0.5 * (phase * phase + taper * taper).sqrt()
-}
-
-fn total(piece: &[[f64; 3]], wave: f64) -> f64 {
-    piece.windows(2).map(|w| measure(&w[0], &w[1], wave)).sum()
-}
-
-fn elements(length: f64, reach: f64) -> usize {
-    ((length / reach).ceil() as usize).max(1)
-}
-
-/// Borders of the elements of a piece of that length in phase: equal phase between them.
-fn borders(piece: &[[f64; 3]], wave: f64, length: f64, reach: f64) -> Vec<f64> {
-    let count = elements(length, reach);
-    let step = length / count as f64;
-    let mut borders = Vec::with_capacity(count + 1);
-    borders.push(0.0);
-    let mut sum = 0.0;
-    for w in piece.windows(2) {
-        let here = measure(&w[0], &w[1], wave);
-        while borders.len() < count && sum + here >= step * borders.len() as f64 {
-            let share = (step * borders.len() as f64 - sum) / here;
-            borders.push(w[0][0] + share * (w[1][0] - w[0][0]));
-        }
-        sum += here;
-    }
-    borders.push(1.0);
-    borders
-}
-
-impl Survey {
-    fn of(bat: &Bat) -> Self {
-        let widest = bat.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let pieces: Vec<_> =
-            bat.profile.pieces.iter().map(|piece| samples(bat, piece, 1e-3 * widest)).collect();
-        let phase = pieces.iter().map(|piece| piece[piece.len() - 1][1]).sum();
-        Self { pieces, phase }
-    }
-}
-
-/// Samples along a piece, denser where the radius changes; a radius below `thin` counts as that.
-fn samples(bat: &Bat, piece: &Piece, thin: f64) -> Vec<[f64; 3]> {
-    let at = |s: f64| -> (f64, f64) {
-        let section = piece.at(s);
-        let outer = section.outer.max(thin);
-        let section = Section { outer, ..section };
-        let ratio = bat.mass_per_length(section) / bat.bending_stiffness(section);
-        (outer, ratio.sqrt().sqrt())
-    };
-    let mut samples = vec![[0.0; 3]];
-    let pieces = match &piece.radii {
-        Radii::Cubic(cubics) if cubics.degree == 0 => {
-            samples.push([1.0, piece.length * at(0.0).1, 0.0]);
-            return samples;
-        }
-        Radii::Cubic(cubics) if cubics.degree == 1 => 1,
-        Radii::Cubic(_) => 4,
-        Radii::Formula(_) => 32,
-    };
-    for k in 0..pieces {
-        let (from, to) = (k as f64 / f64::from(pieces), (k + 1) as f64 / f64::from(pieces));
-        let (left, right) = (at(from), at(to));
-        between(&at, piece.length, [(from, left), (to, right)], &mut samples, 40);
-    }
-    samples
-}
-
-fn between(
-    at: &dyn Fn(f64) -> (f64, f64),
-    length: f64,
-    [(from, left), (to, right)]: [(f64, (f64, f64)); 2],
-    samples: &mut Vec<[f64; 3]>,
-    depth: usize,
-) {
-    let ratio = left.0 / right.0;
-    if depth > 0 && !(1.0 / SMOOTH..=SMOOTH).contains(&ratio) {
-        let middle = 0.5 * (from + to);
-        let half = (middle, at(middle));
-        between(at, length, [(from, left), half], samples, depth - 1);
-        between(at, length, [half, (to, right)], samples, depth - 1);
-        return;
-    }
-    let last = samples[samples.len() - 1];
-    let phase = 0.5 * (left.1 + right.1) * length * (to - from);
-    let taper = 2.0 * (right.0 - left.0).abs() / (right.0 + left.0);
-    samples.push([to, last[1] + phase, last[2] + taper]);
 }
 
 #[cfg(test)]
@@ -262,7 +276,7 @@ mod tests {
     fn the_error_formula_is_the_known_one_for_cubics() {
         // (kh)⁴/1440 with a = kh/2.
         for tolerance in [1e-3, 1e-6, 1e-9] {
-            let a = reach(3, tolerance);
+            let a = of_waves(3, tolerance);
             assert!(((2.0 * a).powi(4) / 1440.0 / tolerance - 1.0).abs() < 1e-12);
         }
     }

@@ -12,7 +12,7 @@ use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::factored;
 use crate::modes::{Mode, Shape};
-use crate::plan::{Plan, Wanted};
+use crate::plan::{Plan, Reason, Wanted};
 
 pub use crate::factored::{MOST_DENSE, Solver, own_and_recomputed};
 
@@ -78,7 +78,7 @@ pub struct Solution {
     /// Degree of the elements' deflection.
     pub degree: usize,
     /// Why this mesh and this degree.
-    pub reason: String,
+    pub reason: Reason,
     /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
     /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
@@ -247,7 +247,7 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
         }
     }
     let mut best = best.expect("there was a first digit");
-    best.reason = format!("the most accurate within {budget:?}");
+    best.reason = Reason::Budget(budget);
     if first > budget {
         best.stopped = Some(format!("the first digit took {first:?}, {budget:?} were allowed"));
     }

@@ -46,10 +46,12 @@ impl Mesh {
         Self { elements }
     }
 
-    /// A mesh with borders at these places of each piece, `s` rising from 0 to 1.
-    pub fn with_borders(bat: &Bat, borders: &[Vec<f64>]) -> Self {
-        let mut elements = Vec::new();
-        for (k, (piece, borders)) in bat.profile.pieces.iter().zip(borders).enumerate() {
+    /// A mesh with borders where `write` puts them on each piece, `s` rising from 0 to 1.
+    pub fn with_borders(bat: &Bat, mut write: impl FnMut(usize, &mut Vec<f64>)) -> Self {
+        let (mut elements, mut borders) = (Vec::with_capacity(bat.profile.pieces.len()), vec![]);
+        for (k, piece) in bat.profile.pieces.iter().enumerate() {
+            borders.clear();
+            write(k, &mut borders);
             elements.extend(borders.windows(2).map(|s| Element {
                 piece: k,
                 from: s[0],

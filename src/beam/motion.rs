@@ -21,6 +21,7 @@
 //! Eigenwertaufgaben mit technischen Anwendungen (1963).
 
 use crate::beam::element::{Vector, deflection, over_strains};
+use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::{Rigid, Statics, with_ends};
 use crate::eigen::lanczos::dot;
 use crate::quadrature::RunningSum;
@@ -122,6 +123,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
         let points = statics.rule.count();
         let [mut w, mut theta] = [RunningSum::<R>::default(); 2];
         self.ends[side] = [R::default(); 2];
+        let mut values = [R::default(); MOST_POINTS];
         for k in cells {
             let cell = &statics.cells[k];
             let (h, q) = (cell.link.length, scaled::<R, N>(&q[k * (N - 2)..]));
@@ -131,13 +133,13 @@ impl<R: Real, const N: usize> Motion<R, N> {
             shape[0] -= rigid.push + rigid.turn * (cell.arm + half);
             shape[1] -= rigid.turn * half;
             let samples = k * points..(k + 1) * points;
-            let values = statics.rule.values(&shape);
+            statics.rule.values(&shape, &mut values);
             let line = &statics.mass_per_length[samples.clone()];
             let kept = self.deflections[samples.clone()].iter_mut();
             let loads = self.changes[samples].iter_mut();
-            for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(values) {
-                *kept = value;
-                *load = *line * value;
+            for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
+                *kept = *value;
+                *load = *line * *value;
             }
             w.add(h * theta.value() + over_strains(&cell.link.lift, &q));
             theta.add(over_strains(&cell.link.turn, &q));
@@ -159,6 +161,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
         let rule = statics.rule;
         let points = rule.count();
         let [mut shear, mut moment] = [RunningSum::<R>::default(); 2];
+        let [mut own, mut curvature] = [[R::default(); MOST_POINTS]; 2];
         for k in cells.rev() {
             let cell = &statics.cells[k];
             let (h, q) = (cell.link.length, scaled::<R, N>(&q[k * (N - 2)..]));
@@ -167,8 +170,8 @@ impl<R: Real, const N: usize> Motion<R, N> {
             let stiffness = &statics.bending_stiffness[samples.clone()];
             let values = &mut self.changes[samples];
             let [force, turning] = rule.integrals(values);
-            let own = rule.twice_from_right(values);
-            let curvature = rule.values(&strains[..N - 2]);
+            rule.twice_from_right(values, &mut own);
+            rule.values(&strains[..N - 2], &mut curvature);
             let (v, m, square) = (shear.value() * h, moment.value(), h * h);
             let mut energy = R::default();
             for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
@@ -220,7 +223,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
     #[inline(always)]
     pub fn take_changes(&mut self, statics: &Statics<R, N>) {
         let points = statics.rule.count();
-        let mut total = [R::default(); 2];
+        let (mut total, mut own) = ([R::default(); 2], [R::default(); MOST_POINTS]);
         for (side, (cells, _)) in statics.sides(Rigid::default()).into_iter().enumerate() {
             let [mut w, mut theta, mut force, mut moment] = [R::default(); 4];
             for k in cells {
@@ -230,7 +233,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
                 let line = &statics.mass_per_length[samples.clone()];
                 let change = &mut self.changes[samples];
                 let [turned, first] = statics.rule.integrals(change);
-                let own = statics.rule.twice_from_left(change);
+                statics.rule.twice_from_left(change, &mut own);
                 for (j, point) in statics.rule.points.iter().enumerate() {
                     let y = R::splat(point.s) * h;
                     change[j] = w + theta * y + h * h * own[j];

@@ -133,26 +133,25 @@ impl Rule {
 
     /// The values at the points of `Σ c_k P_k`.
     #[inline(always)]
-    pub fn values<R: Real>(&self, coefficients: &[R]) -> AtPoints<R> {
-        self.combine(&self.by_term, coefficients)
+    pub fn values<R: Real>(&self, coefficients: &[R], values: &mut AtPoints<R>) {
+        self.combine(&self.by_term, coefficients, values);
     }
 
     /// A function given at the points, twice integrated from the left end.
     #[inline(always)]
-    pub fn twice_from_left<R: Real>(&self, values: &[R]) -> AtPoints<R> {
-        self.combine(&self.from_left, values)
+    pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut AtPoints<R>) {
+        self.combine(&self.from_left, function, twice);
     }
 
     /// A function given at the points, twice integrated from the right end.
     #[inline(always)]
-    pub fn twice_from_right<R: Real>(&self, values: &[R]) -> AtPoints<R> {
-        self.combine(&self.from_right, values)
+    pub fn twice_from_right<R: Real>(&self, function: &[R], twice: &mut AtPoints<R>) {
+        self.combine(&self.from_right, function, twice);
     }
 
     /// `Σ parts[k] rows[k]`.
     #[inline(always)]
-    fn combine<R: Real>(&self, rows: &[f64], parts: &[R]) -> AtPoints<R> {
-        let mut sums = [R::default(); MOST_POINTS];
+    fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut AtPoints<R>) {
         let stride = self.stride();
         // Four points at a time stay in registers while the parts go by.
         for first in (0..stride).step_by(BLOCK) {
@@ -164,7 +163,6 @@ impl Rule {
             }
             sums[first..first + BLOCK].copy_from_slice(&sum);
         }
-        sums
     }
 
     /// The last two coefficients of the Legendre series through values at the points, relative to
@@ -200,7 +198,9 @@ mod tests {
         for power in 0..9 {
             let n = f64::from(power);
             let values: Vec<f64> = rule.points.iter().map(|p| p.s.powi(power)).collect();
-            let [left, right] = [rule.twice_from_left(&values), rule.twice_from_right(&values)];
+            let [mut left, mut right] = [[0.0; MOST_POINTS]; 2];
+            rule.twice_from_left(&values, &mut left);
+            rule.twice_from_right(&values, &mut right);
             for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {
                 let s = at.s;
                 let exact = s.powf(n + 2.0) / ((n + 1.0) * (n + 2.0));

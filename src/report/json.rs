@@ -40,7 +40,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
             "solver": solver_name(solution.solver),
             "degrees_of_freedom": solution.degrees_of_freedom(),
             "lanczos_steps": solution.steps,
-            "plan": solution.reason,
+            "plan": solution.reason.to_string(),
             "tolerance_met": solution.met,
             "no_mode_missing": solution.complete(),
             "ignored": ignored(bat, solution),
