@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
 use crate::plan::Plan;
 use crate::profile::Radii;
-use crate::real::Real;
+use crate::real::{Over, Real};
 use crate::solve::{Request, Solver, solve, stop_at, wanted};
 
 /// The modes of one bat of many. The slices hold until the next bat.
@@ -179,7 +179,10 @@ struct Worker<R, const N: usize> {
     counted: Vec<bool>,
 }
 
-impl<R: Real, const N: usize> Worker<R, N> {
+impl<R: Real, const N: usize> Worker<R, N>
+where
+    Lanes: Over<R>,
+{
     fn new(bat: &Bat, plan: Plan, steps: usize) -> Self {
         Self {
             steps,
@@ -253,39 +256,40 @@ impl<R: Real, const N: usize> Worker<R, N> {
             steps => self.pairs.solve_in(modes, steps)?,
         }
         let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };
-        for k in 0..modes {
-            self.pairs.look(k, depth);
-            self.keep(k, modes, depth);
+        for first in (0..modes).step_by(Eigenpairs::<R, N>::TOGETHER) {
+            self.pairs.look(first, depth);
+            self.keep(first, modes, depth);
         }
         Ok(())
     }
 
-    /// Writes the motion that was looked at down as mode `k` of every lane.
-    fn keep(&mut self, k: usize, modes: usize, depth: Depth) {
-        let (statics, motion) = (&self.pairs.statics, &self.pairs.motion);
-        let mut largest = motion.ends[0][0].abs().max(motion.ends[1][0].abs());
-        motion.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
-        let scale = R::splat(1.0).copysign(motion.ends[1][0]) / largest;
-        let mass = motion.kinetic * scale * scale;
-        let residual = self.pairs.lanczos.residuals[k];
-        let crossings = motion.crossings(statics);
+    /// Writes the motions that were looked at down: modes from `first` on, of every bat.
+    fn keep(&mut self, first: usize, modes: usize, depth: Depth) {
+        let (statics, motions) = (&self.pairs.statics, &self.pairs.motions);
+        let mut largest = motions.ends[0][0].abs().max(motions.ends[1][0].abs());
+        motions.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
+        let scale = Lanes::splat(1.0).copysign(motions.ends[1][0]) / largest;
+        let mass = motions.kinetic * scale * scale;
+        let crossings = motions.crossings(statics);
         let elements = statics.cells.len();
-        for lane in 0..R::LANES {
-            let place = lane * modes + k;
-            let (omega, residual) = (motion.omega.lane(lane), residual.lane(lane));
+        for lane in 0..WIDTH.min(R::LANES * (modes - first)) {
+            let (k, bat) = (first + lane / R::LANES, lane % R::LANES);
+            let place = bat * modes + k;
+            let residual = self.pairs.lanczos.residuals[k].lane(bat);
+            let omega = motions.omega.lane(lane);
             self.omegas[place] = omega;
             self.modal_masses[place] = mass.lane(lane);
-            let ratio = omega / self.omegas[lane * modes];
+            let ratio = omega / self.omegas[bat * modes];
             // An eigenvalue of the compliance is known to ε of the greatest one.
             let round_off = round_off(ratio, elements) + 0.5 * f64::EPSILON * ratio * ratio;
             self.errors[place] = round_off
                 + match depth {
                     Depth::Shape => 0.5 * residual * residual,
-                    _ => 0.5 * motion.defect.lane(lane),
+                    _ => 0.5 * motions.defect.lane(lane),
                 };
-            self.counted[lane] &= crossings.lane(lane) == (k + 2) as f64;
+            self.counted[bat] &= crossings.lane(lane) == (k + 2) as f64;
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
-            let (knob, tip) = motion.shape.split_at(statics.split);
+            let (knob, tip) = motions.shape.split_at(statics.split);
             let scale = scale.lane(lane);
             // Outwards is backwards on the knob side, where odd polynomials change sign.
             for (to, from) in shape.chunks_exact_mut(N).zip(knob.iter().rev()) {

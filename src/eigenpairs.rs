@@ -13,16 +13,20 @@ use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
 use crate::eigen::lanczos::{Lanczos, Wanted};
 use crate::error::Result;
-use crate::real::Real;
+use crate::lanes::{Lanes, WIDTH};
+use crate::real::{Over, Real};
 
 /// Bats in the lanes of `R`, elements of degree `N − 1`.
 #[derive(Debug, Clone)]
 pub struct Eigenpairs<R, const N: usize> {
     pub statics: Statics<R, N>,
     pub lanczos: Lanczos<R>,
-    /// The motion that was looked at last.
-    pub motion: Motion<R, N>,
+    /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
+    /// mode.
+    pub motions: Motion<Lanes, N>,
     loads: Vec<Vector<R, N>>,
+    /// Their scaled strains.
+    strains: Vec<Lanes>,
 }
 
 /// How closely a motion is looked at.
@@ -36,14 +40,21 @@ pub enum Depth {
     Changes,
 }
 
-impl<R: Real, const N: usize> Eigenpairs<R, N> {
+impl<R: Real, const N: usize> Eigenpairs<R, N>
+where
+    Lanes: Over<R>,
+{
+    /// How many modes are looked at together.
+    pub const TOGETHER: usize = WIDTH / R::LANES;
+
     /// Nothing yet, for bats like this one.
     pub fn new(bat: &Bat) -> Self {
         Self {
             statics: Statics::empty(bat),
             lanczos: Lanczos::default(),
-            motion: Motion::default(),
+            motions: Motion::default(),
             loads: vec![],
+            strains: vec![],
         }
     }
 
@@ -95,21 +106,50 @@ impl<R: Real, const N: usize> Eigenpairs<R, N> {
         Arch::new().dispatch(Iteration { statics, lanczos, loads, wanted, start: None })
     }
 
-    /// Looks at the motion number `k` of those found, as closely as wanted, its frequency from the
-    /// eigenvalue.
-    pub fn look(&mut self, k: usize, depth: Depth) {
-        let dimension = self.statics.dimension();
-        let Self { statics, motion, lanczos, .. } = self;
-        let strains = &lanczos.vectors[k * dimension..(k + 1) * dimension];
-        let value = Some(lanczos.values[k]);
-        Arch::new().dispatch(Look { statics, motion, strains, value, depth });
+    /// Looks at the motions from number `first` of those found on, [`Self::TOGETHER`] of them or as
+    /// many as there are, as closely as wanted, their frequencies from the eigenvalues.
+    pub fn look(&mut self, first: usize, depth: Depth) {
+        let vectors = std::mem::take(&mut self.lanczos.vectors);
+        let last = self.lanczos.values.len() - 1;
+        let mut values = Lanes::default();
+        for lane in 0..WIDTH {
+            let k = (first + lane / R::LANES).min(last);
+            values.set_lane(lane, self.lanczos.values[k].lane(lane % R::LANES));
+        }
+        self.gather(&vectors, first);
+        self.lanczos.vectors = vectors;
+        let Self { statics, motions, strains, .. } = self;
+        Arch::new().dispatch(Look { statics, motions, strains, value: Some(values), depth });
     }
 
-    /// Looks at the motion with those scaled strains as closely as wanted, its frequency from both
-    /// energies.
-    pub fn look_at(&mut self, strains: &[R], depth: Depth) {
-        let Self { statics, motion, .. } = self;
-        Arch::new().dispatch(Look { statics, motion, strains, value: None, depth });
+    /// The same with the motions of these scaled strains, one after the other, their frequencies
+    /// from both energies.
+    pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
+        self.gather(vectors, first);
+        let Self { statics, motions, strains, .. } = self;
+        Arch::new().dispatch(Look { statics, motions, strains, value: None, depth });
+    }
+
+    /// Strains side by side; the last motion again where there are no more.
+    fn gather(&mut self, vectors: &[R], first: usize) {
+        let dimension = self.statics.dimension();
+        let last = vectors.len() / dimension - 1;
+        self.strains.resize(dimension, Lanes::default());
+        for lane in 0..WIDTH {
+            let k = (first + lane / R::LANES).min(last);
+            let from = &vectors[k * dimension..(k + 1) * dimension];
+            for (strain, from) in self.strains.iter_mut().zip(from) {
+                strain.set_lane(lane, from.lane(lane % R::LANES));
+            }
+        }
+    }
+}
+
+impl<const N: usize> Eigenpairs<f64, N> {
+    /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
+    pub fn look_at_one(&self, strains: &[f64], depth: Depth, motions: &mut Motion<f64, N>) {
+        let statics = &self.statics;
+        Arch::new().dispatch(Look { statics, motions, strains, value: None, depth });
     }
 }
 
@@ -166,25 +206,25 @@ impl<R: Real, const N: usize> WithSimd for Iteration<'_, R, N> {
     }
 }
 
-struct Look<'a, R, const N: usize> {
-    statics: &'a Statics<R, N>,
-    motion: &'a mut Motion<R, N>,
+struct Look<'a, S, R, const N: usize> {
+    statics: &'a Statics<S, N>,
+    motions: &'a mut Motion<R, N>,
     strains: &'a [R],
     value: Option<R>,
     depth: Depth,
 }
 
-impl<R: Real, const N: usize> WithSimd for Look<'_, R, N> {
+impl<S: Real, R: Over<S>, const N: usize> WithSimd for Look<'_, S, R, N> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<V: Simd>(self, _: V) {
         let with_defect = self.depth != Depth::Shape;
-        self.motion.take(self.statics, self.strains, self.value, with_defect);
+        self.motions.take(self.statics, self.strains, self.value, with_defect);
         if self.depth == Depth::Changes {
-            self.motion.take_changes(self.statics);
+            self.motions.take_changes(self.statics);
         } else {
-            self.motion.no_changes(self.statics);
+            self.motions.no_changes(self.statics);
         }
     }
 }

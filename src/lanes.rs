@@ -1,4 +1,4 @@
-//! Several numbers side by side, for as many bats at once as a vector of the machine holds.
+//! Several numbers side by side, for as many bats or modes at once as a vector of the machine holds.
 //!
 //! Plain loops over arrays, which the compiler turns into vector instructions;
 //! [`crate::eigenpairs`] has pulp choose the widest that the machine knows.
@@ -6,12 +6,12 @@
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use crate::real::Real;
+use crate::real::{Over, Real};
 
-/// Bats side by side: two vectors of AVX2, or four of the oldest machines.
+/// Bats or modes side by side: two vectors of AVX2, or four of the oldest machines.
 pub const WIDTH: usize = 8;
 
-/// One number for each of several bats.
+/// One number for each of several bats or modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes([f64; WIDTH]);
@@ -52,6 +52,22 @@ impl Mul for Lanes {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Mul<f64> for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self.map(|a| a * other)
+    }
+}
+
+impl Over<f64> for Lanes {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self::splat(value)
     }
 }
 

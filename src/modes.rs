@@ -63,7 +63,7 @@ impl Mode {
     /// The mode that is that motion in one lane.
     pub fn new<R: Real, const N: usize>(
         order: usize,
-        statics: &Statics<R, N>,
+        statics: &Statics<f64, N>,
         motion: &Motion<R, N>,
         lane: usize,
         stretches: &Arc<Vec<(f64, f64)>>,
@@ -112,7 +112,7 @@ struct Track {
 
 impl Track {
     fn new<R: Real, const N: usize>(
-        statics: &Statics<R, N>,
+        statics: &Statics<f64, N>,
         motion: &Motion<R, N>,
         lane: usize,
     ) -> Self {
@@ -132,16 +132,14 @@ impl Track {
             let masses = statics.mass_per_length[here].iter().zip(&statics.rule.points);
             let sum: f64 = values
                 .zip(masses)
-                .map(|((w, c), (m, p))| p.weight * m.lane(lane) * w.lane(lane) * c.lane(lane))
+                .map(|((w, c), (m, p))| p.weight * m * w.lane(lane) * c.lane(lane))
                 .sum();
-            work += cell.link.length.lane(lane) * sum;
+            work += cell.link.length * sum;
         }
         let mut ends = motion.ends.map(|end| end.map(|v| v.lane(lane)));
         if statics.split == 0 {
             // The root is the knob end itself.
-            let first = motion.shape[0].iter().enumerate();
-            let signs = first.map(|(k, w)| if k % 2 == 1 { -w.lane(lane) } else { w.lane(lane) });
-            ends[0] = [signs.sum(), changes[0]];
+            ends[0][1] = changes[0];
         }
         Self { samples, changes, ends, xi, work }
     }
@@ -150,7 +148,7 @@ impl Track {
 /// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob
 /// side, where odd polynomials change sign.
 fn coefficients<R: Real, const N: usize>(
-    statics: &Statics<R, N>,
+    statics: &Statics<f64, N>,
     motion: &Motion<R, N>,
     lane: usize,
 ) -> Vec<f64> {
@@ -334,22 +332,31 @@ impl Shape {
     /// The zero between `left` and `right` on element `k`, where the deflection is of different
     /// sign: Halley's steps where they stay inside the shrinking bracket, halving where not.
     fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
-        let rising = after > 0.0;
-        let mut xi = left + (right - left) * (before / (before - after));
-        for _ in 0..100 {
+        let halley = |xi: f64| {
             let [value, slope, bend] = self.derivatives(k, xi);
+            (value, xi - value * slope / (slope * slope - 0.5 * value * bend))
+        };
+        // The error is about the cube of the step: after a step of 1e-5 there is none left.
+        const SMALL: f64 = 1e-5;
+        let start = left + (right - left) * (before / (before - after));
+        // Nearly always two steps do, with nothing to decide on the way.
+        let once = halley(start).1;
+        let twice = halley(once).1;
+        if (twice - once).abs() < SMALL && twice > left && twice < right {
+            return twice;
+        }
+        let rising = after > 0.0;
+        let mut xi = start;
+        for _ in 0..100 {
+            let (value, next) = halley(xi);
             if (value > 0.0) == rising {
                 right = xi
             } else {
                 left = xi
             }
-            let halley = xi - value * slope / (slope * slope - 0.5 * value * bend);
-            let next = if halley > left && halley < right { halley } else { 0.5 * (left + right) };
-            if (next - xi).abs() <= f64::EPSILON {
-                return next;
-            }
-            // The error is about the cube of the step: after a step of 1e-5 there is none left.
-            if (next - xi).abs() < 1e-5 && next == halley {
+            let inside = next > left && next < right;
+            let next = if inside { next } else { 0.5 * (left + right) };
+            if (next - xi).abs() <= f64::EPSILON || (inside && (next - xi).abs() < SMALL) {
                 return next;
             }
             xi = next;

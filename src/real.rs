@@ -40,6 +40,20 @@ pub trait Real:
     fn within(self, other: Self) -> bool;
 }
 
+/// The numbers in which a bat that is given in numbers `S` can move: the same, lane by lane, or
+/// several motions side by side of one bat.
+pub trait Over<S>: Real + Mul<S, Output = Self> {
+    /// The same number for every motion.
+    fn of(value: S) -> Self;
+}
+
+impl<R: Real> Over<R> for R {
+    #[inline(always)]
+    fn of(value: R) -> R {
+        value
+    }
+}
+
 impl Real for f64 {
     const LANES: usize = 1;
 

@@ -6,11 +6,13 @@ use std::time::{Duration, Instant};
 use crate::bat::Bat;
 use crate::beam::element;
 use crate::beam::mesh::Mesh;
+use crate::beam::motion::Motion;
 use crate::beam::rule::DEGREES;
 use crate::certificate::{account, add_neighbours, round_off};
 use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::factored;
+use crate::lanes::WIDTH;
 use crate::modes::{Mode, Shape};
 use crate::plan::{Plan, Reason, Wanted};
 
@@ -320,14 +322,29 @@ impl Task<'_> {
         let factored = request.solver != Solver::Statics;
         let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
         let mut defects = vec![0.0; plan.mesh.len()];
-        for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
-            look_at(&mut pairs, strains, modes.first());
-            let (statics, motion) = (&pairs.statics, &pairs.motion);
-            let mut mode = Mode::new(k + 1, statics, motion, 0, &stretches);
+        let mut add = |mode: Mode| {
+            let mut mode = mode;
             mode.error.discretization += missed;
             account(&mut mode, modes.first(), plan.mesh.len(), factored);
-            motion.add_defects(statics, &mut defects);
             modes.push(mode);
+        };
+        if pairs.statics.dimension() > LARGE {
+            let mut motion = Motion::<f64, N>::default();
+            for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
+                look_closer(&pairs, strains, k, &mut motion);
+                add(Mode::new(k + 1, &pairs.statics, &motion, 0, &stretches));
+                motion.add_defects(&pairs.statics, &mut defects);
+            }
+        } else {
+            let count = strains.len() / pairs.statics.dimension();
+            for first in (0..count).step_by(WIDTH) {
+                pairs.look_at(&strains, first, Depth::Changes);
+                for k in first..count.min(first + WIDTH) {
+                    let (statics, motions) = (&pairs.statics, &pairs.motions);
+                    add(Mode::new(k + 1, statics, motions, k - first, &stretches));
+                }
+                pairs.motions.add_defects(&pairs.statics, &mut defects);
+            }
         }
         add_neighbours(&mut modes, factored);
         timing.solve += assembled.elapsed();
@@ -354,17 +371,19 @@ impl Task<'_> {
     }
 }
 
-/// Looks at a motion with its changes, but for a mesh so fine that there are none but round-off:
-/// a third of the work.
-fn look_at<const N: usize>(pairs: &mut Eigenpairs<f64, N>, strains: &[f64], first: Option<&Mode>) {
-    if pairs.statics.dimension() > LARGE {
-        pairs.look_at(strains, Depth::Defect);
-        let ratio = pairs.motion.omega / first.map_or(pairs.motion.omega, |mode| mode.omega);
-        if 0.5 * pairs.motion.defect <= round_off(ratio, pairs.statics.cells.len()) {
-            return;
-        }
+/// Looks at one motion of a large mesh, at its changes only if there are any beyond round-off.
+fn look_closer<const N: usize>(
+    pairs: &Eigenpairs<f64, N>,
+    strains: &[f64],
+    k: usize,
+    motion: &mut Motion<f64, N>,
+) {
+    pairs.look_at_one(strains, Depth::Defect, motion);
+    // Mode n's frequency is about (n + ½)²/2.25 times the first.
+    let ratio = (k as f64 + 1.5).powi(2) / 2.25;
+    if 0.5 * motion.defect > round_off(ratio, pairs.statics.cells.len()) {
+        pairs.look_at_one(strains, Depth::Changes, motion);
     }
-    pairs.look_at(strains, Depth::Changes);
 }
 
 /// Beyond so many unknowns the iteration starts from a coarse solution.

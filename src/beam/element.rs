@@ -17,7 +17,7 @@ use crate::bat::Bat;
 use crate::beam::mesh::{self, Mesh};
 use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::profile::{Radii, Section};
-use crate::real::Real;
+use crate::real::{Over, Real};
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
 pub type Vector<R, const N: usize> = [R; N];
@@ -51,20 +51,25 @@ const ODD: [f64; 16] = {
 /// The deflection with strains `c` of an element of length `h` whose left end is at `w` with
 /// slope `theta`, in Legendre polynomials (m).
 #[inline(always)]
-pub fn deflection<R: Real, const N: usize>(h: R, c: &Vector<R, N>, w: R, theta: R) -> Vector<R, N> {
-    let half = R::splat(0.5) * h;
+pub fn deflection<S: Real, R: Over<S>, const N: usize>(
+    h: S,
+    c: &Vector<R, N>,
+    w: R,
+    theta: R,
+) -> Vector<R, N> {
+    let half = S::splat(0.5) * h;
     let integral = |below: R, k: usize, above: R| {
-        half * (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above)
+        (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above) * half
     };
     let zero = R::default();
     let mut t = [zero; N];
     let c = |k: usize| if k < N - 2 { c[k] } else { zero };
-    t[0] = theta + half * (c(0) - R::splat(ODD[1]) * c(1));
+    t[0] = theta + (c(0) - R::splat(ODD[1]) * c(1)) * half;
     for k in 1..N - 1 {
         t[k] = integral(c(k - 1), k, c(k + 1));
     }
     let mut shape = [zero; N];
-    shape[0] = w + half * (t[0] - R::splat(ODD[1]) * t[1]);
+    shape[0] = w + (t[0] - R::splat(ODD[1]) * t[1]) * half;
     for k in 1..N {
         shape[k] = integral(t[k - 1], k, if k + 1 < N { t[k + 1] } else { zero });
     }
@@ -135,13 +140,13 @@ impl<R: Real, const N: usize> Element<R, N> {
         self
     }
 
-    /// `L⁻¹`, lower triangular, of the stiffness `D = L Lᵀ` in that unit of energy.
+    /// Writes `L⁻¹`, lower triangular, of the stiffness `D = L Lᵀ` in that unit of energy.
     #[inline(always)]
-    pub fn inverse_factor(&self, unit: R) -> Matrix<R, N> {
+    pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, N>) {
         let n = N - 2;
         let zero = R::default();
         let scale = R::splat(1.0) / unit;
-        let (mut factor, mut inverse) = ([[zero; N]; N], [[zero; N]; N]);
+        let mut factor = [[zero; N]; N];
         for j in 0..n {
             let mut pivot = self.stiffness[j][j] * scale;
             for k in 0..j {
@@ -165,18 +170,25 @@ impl<R: Real, const N: usize> Element<R, N> {
                 inverse[i][j] = -(entry * inverse[i][i]);
             }
         }
-        inverse
     }
 
-    /// The element as the running sums use it, in strains scaled by that `L⁻¹`.
+    /// Writes the element as the running sums use it, in strains scaled by that `L⁻¹`.
     #[inline(always)]
-    pub fn link(&self, inverse: &Matrix<R, N>) -> Link<R, N> {
+    pub fn connect(&self, inverse: &Matrix<R, N>, link: &mut Link<R, N>) {
         let (n, h) = (N - 2, self.length);
         // ∂T/∂(c, w, θ) of every deflection polynomial, then of every strain.
-        let rows: Matrix<R, N> = self.mass.map(|row| on_strains(h, &row));
-        let columns: Matrix<R, N> =
-            std::array::from_fn(|j| on_strains(h, &std::array::from_fn(|k| rows[k][j])));
         let zero = R::default();
+        let (mut rows, mut columns) = ([[zero; N]; N], [[zero; N]; N]);
+        for k in 0..N {
+            rows[k] = on_strains(h, &self.mass[k]);
+        }
+        for j in 0..N {
+            let mut column = [zero; N];
+            for k in 0..N {
+                column[k] = rows[k][j];
+            }
+            columns[j] = on_strains(h, &column);
+        }
         // Scaled from the left, row by row, then from the right.
         let mut left = columns;
         for i in 0..n {
@@ -187,23 +199,22 @@ impl<R: Real, const N: usize> Element<R, N> {
                 }
             }
         }
-        let mut mass = left;
         for row in 0..N {
             for i in 0..n {
                 let mut entry = zero;
                 for k in 0..=i {
                     entry += left[row][k] * inverse[i][k];
                 }
-                mass[row][i] = entry;
+                link.mass[row][i] = entry;
             }
+            link.mass[row][n..].copy_from_slice(&left[row][n..]);
         }
-        let (mut lift, mut turn) = ([zero; N], [zero; N]);
         for i in 0..n {
             let second = if i > 0 { R::splat(ODD[1]) * inverse[i][1] } else { zero };
-            turn[i] = h * inverse[i][0];
-            lift[i] = R::splat(0.5) * h * h * (inverse[i][0] - second);
+            link.turn[i] = h * inverse[i][0];
+            link.lift[i] = R::splat(0.5) * h * h * (inverse[i][0] - second);
         }
-        Link { mass, lift, turn, length: h }
+        link.length = h;
     }
 }
 
@@ -219,14 +230,14 @@ pub struct Link<R, const N: usize> {
     pub length: R,
 }
 
-impl<R: Real, const N: usize> Link<R, N> {
+impl<S: Real, const N: usize> Link<S, N> {
     /// The element's generalised loads `∂T/∂(q, w, θ)` in that motion (times ω²).
     #[inline(always)]
-    pub fn load(&self, motion: &Vector<R, N>) -> Vector<R, N> {
+    pub fn load<R: Over<S>>(&self, motion: &Vector<R, N>) -> Vector<R, N> {
         let mut load = [R::default(); N];
         for (column, part) in self.mass.iter().zip(motion) {
             for (load, entry) in load.iter_mut().zip(column) {
-                *load += *entry * *part;
+                *load += *part * *entry;
             }
         }
         load
@@ -235,10 +246,13 @@ impl<R: Real, const N: usize> Link<R, N> {
 
 /// `Σ_k a_k b_k` over the strains.
 #[inline(always)]
-pub fn over_strains<R: Real, const N: usize>(a: &Vector<R, N>, b: &Vector<R, N>) -> R {
+pub fn over_strains<S, R: Over<S>, const N: usize>(a: &Vector<S, N>, b: &Vector<R, N>) -> R
+where
+    S: Real,
+{
     let mut sum = R::default();
     for k in 0..N - 2 {
-        sum += a[k] * b[k];
+        sum += b[k] * a[k];
     }
     sum
 }
@@ -403,7 +417,8 @@ mod tests {
                 element.stiffness[i][j] += 0.1 / (i + j + 1) as f64;
             }
         }
-        let inverse = element.inverse_factor(2.0);
+        let mut inverse = [[0.0; 7]; 7];
+        element.invert_factor(2.0, &mut inverse);
         // L⁻¹ D L⁻ᵀ = 1 in that unit.
         for i in 0..5 {
             for j in 0..5 {

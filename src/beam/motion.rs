@@ -25,7 +25,7 @@ use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::{Rigid, Statics, with_ends};
 use crate::eigen::lanczos::dot;
 use crate::quadrature::RunningSum;
-use crate::real::Real;
+use crate::real::{Over, Real};
 
 /// A bending motion with the memory it was computed in.
 #[derive(Debug, Clone, Default)]
@@ -60,7 +60,15 @@ impl<R: Real, const N: usize> Motion<R, N> {
     /// energy is taken from it: half the work, no residual (0), and round-off of ε times the
     /// greatest eigenvalue over this one.
     #[inline(always)]
-    pub fn take(&mut self, statics: &Statics<R, N>, q: &[R], value: Option<R>, with_defect: bool) {
+    pub fn take<S: Real>(
+        &mut self,
+        statics: &Statics<S, N>,
+        q: &[R],
+        value: Option<R>,
+        with_defect: bool,
+    ) where
+        R: Over<S>,
+    {
         let strain = dot(q, q);
         let rigid = match value {
             Some(value) => {
@@ -112,14 +120,16 @@ impl<R: Real, const N: usize> Motion<R, N> {
 
     /// Deflections outwards from the root at rest, less a rigid motion; loads `ρA w` at the points.
     #[inline(always)]
-    fn outwards(
+    fn outwards<S: Real>(
         &mut self,
-        statics: &Statics<R, N>,
+        statics: &Statics<S, N>,
         q: &[R],
         cells: std::ops::Range<usize>,
         rigid: Rigid<R>,
         side: usize,
-    ) {
+    ) where
+        R: Over<S>,
+    {
         let points = statics.rule.count();
         let [mut w, mut theta] = [RunningSum::<R>::default(); 2];
         self.ends[side] = [R::default(); 2];
@@ -127,10 +137,10 @@ impl<R: Real, const N: usize> Motion<R, N> {
         for k in cells {
             let cell = &statics.cells[k];
             let (h, q) = (cell.link.length, scaled::<R, N>(&q[k * (N - 2)..]));
-            let half = R::splat(0.5) * h;
+            let half = S::splat(0.5) * h;
             let strains = cell.strains(&q);
             let mut shape = deflection(h, &strains, w.value(), theta.value());
-            shape[0] -= rigid.push + rigid.turn * (cell.arm + half);
+            shape[0] -= rigid.deflection(cell.arm + half);
             shape[1] -= rigid.turn * half;
             let samples = k * points..(k + 1) * points;
             statics.rule.values(&shape, &mut values);
@@ -139,9 +149,9 @@ impl<R: Real, const N: usize> Motion<R, N> {
             let loads = self.changes[samples].iter_mut();
             for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
                 *kept = *value;
-                *load = *line * *value;
+                *load = *value * *line;
             }
-            w.add(h * theta.value() + over_strains(&cell.link.lift, &q));
+            w.add(theta.value() * h + over_strains(&cell.link.lift, &q));
             theta.add(over_strains(&cell.link.turn, &q));
             self.ends[side][0] = shape.iter().fold(R::default(), |sum, w| sum + *w);
             self.shape[k] = shape;
@@ -151,13 +161,15 @@ impl<R: Real, const N: usize> Motion<R, N> {
     /// Bending moments inwards from the free end under these loads, and the other curvature that
     /// they make: leaves `w″ − w*″` at the points and `∫EI (w″ − w*″)² dx` of every cell.
     #[inline(always)]
-    fn inwards(
+    fn inwards<S: Real>(
         &mut self,
-        statics: &Statics<R, N>,
+        statics: &Statics<S, N>,
         q: &[R],
         cells: std::ops::Range<usize>,
         lambda: R,
-    ) {
+    ) where
+        R: Over<S>,
+    {
         let rule = statics.rule;
         let points = rule.count();
         let [mut shear, mut moment] = [RunningSum::<R>::default(); 2];
@@ -175,13 +187,13 @@ impl<R: Real, const N: usize> Motion<R, N> {
             let (v, m, square) = (shear.value() * h, moment.value(), h * h);
             let mut energy = R::default();
             for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
-                let bending = m + v * R::splat(1.0 - point.s) + square * own[j];
-                let defect = *stiffness * curvature[j] - lambda * bending;
-                values[j] = defect / *stiffness;
-                energy += R::splat(point.weight) * h * defect * values[j];
+                let bending = m + v * R::splat(1.0 - point.s) + own[j] * square;
+                let defect = curvature[j] * *stiffness - lambda * bending;
+                values[j] = defect * (S::splat(1.0) / *stiffness);
+                energy += defect * values[j] * (S::splat(point.weight) * h);
             }
-            moment.add(v + square * turning);
-            shear.add(h * force);
+            moment.add(v + turning * square);
+            shear.add(force * h);
             self.defects[k] = energy;
         }
     }
@@ -189,7 +201,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
     /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
     /// most as often as it is zero.
     #[inline(always)]
-    pub fn crossings(&self, statics: &Statics<R, N>) -> R {
+    pub fn crossings<S: Real>(&self, statics: &Statics<S, N>) -> R {
         let (knob, tip) = self.deflections.split_at(statics.split * statics.rule.count());
         let sign = |w: &R| R::splat(1.0).copysign(*w);
         let (mut count, mut before) = (R::default(), sign(&self.ends[0][0]));
@@ -202,7 +214,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
     }
 
     /// Raises every element's number, knob to tip, to its part of the defect, in any lane.
-    pub fn add_defects(&self, statics: &Statics<R, N>, most: &mut [f64]) {
+    pub fn add_defects<S>(&self, statics: &Statics<S, N>, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(statics.split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
             (0..R::LANES).for_each(|lane| *most = most.max(defect.lane(lane)));
@@ -211,7 +223,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
 
     /// After [`Self::take`], leaves out what [`Self::take_changes`] would find.
     #[inline(always)]
-    pub fn no_changes(&mut self, statics: &Statics<R, N>) {
+    pub fn no_changes<S>(&mut self, statics: &Statics<S, N>) {
         self.changes.clear();
         self.changes.resize(statics.cells.len() * statics.rule.count(), R::default());
         self.ends[0][1] = R::default();
@@ -221,10 +233,13 @@ impl<R: Real, const N: usize> Motion<R, N> {
     /// After [`Self::take`], `w″ − w*″` at the points becomes `w − w*`, the rigid motions taken
     /// out.
     #[inline(always)]
-    pub fn take_changes(&mut self, statics: &Statics<R, N>) {
+    pub fn take_changes<S: Real>(&mut self, statics: &Statics<S, N>)
+    where
+        R: Over<S>,
+    {
         let points = statics.rule.count();
         let (mut total, mut own) = ([R::default(); 2], [R::default(); MOST_POINTS]);
-        for (side, (cells, _)) in statics.sides(Rigid::default()).into_iter().enumerate() {
+        for (side, (cells, _)) in statics.sides(Rigid::<R>::default()).into_iter().enumerate() {
             let [mut w, mut theta, mut force, mut moment] = [R::default(); 4];
             for k in cells {
                 let cell = &statics.cells[k];
@@ -235,31 +250,30 @@ impl<R: Real, const N: usize> Motion<R, N> {
                 let [turned, first] = statics.rule.integrals(change);
                 statics.rule.twice_from_left(change, &mut own);
                 for (j, point) in statics.rule.points.iter().enumerate() {
-                    let y = R::splat(point.s) * h;
-                    change[j] = w + theta * y + h * h * own[j];
-                    let share = R::splat(point.weight) * h * line[j] * change[j];
+                    let y = S::splat(point.s) * h;
+                    change[j] = w + theta * y + own[j] * (h * h);
+                    let share = change[j] * (S::splat(point.weight) * h * line[j]);
                     force += share;
                     moment += share * (cell.arm + y);
                 }
-                w += theta * h + h * h * (turned - first);
-                theta += h * turned;
+                w += theta * h + (turned - first) * (h * h);
+                theta += turned * h;
                 self.ends[side][1] = w;
             }
             total[0] += force;
             total[1] += if side == 0 { -moment } else { moment };
         }
-        let rigid = Rigid { push: total[0] / statics.mass, turn: total[1] / statics.inertia };
+        let (mass, inertia) = (R::of(statics.mass), R::of(statics.inertia));
+        let rigid = Rigid { push: total[0] / mass, turn: total[1] / inertia };
         for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
             for k in cells {
                 let cell = &statics.cells[k];
                 let change = &mut self.changes[k * points..(k + 1) * points];
                 for (change, point) in change.iter_mut().zip(&statics.rule.points) {
-                    let y = cell.arm + R::splat(point.s) * cell.link.length;
-                    *change -= rigid.push + rigid.turn * y;
+                    *change -= rigid.deflection(cell.arm + S::splat(point.s) * cell.link.length);
                 }
                 if k + 1 == statics.cells.len() || k + 1 == statics.split {
-                    let y = cell.arm + cell.link.length;
-                    self.ends[side][1] -= rigid.push + rigid.turn * y;
+                    self.ends[side][1] -= rigid.deflection(cell.arm + cell.link.length);
                 }
             }
         }

@@ -26,7 +26,7 @@ use crate::beam::element::{self, Element, Link, Matrix, Vector, over_strains};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::quadrature::RunningSum;
-use crate::real::Real;
+use crate::real::{Over, Real};
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
@@ -66,14 +66,22 @@ pub struct Cell<R, const N: usize> {
     pub arm: R,
 }
 
-impl<R: Real, const N: usize> Cell<R, N> {
+impl<S: Real, const N: usize> Default for Cell<S, N> {
+    fn default() -> Self {
+        let (zero, zeros) = (S::default(), [S::default(); N]);
+        let link = Link { mass: [zeros; N], lift: zeros, turn: zeros, length: zero };
+        Self { link, inverse: [zeros; N], arm: zero }
+    }
+}
+
+impl<S: Real, const N: usize> Cell<S, N> {
     /// `L⁻ᵀ q`: strains (1/m) from scaled strains.
     #[inline(always)]
-    pub fn strains(&self, q: &Vector<R, N>) -> Vector<R, N> {
+    pub fn strains<R: Over<S>>(&self, q: &Vector<R, N>) -> Vector<R, N> {
         let mut strains = [R::default(); N];
         for i in 0..N - 2 {
             for j in 0..=i {
-                strains[j] += self.inverse[i][j] * q[i];
+                strains[j] += q[i] * self.inverse[i][j];
             }
         }
         strains
@@ -100,6 +108,15 @@ pub struct Rigid<R> {
 }
 
 impl<R: Real> Rigid<R> {
+    /// The deflection at that distance from the balance point.
+    #[inline(always)]
+    pub fn deflection<S>(&self, arm: S) -> R
+    where
+        R: Over<S>,
+    {
+        self.push + self.turn * arm
+    }
+
     /// The same seen from the other side: what turns outwards there turns inwards here.
     fn mirrored(self) -> Self {
         Self { turn: -self.turn, ..self }
@@ -193,8 +210,8 @@ impl<R: Real, const N: usize> Statics<R, N> {
     fn fill(&mut self, meshes: &[&Mesh]) {
         let (points, half, balance) = (self.rule.count(), R::splat(0.5), self.balance);
         let mut inertia = RunningSum::<R>::default();
-        self.cells.clear();
         let count = meshes[0].len();
+        self.cells.resize(count, Cell::default());
         // The knob side's sections come outwards too: last element first, points reversed.
         self.bending_stiffness[..self.split * points].reverse();
         self.mass_per_length[..self.split * points].reverse();
@@ -222,15 +239,12 @@ impl<R: Real, const N: usize> Statics<R, N> {
                 middle * (middle * m[0][0] + length * m[0][1])
                     + half * half * length * length * m[1][1],
             );
-            let inverse = element.inverse_factor(self.energy_unit);
-            self.cells.push(Cell { link: element.link(&inverse), inverse, arm });
+            let cell = &mut self.cells[place];
+            cell.arm = arm;
+            element.invert_factor(self.energy_unit, &mut cell.inverse);
+            element.connect(&cell.inverse, &mut cell.link);
         }
         self.inertia = inertia.value();
-    }
-
-    /// Number of unknowns: the bending modes of the discrete bat.
-    pub fn dimension(&self) -> usize {
-        (N - 2) * self.cells.len()
     }
 
     /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
@@ -275,25 +289,29 @@ impl<R: Real, const N: usize> Statics<R, N> {
     pub fn start(&self, count: usize, out: &mut [R]) {
         const TOUCH: f64 = 1e-9;
         let number = R::splat;
-        self.strains_of_moments(out, |places| {
-            let [mut wave, mut before, mut now] = [[R::default(); MOST_POINTS]; 3];
-            for (wave, s) in wave.iter_mut().zip(places.iter()) {
-                *wave = number(1.0) - number(2.0) * *s * *s * (number(3.0) - number(2.0) * *s);
-            }
-            // Clenshaw's recurrence, all points at once.
-            for j in (0..count + 2).rev() {
-                let amplitude = number(0.2 + golden(j));
-                for ((wave, before), now) in
-                    wave[..places.len()].iter().zip(&mut before).zip(&mut now)
-                {
-                    (*now, *before) = (amplitude + (*wave + *wave) * *now - *before, *now);
+        self.strains_of_moments(
+            out,
+            #[inline(always)]
+            |places| {
+                let [mut wave, mut before, mut now] = [[R::default(); MOST_POINTS]; 3];
+                for (wave, s) in wave.iter_mut().zip(places.iter()) {
+                    *wave = number(1.0) - number(2.0) * *s * *s * (number(3.0) - number(2.0) * *s);
                 }
-            }
-            for (i, s) in places.iter_mut().enumerate() {
-                let bump = *s * (number(1.0) - *s);
-                *s = bump * bump * (now[i] - wave[i] * before[i]);
-            }
-        });
+                // Clenshaw's recurrence, all points at once.
+                for j in (0..count + 2).rev() {
+                    let amplitude = number(0.2 + golden(j));
+                    for ((wave, before), now) in
+                        wave[..places.len()].iter().zip(&mut before).zip(&mut now)
+                    {
+                        (*now, *before) = (amplitude + (*wave + *wave) * *now - *before, *now);
+                    }
+                }
+                for (i, s) in places.iter_mut().enumerate() {
+                    let bump = *s * (number(1.0) - *s);
+                    *s = bump * bump * (now[i] - wave[i] * before[i]);
+                }
+            },
+        );
         let mut largest = R::default();
         out.iter().for_each(|q| largest = largest.max(q.abs()));
         for (k, q) in out.iter_mut().enumerate() {
@@ -301,61 +319,77 @@ impl<R: Real, const N: usize> Statics<R, N> {
         }
     }
 
+    /// Number of unknowns: the bending modes of the discrete bat.
+    pub fn dimension(&self) -> usize {
+        (N - 2) * self.cells.len()
+    }
+}
+
+impl<S: Real, const N: usize> Statics<S, N> {
     /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was taken out of the
     /// motion with these strains when it is at rest at the root.
     #[inline(always)]
-    pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
-        if self.cells.len() > LONG {
-            self.compliance::<true>(q, y, loads)
-        } else {
-            self.compliance::<false>(q, y, loads)
-        }
-    }
-
-    #[inline(always)]
-    fn compliance<const KEEP: bool>(
+    pub fn apply<R: Over<S>>(
         &self,
         q: &[R],
         y: &mut [R],
         loads: &mut Vec<Vector<R, N>>,
     ) -> Rigid<R> {
-        let rigid = self.balanced::<KEEP>(q, loads);
+        if self.cells.len() > LONG {
+            self.compliance::<R, true>(q, y, loads)
+        } else {
+            self.compliance::<R, false>(q, y, loads)
+        }
+    }
+
+    #[inline(always)]
+    fn compliance<R: Over<S>, const KEEP: bool>(
+        &self,
+        q: &[R],
+        y: &mut [R],
+        loads: &mut Vec<Vector<R, N>>,
+    ) -> Rigid<R> {
+        let rigid = self.balanced::<R, KEEP>(q, loads);
         let (knob, tip) = self.cells.split_at(self.split);
         let (knob_loads, tip_loads) = loads.split_at(self.split);
         let strains = (N - 2) * self.split;
         let (knob_y, tip_y) = y.split_at_mut(strains);
-        inwards::<R, N, KEEP>(knob, knob_loads, rigid.mirrored(), knob_y);
-        inwards::<R, N, KEEP>(tip, tip_loads, rigid, tip_y);
+        inwards::<S, R, N, KEEP>(knob, knob_loads, rigid.mirrored(), knob_y);
+        inwards::<S, R, N, KEEP>(tip, tip_loads, rigid, tip_y);
         rigid
     }
 
     /// The rigid motion alone that [`Self::apply`] takes out: half the work.
     #[inline(always)]
-    pub fn rigid(&self, q: &[R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
+    pub fn rigid<R: Over<S>>(&self, q: &[R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
         if self.cells.len() > LONG {
-            self.balanced::<true>(q, loads)
+            self.balanced::<R, true>(q, loads)
         } else {
-            self.balanced::<false>(q, loads)
+            self.balanced::<R, false>(q, loads)
         }
     }
 
     /// Outwards on both sides: leaves the loads, returns the rigid motion they add up to.
     #[inline(always)]
-    fn balanced<const KEEP: bool>(&self, q: &[R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
+    fn balanced<R: Over<S>, const KEEP: bool>(
+        &self,
+        q: &[R],
+        loads: &mut Vec<Vector<R, N>>,
+    ) -> Rigid<R> {
         loads.resize(self.cells.len(), [R::default(); N]);
         let (knob, tip) = self.cells.split_at(self.split);
         let (knob_loads, tip_loads) = loads.split_at_mut(self.split);
         let (knob_q, tip_q) = q.split_at((N - 2) * self.split);
-        let [knob_force, knob_moment] = outwards::<R, N, KEEP>(knob, knob_q, knob_loads);
-        let [tip_force, tip_moment] = outwards::<R, N, KEEP>(tip, tip_q, tip_loads);
+        let [knob_force, knob_moment] = outwards::<S, R, N, KEEP>(knob, knob_q, knob_loads);
+        let [tip_force, tip_moment] = outwards::<S, R, N, KEEP>(tip, tip_q, tip_loads);
         Rigid {
-            push: (knob_force + tip_force) / self.mass,
-            turn: (tip_moment - knob_moment) / self.inertia,
+            push: (knob_force + tip_force) / R::of(self.mass),
+            turn: (tip_moment - knob_moment) / R::of(self.inertia),
         }
     }
 
     /// The cells of one side, the places they take among all, and a rigid motion seen from there.
-    pub fn sides(&self, rigid: Rigid<R>) -> [(std::ops::Range<usize>, Rigid<R>); 2] {
+    pub fn sides<R: Real>(&self, rigid: Rigid<R>) -> [(std::ops::Range<usize>, Rigid<R>); 2] {
         [(0..self.split, rigid.mirrored()), (self.split..self.cells.len(), rigid)]
     }
 }
@@ -377,8 +411,8 @@ pub fn with_ends<R: Real, const N: usize>(q: &[R], w: R, theta: R) -> Vector<R, 
 /// Integrates strains outwards from the root at rest and keeps every element's loads; returns
 /// the force and the moment about the balance point of the side's inertia.
 #[inline(always)]
-fn outwards<R: Real, const N: usize, const KEEP: bool>(
-    cells: &[Cell<R, N>],
+fn outwards<S: Real, R: Over<S>, const N: usize, const KEEP: bool>(
+    cells: &[Cell<S, N>],
     q: &[R],
     loads: &mut [Vector<R, N>],
 ) -> [R; 2] {
@@ -389,8 +423,8 @@ fn outwards<R: Real, const N: usize, const KEEP: bool>(
         let load = link.load(&motion);
         *kept = load;
         force.add(load[N - 2]);
-        moment.add(cell.arm * load[N - 2] + load[N - 1]);
-        w.add(link.length * theta.value() + over_strains(&link.lift, &motion));
+        moment.add(load[N - 2] * cell.arm + load[N - 1]);
+        w.add(theta.value() * link.length + over_strains(&link.lift, &motion));
         theta.add(over_strains(&link.turn, &motion));
     }
     [force.value(), moment.value()]
@@ -399,8 +433,8 @@ fn outwards<R: Real, const N: usize, const KEEP: bool>(
 /// Shear and bending moment inwards from the free end, and with them the scaled strains: the
 /// adjoint of [`outwards`], the loads of the rigid motion taken out.
 #[inline(always)]
-fn inwards<R: Real, const N: usize, const KEEP: bool>(
-    cells: &[Cell<R, N>],
+fn inwards<S: Real, R: Over<S>, const N: usize, const KEEP: bool>(
+    cells: &[Cell<S, N>],
     loads: &[Vector<R, N>],
     rigid: Rigid<R>,
     y: &mut [R],
@@ -409,16 +443,16 @@ fn inwards<R: Real, const N: usize, const KEEP: bool>(
     for ((cell, load), y) in cells.iter().zip(loads).zip(y.chunks_exact_mut(N - 2)).rev() {
         let link = &cell.link;
         let [lifted, turned] = [&link.mass[N - 2], &link.mass[N - 1]];
-        let lift = rigid.push + rigid.turn * cell.arm;
+        let lift = rigid.deflection(cell.arm);
         let mut f = *load;
         for i in 0..N {
             f[i] -= lift * lifted[i] + rigid.turn * turned[i];
         }
         let (v, m) = (shear.value(), bending.value());
         for k in 0..N - 2 {
-            y[k] = f[k] + (link.lift[k] * v + link.turn[k] * m);
+            y[k] = f[k] + (v * link.lift[k] + m * link.turn[k]);
         }
-        bending.add(link.length * v + f[N - 1]);
+        bending.add(v * link.length + f[N - 1]);
         shear.add(f[N - 2]);
     }
 }
