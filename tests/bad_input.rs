@@ -1,36 +1,12 @@
 //! Every malformed file and command line is answered by one clear message and exit code 2.
 
-use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
+mod common;
 
-/// A folder of its own for one test, removed afterwards.
-struct Folder(PathBuf);
+use std::fs;
+
+use common::folder::Folder;
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let unique = format!("sweetspot-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(unique);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
-        fs::write(self.0.join(name), contents).unwrap();
-    }
-
-    fn names(&self) -> Vec<String> {
-        let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
-        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
-        names.sort();
-        names
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        let program = env!("CARGO_BIN_EXE_sweetspot");
-        Command::new(program).args(args).current_dir(&self.0).output().unwrap()
-    }
-
     /// What is wrong with the answer to wrong input: silence, a panic, half a result, other words.
     fn misanswer(&self, args: &[&str], says: &[&str]) -> Option<String> {
         let before = self.names();
@@ -54,13 +30,6 @@ impl Folder {
             () => return None,
         };
         Some(format!("{args:?}: {fault}\n    {told}"))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Nothing depends on it.
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -1071,10 +1040,7 @@ fn an_argument_that_is_not_text_is_no_panic() {
     use std::os::unix::ffi::OsStrExt;
     let odd = OsStr::from_bytes(b"b\xfft.json");
     let folder = Folder::new("arguments");
-    let run = |args: &[&OsStr]| {
-        let program = env!("CARGO_BIN_EXE_sweetspot");
-        Command::new(program).args(args).current_dir(&folder.0).output().unwrap()
-    };
+    let run = |args: &[&OsStr]| folder.command(&[]).args(args).output().unwrap();
     for args in [&[odd][..], &["modes".as_ref(), odd], &["modes".as_ref(), "--tol".as_ref(), odd]] {
         let output = run(args);
         let told = String::from_utf8_lossy(&output.stderr);
@@ -1082,7 +1048,7 @@ fn an_argument_that_is_not_text_is_no_panic() {
     }
     fs::write(folder.0.join(odd), BAT).unwrap();
     assert_eq!(run(&["modes".as_ref(), odd]).status.code(), Some(0));
-    fs::write(folder.0.join("a\u{1b}[2J\nb.json"), "{").unwrap();
+    folder.write("a\u{1b}[2J\nb.json", "{");
     let output = run(&["modes".as_ref(), "a\u{1b}[2J\nb.json".as_ref()]);
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(told.trim_end().chars().all(|c| !c.is_control()), "{told}");
@@ -1226,7 +1192,7 @@ fn a_million_stations_are_read() {
         let few = ["modes", "bat.json", "-n", "2", "--shape-points", "0", "--json", "out.json"];
         let output = folder.run(&[&few[..], more].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = fs::read_to_string(folder.0.join("out.json")).unwrap();
+        let text = folder.read("out.json");
         frequencies(&serde_json::from_str(&text).unwrap())
     };
     let many = run(&[]);
