@@ -245,7 +245,7 @@ fn the_modes_document_has_the_keys_of_the_contract() {
     assert_eq!(keys(&modes["summary"]), set(summary));
     assert_eq!(modes["summary"]["pivot_m"], 0.1524);
     let model = "theory elements degree solver degrees_of_freedom ignored \
-                 plan tolerance_met no_mode_missing";
+                 lanczos_steps plan tolerance_met no_mode_missing";
     assert_eq!(keys(&modes["model"]), set(model));
     assert_eq!(keys(&modes["timing"]), set("plan_s assemble_s solve_s"));
     let list = modes["modes"].as_array().unwrap();
