@@ -9,6 +9,7 @@ use std::process::{Output, Stdio};
 
 use common::folder::Folder;
 use serde_json::Value;
+use sweetspot::validation::Truth;
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
@@ -289,6 +290,31 @@ fn the_modes_document_has_the_keys_of_the_contract() {
 
 fn floats(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+/// Against exact frequencies. The time is far more than enough, so that none of this is a race.
+#[test]
+fn the_most_accurate_answer_within_a_time_is_as_accurate_as_it_says() {
+    let folder = Folder::new("budget");
+    let case: Value = serde_json::from_str(include_str!("../validation/pchip_bat.json")).unwrap();
+    folder.write("pchip.json", case["bat"].to_string());
+    for (bat, truth) in [
+        (mesh("dowel"), Truth::of_dowel(10)),
+        ("pchip.json".to_owned(), Truth::of_cases(&["pchip_bat"])),
+    ] {
+        let args = ["modes", &bat, "--budget", "5 s", "--shape-points", "0", "--json", "-"];
+        let document = folder.json(&args);
+        assert_eq!(document["model"]["plan"], "the most accurate within 5s");
+        assert_eq!(document["model"]["tolerance_met"], true);
+        let modes = document["modes"].as_array().unwrap();
+        assert_eq!(modes.len(), 10);
+        for (mode, exact) in modes.iter().zip(truth.unwrap().frequencies) {
+            let part = |kind: &str| mode["error"][kind].as_f64().unwrap();
+            let stated = part("discretization") + part("round_off");
+            let off = (mode["frequency_hz"].as_f64().unwrap() / exact - 1.0).abs();
+            assert!(off <= 3.0 * stated && stated < 1e-12, "{bat}: {off:e} {stated:e}");
+        }
+    }
 }
 
 #[test]
