@@ -1,36 +1,13 @@
 //! Every malformed file and command line is answered by one clear message and exit code 2.
 
-use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
+mod common;
 
-/// A folder of its own for one test, removed afterwards.
-struct Folder(PathBuf);
+use std::fs;
+
+use common::folder::Folder;
+use serde_json::Value;
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let unique = format!("sweetspot-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(unique);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
-        fs::write(self.0.join(name), contents).unwrap();
-    }
-
-    fn names(&self) -> Vec<String> {
-        let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
-        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
-        names.sort();
-        names
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        let program = env!("CARGO_BIN_EXE_sweetspot");
-        Command::new(program).args(args).current_dir(&self.0).output().unwrap()
-    }
-
     /// What is wrong with the answer to wrong input: silence, a panic, half a result, other words.
     fn misanswer(&self, args: &[&str], says: &[&str]) -> Option<String> {
         let before = self.names();
@@ -54,13 +31,6 @@ impl Folder {
             () => return None,
         };
         Some(format!("{args:?}: {fault}\n    {told}"))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Nothing depends on it.
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -920,6 +890,8 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--modes", "1001"], &["1001", "0..=1000"]),
         (&["modes", "bat.json", "--modes", "3", "--modes", "4"], &["multiple times"]),
         (&["modes", "bat.json", "--tol", "0"], &["'0'", "--tol <T>", "between 0 and 1"]),
+        // Less than the smallest number is 0.
+        (&["modes", "bat.json", "--tol", "1e-324"], &["'1e-324'", "between 0 and 1"]),
         (&["modes", "bat.json", "--tol=-1e-4"], &["'-1e-4'", "between 0 and 1"]),
         (&["modes", "bat.json", "--tol", "1"], &["'1'", "between 0 and 1"]),
         (&["modes", "bat.json", "--tol", "100%"], &["'100%'", "between 0 and 1"]),
@@ -931,6 +903,12 @@ fn a_wrong_command_line_is_refused() {
             &["modes", "bat.json", "-n", "50", "--elements", "4"],
             &["50 bending modes", "25 elements"],
         ),
+        (
+            &["modes", "bat.json", "--modes", "1000", "--elements", "1000000"],
+            &["elements: found 1000000 with 1000 modes", "GB", "fewer elements or modes"],
+        ),
+        (&["hit", "bat.json", "-n", "1000", "--elements", "1000000"], &["fewer elements or modes"]),
+        (&["analyze", "bat.json", "-n", "5", "--elements", "2"], &["at least 3 elements"]),
         (&["modes", "bat.json", "--solver", "dense", "--elements", "5000"], &["dense", "statics"]),
         #[cfg(not(feature = "arpack"))]
         (&["modes", "bat.json", "--solver", "arpack"], &["not in this build", "--features arpack"]),
@@ -1071,10 +1049,7 @@ fn an_argument_that_is_not_text_is_no_panic() {
     use std::os::unix::ffi::OsStrExt;
     let odd = OsStr::from_bytes(b"b\xfft.json");
     let folder = Folder::new("arguments");
-    let run = |args: &[&OsStr]| {
-        let program = env!("CARGO_BIN_EXE_sweetspot");
-        Command::new(program).args(args).current_dir(&folder.0).output().unwrap()
-    };
+    let run = |args: &[&OsStr]| folder.command(&[]).args(args).output().unwrap();
     for args in [&[odd][..], &["modes".as_ref(), odd], &["modes".as_ref(), "--tol".as_ref(), odd]] {
         let output = run(args);
         let told = String::from_utf8_lossy(&output.stderr);
@@ -1082,14 +1057,14 @@ fn an_argument_that_is_not_text_is_no_panic() {
     }
     fs::write(folder.0.join(odd), BAT).unwrap();
     assert_eq!(run(&["modes".as_ref(), odd]).status.code(), Some(0));
-    fs::write(folder.0.join("a\u{1b}[2J\nb.json"), "{").unwrap();
+    folder.write("a\u{1b}[2J\nb.json", "{");
     let output = run(&["modes".as_ref(), "a\u{1b}[2J\nb.json".as_ref()]);
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(told.trim_end().chars().all(|c| !c.is_control()), "{told}");
 }
 
 /// Runs that must succeed: exit code 0 and JSON without null frequencies or overflow.
-fn accepted(folder: &Folder, args: &[&str]) -> (serde_json::Value, String) {
+fn accepted(folder: &Folder, args: &[&str]) -> (Value, String) {
     let output = folder.run(args);
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{args:?}: {told}");
@@ -1097,7 +1072,7 @@ fn accepted(folder: &Folder, args: &[&str]) -> (serde_json::Value, String) {
     (serde_json::from_str(&text).unwrap_or_else(|e| panic!("{args:?}: {e}\n{text}")), told)
 }
 
-fn frequencies(document: &serde_json::Value) -> Vec<f64> {
+fn frequencies(document: &Value) -> Vec<f64> {
     let modes = document["modes"].as_array().unwrap();
     modes.iter().map(|mode| mode["frequency_hz"].as_f64().expect("a number")).collect()
 }
@@ -1158,6 +1133,13 @@ fn unusual_but_right_options_are_taken() {
     folder.write("bat.json", BAT);
     let (none, _) = accepted(&folder, &["modes", "bat.json", "--modes", "0", "--json", "-"]);
     assert_eq!(none["modes"].as_array().unwrap().len(), 0);
+    let (fine, _) = accepted(&folder, &["modes", "bat.json", "--tol", "1e-9", "--json", "-"]);
+    let two = ["analyze", "bat.json", "-n", "2", "--elements", "2", "--json", "-"];
+    let (coarse, told) = accepted(&folder, &two);
+    let coarse = frequencies(&coarse["modes"]);
+    assert_eq!((coarse.len(), told.as_str()), (2, ""));
+    // Fewer ways to bend are stiffer ones.
+    assert!(coarse.iter().zip(frequencies(&fine)).all(|(coarse, fine)| *coarse > fine));
     let hit = |more: &[&str]| {
         let args = [&["hit", "bat.json", "--json", "-"][..], more].concat();
         let (document, told) = accepted(&folder, &args);
@@ -1183,6 +1165,38 @@ fn unusual_but_right_options_are_taken() {
     assert_eq!(hit(&["--at", "0.8"])["impacts"][0]["from_tip_m"], 0.0);
     folder.write("ball.json", "\u{feff}{ \"format\": \"sweetspot-ball/1\", \"mass\": 0.145,\r\n\"radius\": 0.0366, \"cor\": 0 }");
     assert_eq!(hit(&["--ball", "ball.json"])["scene"]["ball"]["cor"], 0.0);
+}
+
+/// A run that falls short of what was asked: exit code 3, one line that says why, and an answer.
+fn falls_short(folder: &Folder, args: &[&str], says: &[&str]) -> Value {
+    let output = folder.run(&[args, &["--json", "-"]].concat());
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{args:?}: {told}");
+    assert!(told.lines().count() == 1 && says.iter().all(|words| told.contains(words)), "{told}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn an_answer_that_falls_short_is_given_with_the_reason() {
+    let folder = Folder::new("short");
+    folder.write("bat.json", BAT);
+    let rising = |document: &Value, count: usize| {
+        let found = frequencies(document);
+        assert!(found.len() == count && found[0] > 0.0 && found.is_sorted_by(|a, b| a < b));
+        assert_eq!(document["model"]["tolerance_met"], false);
+        assert_eq!(document["model"]["no_mode_missing"], true);
+    };
+    for tolerance in ["1e-17", "1e-300", "5e-324"] {
+        let says = [&format!("accuracy not reached: asked {tolerance},"), "round-off alone is"];
+        let modes = falls_short(&folder, &["modes", "bat.json", "--tol", tolerance], &says);
+        rising(&modes, 10);
+        let says = ["accuracy of the exit speeds not reached"];
+        let hit = falls_short(&folder, &["hit", "bat.json", "--tol", tolerance], &says);
+        assert!(hit["impacts"][0]["exit_speed_m_s"].is_f64(), "{hit}");
+    }
+    let many = ["modes", "bat.json", "--modes", "1000", "--shape-points", "0", "--budget", "1 us"];
+    let says = ["budget not kept: asked 1µs", "the first digit took", "1µs were allowed"];
+    rising(&falls_short(&folder, &many, &says), 1000);
 }
 
 #[test]
@@ -1226,7 +1240,7 @@ fn a_million_stations_are_read() {
         let few = ["modes", "bat.json", "-n", "2", "--shape-points", "0", "--json", "out.json"];
         let output = folder.run(&[&few[..], more].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = fs::read_to_string(folder.0.join("out.json")).unwrap();
+        let text = folder.read("out.json");
         frequencies(&serde_json::from_str(&text).unwrap())
     };
     let many = run(&[]);

@@ -3,19 +3,61 @@
 mod common;
 
 use common::{cone, dowel};
-use sweetspot::batch::{Way, all, each};
+use sweetspot::batch::{Found, Way, all, each};
 use sweetspot::validation::bundled_bat;
-use sweetspot::{Bat, Request, solve};
+use sweetspot::{Bat, Mode, Request, Result, solve};
 
-/// Frequencies, stated errors, modal masses and shapes of every bat, in their order.
-fn found(bats: &[Bat], request: &Request, way: Way) -> Vec<[Vec<f64>; 4]> {
+const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
+
+/// What is found of a bat, to keep.
+#[derive(Debug, Clone, PartialEq)]
+struct Answer {
+    omegas: Vec<f64>,
+    errors: Vec<f64>,
+    masses: Vec<f64>,
+    shapes: Vec<f64>,
+    nodes: Vec<f64>,
+    degree: usize,
+}
+
+fn answer(found: Result<Found>) -> Answer {
+    let found = found.unwrap();
+    Answer {
+        omegas: found.omegas.to_vec(),
+        errors: found.errors.to_vec(),
+        masses: found.modal_masses.to_vec(),
+        shapes: found.shapes.to_vec(),
+        nodes: found.mesh.nodes(),
+        degree: found.degree,
+    }
+}
+
+impl Answer {
+    /// Deflections of a mode at the left and the right end of every element: a Legendre polynomial
+    /// is 1 at the right end, 1 or −1 at the left one.
+    fn ends(&self, mode: usize) -> Vec<[f64; 2]> {
+        let terms = self.degree + 1;
+        let each = terms * (self.nodes.len() - 1);
+        let signed = |(j, w): (usize, &f64)| if j % 2 == 1 { -w } else { *w };
+        let both = |element: &[f64]| {
+            [element.iter().enumerate().map(signed).sum(), element.iter().sum::<f64>()]
+        };
+        self.shapes[mode * each..(mode + 1) * each].chunks_exact(terms).map(both).collect()
+    }
+
+    fn tip(&self, mode: usize) -> f64 {
+        self.ends(mode)[self.nodes.len() - 2][1]
+    }
+}
+
+/// Every bat's answer, in their order.
+fn found(bats: &[Bat], request: &Request, way: Way) -> Vec<Answer> {
     let mut all = Vec::new();
     each(bats, request, way, |place, found| {
         assert_eq!(place, all.len());
-        let found = found.unwrap();
-        let parts = [found.omegas, found.errors, found.modal_masses, found.shapes];
-        all.push(parts.map(<[f64]>::to_vec));
+        all.push(answer(found));
     });
+    assert_eq!(all.len(), bats.len());
     all
 }
 
@@ -24,22 +66,42 @@ fn cones(count: usize) -> Vec<Bat> {
     (0..count).map(cone).collect()
 }
 
+/// Cones, and bats of another make among them, which are solved on their own.
+fn unlike() -> Vec<Bat> {
+    let mut bats = cones(17);
+    bats.insert(3, bundled_bat("meshes/r161.json").unwrap());
+    bats.push(cone(0.000_05, 0.033));
+    bats.push(dowel());
+    bats
+}
+
+/// The same with a bat of a formula at both ends.
+fn with_formulas() -> Vec<Bat> {
+    let formula = || vec![bundled_bat("meshes/tanh.json").unwrap()];
+    [formula(), unlike(), formula()].concat()
+}
+
+fn assert_near(a: &[f64], b: &[f64], within: f64) {
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
+        assert!((a / b - 1.0).abs() <= within, "{a} {b}");
+    }
+}
+
 #[test]
 fn side_by_side_and_one_by_one_agree() {
     let bats = cones(21);
     for request in [
+        Request { modes: 1, ..Request::default() },
         Request { modes: 6, ..Request::default() },
         Request { modes: 8, tolerance: 1e-9, ..Request::default() },
         Request { modes: 6, elements: Some(40), ..Request::default() },
     ] {
         let alone = found(&bats, &request, Way::OneByOne);
         let together = found(&bats, &request, Way::SideBySide);
-        assert_eq!((alone.len(), together.len()), (bats.len(), bats.len()));
         for (one, other) in alone.iter().zip(&together) {
-            for (a, b) in one[0].iter().zip(&other[0]) {
-                assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
-            }
-            for (a, b) in one[3].iter().zip(&other[3]) {
+            assert_near(&one.omegas, &other.omegas, 1e-12);
+            for (a, b) in one.shapes.iter().zip(&other.shapes) {
                 assert!((a - b).abs() < 1e-9, "{a} {b}");
             }
         }
@@ -49,50 +111,128 @@ fn side_by_side_and_one_by_one_agree() {
 /// Each bat as the single solve finds it, within what both state.
 #[test]
 fn each_bat_is_the_bat_that_is_solved_alone() {
-    let mut bats = cones(9);
-    // Bats of another make among them: they are solved on their own.
-    bats.insert(3, bundled_bat("meshes/r161.json").unwrap());
-    bats.push(cone(0.000_05, 0.033));
-    bats.push(dowel());
-    let request = Request { modes: 5, tolerance: 1e-6, ..Request::default() };
-    for way in [Way::OneByOne, Way::SideBySide] {
-        for (bat, [omegas, errors, masses, _]) in bats.iter().zip(found(&bats, &request, way)) {
-            let solution = solve(bat, &Request { tolerance: 1e-11, ..request }).unwrap();
-            for (k, mode) in solution.modes.iter().enumerate() {
-                let error = (omegas[k] / mode.omega - 1.0).abs();
-                assert!(
-                    error <= 3.0 * (errors[k] + mode.error.total()),
-                    "{error:e} {:e}",
-                    errors[k]
-                );
-                assert!(errors[k] <= request.tolerance);
-                // A frequency's error is the square of its shape's.
-                let mass = (masses[k] / mode.modal_mass - 1.0).abs();
-                assert!(mass <= 3.0 * request.tolerance.sqrt(), "mode {}: {mass:e}", k + 1);
+    let request = |modes| Request { modes, tolerance: 1e-6, ..Request::default() };
+    for (bats, request) in [
+        (unlike(), request(5)),
+        (unlike(), request(0)),
+        (unlike(), request(1)),
+        (unlike(), request(2)),
+        (unlike(), request(60)),
+        // A batch is not compiled for this degree.
+        (unlike(), Request { degree: Some(5), ..request(5) }),
+        (with_formulas(), request(5)),
+    ] {
+        let fine = Request { tolerance: 1e-11, degree: None, ..request };
+        let alone: Vec<_> = bats.iter().map(|bat| solve(bat, &fine).unwrap()).collect();
+        for way in WAYS {
+            for (solution, found) in alone.iter().zip(found(&bats, &request, way)) {
+                assert!(request.degree.is_none_or(|degree| degree == found.degree));
+                assert_eq!(found.omegas.len(), request.modes);
+                for (k, mode) in solution.modes.iter().enumerate() {
+                    let error = (found.omegas[k] / mode.omega - 1.0).abs();
+                    let stated = found.errors[k];
+                    assert!(error <= 3.0 * (stated + mode.error.total()), "{error:e} {stated:e}");
+                    assert!(stated <= request.tolerance);
+                    // Scaled to the same tip; a frequency's error is the square of its shape's.
+                    let tip = mode.shape.deflection(mode.shape.length()) / found.tip(k);
+                    let mass = (found.masses[k] / mode.modal_mass * tip * tip - 1.0).abs();
+                    assert!(tip > 0.0);
+                    assert!(mass <= 3.0 * request.tolerance.sqrt(), "mode {}: {mass:e}", k + 1);
+                }
+            }
+        }
+    }
+}
+
+/// On the mesh that was asked for, unlike bats among them or not, as the single solve finds them
+/// there: frequencies, and shapes at the ends of every element.
+#[test]
+fn an_asked_mesh_has_the_frequencies_and_shapes_of_the_bat_that_is_solved_alone() {
+    for degree in [None, Some(4), Some(5), Some(10)] {
+        let elements = Some(40);
+        let request = Request { modes: 6, tolerance: 1e-9, elements, degree, ..Request::default() };
+        for bats in [unlike(), with_formulas()] {
+            let alone: Vec<_> = bats.iter().map(|bat| solve(bat, &request).unwrap()).collect();
+            for way in WAYS {
+                for (solution, found) in alone.iter().zip(found(&bats, &request, way)) {
+                    let omegas: Vec<f64> = solution.modes.iter().map(|mode| mode.omega).collect();
+                    assert_near(&found.omegas, &omegas, 1e-9);
+                    assert_eq!(found.degree, degree.unwrap_or(3));
+                    for mode in &solution.modes {
+                        assert_same_shape(&found, mode);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The same deflections at both ends of every element, scaled to the same tip.
+fn assert_same_shape(found: &Answer, mode: &Mode) {
+    let (k, at) = (mode.order - 1, |x| mode.shape.deflection(x));
+    for (ends, places) in found.ends(k).iter().zip(found.nodes.windows(2)) {
+        for (w, x) in ends.iter().zip(places) {
+            let off = w / found.tip(k) - at(*x) / at(mode.shape.length());
+            assert!(off.abs() < 1e-7, "mode {} at {x}: {off:e}", mode.order);
+        }
+    }
+}
+
+/// A bat's numbers in any order of the bats after the first, which makes the plan, in any share,
+/// and on any number of cores.
+#[test]
+fn results_do_not_depend_on_neighbours_or_cores() {
+    // Another make in the middle: the eight around it go one by one.
+    let mut bats = cones(600);
+    bats[300] = bundled_bat("meshes/r161.json").unwrap();
+    let request = Request { modes: 4, ..Request::default() };
+    for way in WAYS {
+        let shares: Vec<_> = bats.chunks(256).flat_map(|bats| found(bats, &request, way)).collect();
+        for threads in [1, 2, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let on_cores = pool.install(|| all(&bats, &request, way, |_, found| answer(found)));
+            assert!(on_cores == shares, "{way:?} on {threads}");
+        }
+        for (bats, shares) in bats.chunks(256).zip(shares.chunks(256)) {
+            let mut turned = bats.to_vec();
+            turned[1..].reverse();
+            let mut again = found(&turned, &request, way);
+            again[1..].reverse();
+            match way {
+                Way::OneByOne => assert!(again == shares),
+                // What is left over of eight is solved one by one.
+                Way::SideBySide => {
+                    for (a, b) in again.iter().zip(shares) {
+                        assert_near(&a.omegas, &b.omegas, 1e-12);
+                    }
+                }
             }
         }
     }
 }
 
 #[test]
-fn results_do_not_depend_on_neighbours_or_cores() {
-    let bats = cones(600);
-    let request = Request { modes: 4, ..Request::default() };
-    let on_cores = all(&bats, &request, Way::SideBySide, |_, found| found.unwrap().omegas.to_vec());
-    let again = all(&bats, &request, Way::SideBySide, |_, found| found.unwrap().omegas.to_vec());
-    assert_eq!(on_cores, again);
-    let shares: Vec<_> =
-        bats.chunks(256).flat_map(|bats| found(bats, &request, Way::SideBySide)).collect();
-    for (a, [b, ..]) in on_cores.iter().zip(&shares) {
-        assert_eq!(a, b);
-    }
-}
-
-#[test]
 fn nothing_and_too_little_are_told() {
     each(&[], &Request::default(), Way::SideBySide, |_, _| panic!("there is no bat"));
-    let request = Request { modes: 9, elements: Some(2), ..Request::default() };
-    let mut errors = 0;
-    each(&cones(3), &request, Way::SideBySide, |_, found| errors += usize::from(found.is_err()));
-    assert_eq!(errors, 3);
+    let few = Request { modes: 9, elements: Some(2), ..Request::default() };
+    let plain = Request::default();
+    for (request, says) in [
+        (few, "at least 5 elements"),
+        (Request { tolerance: 0.0, ..plain }, "tolerance: found 0"),
+        (Request { tolerance: f64::NAN, ..plain }, "tolerance: found NaN"),
+        (Request { degree: Some(13), ..plain }, "degree: found 13"),
+        (Request { degree: Some(13), elements: Some(40), ..plain }, "degree: found 13"),
+        (Request { elements: Some(0), ..plain }, "elements: found 0"),
+        (Request { elements: Some(usize::MAX), ..plain }, "fewer elements"),
+    ] {
+        for way in WAYS {
+            let mut places = Vec::new();
+            each(&cones(19), &request, way, |place, found| {
+                let told = found.unwrap_err().to_string();
+                assert!(told.contains(says), "{told}");
+                places.push(place);
+            });
+            assert!(places.into_iter().eq(0..19), "{says}");
+        }
+    }
 }

@@ -1,7 +1,11 @@
 //! The order of the modules is the architecture: each uses only those declared above it.
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use common::folder::Folder;
 
 /// Names declared by `mod x;` lines, in order.
 fn declared(file: &Path) -> Vec<String> {
@@ -65,12 +69,10 @@ fn no_module_reaches_back() {
 
 #[test]
 fn a_planted_use_of_a_later_module_is_found() {
-    let folder = std::env::temp_dir().join(format!("sweetspot-layering-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("lib.rs"), "pub mod first;\nmod second;\n").unwrap();
-    fs::write(folder.join("first.rs"), "use crate::second::Thing;\n").unwrap();
-    fs::write(folder.join("second.rs"), "use crate::first;\n").unwrap();
-    let complaints = reaching_back(&folder, "lib.rs", "crate");
-    fs::remove_dir_all(&folder).unwrap();
+    let folder = Folder::new("layering");
+    folder.write("lib.rs", "pub mod first;\nmod second;\n");
+    folder.write("first.rs", "use crate::second::Thing;\n");
+    folder.write("second.rs", "use crate::first;\n");
+    let complaints = reaching_back(&folder.0, "lib.rs", "crate");
     assert_eq!(complaints.len(), 1, "{complaints:?}");
 }

@@ -1,60 +1,15 @@
 //! What the program writes: whole or not at all, the same every time, and what the contract says.
 
+mod common;
+
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::io::{BufRead, BufReader};
+use std::process::{Output, Stdio};
 
+use common::folder::Folder;
 use serde_json::Value;
-
-/// A folder of its own for one test, removed afterwards.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let unique = format!("sweetspot-{name}-{}", std::process::id());
-        let path = std::env::temp_dir().join(unique);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn names(&self) -> Vec<String> {
-        let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
-        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
-        names.sort();
-        names
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sweetspot"));
-        command.args(args).current_dir(&self.0);
-        command
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        self.command(args).output().unwrap()
-    }
-
-    /// Standard output of a run that must succeed without a word on standard error.
-    fn text(&self, args: &[&str]) -> String {
-        let output = self.run(args);
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code() == Some(0) && told.is_empty(), "{args:?}: {told}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    fn json(&self, args: &[&str]) -> Value {
-        serde_json::from_str(&self.text(args)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Nothing depends on it.
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
+use sweetspot::validation::Truth;
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
@@ -116,10 +71,10 @@ fn a_full_disk_is_told() {
 fn a_file_that_cannot_be_written_leaves_nothing() {
     let folder = Folder::new("unwritten");
     let bat = mesh("dowel");
-    fs::write(folder.0.join("file"), "old").unwrap();
+    folder.write("file", "old");
     fs::create_dir(folder.0.join("folder")).unwrap();
     fs::create_dir(folder.0.join("locked")).unwrap();
-    fs::write(folder.0.join("locked/out.json"), "old").unwrap();
+    folder.write("locked/out.json", "old");
     let lock = |locked: bool| {
         let mut permissions = fs::metadata(folder.0.join("locked")).unwrap().permissions();
         permissions.set_readonly(locked);
@@ -144,16 +99,16 @@ fn a_file_that_cannot_be_written_leaves_nothing() {
     // Whoever may do everything may also write there.
     if !output.status.success() {
         assert!(failure(&output).contains("cannot write locked/out.json"));
-        assert_eq!(fs::read_to_string(folder.0.join("locked/out.json")).unwrap(), "old");
+        assert_eq!(folder.read("locked/out.json"), "old");
     }
     let names = |sub: &str| fs::read_dir(folder.0.join(sub)).unwrap().count();
     assert_eq!((names("locked"), names("folder")), (1, 0));
     assert_eq!(folder.names(), before);
     // An answer to a wrong bat replaces no right one.
-    fs::write(folder.0.join("bad.json"), "{").unwrap();
-    fs::write(folder.0.join("out.json"), "old").unwrap();
+    folder.write("bad.json", "{");
+    folder.write("out.json", "old");
     failure(&folder.run(&["modes", "bad.json", "--json", "out.json"]));
-    assert_eq!(fs::read_to_string(folder.0.join("out.json")).unwrap(), "old");
+    assert_eq!(folder.read("out.json"), "old");
 }
 
 #[test]
@@ -190,7 +145,7 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
     assert_eq!(out.names(), ["curve.csv", "hit.json", "modes.json"]);
     assert_eq!(read(&out, "modes.json")["format"], "sweetspot-modes/1");
     let hit = read(&out, "hit.json");
-    let curve = fs::read_to_string(out.0.join("curve.csv")).unwrap();
+    let curve = out.read("curve.csv");
     let mut lines = curve.lines();
     assert_eq!(
         lines.next(),
@@ -205,7 +160,7 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
 }
 
 fn read(folder: &Folder, name: &str) -> Value {
-    serde_json::from_str(&fs::read_to_string(folder.0.join(name)).unwrap()).unwrap()
+    serde_json::from_str(&folder.read(name)).unwrap()
 }
 
 #[test]
@@ -261,7 +216,7 @@ fn numbers_are_written_in_the_shortest_form_that_reads_back_to_the_same_bits() {
     }
     // The bat in the JSON is a bat file, and gives the same answer to the last bit.
     let first = folder.json(&["modes", &bat, "--json", "-", "--reproducible"]);
-    fs::write(folder.0.join("again.json"), first["bat"].to_string()).unwrap();
+    folder.write("again.json", first["bat"].to_string());
     let second = folder.json(&["modes", "again.json", "--json", "-", "--reproducible"]);
     for part in ["summary", "modes"] {
         assert_eq!(first[part], second[part]);
@@ -291,7 +246,7 @@ fn the_modes_document_has_the_keys_of_the_contract() {
     assert_eq!(keys(&modes["summary"]), set(summary));
     assert_eq!(modes["summary"]["pivot_m"], 0.1524);
     let model = "theory elements degree solver degrees_of_freedom ignored \
-                 plan tolerance_met no_mode_missing";
+                 lanczos_steps plan tolerance_met no_mode_missing";
     assert_eq!(keys(&modes["model"]), set(model));
     assert_eq!(keys(&modes["timing"]), set("plan_s assemble_s solve_s"));
     let list = modes["modes"].as_array().unwrap();
@@ -335,6 +290,31 @@ fn the_modes_document_has_the_keys_of_the_contract() {
 
 fn floats(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+/// Against exact frequencies. The time is far more than enough, so that none of this is a race.
+#[test]
+fn the_most_accurate_answer_within_a_time_is_as_accurate_as_it_says() {
+    let folder = Folder::new("budget");
+    let case: Value = serde_json::from_str(include_str!("../validation/pchip_bat.json")).unwrap();
+    folder.write("pchip.json", case["bat"].to_string());
+    for (bat, truth) in [
+        (mesh("dowel"), Truth::of_dowel(10)),
+        ("pchip.json".to_owned(), Truth::of_cases(&["pchip_bat"])),
+    ] {
+        let args = ["modes", &bat, "--budget", "5 s", "--shape-points", "0", "--json", "-"];
+        let document = folder.json(&args);
+        assert_eq!(document["model"]["plan"], "the most accurate within 5s");
+        assert_eq!(document["model"]["tolerance_met"], true);
+        let modes = document["modes"].as_array().unwrap();
+        assert_eq!(modes.len(), 10);
+        for (mode, exact) in modes.iter().zip(truth.unwrap().frequencies) {
+            let part = |kind: &str| mode["error"][kind].as_f64().unwrap();
+            let stated = part("discretization") + part("round_off");
+            let off = (mode["frequency_hz"].as_f64().unwrap() / exact - 1.0).abs();
+            assert!(off <= 3.0 * stated && stated < 1e-12, "{bat}: {off:e} {stated:e}");
+        }
+    }
 }
 
 #[test]
@@ -422,7 +402,7 @@ fn the_trade_documents_have_their_keys_and_tell_the_truth() {
         assert!(runs.contains(plan), "{plan}");
         assert!(plan["error"].as_f64() <= plan["planned_for"].as_f64(), "{plan}");
     }
-    let csv = fs::read_to_string(folder.0.join("t.csv")).unwrap();
+    let csv = folder.read("t.csv");
     assert!(csv.starts_with("degree,elements,solver,") && csv.lines().count() == runs.len() + 1);
     let table = folder.text(&["trade", &bat, "--budget", "100 ms"]);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
@@ -448,7 +428,7 @@ fn the_u_curve_is_shown() {
             rows += if statics { 2 } else { 4 };
         }
     }
-    let csv = fs::read_to_string(folder.0.join("u.csv")).unwrap();
+    let csv = folder.read("u.csv");
     assert!(csv.starts_with("solver,frequency,elements,mode,error\n"), "{csv}");
     assert_eq!(csv.lines().count(), rows);
     let table = folder.text(&args);
@@ -463,8 +443,7 @@ fn matrices_are_written_whole() {
     let out = Folder(folder.0.join("m"));
     assert_eq!(out.names(), ["mass.mtx", "stiffness.mtx"]);
     for name in out.names() {
-        let mut text = String::new();
-        fs::File::open(out.0.join(&name)).unwrap().read_to_string(&mut text).unwrap();
+        let text = out.read(&name);
         let mut lines = text.lines();
         assert!(lines.next().unwrap().starts_with("%%MatrixMarket matrix coordinate real"));
         let size = lines.by_ref().find(|line| !line.starts_with('%')).unwrap();

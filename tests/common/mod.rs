@@ -1,5 +1,7 @@
-//! Bats that several tests use.
+//! What several tests use: bats, and a folder to run the program in.
 #![allow(dead_code)] // Each test file uses some of them.
+
+pub mod folder;
 
 use std::f64::consts::{PI, TAU};
 
