@@ -14,6 +14,7 @@ use crate::certificate::round_off;
 use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
+use crate::modes::Mode;
 use crate::plan::Plan;
 use crate::profile::Radii;
 use crate::real::{Over, Real};
@@ -30,8 +31,8 @@ pub struct Found<'a> {
     /// `∫ρA φ² dx` (kg).
     pub modal_masses: &'a [f64],
     /// Deflections φ in Legendre polynomials, `degree + 1` numbers an element, knob to tip, mode
-    /// after mode; the largest |φ| at the ends and the elements' sample points is 1, the tip
-    /// positive.
+    /// after mode; the largest |φ| at the ends and the elements' sample points is 1 (anywhere, of a
+    /// bat that was solved on its own), the tip positive.
     pub shapes: &'a [f64],
     pub mesh: &'a Mesh,
     pub degree: usize,
@@ -310,9 +311,13 @@ fn solved_alone(place: usize, bat: &Bat, request: &Request, visit: Visit) {
         Ok(solution) => solution,
         Err(error) => return visit(place, Err(error)),
     };
-    let of = |f: &dyn Fn(&crate::modes::Mode) -> f64| solution.modes.iter().map(f).collect();
+    let of = |f: &dyn Fn(&Mode) -> f64| solution.modes.iter().map(f).collect();
+    let error = |mode: &Mode| match request.elements {
+        Some(_) => mode.error.round_off + 0.5 * mode.error.residual.powi(2),
+        None => mode.error.total(),
+    };
     let (omegas, errors, modal_masses): (Vec<f64>, Vec<f64>, Vec<f64>) =
-        (of(&|m| m.omega), of(&|m| m.error.total()), of(&|m| m.modal_mass));
+        (of(&|m| m.omega), of(&error), of(&|m| m.modal_mass));
     let shapes: Vec<f64> =
         solution.modes.iter().flat_map(|m| m.shape.coefficients()).copied().collect();
     visit(

@@ -265,19 +265,30 @@ impl Shape {
 
     /// Largest |deflection| over the continuous shape, and the relative change there.
     fn largest(&self, track: &Track) -> (f64, f64) {
+        // A peak is higher than the samples beside it, but not by more than that.
+        const LOWEST: f64 = 0.75;
         let [knob, tip] = track.ends;
         let end = if knob[0].abs() > tip[0].abs() { knob } else { tip };
-        let (mut place, mut most) = (None, end[0].abs());
-        for (i, w) in track.samples.iter().enumerate() {
-            if w.abs() > most {
-                (place, most) = (Some(i), w.abs());
+        let (mut most, mut change) = (end[0].abs(), end[1] / end[0]);
+        let highest = track.samples.iter().fold(most, |most, w| most.max(w.abs()));
+        let size = |i: usize| track.samples[i].abs();
+        let last = track.samples.len() - 1;
+        for i in (0..=last).filter(|&i| size(i) > LOWEST * highest) {
+            if (i > 0 && size(i - 1) > size(i)) || (i < last && size(i + 1) > size(i)) {
+                continue;
+            }
+            let peak = self.peak(i / track.xi.len(), track.xi[i % track.xi.len()]).max(size(i));
+            if peak > most {
+                (most, change) = (peak, track.changes[i] / track.samples[i]);
             }
         }
-        let Some(i) = place else { return (most, end[1] / end[0]) };
-        let (mut k, point) = (i / track.xi.len(), i % track.xi.len());
-        let mut xi = track.xi[point];
-        let change = track.changes[i] / track.samples[i];
-        // Newton's steps to where the slope is zero, over the border of an element if need be.
+        (most, change)
+    }
+
+    /// The largest |deflection| on Newton's way from ξ on element `k` to where the slope is zero,
+    /// over the border of an element if need be.
+    fn peak(&self, mut k: usize, mut xi: f64) -> f64 {
+        let mut most = 0.0_f64;
         for _ in 0..20 {
             let [w, slope, bend] = self.derivatives(k, xi);
             most = most.max(w.abs());
@@ -299,7 +310,7 @@ impl Shape {
                 break;
             }
         }
-        (most, change)
+        most
     }
 
     /// The isolated zeros of the deflection inside the bat (m), rising, from its values at the

@@ -89,7 +89,7 @@ pub struct Wanted {
 
 /// The plan aims at this share of the wanted error, because no element is like the formula's.
 const AIM: f64 = 0.4;
-/// The smallest relative error worth planning for.
+/// The smallest relative error worth planning for: arithmetic tells no finer one.
 const FINEST: f64 = 1e-16;
 /// Halvings of an element for a formula.
 const MOST_HALVINGS: usize = 12;
@@ -110,8 +110,6 @@ impl Plan {
         degrees: impl IntoIterator<Item = usize>,
     ) -> Self {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
-        // No finer than arithmetic can tell; the verdict stays on what was asked.
-        let tolerance = tolerance.max(FINEST);
         let survey = Survey::of(bat);
         // Mode n of a free beam is near the phase (n + ½)π from end to end.
         let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase();
@@ -119,7 +117,7 @@ impl Plan {
         let mut range: Option<[usize; 2]> = None;
         for degree in degrees {
             range = Some([range.map_or(degree, |[from, _]| from), degree]);
-            let mut reach = Reach::of(degree, AIM * tolerance, wave);
+            let mut reach = Reach::of(degree, AIM * tolerance.max(FINEST), wave);
             let mut count = reach.elements(&survey);
             if (degree - 1) * count > most_unknowns {
                 // A plan that would be too large is made as large as it may be.

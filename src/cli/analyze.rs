@@ -47,11 +47,11 @@ pub fn run(args: &Args) -> Result<Done> {
     args.output.progress("solving …");
     args.solve.refuse_budget("analyze")?;
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
+    let request = args.solve.request(args.solve.modes_within(10, bat.profile.pieces.len()));
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let hits =
-        sweep(&bat, model, &scene, &args.solve.request(args.solve.modes_within(10)), &places)?;
+    let hits = sweep(&bat, model, &scene, &request, &places)?;
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
@@ -84,7 +84,7 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(args: &Args, solution: &Solution) -> Result<String> {
-    let count = args.solve.modes_within(args.bat.count().max(10));
+    let count = args.solve.modes_within(args.bat.count().max(10), 1);
     let [truth, stated] = validation::dowel_proof(&args.solve.request(count))?;
     let here = match solution.modes.is_empty() {
         true => String::new(),

@@ -118,10 +118,12 @@ impl SolveArgs {
         }
     }
 
-    /// As many modes as wanted, or as the asked elements can bend in.
-    pub fn modes_within(&self, wanted: usize) -> usize {
+    /// As many modes as wanted, or as the asked elements can bend in, one at least on every piece of
+    /// the profile.
+    pub fn modes_within(&self, wanted: usize, pieces: usize) -> usize {
         let degree = self.degree.map_or(3, usize::from);
-        self.elements.map_or(wanted, |elements| wanted.min((degree - 1) * elements as usize))
+        let ways = |asked: u32| (degree - 1) * pieces.max(asked as usize);
+        self.elements.map_or(wanted, |asked| wanted.min(ways(asked)))
     }
 
     /// Whether an accuracy was asked for: asked elements are the user's own choice of it.

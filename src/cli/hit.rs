@@ -108,6 +108,10 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     if sweep.met || !solve.enforced() {
         return 0;
     }
-    output.warn("accuracy of the exit speeds not reached: see error.exit_speed of every impact");
+    let modes = sweep.solution.shortfall(solve.tol);
+    let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
+    output.warn(&format!(
+        "accuracy of the exit speeds not reached{reason}: see error.exit_speed of every impact"
+    ));
     NOT_REACHED
 }

@@ -91,6 +91,9 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
+/// The nodes of so many modes fit a screen or two.
+const MOST_NODES: usize = 20;
+
 /// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
 pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
     let mut out =
@@ -114,7 +117,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     if with_nodes > 0 {
         out += "Nodes\n";
     }
-    for mode in solution.modes.iter().take(with_nodes) {
+    for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
         let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
         let mut label = format!("mode {}", mode.order);
         for (end, places) in [("from knob", &mode.nodes), ("from tip", &from_tip)] {
@@ -124,6 +127,9 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
                 label.clear();
             }
         }
+    }
+    if with_nodes.min(solution.modes.len()) > MOST_NODES {
+        let _ = writeln!(out, "  those of modes above {MOST_NODES} are in the JSON");
     }
     out
 }
