@@ -274,7 +274,9 @@ impl Shape {
         let size = |i: usize| track.samples[i].abs();
         let last = track.samples.len() - 1;
         for i in (0..=last).filter(|&i| size(i) > LOWEST * highest) {
-            if (i > 0 && size(i - 1) > size(i)) || (i < last && size(i + 1) > size(i)) {
+            let before = if i == 0 { knob[0].abs() } else { size(i - 1) };
+            let after = if i == last { tip[0].abs() } else { size(i + 1) };
+            if before > size(i) || after > size(i) {
                 continue;
             }
             let peak = self.peak(i / track.xi.len(), track.xi[i % track.xi.len()]).max(size(i));
