@@ -1,9 +1,9 @@
 //! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
-//! depend on its neighbours. A bat of other proportions, of a formula, or whose answer misses the
-//! tolerance or a node by its own account is planned and solved on its own. Once warm nothing is
-//! allocated for the others.
+//! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other proportions, of a formula, or whose answer misses the
+//! tolerance or a node by its own account is planned and solved on its own; so are all where the
+//! first is such a bat. Once warm nothing is allocated for the others.
 
 use rayon::prelude::*;
 
@@ -47,7 +47,7 @@ pub enum Way {
 }
 
 /// Degrees that a batch is compiled for: a program for every one would be large.
-const DEGREES: [usize; 5] = [3, 4, 6, 8, 10];
+const COMPILED: [usize; 5] = [3, 4, 6, 8, 10];
 
 /// Solves every bat with the statics solver and shows each result to `visit`, with its place
 /// among the bats.
@@ -67,9 +67,9 @@ pub fn each(
 
 fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
     let degree = request.degree.or(request.elements.map(|_| 3));
-    let degrees = degree.map_or(DEGREES.to_vec(), |degree| vec![degree]);
+    let degrees = degree.map_or(COMPILED.to_vec(), |degree| vec![degree]);
     let first = bats.first().filter(|first| {
-        request.check().is_ok() && !has_formula(first) && DEGREES.contains(&degrees[0])
+        request.check(WIDTH).is_ok() && !has_formula(first) && COMPILED.contains(&degrees[0])
     });
     let Some(first) = first else { return all_alone(bats, request, visit) };
     let plan = match request.elements {
@@ -93,7 +93,7 @@ fn has_formula(bat: &Bat) -> bool {
     bat.profile.pieces.iter().any(|piece| matches!(piece.radii, Radii::Formula(_)))
 }
 
-/// The same on all cores, the results gathered by `read`, in the order of the bats.
+/// The same on all cores, each share of the bats with a first one of its own, the results gathered by `read`, in the order of the bats.
 pub fn all<T: Send>(
     bats: &[Bat],
     request: &Request,
@@ -252,8 +252,11 @@ where
             let (least, found) = (modes.div_ceil(N - 2), self.plan.mesh.len());
             return Err(Error::TooFewElements { wanted: modes, least, found });
         }
+        // On an asked mesh both ways are to agree to 1e-12, whatever the tolerance.
+        let most = if request.elements.is_some() { 1e-5 } else { 1.0 };
+        let tolerant = Request { elements: None, ..*request };
         match self.steps {
-            0 => self.pairs.solve(modes, stop_at(&Request { elements: None, ..*request }))?,
+            0 => self.pairs.solve(modes, stop_at(&tolerant).min(most))?,
             steps => self.pairs.solve_in(modes, steps)?,
         }
         let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };
@@ -261,10 +264,28 @@ where
             self.pairs.look(first, depth);
             self.keep(first, modes, depth);
         }
+        self.add_residuals(modes);
         Ok(())
     }
 
-    /// Writes the motions that were looked at down: modes from `first` on, of every bat.
+    /// What the iteration left: `½ residual²/gap`, as [`crate::certificate::add_neighbours`].
+    fn add_residuals(&mut self, modes: usize) {
+        let lanczos = &self.pairs.lanczos;
+        for k in 0..modes {
+            for bat in 0..R::LANES {
+                let value = |value: &R| value.lane(bat);
+                let own = value(&lanczos.values[k]);
+                let below = (k > 0).then(|| value(&lanczos.values[k - 1]));
+                let above = lanczos.values.get(k + 1).or(lanczos.beyond.as_ref()).map(value);
+                let gap = |other: Option<f64>| other.map_or(1.0, |other| (other / own - 1.0).abs());
+                let nearest = gap(below).min(gap(above)).clamp(f64::EPSILON, 1.0);
+                let residual = lanczos.residuals[k].lane(bat);
+                self.errors[bat * modes + k] += 0.5 * residual * residual / nearest;
+            }
+        }
+    }
+
+    /// Writes down the motions that were looked at: modes from `first` on, of every bat.
     fn keep(&mut self, first: usize, modes: usize, depth: Depth) {
         let (statics, motions) = (&self.pairs.statics, &self.pairs.motions);
         let mut largest = motions.ends[0][0].abs().max(motions.ends[1][0].abs());
@@ -276,18 +297,14 @@ where
         for lane in 0..WIDTH.min(R::LANES * (modes - first)) {
             let (k, bat) = (first + lane / R::LANES, lane % R::LANES);
             let place = bat * modes + k;
-            let residual = self.pairs.lanczos.residuals[k].lane(bat);
             let omega = motions.omega.lane(lane);
             self.omegas[place] = omega;
             self.modal_masses[place] = mass.lane(lane);
             let ratio = omega / self.omegas[bat * modes];
             // An eigenvalue of the compliance is known to ε of the greatest one.
             let round_off = round_off(ratio, elements) + 0.5 * f64::EPSILON * ratio * ratio;
-            self.errors[place] = round_off
-                + match depth {
-                    Depth::Shape => 0.5 * residual * residual,
-                    _ => 0.5 * motions.defect.lane(lane),
-                };
+            let defect = if depth == Depth::Shape { 0.0 } else { motions.defect.lane(lane) };
+            self.errors[place] = round_off + 0.5 * defect;
             self.counted[bat] &= crossings.lane(lane) == (k + 2) as f64;
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
             let (knob, tip) = motions.shape.split_at(statics.split);

@@ -28,33 +28,49 @@ pub fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, factored:
     mode.error.shape += 10.0 * sums;
 }
 
-/// What a mode's neighbours in frequency add to its errors.
+/// What other modes add to a mode's errors; `beyond` is ω (rad/s) of the first mode above the list,
+/// `left` the residuals that an iteration stopped at.
 ///
-/// The defect weighs the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly
-/// sees the nearest ones. The eigensolve left no more of them than `c = residual/gap` (Davis and
-/// Kahan); the mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both
-/// frequencies. Where a deflection is superconvergent, at the ends, that is all its error. Above
-/// the highest mode the gap is taken to be the one below. Frequencies nearer to each other than ε
-/// count as that near.
-pub fn add_neighbours(modes: &mut [Mode], factored: bool) {
-    let mut below: Option<(f64, f64)> = None;
-    for k in 0..modes.len() {
-        let above = modes.get(k + 1).map(|mode| (mode.omega, mode.error.discretization));
-        let mode = &mut modes[k];
-        let own = (mode.omega, mode.error.discretization);
-        let gap = |other: f64| (1.0 - (own.0 / other).powi(2)).abs().max(f64::EPSILON);
-        let share = |(omega, error): (f64, f64)| 2.0 * (own.1 * error).sqrt() / gap(omega);
-        let shares = [below, above].map(|other| other.map(share));
-        let gaps = [below, above].map(|other| other.map_or(1.0, |other| gap(other.0).min(1.0)));
+/// The defect weighs the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees
+/// the nearest ones. The eigensolve left no more of them than `c = residual/gap` (Davis and Kahan),
+/// which costs Rayleigh's quotient `c² gap`; the mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the
+/// relative errors of both frequencies. Of the two nearest all is counted, because where a
+/// deflection is superconvergent, at the ends, that is all its error; of the others what the defect
+/// does not see. In a shape of modal mass m the share is `c √(m/m_j)`. Where there is no mode above
+/// or below, the other side counts twice. Frequencies nearer to each other than ε count as that
+/// near.
+pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], factored: bool) {
+    let lightest = modes.iter().fold(f64::INFINITY, |m, mode| m.min(mode.modal_mass));
+    let known = |mode: &Mode| (mode.omega, mode.error.discretization, mode.modal_mass);
+    let all: Vec<(f64, f64, f64)> = modes.iter().map(known).collect();
+    for (k, mode) in modes.iter_mut().enumerate() {
+        let (omega, error, mass) = all[k];
+        let gap = |other: f64| (1.0 - (omega / other).powi(2)).abs().max(f64::EPSILON);
+        // Of the other mode: its gap, and its share of this shape.
+        let part = |(other, of_other, its_mass): (f64, f64, f64)| {
+            let (gap, larger) = (gap(other), (mass / its_mass).sqrt());
+            (gap, larger, 2.0 * (error * of_other).sqrt() / gap * larger)
+        };
+        let below = (k > 0).then(|| part(all[k - 1]));
+        let next = all.get(k + 1).copied();
+        let above = next.or(beyond.map(|omega| (omega, error, lightest))).map(part);
+        let both = [below.or(above), above.or(below)];
+        let mut mixed: f64 = both.iter().flatten().map(|(_, _, share)| share).sum();
+        for (_, other) in all.iter().enumerate().filter(|(j, _)| j.abs_diff(k) > 1) {
+            let (gap, _, share) = part(*other);
+            mixed += share * (1.0 - gap).max(0.0);
+        }
+        if both == [None, None] {
+            mixed = 4.0 * error;
+        }
         // The residual of a factored `K` is its round-off, in the fastest modes.
         let residual = if factored { 0.0 } else { mode.error.residual };
-        let nearest = gaps[0].min(gaps[1]);
-        let single = shares[0].or(shares[1]).unwrap_or(2.0 * own.1);
-        let mixed = shares.map(|share| share.unwrap_or(single)).iter().sum::<f64>();
-        let mixed = mixed + residual / nearest;
+        let cost = |(gap, larger, _): &(f64, f64, f64)| residual / gap.min(1.0) * larger;
+        mixed += both.iter().flatten().map(cost).fold(residual, f64::max);
+        let nearest = both.iter().flatten().map(|(gap, ..)| *gap).fold(1.0, f64::min);
+        mode.error.discretization += 0.5 * left.get(k).map_or(0.0, |left| left * left / nearest);
         mode.error.nodes += mixed * mode.shape.length() / mode.nodes.len().max(1) as f64;
         mode.error.modal_mass += 2.0 * mixed;
         mode.error.shape += mixed;
-        below = Some(own);
     }
 }

@@ -28,8 +28,9 @@ pub enum Solver {
 const MOST_UNKNOWNS: usize = 1 << 21;
 /// The dense solver needs n² memory and n³ time.
 pub const MOST_DENSE: usize = 4098;
-/// Beyond this a factored `K` has lost all digits.
+/// Beyond this a factored `K` loses digits that no recomputing brings back.
 const MOST_FACTORED: usize = 20_000;
+
 impl Solver {
     /// The most unknowns that a plan should have for it.
     pub fn most_unknowns(self) -> usize {
@@ -41,8 +42,19 @@ impl Solver {
     }
 }
 
-/// The `count` lowest bending modes as scaled strains in the order of the statics, and the steps
-/// that were taken.
+/// Modes as scaled strains, one after the other.
+#[derive(Debug, Default)]
+pub struct Found {
+    pub strains: Vec<f64>,
+    pub steps: usize,
+    /// ω (rad/s) of the first mode beyond them, if it was found.
+    pub beyond: Option<f64>,
+    /// What an iteration by the statics left of every mode, `‖A v − θ v‖/θ`, free of the round-off
+    /// that is in [`Motion::residual`]; none for solvers that factor.
+    pub residuals: Vec<f64>,
+}
+
+/// The `count` lowest bending modes as scaled strains in the order of the statics.
 ///
 /// # Errors
 ///
@@ -53,12 +65,17 @@ pub fn strains<const N: usize>(
     statics: &Statics<f64, N>,
     count: usize,
     solver: Solver,
-) -> Result<(Vec<f64>, usize)> {
+) -> Result<Found> {
     check_size(statics.dimension() + 2, solver)?;
     let elements = element::elements::<N>(bat, mesh);
     let pairs = of_pencil(statics, &elements, count, solver)?;
     let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
-    Ok((pairs.vectors.iter().flat_map(strains).collect(), pairs.steps))
+    Ok(Found {
+        strains: pairs.vectors.iter().take(count).flat_map(strains).collect(),
+        steps: pairs.steps,
+        beyond: pairs.values.get(count).map(|value| value.max(0.0).sqrt()),
+        residuals: vec![],
+    })
 }
 
 fn check_size(unknowns: usize, solver: Solver) -> Result<()> {
@@ -78,8 +95,8 @@ struct Pairs {
     steps: usize,
 }
 
-/// The `count` lowest bending modes by a solver that factors `K`; for the statics, which factors
-/// nothing, by shift-invert.
+/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`; for
+/// the statics, which factors nothing, by shift-invert.
 fn of_pencil<const N: usize>(
     statics: &Statics<f64, N>,
     elements: &[Element<f64, N>],
@@ -87,7 +104,9 @@ fn of_pencil<const N: usize>(
     solver: Solver,
 ) -> Result<Pairs> {
     let Pencil { stiffness: k, mass: m } = Pencil::assemble(elements);
-    let (shift, all) = (shift(statics), count + 2);
+    // The rigid motions are found too, and left: a free bat always has two.
+    let (shift, rigid) = (shift(statics), 2);
+    let all = count + rigid + usize::from(count + rigid + 1 < k.nrows());
     let mut pairs = match solver {
         Solver::Arpack => arpack(&k, &m, shift, all)?,
         Solver::Dense => {
@@ -99,9 +118,8 @@ fn of_pencil<const N: usize>(
             shift_invert::lowest(&k, &m, shift, all, 1e-12)?.into()
         }
     };
-    // The rigid motions are found too, and left: a free bat always has two.
-    pairs.values = pairs.values.drain(2..all.min(pairs.values.len())).collect();
-    pairs.vectors = pairs.vectors.drain(2..all.min(pairs.vectors.len())).collect();
+    pairs.values = pairs.values.into_iter().skip(rigid).collect();
+    pairs.vectors = pairs.vectors.into_iter().skip(rigid).collect();
     Ok(pairs)
 }
 
@@ -173,7 +191,7 @@ pub fn own_and_recomputed(
     let elements = element::elements::<4>(bat, mesh);
     let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
-    let both = pairs.values.iter().zip(&pairs.vectors).map(|(value, vector)| {
+    let both = pairs.values.iter().zip(&pairs.vectors).take(modes).map(|(value, vector)| {
         motion.take(&statics, &strains_of(&statics, &elements, vector), None, false);
         [value.max(0.0).sqrt(), motion.omega]
     });

@@ -35,7 +35,8 @@
 //!
 //! # Symbols
 //!
-//! One meaning each, SI everywhere inside; units only at the border, in names and strings.
+//! SI everywhere inside; units only at the border, in names and strings. A module that uses a letter
+//! otherwise says so at the formula.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -43,12 +44,18 @@
 //! | `L`, `h` | length of the bat, of an element | m |
 //! | `r`, `r_i` | outer and inner radius | m |
 //! | `ρ`, `E`, `G`, `κ` | density, Young's and shear modulus, shear coefficient | kg/m³, Pa, Pa, 1 |
-//! | `A`, `I` | area and second moment of area of a section | m², m⁴ |
+//! | `A`, `I` | area and second moment of area of a section (in [`eigen`], A is an operator) | m², m⁴ |
 //! | `w`, `θ` | deflection, rotation of the section (θ = dw/dx) | m, rad |
 //! | `p`, `N` | degree of an element's deflection, its number of coefficients `p + 1` | 1 |
 //! | `w″`, `M` | curvature, bending moment (elsewhere M is the mass matrix) | 1/m, N m |
 //! | `c`, `q` | strains of an element, the same scaled by the strain energy | 1/m, √J |
+//! | `s`, `ξ` | place on an element or a piece, 0 to 1 and −1 to 1 | 1 |
+//! | `P_j` | Legendre's polynomial of degree j in ξ | 1 |
 //! | `ω = 2πf`, `λ = ω²` | angular frequency, eigenvalue | rad/s, 1/s² |
+//! | `θ = 1/λ` in [`eigen`] | eigenvalue of the compliance, Ritz value | s² |
+//! | `σ` | shift of the eigenvalues for solvers that factor | 1/s² |
+//! | `η` | twice the relative error of a frequency, its defect | 1 |
+//! | `ζ` | damping ratio | 1 |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |
 //! | `a`, `J` | impact point, impulse | m, N s |
 //! | `e`, `e_A` | coefficient of restitution, collision efficiency | 1 |

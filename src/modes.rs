@@ -90,7 +90,9 @@ impl Mode {
             round_off: 0.0,
             residual: motion.residual.lane(lane),
             nodes: node_error,
-            modal_mass: 2.0 * (track.work / kinetic - change).abs(),
+            // The mass goes as the square of the shape; where the parts of its own change cancel, by
+            // luck, the shape's change is the better measure.
+            modal_mass: 2.0 * f64::max((track.work / kinetic - change).abs(), worst),
             shape: worst,
         };
         let modal_mass = kinetic * scale * scale;
@@ -219,17 +221,6 @@ impl Shape {
         self.stretches.last().map_or(0.0, |(middle, length)| middle + 0.5 * length)
     }
 
-    /// Positions of the mesh's nodes (m).
-    pub fn mesh_nodes(&self) -> Vec<f64> {
-        let starts = self.stretches.iter().map(|(middle, length)| middle - 0.5 * length);
-        starts.chain([self.length()]).collect()
-    }
-
-    /// Degree of the polynomials.
-    pub fn degree(&self) -> usize {
-        self.terms - 1
-    }
-
     /// Legendre coefficients of the deflection, element by element, `degree + 1` each.
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients
@@ -265,8 +256,8 @@ impl Shape {
 
     /// Largest |deflection| over the continuous shape, and the relative change there.
     fn largest(&self, track: &Track) -> (f64, f64) {
-        // A peak is higher than the samples beside it, but not by more than that.
-        const LOWEST: f64 = 0.75;
+        // A peak is higher than the samples beside it, hardly ever by more than that.
+        const LOWEST: f64 = 0.5;
         let [knob, tip] = track.ends;
         let end = if knob[0].abs() > tip[0].abs() { knob } else { tip };
         let (mut most, mut change) = (end[0].abs(), end[1] / end[0]);
@@ -274,9 +265,11 @@ impl Shape {
         let size = |i: usize| track.samples[i].abs();
         let last = track.samples.len() - 1;
         for i in (0..=last).filter(|&i| size(i) > LOWEST * highest) {
-            let before = if i == 0 { knob[0].abs() } else { size(i - 1) };
-            let after = if i == last { tip[0].abs() } else { size(i + 1) };
-            if before > size(i) || after > size(i) {
+            let sign = track.samples[i].signum();
+            let before = if i == 0 { knob[0] } else { track.samples[i - 1] };
+            let after = if i == last { tip[0] } else { track.samples[i + 1] };
+            // Beyond a zero begins another peak.
+            if before * sign > size(i) || after * sign > size(i) {
                 continue;
             }
             let peak = self.peak(i / track.xi.len(), track.xi[i % track.xi.len()]).max(size(i));
@@ -343,25 +336,27 @@ impl Shape {
     }
 
     /// The zero between `left` and `right` on element `k`, where the deflection is of different
-    /// sign: Halley's steps where they stay inside the shrinking bracket, halving where not.
+    /// sign: Halley's steps `ξ − w w′/(w′² − ½ w w″)` where they stay inside the shrinking bracket,
+    /// halving where not.
     fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
         let halley = |xi: f64| {
             let [value, slope, bend] = self.derivatives(k, xi);
-            (value, xi - value * slope / (slope * slope - 0.5 * value * bend))
+            let step = value * slope / (slope * slope - 0.5 * value * bend);
+            (value, xi - step, value.abs() <= 2.0 * SMALL * slope.abs())
         };
         // The error is about the cube of the step: after a step of 1e-5 there is none left.
         const SMALL: f64 = 1e-5;
         let start = left + (right - left) * (before / (before - after));
         // Nearly always two steps do, with nothing to decide on the way.
         let once = halley(start).1;
-        let twice = halley(once).1;
-        if (twice - once).abs() < SMALL && twice > left && twice < right {
+        let (_, twice, small) = halley(once);
+        if small && (twice - once).abs() < SMALL && twice > left && twice < right {
             return twice;
         }
         let rising = after > 0.0;
         let mut xi = start;
         for _ in 0..100 {
-            let (value, next) = halley(xi);
+            let (value, next, small) = halley(xi);
             if (value > 0.0) == rising {
                 right = xi
             } else {
@@ -369,7 +364,8 @@ impl Shape {
             }
             let inside = next > left && next < right;
             let next = if inside { next } else { 0.5 * (left + right) };
-            if (next - xi).abs() <= f64::EPSILON || (inside && (next - xi).abs() < SMALL) {
+            let step = (next - xi).abs();
+            if step <= f64::EPSILON || (inside && small && step < SMALL) {
                 return next;
             }
             xi = next;

@@ -1,9 +1,9 @@
-//! Numbers that the solver counts with: one bat at a time, or several side by side.
+//! Numbers that the solver counts with: one at a time, or several side by side.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A real number, or one for each of several bats of the same mesh.
+/// A real number, or one for each of several bats of the same mesh, or of several modes of a bat.
 ///
 /// Comparisons speak for all lanes at once, so that every lane takes the same steps.
 pub trait Real:
@@ -84,7 +84,7 @@ impl Real for f64 {
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        f64::max(self, other)
+        if self > other { self } else { other }
     }
 
     #[inline(always)]

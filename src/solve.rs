@@ -11,7 +11,7 @@ use crate::beam::rule::DEGREES;
 use crate::certificate::{account, add_neighbours, round_off};
 use crate::eigenpairs::{Depth, Eigenpairs};
 use crate::error::{Error, Result};
-use crate::factored;
+use crate::factored::{self, Found};
 use crate::lanes::WIDTH;
 use crate::modes::{Mode, Shape};
 use crate::plan::{Plan, Reason, Wanted};
@@ -39,13 +39,16 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Whether that can be asked of that bat.
+    /// Whether that can be asked of so many bats side by side.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, and for a
-    /// mesh that would not fit into memory.
-    pub fn check(&self) -> Result<()> {
+    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, for too many
+    /// modes, and for a mesh that would not fit into memory.
+    pub fn check(&self, bats: usize) -> Result<()> {
+        if self.modes > MOST_MODES {
+            return Err(Error::value("modes", self.modes, format!("0 to {MOST_MODES}")));
+        }
         if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
             let expected = "a number between 0 and 1, such as 1e-6";
             return Err(Error::value("tolerance", self.tolerance, expected));
@@ -61,7 +64,11 @@ impl Request {
         let terms = self.degree.unwrap_or(3) as f64 + 1.0;
         let numbers = 2.0 * terms * terms + 12.0 * terms + 40.0;
         let vectors = 3.0 * terms * (self.modes as f64 + 10.0);
-        let gigabytes = 8e-9 * elements as f64 * (numbers + vectors);
+        // Stiffness and mass as triplets and as columns.
+        let factored = self.solver != Solver::Statics;
+        let matrices = if factored { 10.0 * terms * terms } else { 0.0 };
+        let all = bats as f64 * (numbers + matrices + vectors);
+        let gigabytes = 8e-9 * elements as f64 * all;
         if gigabytes > MOST_GIGABYTES {
             let found = format!("{elements} with {} modes, {gigabytes:.0} GB", self.modes);
             let expected = format!("what fits into {MOST_GIGABYTES} GB: fewer elements or modes");
@@ -139,6 +146,8 @@ pub struct Timing {
     pub solve: Duration,
 }
 
+/// More are no bending modes of a bat.
+const MOST_MODES: usize = 2000;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;
 /// Residual of an eigenpair that is as good as arithmetic allows.
@@ -155,7 +164,7 @@ const MOST_ROUNDS: usize = 12;
 /// factor `K`, [`Error::NotBuilt`] without ARPACK, [`Error::NotConverged`]. An accuracy that cannot
 /// be reached is no error: the best answer comes back with `met` false.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
-    request.check()?;
+    request.check(1)?;
     let started = Instant::now();
     let mut timing = Timing::default();
     let mut plan = match request.elements {
@@ -200,7 +209,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
                 Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
             plan.refined(&defects, request.tolerance, request.degree.is_none())
         });
-        if best.is_none() || gain < 1.0 {
+        if solution.met || best.is_none() || gain < 1.0 {
             best = Some(solution);
         }
         match next {
@@ -211,6 +220,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
                 break;
             }
             None => break,
+        }
+        if round + 1 == MOST_ROUNDS {
+            let rounds = format!("{MOST_ROUNDS} refinements were not enough");
+            best.iter_mut().for_each(|best| best.stopped = Some(rounds.clone()));
         }
     }
     Ok(best.expect("there was a round"))
@@ -315,7 +328,7 @@ impl Task<'_> {
         pairs.assemble(&[bat], &[&plan.mesh]);
         let assembled = Instant::now();
         timing.assemble += assembled - started;
-        let (strains, steps) = self.strains(&mut pairs)?;
+        let Found { strains, steps, beyond, residuals } = self.strains(&mut pairs)?;
         let stretches = Arc::new(plan.mesh.stretches());
         let missed = |e| element::missed(bat, e, pairs.statics.rule);
         let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
@@ -346,16 +359,16 @@ impl Task<'_> {
                 pairs.motions.add_defects(&pairs.statics, &mut defects);
             }
         }
-        add_neighbours(&mut modes, factored);
+        add_neighbours(&mut modes, beyond, &residuals, factored);
         timing.solve += assembled.elapsed();
         Ok(Answer { modes, steps, defects })
     }
 
-    /// Scaled strains of the wanted modes, and the steps that the solver took.
-    fn strains<const N: usize>(&self, pairs: &mut Eigenpairs<f64, N>) -> Result<(Vec<f64>, usize)> {
+    /// Scaled strains of the wanted modes.
+    fn strains<const N: usize>(&self, pairs: &mut Eigenpairs<f64, N>) -> Result<Found> {
         let Self { bat, plan, request, residual } = *self;
         match request.solver {
-            _ if request.modes == 0 => Ok((vec![], 0)),
+            _ if request.modes == 0 => Ok(Found::default()),
             Solver::Statics => {
                 match Moments::of(bat, plan, request) {
                     Some(coarse) => {
@@ -364,7 +377,10 @@ impl Task<'_> {
                     None => pairs.solve(request.modes, residual)?,
                 }
                 let lanczos = std::mem::take(&mut pairs.lanczos);
-                Ok((lanczos.vectors, lanczos.steps))
+                let omega = |value: f64| (pairs.statics.energy_unit / value).sqrt();
+                let (steps, beyond) = (lanczos.steps, lanczos.beyond.map(omega));
+                let residuals = lanczos.residuals;
+                Ok(Found { strains: lanczos.vectors, steps, beyond, residuals })
             }
             solver => factored::strains(bat, &plan.mesh, &pairs.statics, request.modes, solver),
         }

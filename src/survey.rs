@@ -1,7 +1,7 @@
 //! A profile as the planner sees it: how many waves a piece holds and how much it tapers.
 
 use crate::bat::Bat;
-use crate::profile::{Piece, Radii, Section};
+use crate::profile::{Cubics, Piece, Radii, Section};
 
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
@@ -79,7 +79,7 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
         let section = Section { outer: radius, ..section };
         let ratio = bat.mass_per_length(section) / bat.bending_stiffness(section);
         let taper = match &piece.radii {
-            Radii::Cubic(cubics) => Some(taper(&cubics.outer, s, radius)),
+            Radii::Cubic(cubics) => Some(taper(cubics, s, radius)),
             Radii::Formula(_) => None,
         };
         Place { s, radius, wave: ratio.sqrt().sqrt(), taper }
@@ -102,8 +102,13 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
     }
 }
 
-/// [`Place::taper`] of a cubic in Bernstein's polynomials.
-fn taper(b: &[f64; 4], s: f64, radius: f64) -> f64 {
+/// [`Place::taper`] of stations.
+///
+/// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the
+/// first is `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The
+/// factors lie between these.
+fn taper(cubics: &Cubics, s: f64, radius: f64) -> f64 {
+    let b = &cubics.outer;
     let first = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
     let second = [first[1] - first[0], first[2] - first[1]];
     let third = second[1] - second[0];
@@ -111,9 +116,8 @@ fn taper(b: &[f64; 4], s: f64, radius: f64) -> f64 {
     let r1 = 3.0 * (first[0] * t * t + 2.0 * first[1] * t * s + first[2] * s * s);
     let r2 = 3.0 * (second[0] * t + second[1] * s);
     let [r1, r2, r3] = [r1, r2, third].map(|r| (r / radius).abs());
-    // A straight side's higher parts are round-off. The powers of `(1 + r_j s^j)⁻⁴` that the cone
-    // has besides are missing: that is what the factors are for.
-    if r2.max(r3) <= 1e-12 * r1 { r1 } else { r1.max((0.5 * r2).sqrt()).max((0.3 * r3).cbrt()) }
+    // A straight side's higher parts are round-off.
+    if cubics.degree == 1 { r1 } else { r1.max((0.5 * r2).sqrt()).max((0.3 * r3).cbrt()) }
 }
 
 fn between(

@@ -89,11 +89,6 @@ impl Quantity {
         self.facts().0
     }
 
-    /// The SI unit of a bare number.
-    pub fn si_unit(self) -> &'static str {
-        self.facts().2
-    }
-
     /// What a value of this quantity may look like, for error messages.
     pub fn expected(self) -> String {
         let (name, _, si, example) = self.facts();

@@ -126,20 +126,6 @@ impl<R: Real, const N: usize> Element<R, N> {
         Self { length, middle, stiffness, mass }
     }
 
-    /// The same element seen from its other end: odd polynomials change sign.
-    #[inline(always)]
-    pub fn mirrored(mut self) -> Self {
-        for k in 0..N {
-            for l in 0..N {
-                if (k + l) % 2 == 1 {
-                    self.stiffness[k][l] = -self.stiffness[k][l];
-                    self.mass[k][l] = -self.mass[k][l];
-                }
-            }
-        }
-        self
-    }
-
     /// Writes `L⁻¹`, lower triangular, of the stiffness `D = L Lᵀ` in that unit of energy.
     #[inline(always)]
     pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, N>) {

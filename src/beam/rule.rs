@@ -13,7 +13,6 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 /// Gauss points of an element of one degree, with integrals of what is given there.
 #[derive(Debug)]
 pub struct Rule {
-    /// Places in (0, 1), weights of sum 1, and the place as ξ in (−1, 1).
     pub points: Vec<Point>,
     /// `P_0 … P_{N−1}` at the points, `N` the degree plus 1: point by point.
     legendre: Vec<f64>,
@@ -38,7 +37,9 @@ pub type AtPoints<R> = [R; MOST_POINTS];
 /// One Gauss point.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
+    /// In (0, 1).
     pub s: f64,
+    /// Of sum 1.
     pub weight: f64,
     /// The cubic Bernstein polynomials there.
     pub bernstein: [f64; 4],

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
-use sweetspot::report::file;
+use sweetspot::report::{file, json};
 use sweetspot::ringing::{Ringing, Start};
 use sweetspot::shape_file;
 use sweetspot::solve::Solution;
@@ -81,7 +81,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let document = || {
         json!({
         "format": "sweetspot-ring/1",
-        "generator": { "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") },
+        "generator": json::generator(),
         "modes": args.bat.count(),
         "rigid_motion": !args.bending_only,
         "x_m": x,

@@ -34,8 +34,8 @@ pub fn sweep(
     places: &[f64],
 ) -> Result<Sweep> {
     let mut asked = *request;
+    let mut solution = solve(bat, &asked)?;
     loop {
-        let solution = solve(bat, &asked)?;
         let hitter = Hitter::new(model, scene, bat, &solution);
         let impacts: Vec<Impact> = places.iter().map(|x| hitter.strike(*x)).collect();
         let errors = impacts.iter().filter_map(|i| i.outcome.as_ref()).map(|o| o.error);
@@ -45,7 +45,11 @@ pub fn sweep(
         if !met && request.elements.is_none() && asked.tolerance >= 1e-13 {
             // The exit speed is more sensitive than the frequencies: ask these for more.
             asked.tolerance *= (0.3 * request.tolerance / worst).clamp(1e-6, 0.1);
-            continue;
+            // Where more cannot be had, this answer stands.
+            if let Ok(finer) = solve(bat, &asked) {
+                solution = finer;
+                continue;
+            }
         }
         let spot = SweetSpot::find(bat, scene, &solution, &hitter);
         let rigid = Hitter::new(Model::Rigid, scene, bat, &solution);

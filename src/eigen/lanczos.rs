@@ -24,9 +24,15 @@ pub struct Lanczos<R> {
     pub values: Vec<R>,
     /// `‖A v − θ v‖/θ` of each.
     pub residuals: Vec<R>,
+    /// The first eigenvalue beyond them, with a residual of 100 times the wanted one at most; none
+    /// if there is no other.
+    pub beyond: Option<R>,
     /// The same number of orthonormal eigenvectors, one after the other.
     pub vectors: Vec<R>,
 }
+
+/// The eigenpair beyond the wanted ones may have a residual so many times as large.
+const NEARLY: f64 = 100.0;
 
 /// What is asked of the iteration.
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +106,13 @@ impl<R: Real> Lanczos<R> {
                 }
                 let misses = |residual: &&R| !residual.within(R::splat(wanted.residual));
                 let missed = if spanned { 0 } else { self.residuals.iter().filter(misses).count() };
-                if missed == 0 && found == count {
+                // A wanted vector can be told from the first one beyond only if that one shows.
+                self.beyond = (steps > count).then(|| self.small.value(count));
+                let shows = self.beyond.is_some_and(|value| {
+                    let residual = rest * self.small.weight(count, steps - 1).abs();
+                    residual.within(R::splat(NEARLY * wanted.residual) * value)
+                });
+                if missed == 0 && found == count && (spanned || shows) {
                     self.combine(count, dimension);
                     return Ok(());
                 }

@@ -127,20 +127,19 @@ fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, high:
     e[high] = zero;
 }
 
-/// Eigenvalues, largest first, and the components of their unit eigenvectors, `[pair][row]`, as
-/// [`Tridiagonal::solve`].
-pub fn eigen(diagonal: &[f64], off: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
-    let mut small = Tridiagonal::default();
-    small.solve(diagonal, off)?;
-    let rows = 0..diagonal.len();
-    let vector = |k| rows.clone().map(|row| small.weight(k, row)).collect();
-    Some((small.values.clone(), rows.clone().map(vector).collect()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::PI;
+
+    /// Eigenvalues, largest first, and the components of their unit eigenvectors, `[pair][row]`.
+    fn eigen(diagonal: &[f64], off: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+        let mut small = Tridiagonal::default();
+        small.solve(diagonal, off)?;
+        let rows = 0..diagonal.len();
+        let vector = |k| rows.clone().map(|row| small.weight(k, row)).collect();
+        Some((small.values.clone(), rows.clone().map(vector).collect()))
+    }
 
     #[test]
     fn the_second_difference_has_its_known_eigenvalues() {

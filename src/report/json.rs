@@ -89,13 +89,10 @@ fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
 }
 
 fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
-    match (points, solution.modes.first()) {
-        (ShapePoints::Nodes, Some(mode)) => mode.shape.mesh_nodes(),
-        (ShapePoints::Nodes, None) | (ShapePoints::Even(0), _) => vec![],
-        (ShapePoints::Even(1), _) => vec![0.0],
-        (ShapePoints::Even(n), _) => {
-            (0..n).map(|k| bat.length() * k as f64 / (n - 1) as f64).collect()
-        }
+    match points {
+        ShapePoints::Nodes => solution.mesh.nodes(),
+        ShapePoints::Even(1) => vec![0.0],
+        ShapePoints::Even(n) => (0..n).map(|k| bat.length() * k as f64 / (n - 1) as f64).collect(),
     }
 }
 

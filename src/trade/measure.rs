@@ -33,6 +33,8 @@ const RATIO: f64 = 1.5;
 const MOST_UNKNOWNS: f64 = 2e6;
 /// Rungs without a gain after which a ladder ends.
 const PATIENCE: usize = 3;
+/// As many elements as the columns go to.
+const FINEST_COLUMN: usize = 8192;
 /// Parts of the time: until the columns are measured, until the ladder ends, until the end.
 const COLUMNS: f64 = 0.25;
 const LADDER: f64 = 0.75;
@@ -68,8 +70,7 @@ pub fn measure(
     bench.ask_planner(progress)?;
     progress("more elements");
     let time = budget.mul_f64(COLUMNS).saturating_sub(started.elapsed());
-    let most = 8192;
-    let columns = u_curve::measure(bat, &bench.reference, &SOLVERS, most, time, progress);
+    let columns = u_curve::measure(bat, &bench.reference, &SOLVERS, FINEST_COLUMN, time, progress);
     bench.climb(progress);
     progress("the front again");
     for _ in 0..2 {
