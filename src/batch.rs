@@ -208,21 +208,18 @@ where
         }
         let (modes, coefficients) = (request.modes, N * self.plan.mesh.len());
         for lane in 0..R::LANES {
-            let own = |values: &'_ [f64], each: usize| -> std::ops::Range<usize> {
-                debug_assert!(values.len() == R::LANES * modes * each);
-                lane * modes * each..(lane + 1) * modes * each
-            };
-            let errors = &self.errors[own(&self.errors, 1)];
+            let own = |each: usize| lane * modes * each..(lane + 1) * modes * each;
+            let errors = &self.errors[own(1)];
             let met = errors.iter().all(|error| *error <= request.tolerance);
             if !met || !self.counted[lane] {
                 solved_alone(first + lane, bats[lane], request, visit);
                 continue;
             }
             let found = Found {
-                omegas: &self.omegas[own(&self.omegas, 1)],
+                omegas: &self.omegas[own(1)],
                 errors,
-                modal_masses: &self.modal_masses[own(&self.modal_masses, 1)],
-                shapes: &self.shapes[own(&self.shapes, coefficients)],
+                modal_masses: &self.modal_masses[own(1)],
+                shapes: &self.shapes[own(coefficients)],
                 mesh: &self.meshes[lane],
                 degree: N - 1,
             };

@@ -29,10 +29,8 @@ pub struct Rule {
 
 /// Points whose numbers are computed together; the tables are filled up to a multiple.
 const BLOCK: usize = 4;
-/// Room for a number at every point of any rule.
+/// Room for a number at every point of any rule; those beyond its last point are not used.
 pub const MOST_POINTS: usize = 32;
-/// Numbers at the points of a rule; those beyond its last point are not used.
-pub type AtPoints<R> = [R; MOST_POINTS];
 
 /// One Gauss point.
 #[derive(Debug, Clone, Copy)]
@@ -134,25 +132,25 @@ impl Rule {
 
     /// The values at the points of `Σ c_k P_k`.
     #[inline(always)]
-    pub fn values<R: Real>(&self, coefficients: &[R], values: &mut AtPoints<R>) {
+    pub fn values<R: Real>(&self, coefficients: &[R], values: &mut [R; MOST_POINTS]) {
         self.combine(&self.by_term, coefficients, values);
     }
 
     /// A function given at the points, twice integrated from the left end.
     #[inline(always)]
-    pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut AtPoints<R>) {
+    pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {
         self.combine(&self.from_left, function, twice);
     }
 
     /// A function given at the points, twice integrated from the right end.
     #[inline(always)]
-    pub fn twice_from_right<R: Real>(&self, function: &[R], twice: &mut AtPoints<R>) {
+    pub fn twice_from_right<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {
         self.combine(&self.from_right, function, twice);
     }
 
     /// `Σ parts[k] rows[k]`.
     #[inline(always)]
-    fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut AtPoints<R>) {
+    fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut [R; MOST_POINTS]) {
         let stride = self.stride();
         // Four points at a time stay in registers while the parts go by.
         for first in (0..stride).step_by(BLOCK) {

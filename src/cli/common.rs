@@ -1,7 +1,7 @@
 //! Options that several verbs share.
 
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
@@ -37,10 +37,7 @@ impl BatArgs {
 
     /// Reads the bat and passes its warnings on.
     pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
-        let bat = Bat::from_file(&self.bat)?;
-        let file = self.bat.display();
-        bat.warnings().iter().for_each(|w| output.warn(&format!("warning: {file}: {w}")));
-        Ok(bat)
+        read(&self.bat, output.quiet)
     }
 
     /// Reads the bat and finds its modes.
@@ -180,10 +177,7 @@ impl OutputArgs {
 
     /// Says something on standard error.
     pub fn warn(&self, text: &str) {
-        if !self.quiet {
-            // A closed standard error is no reason to stop.
-            let _ = writeln!(std::io::stderr(), "{}", printable(text));
-        }
+        warn(text, self.quiet);
     }
 
     /// What took so long, for a person at a terminal.
@@ -191,6 +185,21 @@ impl OutputArgs {
         if std::io::stderr().is_terminal() {
             self.warn(text);
         }
+    }
+}
+
+/// Reads a bat and passes its warnings on.
+pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
+    let bat = Bat::from_file(path)?;
+    let file = path.display();
+    bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
+    Ok(bat)
+}
+
+fn warn(text: &str, quiet: bool) {
+    if !quiet {
+        // A closed standard error is no reason to stop.
+        let _ = writeln!(std::io::stderr(), "{}", printable(text));
     }
 }
 

@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
-use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::{file, trade, u_curve};
 use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;
 use sweetspot::trade::u_curve as curve;
 
-use crate::cli::common::budget;
-use crate::cli::{Done, printable};
+use crate::cli::Done;
+use crate::cli::common::{budget, read};
 
 /// Speed against accuracy, measured on this bat, here and now
 ///
@@ -61,7 +60,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let expected = "one of --json and --csv on standard output";
         return Err(Error::value("--csv", "- and --json -", expected));
     }
-    let bat = read(args)?;
+    let bat = read(&args.bat, args.quiet)?;
     let modes = usize::from(args.count);
     let mut progress = Progress::new(args.quiet);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
@@ -79,19 +78,6 @@ pub fn run(args: &Args) -> Result<Done> {
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
     };
     Ok((deliver(args, table, &document, rows)?, 0))
-}
-
-fn read(args: &Args) -> Result<Bat> {
-    let bat = Bat::from_file(&args.bat)?;
-    if !args.quiet {
-        let file = args.bat.display().to_string();
-        for warning in bat.warnings() {
-            // A closed standard error is no reason to stop.
-            let line = printable(&format!("warning: {file}: {warning}"));
-            let _ = writeln!(std::io::stderr(), "{line}");
-        }
-    }
-    Ok(bat)
 }
 
 /// Writes the files; what is left for standard output.
