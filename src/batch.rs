@@ -250,7 +250,7 @@ where
             return Err(Error::TooFewElements { wanted: modes, least, found });
         }
         // On an asked mesh both ways are to agree to 1e-12, whatever the tolerance.
-        let most = if request.elements.is_some() { 1e-5 } else { 1.0 };
+        let most = if request.elements.is_some() { 1e-6 } else { 1.0 };
         let tolerant = Request { elements: None, ..*request };
         match self.steps {
             0 => self.pairs.solve(modes, stop_at(&tolerant).min(most))?,
