@@ -1,24 +1,40 @@
 //! What bat is this; is it physical; its mass, balance point and swing weight.
 
 use crate::error::{Error, Result};
+use crate::fixtures::Fixtures;
+use crate::layup::{Layup, Worth};
 use crate::material::Material;
-use crate::profile::{Profile, Radii, Section};
+use crate::profile::{Piece, Profile, Radii, Section};
 use crate::quadrature::{RunningSum, converged, gauss};
 
 /// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
 pub const STANDARD_PIVOT: f64 = 0.1524;
 
-/// A bat: a shape and a material, checked, so that no later stage checks again.
+/// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
+    /// Its pieces end wherever a material or a fixture begins.
     pub profile: Profile,
     /// The material; its density is the weighed one where a weighed mass was given.
     pub material: Material,
-    /// What a scale said (kg), if it was asked.
-    pub weighed_mass: Option<f64>,
+    /// What the pieces of the profile are made of; the first is the bat's own material.
+    pub layups: Vec<Layup>,
+    pub fixtures: Fixtures,
+    pub weighed: Weighed,
+}
+
+/// What a scale and a tap said, where they were asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Weighed {
+    /// Mass with everything attached (kg).
+    pub mass: Option<f64>,
+    /// Balance point from the knob end (m): a check.
+    pub balance_point: Option<f64>,
+    /// The first bending frequency of the bat as described (Hz).
+    pub first_bending: Option<f64>,
 }
 
 /// What a bat is as a rigid body; positions from the knob end, inertias transverse.
@@ -47,14 +63,64 @@ impl Bat {
         material: Material,
         weighed_mass: Option<f64>,
     ) -> Result<Self> {
+        let weighed = Weighed { mass: weighed_mass, ..Weighed::default() };
+        Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
+    }
+
+    /// The same with other materials along it, and with what is on it and holds it. The weighed mass
+    /// includes what is attached; it sets one factor on all densities. What was tapped is kept for
+    /// [`crate::weighed`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`], its field the path of a key in a bat file.
+    pub fn with_fixtures(
+        name: impl Into<String>,
+        profile: Profile,
+        material: Material,
+        fixtures: Fixtures,
+        weighed: Weighed,
+    ) -> Result<Self> {
         let (name, source) = (name.into(), String::new());
-        let mut bat = Self { name, source, profile, material, weighed_mass };
-        if let Some(mass) = weighed_mass {
-            bat.check_range()?;
-            bat.material.density *= mass / bat.inertia().mass;
-        }
+        let layups = vec![Layup::of(material.clone())];
+        fixtures.check(profile.length())?;
+        let mut bat = Self { name, source, profile, material, layups, fixtures, weighed };
+        bat.lay_out();
         bat.check_range()?;
+        if let Some(mass) = weighed.mass {
+            let attached: f64 = bat.fixtures.masses().map(|[mass, ..]| mass).sum();
+            let own = mass - attached;
+            if own <= 0.0 {
+                let found = format!("{mass} kg, no more than the {attached} kg attached");
+                return Err(Error::value("weighed.mass", found, "the mass of bat and attachments"));
+            }
+            bat.scale(own / (bat.inertia().mass - attached), 1.0);
+            bat.check_range()?;
+        }
         Ok(bat)
+    }
+
+    /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
+    fn lay_out(&mut self) {
+        self.fixtures.borders().into_iter().for_each(|x| self.profile.cut(x));
+        for region in &self.fixtures.regions {
+            self.layups.push(region.layup.clone());
+            for piece in &mut self.profile.pieces {
+                let middle = piece.start + 0.5 * piece.length;
+                if middle > region.from && middle < region.to {
+                    piece.layup = self.layups.len() - 1;
+                }
+            }
+        }
+    }
+
+    /// One factor on every density and one on every modulus of the bat.
+    pub fn scale(&mut self, density: f64, modulus: f64) {
+        self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
+        for region in &mut self.fixtures.regions {
+            region.layup.scaled(density, modulus);
+        }
+        self.material = self.layups[0].outer.clone();
     }
 
     /// From the knob end to the tip (m).
@@ -62,27 +128,37 @@ impl Bat {
         self.profile.length()
     }
 
-    /// Bending stiffness EI (N m²) of a section.
-    pub fn bending_stiffness(&self, section: Section) -> f64 {
-        self.material.youngs_modulus * section.second_moment()
+    /// What a piece of the profile is made of.
+    #[inline]
+    pub fn layup(&self, piece: &Piece) -> &Layup {
+        &self.layups[piece.layup]
     }
 
-    /// Mass per length ρA (kg/m) of a section.
-    pub fn mass_per_length(&self, section: Section) -> f64 {
-        self.material.density * section.area()
+    /// What the section at `x` is worth, at a border the one to its right.
+    pub fn worth_at(&self, x: f64) -> Worth {
+        self.layup(self.profile.piece_at(x)).worth(self.profile.at(x))
     }
 
-    /// Mass, balance point and moments of inertia, exact by quadrature.
+    /// Whether every stretch of the bat has a shear modulus.
+    pub fn knows_shear(&self) -> bool {
+        let known = |piece: &Piece| {
+            self.layup(piece).materials().all(|material| material.shear_modulus.is_some())
+        };
+        self.profile.pieces.iter().all(known)
+    }
+
+    /// Mass, balance point and moments of inertia with everything attached, exact by quadrature.
     ///
     /// `M = ∫ρA dx`, `x_b = ∫ρA x dx / M`, `I = ∫ρA (x − x_b)² dx + ∫ρI dx`; cubic radii make
     /// the integrands of degree 8 and 12, which five and seven Gauss points integrate exactly.
     /// Formulas take as many points as agree to 2e-14.
     pub fn inertia(&self) -> Inertia {
         let rule = gauss(7);
-        let integral = |f: &dyn Fn(f64, Section) -> f64| {
+        let integral = |f: &dyn Fn(f64, Worth) -> f64| {
             let mut total = RunningSum::<f64>::default();
             for piece in &self.profile.pieces {
-                let at = |s: f64| f(piece.start + s * piece.length, piece.at(s));
+                let layup = self.layup(piece);
+                let at = |s: f64| f(piece.start + s * piece.length, layup.worth(piece.at(s)));
                 match piece.radii {
                     Radii::Cubic(_) => {
                         rule.iter()
@@ -93,12 +169,16 @@ impl Bat {
                     }
                 }
             }
-            self.material.density * total.value()
+            total.value()
         };
-        let mass = integral(&|_, section| section.area());
-        let balance_point = integral(&|x, section| x * section.area()) / mass;
-        let line = integral(&|x, section| (x - balance_point).powi(2) * section.area());
-        let own = integral(&|_, section| section.second_moment());
+        let attached = |f: &dyn Fn([f64; 3]) -> f64| self.fixtures.masses().map(f).sum::<f64>();
+        let mass = integral(&|_, worth| worth.mass) + attached(&|[mass, ..]| mass);
+        let first = integral(&|x, worth| x * worth.mass) + attached(&|[mass, x, _]| mass * x);
+        let balance_point = first / mass;
+        let arm = |x: f64| (x - balance_point).powi(2);
+        let line = integral(&|x, worth| arm(x) * worth.mass)
+            + attached(&|[mass, x, own]| mass * arm(x) + own);
+        let own = integral(&|_, worth| worth.turning);
         Inertia { mass, balance_point, about_balance: line + own, line_about_balance: line }
     }
 
@@ -129,8 +209,8 @@ impl Bat {
         let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
         let widest = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let section = Section { outer: widest, inner: 0.0 };
-        let stiffness = self.bending_stiffness(section);
-        let scale = stiffness / self.mass_per_length(section) / self.length().powi(4);
+        let [stiffness, line] = self.layups[0].bending_and_mass(section);
+        let scale = stiffness / line / self.length().powi(4);
         for (what, value, unit) in [
             ("mass", mass, "kg"),
             ("balance point", balance_point, "m"),

@@ -1,7 +1,7 @@
 //! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
-//! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other proportions, of a formula, or whose answer misses the
+//! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other proportions, of a formula, with anything on it, of another theory, or whose answer misses the
 //! tolerance or a node by its own account is planned and solved on its own; so are all where the
 //! first is such a bat. Once warm nothing is allocated for the others.
 
@@ -16,9 +16,10 @@ use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
 use crate::modes::Mode;
 use crate::plan::Plan;
-use crate::profile::Radii;
+use crate::profile::{Piece, Radii};
 use crate::real::{Over, Real};
 use crate::solve::{Request, Solver, solve, stop_at, wanted};
+use crate::theory::Theory;
 
 /// The modes of one bat of many. The slices hold until the next bat.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +70,10 @@ fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
     let degree = request.degree.or(request.elements.map(|_| 3));
     let degrees = degree.map_or(COMPILED.to_vec(), |degree| vec![degree]);
     let first = bats.first().filter(|first| {
-        request.check(WIDTH).is_ok() && !has_formula(first) && COMPILED.contains(&degrees[0])
+        request.check(WIDTH).is_ok()
+            && request.theory == Theory::EulerBernoulli
+            && plain(first)
+            && COMPILED.contains(&degrees[0])
     });
     let Some(first) = first else { return all_alone(bats, request, visit) };
     let plan = match request.elements {
@@ -89,8 +93,10 @@ fn all_alone(bats: &[Bat], request: &Request, visit: Visit) {
     bats.iter().enumerate().for_each(|(k, bat)| solved_alone(k, bat, request, visit));
 }
 
-fn has_formula(bat: &Bat) -> bool {
-    bat.profile.pieces.iter().any(|piece| matches!(piece.radii, Radii::Formula(_)))
+/// Whether a bat is made of stations, with nothing on it and nothing that holds it.
+fn plain(bat: &Bat) -> bool {
+    let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
+    bat.fixtures.none_moving() && !bat.profile.pieces.iter().any(formula)
 }
 
 /// The same on all cores, each share of the bats with a first one of its own, the results gathered by `read`, in the order of the bats.
@@ -154,6 +160,7 @@ fn same_pattern(a: &Bat, b: &Bat) -> bool {
     let (widest_a, widest_b) = (widest(a), widest(b));
     let pieces = a.profile.pieces.iter().zip(&b.profile.pieces);
     a.profile.pieces.len() == b.profile.pieces.len()
+        && plain(a) == plain(b)
         && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
         && pieces.flat_map(|(a, b)| [0.0, 1.0].map(|s| (a.at(s).outer, b.at(s).outer))).all(
             |(of_a, of_b)| {
@@ -169,7 +176,7 @@ struct Worker<R, const N: usize> {
     /// Lanczos steps for every bat, so that a bat's answer does not depend on its neighbours; 0 for
     /// as many as it takes.
     steps: usize,
-    pairs: Eigenpairs<R, N>,
+    pairs: Eigenpairs<R, N, N>,
     meshes: Vec<Mesh>,
     /// Lane after lane, what [`Found`] shows.
     omegas: Vec<f64>,
@@ -187,7 +194,7 @@ where
     fn new(bat: &Bat, plan: Plan, steps: usize) -> Self {
         Self {
             steps,
-            pairs: Eigenpairs::new(bat),
+            pairs: Eigenpairs::new(bat, Theory::EulerBernoulli),
             meshes: vec![Mesh::default(); R::LANES],
             plan,
             omegas: vec![],
@@ -257,7 +264,7 @@ where
             steps => self.pairs.solve_in(modes, steps)?,
         }
         let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };
-        for first in (0..modes).step_by(Eigenpairs::<R, N>::TOGETHER) {
+        for first in (0..modes).step_by(Eigenpairs::<R, N, N>::TOGETHER) {
             self.pairs.look(first, depth);
             self.keep(first, modes, depth);
         }

@@ -7,24 +7,25 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::bat::Bat;
-use crate::beam::element::Vector;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
+use crate::beam::sweep::Loads;
 use crate::eigen::lanczos::{Lanczos, Wanted};
 use crate::error::Result;
 use crate::lanes::{Lanes, WIDTH};
 use crate::real::{Over, Real};
+use crate::theory::Theory;
 
-/// Bats in the lanes of `R`, elements of degree `N − 1`.
+/// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.
 #[derive(Debug, Clone)]
-pub struct Eigenpairs<R, const N: usize> {
-    pub statics: Statics<R, N>,
+pub struct Eigenpairs<R, const N: usize, const W: usize> {
+    pub statics: Statics<R, N, W>,
     pub lanczos: Lanczos<R>,
     /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
     /// mode.
-    pub motions: Motion<Lanes, N>,
-    loads: Vec<Vector<R, N>>,
+    pub motions: Motion<Lanes, N, W>,
+    loads: Loads<R, W>,
     /// Their scaled strains.
     strains: Vec<Lanes>,
 }
@@ -40,7 +41,7 @@ pub enum Depth {
     Changes,
 }
 
-impl<R: Real, const N: usize> Eigenpairs<R, N>
+impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
 where
     Lanes: Over<R>,
 {
@@ -48,12 +49,12 @@ where
     pub const TOGETHER: usize = WIDTH / R::LANES;
 
     /// Nothing yet, for bats like this one.
-    pub fn new(bat: &Bat) -> Self {
+    pub fn new(bat: &Bat, theory: Theory) -> Self {
         Self {
-            statics: Statics::empty(bat),
+            statics: Statics::empty(bat, theory),
             lanczos: Lanczos::default(),
             motions: Motion::default(),
-            loads: vec![],
+            loads: Loads::default(),
             strains: vec![],
         }
     }
@@ -84,11 +85,10 @@ where
         residual: f64,
         moments: impl FnMut(&mut [R]),
     ) -> Result<()> {
-        let Self { statics, lanczos, loads, .. } = self;
         let wanted = Wanted { count, residual, earliest: 0 };
-        let mut start = vec![R::default(); statics.dimension()];
-        statics.strains_of_moments(&mut start, moments);
-        Arch::new().dispatch(Iteration { statics, lanczos, loads, wanted, start: Some(start) })
+        let mut start = vec![R::default(); self.statics.dimension()];
+        self.statics.strains_of_moments(&mut start, moments);
+        self.run(wanted, &mut |_, next| next.copy_from_slice(&start))
     }
 
     /// Takes that many steps and no more, whatever residual that leaves: [`Motion::defect`] tells.
@@ -102,8 +102,26 @@ where
     }
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
+        let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
+            Arch::new().dispatch(Start { statics, count: wanted.count, next });
+        };
+        self.run(wanted, start)
+    }
+
+    fn run(
+        &mut self,
+        wanted: Wanted,
+        start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
+    ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
-        Arch::new().dispatch(Iteration { statics, lanczos, loads, wanted, start: None })
+        let arch = Arch::new();
+        arch.dispatch(Iteration {
+            lanczos,
+            dimension: statics.dimension(),
+            wanted,
+            start: &mut |next| start(statics, next),
+            apply: &mut |q, y| arch.dispatch(Apply { statics, q, y, loads }),
+        })
     }
 
     /// Looks at the motions from number `first` of those found on, [`Self::TOGETHER`] of them or as
@@ -127,7 +145,7 @@ where
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
         self.gather(vectors, first);
         let Self { statics, motions, strains, .. } = self;
-        Arch::new().dispatch(Look { statics, motions, strains, value: None, depth });
+        widely(Look { statics, motions, strains, value: None, depth });
     }
 
     /// Strains side by side; the last motion again where there are no more.
@@ -145,11 +163,54 @@ where
     }
 }
 
-impl<const N: usize> Eigenpairs<f64, N> {
+impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
-    pub fn look_at_one(&self, strains: &[f64], depth: Depth, motions: &mut Motion<f64, N>) {
+    ///
+    /// Scaled strains in `known`, one motion after the other, are slower modes, whose round-off is
+    /// taken out.
+    pub fn look_at_one(
+        &self,
+        strains: &[f64],
+        known: &[f64],
+        depth: Depth,
+        motion: &mut Motion<f64, N, W>,
+    ) {
         let statics = &self.statics;
-        Arch::new().dispatch(Look { statics, motions, strains, value: None, depth });
+        motion.take_alone(statics, strains, known, depth != Depth::Shape);
+        match depth {
+            Depth::Changes => motion.take_changes(statics),
+            _ => motion.no_changes(statics),
+        }
+    }
+}
+
+/// Whether looking at several motions together is faster than one by one.
+pub fn is_wide() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return pulp::x86::V3::try_new().is_some();
+    #[cfg(not(target_arch = "x86_64"))]
+    return true;
+}
+
+/// Runs where [`is_wide`]: compiled for wide vectors alone.
+#[inline(always)]
+fn widely<O: WithSimd<Output = ()>>(operation: O) {
+    #[cfg(target_arch = "x86_64")]
+    pulp::x86::V3::try_new().expect("the caller asked").vectorize(Widely(operation));
+    #[cfg(not(target_arch = "x86_64"))]
+    Arch::new().dispatch(operation);
+}
+
+#[cfg(target_arch = "x86_64")]
+struct Widely<O>(O);
+
+#[cfg(target_arch = "x86_64")]
+impl<O: WithSimd<Output = ()>> pulp::NullaryFnOnce for Widely<O> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.0.with_simd(pulp::Scalar);
     }
 }
 
@@ -161,13 +222,13 @@ fn steps_beyond(count: usize, residual: f64) -> usize {
     (2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)).ceil().max(2.0) as usize
 }
 
-struct Assembly<'a, R, const N: usize> {
-    statics: &'a mut Statics<R, N>,
+struct Assembly<'a, R, const N: usize, const W: usize> {
+    statics: &'a mut Statics<R, N, W>,
     bats: &'a [&'a Bat],
     meshes: &'a [&'a Mesh],
 }
 
-impl<R: Real, const N: usize> WithSimd for Assembly<'_, R, N> {
+impl<R: Real, const N: usize, const W: usize> WithSimd for Assembly<'_, R, N, W> {
     type Output = ();
 
     #[inline(always)]
@@ -176,52 +237,70 @@ impl<R: Real, const N: usize> WithSimd for Assembly<'_, R, N> {
     }
 }
 
-struct Iteration<'a, R, const N: usize> {
-    statics: &'a Statics<R, N>,
+/// The iteration, one for all degrees and theories.
+struct Iteration<'a, R> {
     lanczos: &'a mut Lanczos<R>,
-    loads: &'a mut Vec<Vector<R, N>>,
+    dimension: usize,
     wanted: Wanted,
-    /// Where to start, if not at the usual place.
-    start: Option<Vec<R>>,
+    start: &'a mut dyn FnMut(&mut [R]),
+    apply: &'a mut dyn FnMut(&[R], &mut [R]),
 }
 
-impl<R: Real, const N: usize> WithSimd for Iteration<'_, R, N> {
+impl<R: Real> WithSimd for Iteration<'_, R> {
     type Output = Result<()>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Result<()> {
-        let Self { statics, lanczos, loads, wanted, start } = self;
-        lanczos.largest(
-            statics.dimension(),
-            wanted,
-            #[inline(always)]
-            |next| match start {
-                Some(start) => next.copy_from_slice(&start),
-                None => statics.start(wanted.count, next),
-            },
-            #[inline(always)]
-            |x, y| {
-                statics.apply(x, y, loads);
-            },
-        )
+        self.lanczos.largest(self.dimension, self.wanted, self.start, self.apply)
     }
 }
 
-struct Look<'a, S, R, const N: usize> {
-    statics: &'a Statics<S, N>,
-    motions: &'a mut Motion<R, N>,
+struct Start<'a, R, const N: usize, const W: usize> {
+    statics: &'a Statics<R, N, W>,
+    count: usize,
+    next: &'a mut [R],
+}
+
+impl<R: Real, const N: usize, const W: usize> WithSimd for Start<'_, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.statics.start(self.count, self.next);
+    }
+}
+
+struct Apply<'a, R, const N: usize, const W: usize> {
+    statics: &'a Statics<R, N, W>,
+    q: &'a [R],
+    y: &'a mut [R],
+    loads: &'a mut Loads<R, W>,
+}
+
+impl<R: Real, const N: usize, const W: usize> WithSimd for Apply<'_, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.statics.apply(self.q, self.y, self.loads);
+    }
+}
+
+struct Look<'a, S, R, const N: usize, const W: usize> {
+    statics: &'a Statics<S, N, W>,
+    motions: &'a mut Motion<R, N, W>,
     strains: &'a [R],
     value: Option<R>,
     depth: Depth,
 }
 
-impl<S: Real, R: Over<S>, const N: usize> WithSimd for Look<'_, S, R, N> {
+impl<S: Real, R: Over<S>, const N: usize, const W: usize> WithSimd for Look<'_, S, R, N, W> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, _: V) {
         let with_defect = self.depth != Depth::Shape;
-        self.motions.take(self.statics, self.strains, self.value, with_defect);
+        self.motions.take(self.statics, self.strains, self.value, &[], with_defect);
         if self.depth == Depth::Changes {
             self.motions.take_changes(self.statics);
         } else {

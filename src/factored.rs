@@ -8,6 +8,7 @@ use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
 use crate::eigen::{dense, shift_invert};
 use crate::error::{Error, Result};
+use crate::theory::Theory;
 
 type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
@@ -59,15 +60,15 @@ pub struct Found {
 /// # Errors
 ///
 /// [`Error::TooLarge`], [`Error::Factorization`], [`Error::NotBuilt`], [`Error::NotConverged`].
-pub fn strains<const N: usize>(
+pub fn strains<const N: usize, const W: usize>(
     bat: &Bat,
     mesh: &Mesh,
-    statics: &Statics<f64, N>,
+    statics: &Statics<f64, N, W>,
     count: usize,
     solver: Solver,
 ) -> Result<Found> {
     check_size(statics.dimension() + 2, solver)?;
-    let elements = element::elements::<N>(bat, mesh);
+    let elements = element::elements::<N, W>(bat, mesh, statics.theory);
     let pairs = of_pencil(statics, &elements, count, solver)?;
     let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
     Ok(Found {
@@ -97,9 +98,9 @@ struct Pairs {
 
 /// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`; for
 /// the statics, which factors nothing, by shift-invert.
-fn of_pencil<const N: usize>(
-    statics: &Statics<f64, N>,
-    elements: &[Element<f64, N>],
+fn of_pencil<const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    elements: &[Element<f64, N, W>],
     count: usize,
     solver: Solver,
 ) -> Result<Pairs> {
@@ -143,30 +144,33 @@ fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
 }
 
 /// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
-fn shift<const N: usize>(statics: &Statics<f64, N>) -> f64 {
+fn shift<const N: usize, const W: usize>(statics: &Statics<f64, N, W>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
     statics.start(1, &mut start);
     let mut motion = Motion::default();
-    motion.take(statics, &start, None, false);
+    motion.take_alone(statics, &start, &[], false);
     motion.omega.powi(2)
 }
 
 /// Scaled strains, in the order of the statics, of the unknowns of the assembled matrices.
-fn strains_of<const N: usize>(
-    statics: &Statics<f64, N>,
-    elements: &[Element<f64, N>],
+fn strains_of<const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    elements: &[Element<f64, N, W>],
     u: &[f64],
 ) -> Vec<f64> {
     let mut strains = Vec::with_capacity(statics.dimension());
     for (place, cell) in statics.cells.iter().enumerate() {
         let knob_side = place < statics.split;
         let e = if knob_side { statics.split - 1 - place } else { place };
-        let own = places::<N>(e).map(|at| u[at]);
+        let own = places::<W>(e).map(|at| u[at]);
         let mut c = elements[e].strains_of_hermite(&own);
         if knob_side {
-            c.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+            // Odd polynomials change their sign, and so does the shear strain itself.
+            let (bent, sheared) = c.split_at_mut(N - 2);
+            bent.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+            sheared.iter_mut().step_by(2).for_each(|g| *g = -*g);
         }
-        strains.extend_from_slice(&cell.scaled_strains(&c)[..N - 2]);
+        strains.extend_from_slice(&cell.scaled_strains(&c)[..W - 2]);
     }
     strains
 }
@@ -185,14 +189,14 @@ pub fn own_and_recomputed(
     modes: usize,
     solver: Solver,
 ) -> Result<Vec<[f64; 2]>> {
-    let mut statics = Statics::<f64, 4>::empty(bat);
+    let mut statics = Statics::<f64, 4, 4>::empty(bat, Theory::EulerBernoulli);
     statics.assemble(&[bat], &[mesh]);
     check_size(statics.dimension() + 2, solver)?;
-    let elements = element::elements::<4>(bat, mesh);
+    let elements = element::elements::<4, 4>(bat, mesh, Theory::EulerBernoulli);
     let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
     let both = pairs.values.iter().zip(&pairs.vectors).take(modes).map(|(value, vector)| {
-        motion.take(&statics, &strains_of(&statics, &elements, vector), None, false);
+        motion.take_alone(&statics, &strains_of(&statics, &elements, vector), &[], false);
         [value.max(0.0).sqrt(), motion.omega]
     });
     Ok(both.collect())

@@ -51,7 +51,7 @@ impl Profile {
                 named.check(&curves, &samples)?;
                 add_stations(&mut stations, &curves, &samples);
                 let radii = Radii::Formula(curves);
-                pieces.push(Piece { start: from, length: to - from, radii });
+                pieces.push(Piece { start: from, length: to - from, radii, layup: 0 });
             }
         }
         let formulas = Some(Formulas { pieces: written, from_tip: false });

@@ -67,6 +67,22 @@ impl Material {
         positive("shear_modulus", self.shear_modulus, "Pa")
     }
 
+    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own, else
+    /// Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means nothing for
+    /// wood):
+    /// `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
+    ///
+    /// # Source
+    ///
+    /// G. R. Cowper, J. Appl. Mech. 33 (1966) 335.
+    pub fn kappa(&self, hole: f64) -> f64 {
+        self.shear_coefficient.unwrap_or_else(|| {
+            let nu = self.poisson_ratio.unwrap_or(0.3);
+            let square = (1.0 + hole).powi(2);
+            6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * hole)
+        })
+    }
+
     /// The built-in material of that name.
     pub fn named(name: &str) -> Option<Self> {
         BUILT_IN.iter().find(|m| m.name == name).map(|m| Self {

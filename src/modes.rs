@@ -3,18 +3,19 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::beam::element::Vector;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
 use crate::real::Real;
 
-/// One bending mode of a free bat.
+/// One bending mode of a bat.
 #[derive(Debug, Clone)]
 pub struct Mode {
     /// 1 for the lowest bending mode.
     pub order: usize,
     /// Angular frequency ω (rad/s).
     pub omega: f64,
-    /// `∫ρA φ² dx` (kg), with the largest |φ| = 1.
+    /// `∫ρA φ² dx`, with rotary inertia and what is attached (kg), with the largest |φ| = 1.
     pub modal_mass: f64,
     /// Where the deflection is zero, from the knob end (m).
     pub nodes: Vec<f64>,
@@ -61,10 +62,10 @@ impl Mode {
     }
 
     /// The mode that is that motion in one lane.
-    pub fn new<R: Real, const N: usize>(
+    pub fn new<R: Real, const N: usize, const W: usize>(
         order: usize,
-        statics: &Statics<f64, N>,
-        motion: &Motion<R, N>,
+        statics: &Statics<f64, N, W>,
+        motion: &Motion<R, N, W>,
         lane: usize,
         stretches: &Arc<Vec<(f64, f64)>>,
     ) -> Self {
@@ -72,14 +73,29 @@ impl Mode {
         let mut shape = Shape {
             stretches: Arc::clone(stretches),
             terms: N,
-            coefficients: coefficients(statics, motion, lane),
+            coefficients: coefficients(statics, &motion.shape, lane, 1.0),
+            turns: coefficients(statics, &motion.turns, lane, -1.0),
         };
         let (largest, change) = shape.largest(&track);
-        let sign = if track.ends[1][0] < 0.0 { -1.0 } else { 1.0 };
+        // The barrel end is positive; if it is held, the knob end; if both are, the side of the peak.
+        const AT_REST: f64 = 1e-9;
+        let moving = |end: usize| track.ends[end][0].abs() > AT_REST * largest;
+        let leading = match (moving(1), moving(0)) {
+            (true, _) => track.ends[1][0],
+            (_, true) => track.ends[0][0],
+            _ => track.samples.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a }),
+        };
+        let sign = if leading < 0.0 { -1.0 } else { 1.0 };
         let scale = sign / largest;
-        let nodes = shape.zeros(&track.samples, &track.xi);
+        let rest = if statics.fixed.is_some() { STILL * largest } else { 0.0 };
+        let mut nodes = shape.zeros(&track.samples, &track.xi, rest);
+        if let Some(fixed) = &statics.fixed {
+            // Where a clamp holds the bat its deflection has more than a zero.
+            let near = STILL.cbrt() * shape.length();
+            nodes.retain(|x| fixed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
+        }
         let node_error = shape.node_error(&nodes, &track);
-        shape.coefficients.iter_mut().for_each(|w| *w *= scale);
+        shape.coefficients.iter_mut().chain(&mut shape.turns).for_each(|w| *w *= scale);
         let kinetic = motion.kinetic.lane(lane);
         let off = |(w, change): (f64, f64), at: f64| (change - at * w).abs() / largest;
         let pairs = track.samples.iter().copied().zip(track.changes.iter().copied());
@@ -92,7 +108,7 @@ impl Mode {
             nodes: node_error,
             // The mass goes as the square of the shape; where the parts of its own change cancel, by
             // luck, the shape's change is the better measure.
-            modal_mass: 2.0 * f64::max((track.work / kinetic - change).abs(), worst),
+            modal_mass: 2.0 * f64::max((motion.work.lane(lane) / kinetic - change).abs(), worst),
             shape: worst,
         };
         let modal_mass = kinetic * scale * scale;
@@ -108,14 +124,12 @@ struct Track {
     ends: [[f64; 2]; 2],
     /// Points of an element as ξ.
     xi: Vec<f64>,
-    /// `∫ρA w (w − w*) dx`.
-    work: f64,
 }
 
 impl Track {
-    fn new<R: Real, const N: usize>(
-        statics: &Statics<f64, N>,
-        motion: &Motion<R, N>,
+    fn new<R: Real, const N: usize, const W: usize>(
+        statics: &Statics<f64, N, W>,
+        motion: &Motion<R, N, W>,
         lane: usize,
     ) -> Self {
         let points = statics.rule.count();
@@ -127,38 +141,33 @@ impl Track {
         let xi = statics.rule.points.iter().map(|p| 2.0 * p.s - 1.0).collect();
         let samples = along(&motion.deflections);
         let changes = along(&motion.changes);
-        let mut work = 0.0;
-        for (k, cell) in statics.cells.iter().enumerate() {
-            let here = k * points..(k + 1) * points;
-            let values = motion.deflections[here.clone()].iter().zip(&motion.changes[here.clone()]);
-            let masses = statics.mass_per_length[here].iter().zip(&statics.rule.points);
-            let sum: f64 = values
-                .zip(masses)
-                .map(|((w, c), (m, p))| p.weight * m * w.lane(lane) * c.lane(lane))
-                .sum();
-            work += cell.link.length * sum;
-        }
         let mut ends = motion.ends.map(|end| end.map(|v| v.lane(lane)));
         if statics.split == 0 {
             // The root is the knob end itself.
             ends[0][1] = changes[0];
         }
-        Self { samples, changes, ends, xi, work }
+        Self { samples, changes, ends, xi }
     }
 }
 
-/// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob
-/// side, where odd polynomials change sign.
-fn coefficients<R: Real, const N: usize>(
-    statics: &Statics<f64, N>,
-    motion: &Motion<R, N>,
+/// A deflection below this share of the largest is none where something holds the bat.
+const STILL: f64 = 1e-12;
+
+/// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob side,
+/// where odd polynomials change sign and, with `sign` −1, a rotation does.
+fn coefficients<R: Real, const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    cells: &[Vector<R, N>],
     lane: usize,
+    sign: f64,
 ) -> Vec<f64> {
-    let (knob, tip) = motion.shape.split_at(statics.split);
-    let mut all = Vec::with_capacity(N * motion.shape.len());
+    let (knob, tip) = cells.split_at(statics.split.min(cells.len()));
+    let mut all = Vec::with_capacity(N * cells.len());
     for shape in knob.iter().rev() {
         let turned = shape.iter().enumerate();
-        all.extend(turned.map(|(k, w)| if k % 2 == 1 { -w.lane(lane) } else { w.lane(lane) }));
+        all.extend(
+            turned.map(|(k, w)| sign * if k % 2 == 1 { -w.lane(lane) } else { w.lane(lane) }),
+        );
     }
     all.extend(tip.iter().flatten().map(|w| w.lane(lane)));
     all
@@ -172,6 +181,8 @@ pub struct Shape {
     /// Number of Legendre polynomials on an element.
     terms: usize,
     coefficients: Vec<f64>,
+    /// The rotation likewise; empty where it is the slope.
+    turns: Vec<f64>,
 }
 
 /// `2j − 1`, `(2j − 1)/j` and `(j − 1)/j` for `j = 2, 3, …`.
@@ -193,25 +204,34 @@ impl Shape {
         self.derivatives(k, xi)[0]
     }
 
-    /// Slope `dφ/dx` at `x` (rad per m of largest deflection).
+    /// Rotation θ of the section at `x` (rad per m of largest deflection): the slope `dφ/dx`, less the
+    /// shear strain of a beam that shears.
     pub fn rotation(&self, x: f64) -> f64 {
         let (k, xi) = self.locate(x);
-        self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1
+        match self.turns.is_empty() {
+            true => self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1,
+            false => self.series(&self.turns, k, xi)[0],
+        }
     }
 
-    /// Curvature `d²φ/dx²` at `x` (1/m² of largest deflection).
+    /// Curvature `dθ/dx` at `x` (1/m² of largest deflection).
     pub fn curvature(&self, x: f64) -> f64 {
         let (k, xi) = self.locate(x);
-        self.derivatives(k, xi)[2] * (2.0 / self.stretches[k].1).powi(2)
+        let scale = 2.0 / self.stretches[k].1;
+        match self.turns.is_empty() {
+            true => self.derivatives(k, xi)[2] * scale * scale,
+            false => self.series(&self.turns, k, xi)[1] * scale,
+        }
     }
 
     /// `Σ part · shape` of shapes on one mesh.
     pub fn sum(parts: &[(f64, &Self)]) -> Self {
         let mut sum = parts[0].1.clone();
-        sum.coefficients.iter_mut().for_each(|w| *w = 0.0);
+        sum.coefficients.iter_mut().chain(&mut sum.turns).for_each(|w| *w = 0.0);
         for (part, shape) in parts {
             let all = sum.coefficients.iter_mut().zip(&shape.coefficients);
-            all.for_each(|(sum, w)| *sum += part * w);
+            let turns = sum.turns.iter_mut().zip(&shape.turns);
+            all.chain(turns).for_each(|(sum, w)| *sum += part * w);
         }
         sum
     }
@@ -239,7 +259,11 @@ impl Shape {
     /// `P_{j+1} = ((2j + 1) ξ P_j − j P_{j−1})/(j + 1)`, `P′_{j+1} = P′_{j−1} + (2j + 1) P_j` and
     /// the same for the second.
     fn derivatives(&self, k: usize, xi: f64) -> [f64; 3] {
-        let w = &self.coefficients[k * self.terms..(k + 1) * self.terms];
+        self.series(&self.coefficients, k, xi)
+    }
+
+    fn series(&self, coefficients: &[f64], k: usize, xi: f64) -> [f64; 3] {
+        let w = &coefficients[k * self.terms..(k + 1) * self.terms];
         let (mut before, mut now) = ([1.0, 0.0, 0.0], [xi, 1.0, 0.0]);
         let mut sum = [w[0] + w[1] * xi, w[1], 0.0];
         for (w, [odd, value, last]) in w[2..].iter().zip(RECURRENCE) {
@@ -310,17 +334,21 @@ impl Shape {
 
     /// The isolated zeros of the deflection inside the bat (m), rising, from its values at the
     /// points of the elements.
-    fn zeros(&self, samples: &[f64], places: &[f64]) -> Vec<f64> {
+    ///
+    /// A deflection of at most `rest` is none: a stretch at rest has no nodes.
+    fn zeros(&self, samples: &[f64], places: &[f64], rest: f64) -> Vec<f64> {
         let (count, points) = (self.stretches.len(), places.len());
         let end = |k: usize| self.coefficients[k * self.terms..(k + 1) * self.terms].iter().sum();
         let mut zeros = Vec::new();
         // The knob end counts as a sample: the first may lie beyond the first node.
         let knob = self.derivatives(0, -1.0)[0];
+        let knob = if knob.abs() <= rest { 0.0 } else { knob };
         let (mut before, mut at) = (knob, -1.0);
         for k in 0..count {
             let inner = samples[k * points..(k + 1) * points].iter().copied();
             let all = inner.zip(places.iter().copied()).chain([(end(k), 1.0)]);
             for (value, xi) in all {
+                let value = if f64::abs(value) <= rest { 0.0 } else { value };
                 if value * before < 0.0 {
                     let (middle, length) = self.stretches[k];
                     zeros.push(middle + 0.5 * length * self.zero(k, at, xi, before, value));
@@ -397,7 +425,7 @@ mod tests {
     fn zeros(shape: &Shape) -> Vec<f64> {
         let samples = |k: usize| PLACES.map(|xi| shape.derivatives(k, xi)[0]);
         let samples: Vec<f64> = (0..shape.stretches.len()).flat_map(samples).collect();
-        shape.zeros(&samples, &PLACES)
+        shape.zeros(&samples, &PLACES, 0.0)
     }
 
     #[test]
@@ -405,7 +433,12 @@ mod tests {
         // ξ³ − ξ/4 on one element from 0 to 2: zeros at 1, 1 ± ½; extremes inside and 3/4 at the
         // ends.
         let stretches = Arc::new(vec![(1.0, 2.0)]);
-        let shape = Shape { stretches, terms: 4, coefficients: vec![0.0, 0.6 - 0.25, 0.0, 0.4] };
+        let shape = Shape {
+            stretches,
+            terms: 4,
+            coefficients: vec![0.0, 0.6 - 0.25, 0.0, 0.4],
+            turns: vec![],
+        };
         let zeros = zeros(&shape);
         for (zero, exact) in zeros.iter().zip([0.5, 1.0, 1.5]) {
             assert!((zero - exact).abs() < 1e-15, "{zeros:?}");
@@ -420,7 +453,8 @@ mod tests {
         let stretches = Arc::new(vec![(0.5, 1.0), (1.5, 1.0)]);
         for tiny in [0.0, 1e-18, -1e-18] {
             let coefficients = vec![-0.5, 0.5 + tiny, 0.0, 0.0, 0.5 + tiny, 0.5, 0.0, 0.0];
-            let shape = Shape { stretches: Arc::clone(&stretches), terms: 4, coefficients };
+            let shape =
+                Shape { stretches: Arc::clone(&stretches), terms: 4, coefficients, turns: vec![] };
             let zeros = zeros(&shape);
             assert_eq!(zeros.len(), 1, "{zeros:?}");
             assert!((zeros[0] - 1.0).abs() < 1e-15);

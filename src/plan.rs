@@ -35,6 +35,7 @@ use crate::beam::element::missed;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
 use crate::survey::{Sample, Survey};
+use crate::theory::Theory;
 
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone, Default)]
@@ -92,6 +93,7 @@ pub struct Wanted {
     pub degree: Option<usize>,
     /// More than this only if the profile has as many pieces.
     pub most_unknowns: usize,
+    pub theory: Theory,
 }
 
 /// The plan aims at this share of the wanted error, because no element is like the formula's.
@@ -138,7 +140,7 @@ impl Plan {
         }
         let ((_, degree, reach), degrees) = best.zip(range).expect("there is a degree");
         let borders = |k: usize, borders: &mut Vec<f64>| reach.borders(survey.piece(k), borders);
-        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree);
+        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree, wanted.theory);
         // Too few unknowns for so many modes: shorter elements.
         while (degree - 1) * mesh.len() < modes {
             mesh = mesh.refined(|_| 2);
@@ -174,15 +176,17 @@ impl Plan {
     }
 }
 
-/// The mesh with every element halved where the points of its rule do not hold a formula.
-fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize) -> Mesh {
-    if bat.profile.formulas.is_none() {
+/// The mesh with every element halved where the points of its rule do not hold a formula, or the κ
+/// of a bore that tapers.
+fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, theory: Theory) -> Mesh {
+    let bored = bat.profile.stations.inner.iter().any(|r| *r > 0.0);
+    if bat.profile.formulas.is_none() && !(bored && theory.shears()) {
         return mesh;
     }
     let rule = Rule::of(bat, degree);
     for _ in 0..MOST_HALVINGS {
         let unresolved: Vec<bool> =
-            mesh.elements.iter().map(|e| missed(bat, e, rule) > 0.0).collect();
+            mesh.elements.iter().map(|e| missed(bat, e, rule, theory) > 0.0).collect();
         if !unresolved.contains(&true) {
             break;
         }

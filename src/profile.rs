@@ -54,6 +54,8 @@ pub struct Piece {
     pub start: f64,
     pub length: f64,
     pub radii: Radii,
+    /// Which of the bat's layups it is made of; 0 is the bat's own material.
+    pub layup: usize,
 }
 
 /// Both radii along a piece.
@@ -110,6 +112,12 @@ impl Section {
     pub fn second_moment(self) -> f64 {
         let (r, ri) = (self.outer, self.inner);
         self.area() * (r * r + ri * ri) / 4.0
+    }
+
+    /// What is inside the inner radius, as a section of its own.
+    #[inline]
+    pub fn bore(self) -> Self {
+        Self { outer: self.inner, inner: 0.0 }
     }
 }
 
@@ -172,9 +180,32 @@ impl Profile {
 
     /// The section at `x`; at a step, the one to its right. `x` outside is taken to the near end.
     pub fn at(&self, x: f64) -> Section {
+        let piece = self.piece_at(x);
+        piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
+    }
+
+    /// The piece at `x`, at a border the one to its right.
+    pub fn piece_at(&self, x: f64) -> &Piece {
+        let k = self.pieces.partition_point(|piece| piece.start <= x).max(1) - 1;
+        &self.pieces[k]
+    }
+
+    /// The same shape with a border between two pieces at `x`, if there is none yet.
+    pub fn cut(&mut self, x: f64) {
         let k = self.pieces.partition_point(|piece| piece.start <= x).max(1) - 1;
         let piece = &self.pieces[k];
-        piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
+        let s = (x - piece.start) / piece.length;
+        // A place given in other digits than the station there is that station.
+        const SAME: f64 = 1e-12;
+        let near = SAME * self.length() / piece.length;
+        if !(s > near && s < 1.0 - near) {
+            return;
+        }
+        let mut both = [piece.part(0.0, s), piece.part(s, 1.0)];
+        // Exactly where asked and exactly as long as before.
+        (both[0].length, both[1].start) = (x - piece.start, x);
+        both[1].length = piece.start + piece.length - x;
+        self.pieces.splice(k..=k, both);
     }
 }
 
@@ -193,7 +224,8 @@ impl Piece {
             Radii::Cubic(cubics) => Radii::Cubic(cubics.part(s0, s1)),
             Radii::Formula(curves) => Radii::Formula(curves.part(s0, s1)),
         };
-        Self { start: self.start + self.length * s0, length: self.length * (s1 - s0), radii }
+        let (start, length) = (self.start + self.length * s0, self.length * (s1 - s0));
+        Self { start, length, radii, layup: self.layup }
     }
 }
 
@@ -373,7 +405,7 @@ fn pieces(stations: &Stations) -> Result<Vec<Piece>> {
                 _ => 1,
             };
             let radii = Radii::Cubic(Cubics { outer, inner, degree });
-            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], radii });
+            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], radii, layup: 0 });
         }
         first = end;
     }

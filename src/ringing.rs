@@ -79,7 +79,7 @@ impl<'a> Ringing<'a> {
             for (s, weight) in &rule {
                 let at = pair[0] + s * (pair[1] - pair[0]);
                 x.push(at);
-                let per_length = bat.mass_per_length(bat.profile.at(at));
+                let per_length = bat.worth_at(at).mass;
                 masses.push(weight * (pair[1] - pair[0]) * per_length);
             }
         }

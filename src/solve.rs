@@ -9,12 +9,13 @@ use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::rule::DEGREES;
 use crate::certificate::{account, add_neighbours, round_off};
-use crate::eigenpairs::{Depth, Eigenpairs};
+use crate::eigenpairs::{Depth, Eigenpairs, is_wide};
 use crate::error::{Error, Result};
 use crate::factored::{self, Found};
 use crate::lanes::WIDTH;
 use crate::modes::{Mode, Shape};
 use crate::plan::{Plan, Reason, Wanted};
+use crate::theory::Theory;
 
 pub use crate::factored::{MOST_DENSE, Solver, own_and_recomputed};
 
@@ -30,11 +31,19 @@ pub struct Request {
     /// Elements of this degree; with `elements` alone it is 3.
     pub degree: Option<usize>,
     pub solver: Solver,
+    pub theory: Theory,
 }
 
 impl Default for Request {
     fn default() -> Self {
-        Self { modes: 10, tolerance: 1e-4, elements: None, degree: None, solver: Solver::Statics }
+        Self {
+            modes: 10,
+            tolerance: 1e-4,
+            elements: None,
+            degree: None,
+            solver: Solver::Statics,
+            theory: Theory::EulerBernoulli,
+        }
     }
 }
 
@@ -307,30 +316,49 @@ struct Task<'a> {
 impl Task<'_> {
     /// The modes on the mesh, whatever accuracy that gives.
     fn run(&self, timing: &mut Timing) -> Result<Answer> {
+        if self.request.theory.shears() { self.sheared(timing) } else { self.unsheared(timing) }
+    }
+
+    fn unsheared(&self, timing: &mut Timing) -> Result<Answer> {
         match self.plan.degree {
-            3 => self.of_degree::<4>(timing),
-            4 => self.of_degree::<5>(timing),
-            5 => self.of_degree::<6>(timing),
-            6 => self.of_degree::<7>(timing),
-            7 => self.of_degree::<8>(timing),
-            8 => self.of_degree::<9>(timing),
-            9 => self.of_degree::<10>(timing),
-            10 => self.of_degree::<11>(timing),
-            11 => self.of_degree::<12>(timing),
-            _ => self.of_degree::<13>(timing),
+            3 => self.of_degree::<4, 4>(timing),
+            4 => self.of_degree::<5, 5>(timing),
+            5 => self.of_degree::<6, 6>(timing),
+            6 => self.of_degree::<7, 7>(timing),
+            7 => self.of_degree::<8, 8>(timing),
+            8 => self.of_degree::<9, 9>(timing),
+            9 => self.of_degree::<10, 10>(timing),
+            10 => self.of_degree::<11, 11>(timing),
+            11 => self.of_degree::<12, 12>(timing),
+            _ => self.of_degree::<13, 13>(timing),
         }
     }
 
-    fn of_degree<const N: usize>(&self, timing: &mut Timing) -> Result<Answer> {
+    fn sheared(&self, timing: &mut Timing) -> Result<Answer> {
+        match self.plan.degree {
+            3 => self.of_degree::<4, 6>(timing),
+            4 => self.of_degree::<5, 8>(timing),
+            5 => self.of_degree::<6, 10>(timing),
+            6 => self.of_degree::<7, 12>(timing),
+            7 => self.of_degree::<8, 14>(timing),
+            8 => self.of_degree::<9, 16>(timing),
+            9 => self.of_degree::<10, 18>(timing),
+            10 => self.of_degree::<11, 20>(timing),
+            11 => self.of_degree::<12, 22>(timing),
+            _ => self.of_degree::<13, 24>(timing),
+        }
+    }
+
+    fn of_degree<const N: usize, const W: usize>(&self, timing: &mut Timing) -> Result<Answer> {
         let Self { bat, plan, request, .. } = *self;
         let started = Instant::now();
-        let mut pairs = Eigenpairs::<f64, N>::new(bat);
+        let mut pairs = Eigenpairs::<f64, N, W>::new(bat, request.theory);
         pairs.assemble(&[bat], &[&plan.mesh]);
         let assembled = Instant::now();
         timing.assemble += assembled - started;
         let Found { strains, steps, beyond, residuals } = self.strains(&mut pairs)?;
         let stretches = Arc::new(plan.mesh.stretches());
-        let missed = |e| element::missed(bat, e, pairs.statics.rule);
+        let missed = |e| element::missed(bat, e, pairs.statics.rule, request.theory);
         let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
         let factored = request.solver != Solver::Statics;
         let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
@@ -341,10 +369,15 @@ impl Task<'_> {
             account(&mut mode, modes.first(), plan.mesh.len(), factored);
             modes.push(mode);
         };
-        if pairs.statics.dimension() > LARGE {
-            let mut motion = Motion::<f64, N>::default();
+        let large = pairs.statics.dimension() > LARGE;
+        if large || pairs.statics.fixed.is_some() || !is_wide() {
+            let mut motion = Motion::<f64, N, W>::default();
             for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
-                look_closer(&pairs, strains, k, &mut motion);
+                if large {
+                    look_closer(&pairs, strains, k, &mut motion);
+                } else {
+                    pairs.look_at_one(strains, &[], Depth::Changes, &mut motion);
+                }
                 add(Mode::new(k + 1, &pairs.statics, &motion, 0, &stretches));
                 motion.add_defects(&pairs.statics, &mut defects);
             }
@@ -365,7 +398,10 @@ impl Task<'_> {
     }
 
     /// Scaled strains of the wanted modes.
-    fn strains<const N: usize>(&self, pairs: &mut Eigenpairs<f64, N>) -> Result<Found> {
+    fn strains<const N: usize, const W: usize>(
+        &self,
+        pairs: &mut Eigenpairs<f64, N, W>,
+    ) -> Result<Found> {
         let Self { bat, plan, request, residual } = *self;
         match request.solver {
             _ if request.modes == 0 => Ok(Found::default()),
@@ -388,17 +424,17 @@ impl Task<'_> {
 }
 
 /// Looks at one motion of a large mesh, at its changes only if there are any beyond round-off.
-fn look_closer<const N: usize>(
-    pairs: &Eigenpairs<f64, N>,
+fn look_closer<const N: usize, const W: usize>(
+    pairs: &Eigenpairs<f64, N, W>,
     strains: &[f64],
     k: usize,
-    motion: &mut Motion<f64, N>,
+    motion: &mut Motion<f64, N, W>,
 ) {
-    pairs.look_at_one(strains, Depth::Defect, motion);
+    pairs.look_at_one(strains, &[], Depth::Defect, motion);
     // Mode n's frequency is about (n + ½)²/2.25 times the first.
     let ratio = (k as f64 + 1.5).powi(2) / 2.25;
     if 0.5 * motion.defect > round_off(ratio, pairs.statics.cells.len()) {
-        pairs.look_at_one(strains, Depth::Changes, motion);
+        pairs.look_at_one(strains, &[], Depth::Changes, motion);
     }
 }
 
@@ -433,8 +469,7 @@ impl<'a> Moments<'a> {
         let length = self.bat.length();
         for place in places {
             let x = *place * length;
-            let stiffness = self.bat.bending_stiffness(self.bat.profile.at(x));
-            *place = stiffness * self.sum.curvature(x);
+            *place = self.bat.worth_at(x).bending * self.sum.curvature(x);
         }
     }
 }
@@ -446,6 +481,7 @@ pub fn wanted(request: &Request) -> Wanted {
         tolerance: request.tolerance,
         degree: request.degree,
         most_unknowns: request.solver.most_unknowns(),
+        theory: request.theory,
     }
 }
 

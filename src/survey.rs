@@ -77,7 +77,8 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
         let section = piece.at(s);
         let radius = section.outer.max(thin);
         let section = Section { outer: radius, ..section };
-        let ratio = bat.mass_per_length(section) / bat.bending_stiffness(section);
+        let [bending, mass] = bat.layup(piece).bending_and_mass(section);
+        let ratio = mass / bending;
         let taper = match &piece.radii {
             Radii::Cubic(cubics) => Some(taper(cubics, s, radius)),
             Radii::Formula(_) => None,

@@ -8,6 +8,7 @@ use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::material::Material;
 use sweetspot::profile::{Interpolation, Profile};
+use sweetspot::theory::Theory;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
@@ -84,7 +85,7 @@ fn a_frustum_weighs_and_balances_as_its_closed_form() {
 fn the_assembled_matrices_know_the_rigid_motions_and_the_modes() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let mesh = Mesh::along(&bat, 60);
-    let pencil = Pencil::of(&bat, &mesh, 3);
+    let pencil = Pencil::of(&bat, &mesh, 3, Theory::EulerBernoulli);
     let nodes = mesh.nodes();
     let lift: Vec<f64> = nodes.iter().flat_map(|_| [1.0, 0.0]).collect();
     let turn: Vec<f64> = nodes.iter().flat_map(|x| [*x, 1.0]).collect();
@@ -135,7 +136,7 @@ fn the_matrices_of_a_solution_have_its_modes() {
     let request = Request { degree: Some(3), tolerance: 1e-6, ..Request::default() };
     let solution = solve(&bat, &request).unwrap();
     let mesh = &solution.mesh;
-    let pencil = Pencil::of(&bat, mesh, solution.degree);
+    let pencil = Pencil::of(&bat, mesh, solution.degree, Theory::EulerBernoulli);
     for mode in &solution.modes {
         let at = |x: &f64| [mode.shape.deflection(*x), mode.shape.rotation(*x)];
         let u: Vec<f64> = mesh.nodes().iter().flat_map(at).collect();
@@ -151,7 +152,7 @@ fn the_matrices_of_a_solution_have_its_modes() {
 #[test]
 fn a_matrix_market_file_holds_the_lower_triangle() {
     let bat = dowel();
-    let pencil = Pencil::of(&bat, &Mesh::along(&bat, 2), 3);
+    let pencil = Pencil::of(&bat, &Mesh::along(&bat, 2), 3, Theory::EulerBernoulli);
     let mut text = Vec::new();
     write_matrix_market(&pencil.mass, &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();

@@ -9,6 +9,7 @@ use sweetspot::eigen::lanczos::dot;
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
 use sweetspot::solve::own_and_recomputed;
+use sweetspot::theory::Theory;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Error, Request, Result, Solver, solve};
 
@@ -33,7 +34,7 @@ fn shift() -> f64 {
 }
 
 fn pencil(bat: &Bat, elements: usize) -> Pencil {
-    Pencil::of(bat, &Mesh::along(bat, elements), 3)
+    Pencil::of(bat, &Mesh::along(bat, elements), 3, Theory::EulerBernoulli)
 }
 
 fn solved(solve: Solve, pencil: &Pencil, count: usize) -> Pairs {

@@ -7,12 +7,13 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 use crate::bat::Bat;
 use crate::beam::element::{Element, Matrix, elements};
 use crate::beam::mesh::Mesh;
+use crate::theory::Theory;
 
 /// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and
 /// slope of every node and, after those of its left node, the bubbles of an element of degree
-/// above 3.
+/// above 3 and, with shear, the shear strains.
 ///
-/// Units: deflections in m, slopes in rad, bubbles (curvatures) in 1/m; `K` in N/m to N m³, `M` in
+/// Units: deflections in m, rotations in rad, bubbles (curvatures) in 1/m, shear strains in 1; `K` in N/m to N m³, `M` in
 /// kg to kg m⁴.
 #[derive(Debug, Clone)]
 pub struct Pencil {
@@ -22,27 +23,45 @@ pub struct Pencil {
 
 impl Pencil {
     /// The matrices of a bat on that mesh with elements of that degree.
-    pub fn of(bat: &Bat, mesh: &Mesh, degree: usize) -> Self {
+    pub fn of(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
+        if theory.shears() {
+            return Self::sheared(bat, mesh, degree, theory);
+        }
         match degree {
-            3 => Self::assemble::<4>(&elements(bat, mesh)),
-            4 => Self::assemble::<5>(&elements(bat, mesh)),
-            5 => Self::assemble::<6>(&elements(bat, mesh)),
-            6 => Self::assemble::<7>(&elements(bat, mesh)),
-            7 => Self::assemble::<8>(&elements(bat, mesh)),
-            8 => Self::assemble::<9>(&elements(bat, mesh)),
-            9 => Self::assemble::<10>(&elements(bat, mesh)),
-            10 => Self::assemble::<11>(&elements(bat, mesh)),
-            11 => Self::assemble::<12>(&elements(bat, mesh)),
-            _ => Self::assemble::<13>(&elements(bat, mesh)),
+            3 => Self::assemble::<4, 4>(&elements(bat, mesh, theory)),
+            4 => Self::assemble::<5, 5>(&elements(bat, mesh, theory)),
+            5 => Self::assemble::<6, 6>(&elements(bat, mesh, theory)),
+            6 => Self::assemble::<7, 7>(&elements(bat, mesh, theory)),
+            7 => Self::assemble::<8, 8>(&elements(bat, mesh, theory)),
+            8 => Self::assemble::<9, 9>(&elements(bat, mesh, theory)),
+            9 => Self::assemble::<10, 10>(&elements(bat, mesh, theory)),
+            10 => Self::assemble::<11, 11>(&elements(bat, mesh, theory)),
+            11 => Self::assemble::<12, 12>(&elements(bat, mesh, theory)),
+            _ => Self::assemble::<13, 13>(&elements(bat, mesh, theory)),
         }
     }
 
-    pub fn assemble<const N: usize>(elements: &[Element<f64, N>]) -> Self {
-        let size = (N - 2) * elements.len() + 2;
+    fn sheared(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
+        match degree {
+            3 => Self::assemble::<4, 6>(&elements(bat, mesh, theory)),
+            4 => Self::assemble::<5, 8>(&elements(bat, mesh, theory)),
+            5 => Self::assemble::<6, 10>(&elements(bat, mesh, theory)),
+            6 => Self::assemble::<7, 12>(&elements(bat, mesh, theory)),
+            7 => Self::assemble::<8, 14>(&elements(bat, mesh, theory)),
+            8 => Self::assemble::<9, 16>(&elements(bat, mesh, theory)),
+            9 => Self::assemble::<10, 18>(&elements(bat, mesh, theory)),
+            10 => Self::assemble::<11, 20>(&elements(bat, mesh, theory)),
+            11 => Self::assemble::<12, 22>(&elements(bat, mesh, theory)),
+            _ => Self::assemble::<13, 24>(&elements(bat, mesh, theory)),
+        }
+    }
+
+    pub fn assemble<const N: usize, const W: usize>(elements: &[Element<f64, N, W>]) -> Self {
+        let size = (W - 2) * elements.len() + 2;
         let (mut k, mut m) = (CooMatrix::new(size, size), CooMatrix::new(size, size));
         for (e, element) in elements.iter().enumerate() {
             let (stiffness, mass) = element.hermite();
-            let places = places::<N>(e);
+            let places = places::<W>(e);
             scatter(&mut k, &places, &stiffness);
             scatter(&mut m, &places, &mass);
         }
@@ -50,17 +69,17 @@ impl Pencil {
     }
 }
 
-/// Where the unknowns `[w₁, θ₁, w₂, θ₂, b₂ …]` of element `e` stand among all.
-pub fn places<const N: usize>(e: usize) -> [usize; N] {
-    let first = (N - 2) * e;
+/// Where the unknowns `[w₁, θ₁, w₂, θ₂, b₂ …, g₀ …]` of element `e` stand among all.
+pub fn places<const W: usize>(e: usize) -> [usize; W] {
+    let first = (W - 2) * e;
     std::array::from_fn(|i| match i {
         0 | 1 => first + i,
-        2 | 3 => first + (N - 2) + (i - 2),
+        2 | 3 => first + (W - 2) + (i - 2),
         _ => first + 2 + (i - 4),
     })
 }
 
-fn scatter<const N: usize>(into: &mut CooMatrix<f64>, places: &[usize; N], block: &Matrix<f64, N>) {
+fn scatter<const W: usize>(into: &mut CooMatrix<f64>, places: &[usize; W], block: &Matrix<f64, W>) {
     for (i, row) in places.iter().zip(block) {
         for (j, value) in places.iter().zip(row) {
             into.push(*i, *j, *value);

@@ -1,23 +1,30 @@
 //! What one element stores: strain energy and kinetic energy of a deflection of degree p.
 //!
 //! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the
-//! unknowns are strains: the curvature is `θ′ = Σ c_j P_j`, `j = 0 … p−2`, and slope and
-//! deflection follow by integration from the left end,
+//! unknowns are strains: the curvature is `θ′ = Σ c_j P_j` and, of a beam that shears, the shear
+//! strain `w′ − θ = Σ g_j P_j`, `j = 0 … p−2` for both. Rotation and deflection follow by integration
+//! from the left end,
 //!
 //! ```text
-//! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫θ,   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
+//! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫(θ + Σ g_j P_j),   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
 //! ```
 //!
-//! That is the Hermite space of degree p seen from its strains; [`Element::hermite`] gives the
-//! usual matrices of `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis of the
-//! same two blocks. `N = p + 1` is the number of Legendre polynomials in a deflection, `N − 2`
-//! the number of strains.
+//! Without shear that is the Hermite space of degree p seen from its strains, and it is the limit of
+//! the other for G → ∞: a strain that costs much is small, and nothing else changes, so that a
+//! slender beam neither locks nor loses digits. [`Element::hermite`] gives the usual matrices of
+//! `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis of the same blocks.
+//!
+//! `N = p + 1` is the number of Legendre polynomials in a deflection, `N − 2` the number of
+//! coefficients of a strain, `W` the number of all strains of an element plus 2: `N` without shear,
+//! `2N − 2` with it.
 
 use crate::bat::Bat;
 use crate::beam::mesh::{self, Mesh};
 use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::layup::Worth;
 use crate::profile::{Radii, Section};
 use crate::real::{Over, Real};
+use crate::theory::Theory;
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
 pub type Vector<R, const N: usize> = [R; N];
@@ -26,15 +33,40 @@ pub type Matrix<R, const N: usize> = [[R; N]; N];
 
 /// The energies of one element.
 #[derive(Debug, Clone, Copy)]
-pub struct Element<R, const N: usize> {
+pub struct Element<R, const N: usize, const W: usize> {
     /// Length h (m).
     pub length: R,
     /// Position of the middle from the knob end (m).
     pub middle: R,
-    /// Stiffness of the strains `D_jk = ∫EI P_j P_k dx` (N m³), `j, k < N − 2`.
+    /// Stiffness of the curvature `D_jk = ∫EI P_j P_k dx` (N m³), `j, k < N − 2`.
     pub stiffness: Matrix<R, N>,
     /// Mass `∫ρA P_k P_l dx` (kg).
     pub mass: Matrix<R, N>,
+    /// What the Euler–Bernoulli beam does not have.
+    pub beyond: Option<Beyond<R, N>>,
+}
+
+/// What the sections' rotary inertia and shear add to an element.
+#[derive(Debug, Clone, Copy)]
+pub struct Beyond<R, const N: usize> {
+    /// Mass of the rotation `∫ρI P_k P_l dx` (kg m²), `k, l < N − 1`.
+    pub turning: Matrix<R, N>,
+    /// Stiffness of the shear strain `∫κGA P_j P_k dx` (N m), `j, k < N − 2`; 0 without shear.
+    pub shear: Matrix<R, N>,
+}
+
+/// What sections are worth at the points of the rule, one list for each number; the last two are
+/// empty where the theory does not ask for them.
+#[derive(Debug, Clone, Copy)]
+pub struct Samples<'a, R> {
+    /// EI (N m²).
+    pub bending: &'a [R],
+    /// ρA (kg/m).
+    pub mass: &'a [R],
+    /// ρI (kg m).
+    pub turning: &'a [R],
+    /// κGA (N).
+    pub shear: &'a [R],
 }
 
 /// `1/(2k + 1)`.
@@ -48,179 +80,263 @@ const ODD: [f64; 16] = {
     odd
 };
 
-/// The deflection with strains `c` of an element of length `h` whose left end is at `w` with
-/// slope `theta`, in Legendre polynomials (m).
+/// Deflection (m) and rotation (rad) in Legendre polynomials of an element of length `h` with those
+/// strains, whose left end is at `w` with rotation `theta`.
 #[inline(always)]
-pub fn deflection<S: Real, R: Over<S>, const N: usize>(
+pub fn integrated<S: Real, R: Over<S>, const N: usize, const W: usize>(
     h: S,
-    c: &Vector<R, N>,
+    strains: &Vector<R, W>,
     w: R,
     theta: R,
-) -> Vector<R, N> {
+) -> [Vector<R, N>; 2] {
     let half = S::splat(0.5) * h;
     let integral = |below: R, k: usize, above: R| {
         (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above) * half
     };
     let zero = R::default();
-    let mut t = [zero; N];
-    let c = |k: usize| if k < N - 2 { c[k] } else { zero };
-    t[0] = theta + (c(0) - R::splat(ODD[1]) * c(1)) * half;
+    let mut turn = [zero; N];
+    let c = |k: usize| if k < N - 2 { strains[k] } else { zero };
+    turn[0] = theta + (c(0) - R::splat(ODD[1]) * c(1)) * half;
     for k in 1..N - 1 {
-        t[k] = integral(c(k - 1), k, c(k + 1));
+        turn[k] = integral(c(k - 1), k, c(k + 1));
+    }
+    let mut slope = turn;
+    if W > N {
+        for k in 0..N - 2 {
+            slope[k] += strains[N - 2 + k];
+        }
     }
     let mut shape = [zero; N];
-    shape[0] = w + (t[0] - R::splat(ODD[1]) * t[1]) * half;
+    shape[0] = w + (slope[0] - R::splat(ODD[1]) * slope[1]) * half;
     for k in 1..N {
-        shape[k] = integral(t[k - 1], k, if k + 1 < N { t[k + 1] } else { zero });
+        shape[k] = integral(slope[k - 1], k, if k + 1 < N { slope[k + 1] } else { zero });
     }
-    shape
+    [shape, turn]
 }
 
-/// The adjoint of [`deflection`]: what loads on the Legendre polynomials are on the strains and,
-/// in the last two places, on `w` and `theta`.
+/// The adjoint of [`integrated`] for its deflection: what loads on the Legendre polynomials are on
+/// the strains and, in the last two places, on `w` and `theta`.
 #[inline(always)]
-fn on_strains<R: Real, const N: usize>(h: R, load: &Vector<R, N>) -> Vector<R, N> {
+pub fn on_strains<R: Real, const N: usize, const W: usize>(
+    h: R,
+    load: &Vector<R, N>,
+) -> Vector<R, W> {
     let half = R::splat(0.5) * h;
-    let zero = R::default();
-    let mut turning = [zero; N];
-    turning[0] = half * (load[1] + load[0]);
+    let mut slope = [R::default(); N];
+    slope[0] = half * (load[1] + load[0]);
     for k in 1..N - 1 {
-        turning[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
+        slope[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
     }
-    let mut on = [zero; N];
-    on[0] = half * (turning[1] + turning[0]);
-    for k in 1..N - 2 {
-        on[k] = half * R::splat(ODD[k]) * (turning[k + 1] - turning[k - 1]);
+    let mut on = turning_on_strains(h, &slope);
+    if W > N {
+        on[N - 2..W - 2].copy_from_slice(&slope[..N - 2]);
     }
-    (on[N - 2], on[N - 1]) = (load[0], turning[0]);
+    on[W - 2] = load[0];
     on
 }
 
-impl<R: Real, const N: usize> Element<R, N> {
-    /// The energies from EI (N m²) and ρA (kg/m) at the points of the rule.
+/// The same for its rotation.
+#[inline(always)]
+pub fn turning_on_strains<R: Real, const N: usize, const W: usize>(
+    h: R,
+    load: &Vector<R, N>,
+) -> Vector<R, W> {
+    let half = R::splat(0.5) * h;
+    let mut on = [R::default(); W];
+    on[0] = half * (load[1] + load[0]);
+    for k in 1..N - 2 {
+        on[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
+    }
+    on[W - 1] = load[0];
+    on
+}
+
+/// Adds `Σ value P_k P_l` at one point, for `k, l` below a count.
+#[inline(always)]
+fn add_square<R: Real, const N: usize>(
+    matrix: &mut Matrix<R, N>,
+    value: R,
+    p: &[f64; N],
+    count: usize,
+) {
+    for k in 0..count {
+        let part = value * R::splat(p[k]);
+        for l in 0..count {
+            matrix[k][l] += part * R::splat(p[l]);
+        }
+    }
+}
+
+impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
+    /// The energies from what the sections are worth at the points of the rule.
     #[inline(always)]
-    pub fn new(
-        length: R,
-        middle: R,
-        rule: &Rule,
-        bending_stiffness: &[R],
-        mass_per_length: &[R],
-    ) -> Self {
+    pub fn new(length: R, middle: R, rule: &Rule, samples: Samples<R>) -> Self {
         let zero = [[R::default(); N]; N];
         let (mut stiffness, mut mass) = (zero, zero);
-        let sections = bending_stiffness.iter().zip(mass_per_length);
+        let sections = samples.bending.iter().zip(samples.mass);
         for (i, ((bending, line), point)) in sections.zip(&rule.points).enumerate() {
             let p = rule.at::<N>(i);
             let share = R::splat(point.weight) * length;
-            let (bending, line) = (share * *bending, share * *line);
-            for k in 0..N {
-                let (bending, line) = (bending * R::splat(p[k]), line * R::splat(p[k]));
-                for l in 0..N {
-                    mass[k][l] += line * R::splat(p[l]);
-                }
-                for l in 0..N - 2 {
-                    stiffness[k][l] += bending * R::splat(p[l]);
-                }
-            }
+            add_square(&mut mass, share * *line, p, N);
+            add_square(&mut stiffness, share * *bending, p, N - 2);
         }
-        Self { length, middle, stiffness, mass }
+        let beyond = (!samples.turning.is_empty()).then(|| Beyond::new(length, rule, samples));
+        Self { length, middle, stiffness, mass, beyond }
     }
 
-    /// Writes `L⁻¹`, lower triangular, of the stiffness `D = L Lᵀ` in that unit of energy.
+    /// Writes `L⁻¹`, lower triangular in blocks of curvature and shear, of the stiffness `D = L Lᵀ` in
+    /// that unit of energy.
     #[inline(always)]
-    pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, N>) {
-        let n = N - 2;
-        let zero = R::default();
-        let scale = R::splat(1.0) / unit;
-        let mut factor = [[zero; N]; N];
-        for j in 0..n {
-            let mut pivot = self.stiffness[j][j] * scale;
-            for k in 0..j {
-                pivot -= factor[j][k] * factor[j][k];
-            }
-            inverse[j][j] = R::splat(1.0) / pivot.sqrt();
-            for i in j + 1..n {
-                let mut entry = self.stiffness[i][j] * scale;
-                for k in 0..j {
-                    entry -= factor[i][k] * factor[j][k];
-                }
-                factor[i][j] = entry * inverse[j][j];
-            }
-        }
-        for i in 1..n {
-            for j in 0..i {
-                let mut entry = zero;
-                for k in j..i {
-                    entry += factor[i][k] * inverse[k][j];
-                }
-                inverse[i][j] = -(entry * inverse[i][i]);
-            }
+    pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, W>) {
+        invert_factor::<R, N, W>(&self.stiffness, unit, inverse, 0);
+        if let Some(beyond) = self.beyond.as_ref().filter(|_| W > N) {
+            invert_factor::<R, N, W>(&beyond.shear, unit, inverse, N - 2);
         }
     }
 
     /// Writes the element as the running sums use it, in strains scaled by that `L⁻¹`.
     #[inline(always)]
-    pub fn connect(&self, inverse: &Matrix<R, N>, link: &mut Link<R, N>) {
+    pub fn connect(&self, inverse: &Matrix<R, W>, link: &mut Link<R, W>) {
         let (n, h) = (N - 2, self.length);
-        // ∂T/∂(c, w, θ) of every deflection polynomial, then of every strain.
+        // ∂T/∂(strains, w, θ) of every deflection polynomial, then of every strain.
         let zero = R::default();
-        let (mut rows, mut columns) = ([[zero; N]; N], [[zero; N]; N]);
+        let mut rows = [[zero; W]; N];
+        let mut columns = [[zero; W]; W];
         for k in 0..N {
-            rows[k] = on_strains(h, &self.mass[k]);
+            rows[k] = on_strains::<R, N, W>(h, &self.mass[k]);
         }
-        for j in 0..N {
+        for j in 0..W {
             let mut column = [zero; N];
             for k in 0..N {
                 column[k] = rows[k][j];
             }
             columns[j] = on_strains(h, &column);
         }
+        if let Some(beyond) = &self.beyond {
+            beyond.add(h, &mut columns);
+        }
         // Scaled from the left, row by row, then from the right.
         let mut left = columns;
-        for i in 0..n {
-            left[i] = [zero; N];
-            for k in 0..=i {
-                for j in 0..N {
+        for i in 0..W - 2 {
+            left[i] = [zero; W];
+            for k in i / n * n..=i {
+                for j in 0..W {
                     left[i][j] += inverse[i][k] * columns[k][j];
                 }
             }
         }
-        for row in 0..N {
-            for i in 0..n {
+        for row in 0..W {
+            for i in 0..W - 2 {
                 let mut entry = zero;
-                for k in 0..=i {
+                for k in i / n * n..=i {
                     entry += left[row][k] * inverse[i][k];
                 }
                 link.mass[row][i] = entry;
             }
-            link.mass[row][n..].copy_from_slice(&left[row][n..]);
+            link.mass[row][W - 2..].copy_from_slice(&left[row][W - 2..]);
         }
         for i in 0..n {
             let second = if i > 0 { R::splat(ODD[1]) * inverse[i][1] } else { zero };
             link.turn[i] = h * inverse[i][0];
             link.lift[i] = R::splat(0.5) * h * h * (inverse[i][0] - second);
         }
+        for i in n..W - 2 {
+            link.turn[i] = zero;
+            link.lift[i] = h * inverse[i][n];
+        }
         link.length = h;
     }
 }
 
+/// Writes `L⁻¹` of one block into its place from row and column `first` on.
+#[inline(always)]
+fn invert_factor<R: Real, const N: usize, const W: usize>(
+    stiffness: &Matrix<R, N>,
+    unit: R,
+    inverse: &mut Matrix<R, W>,
+    first: usize,
+) {
+    let n = N - 2;
+    let zero = R::default();
+    let scale = R::splat(1.0) / unit;
+    let mut factor = [[zero; N]; N];
+    for j in 0..n {
+        let mut pivot = stiffness[j][j] * scale;
+        for k in 0..j {
+            pivot -= factor[j][k] * factor[j][k];
+        }
+        inverse[first + j][first + j] = R::splat(1.0) / pivot.sqrt();
+        for i in j + 1..n {
+            let mut entry = stiffness[i][j] * scale;
+            for k in 0..j {
+                entry -= factor[i][k] * factor[j][k];
+            }
+            factor[i][j] = entry * inverse[first + j][first + j];
+        }
+    }
+    for i in 1..n {
+        for j in 0..i {
+            let mut entry = zero;
+            for k in j..i {
+                entry += factor[i][k] * inverse[first + k][first + j];
+            }
+            inverse[first + i][first + j] = -(entry * inverse[first + i][first + i]);
+        }
+    }
+}
+
+impl<R: Real, const N: usize> Beyond<R, N> {
+    #[inline(always)]
+    fn new(length: R, rule: &Rule, samples: Samples<R>) -> Self {
+        let mut beyond = Self { turning: [[R::default(); N]; N], shear: [[R::default(); N]; N] };
+        for (i, (value, point)) in samples.turning.iter().zip(&rule.points).enumerate() {
+            let share = R::splat(point.weight) * length;
+            add_square(&mut beyond.turning, share * *value, rule.at::<N>(i), N - 1);
+        }
+        for (i, (value, point)) in samples.shear.iter().zip(&rule.points).enumerate() {
+            let share = R::splat(point.weight) * length;
+            add_square(&mut beyond.shear, share * *value, rule.at::<N>(i), N - 2);
+        }
+        beyond
+    }
+
+    /// Adds the rotary inertia to the mass matrix of `(strains, w, θ)`.
+    #[inline(always)]
+    fn add<const W: usize>(&self, h: R, columns: &mut Matrix<R, W>) {
+        let mut rows = [[R::default(); W]; N];
+        for k in 0..N - 1 {
+            rows[k] = turning_on_strains::<R, N, W>(h, &self.turning[k]);
+        }
+        for j in 0..W {
+            let mut column = [R::default(); N];
+            for k in 0..N - 1 {
+                column[k] = rows[k][j];
+            }
+            let on: Vector<R, W> = turning_on_strains(h, &column);
+            for k in 0..W {
+                columns[j][k] += on[k];
+            }
+        }
+    }
+}
+
 /// One element as the running sums use it: its kinetic energy in its scaled strains `q` and the
-/// deflection and slope `(w, θ)` at its inner end, and how far these carry its outer end.
+/// deflection and rotation `(w, θ)` at its inner end, and how far these carry its outer end.
 #[derive(Debug, Clone, Copy)]
-pub struct Link<R, const N: usize> {
-    /// Mass matrix of `(q₀ … q_{N−3}, w, θ)`.
-    pub mass: Matrix<R, N>,
+pub struct Link<R, const W: usize> {
+    /// Mass matrix of `(q₀ … q_{W−3}, w, θ)`.
+    pub mass: Matrix<R, W>,
     /// `w_out = w + h θ + lift·q`, `θ_out = θ + turn·q`; the last two places are not used.
-    pub lift: Vector<R, N>,
-    pub turn: Vector<R, N>,
+    pub lift: Vector<R, W>,
+    pub turn: Vector<R, W>,
     pub length: R,
 }
 
-impl<S: Real, const N: usize> Link<S, N> {
+impl<S: Real, const W: usize> Link<S, W> {
     /// The element's generalised loads `∂T/∂(q, w, θ)` in that motion (times ω²).
     #[inline(always)]
-    pub fn load<R: Over<S>>(&self, motion: &Vector<R, N>) -> Vector<R, N> {
-        let mut load = [R::default(); N];
+    pub fn load<R: Over<S>>(&self, motion: &Vector<R, W>) -> Vector<R, W> {
+        let mut load = [R::default(); W];
         for (column, part) in self.mass.iter().zip(motion) {
             for (load, entry) in load.iter_mut().zip(column) {
                 *load += *part * *entry;
@@ -232,21 +348,20 @@ impl<S: Real, const N: usize> Link<S, N> {
 
 /// `Σ_k a_k b_k` over the strains.
 #[inline(always)]
-pub fn over_strains<S, R: Over<S>, const N: usize>(a: &Vector<S, N>, b: &Vector<R, N>) -> R
+pub fn over_strains<S, R: Over<S>, const W: usize>(a: &Vector<S, W>, b: &Vector<R, W>) -> R
 where
     S: Real,
 {
     let mut sum = R::default();
-    for k in 0..N - 2 {
+    for k in 0..W - 2 {
         sum += b[k] * a[k];
     }
     sum
 }
 
-/// EI (N m²) and ρA (kg/m) at the points of the rule on one element.
+/// The sections at the points of the rule on one element.
 #[inline(always)]
-pub fn sections(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(usize, f64, f64)) {
-    let mut at = |i, section| take(i, bat.bending_stiffness(section), bat.mass_per_length(section));
+fn sections(bat: &Bat, e: &mesh::Element, rule: &Rule, mut at: impl FnMut(usize, Section)) {
     let piece = &bat.profile.pieces[e.piece];
     let Radii::Cubic(cubics) = &piece.radii else {
         for (i, point) in rule.points.iter().enumerate() {
@@ -264,67 +379,129 @@ pub fn sections(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(
     }
 }
 
+/// EI (N m²) and ρA (kg/m) at the points of the rule on one element.
+#[inline(always)]
+pub fn bending_and_mass(
+    bat: &Bat,
+    e: &mesh::Element,
+    rule: &Rule,
+    mut take: impl FnMut(usize, [f64; 2]),
+) {
+    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    sections(bat, e, rule, |i, section| take(i, layup.bending_and_mass(section)));
+}
+
+/// All that the sections are worth there.
+pub fn worths(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(usize, Worth)) {
+    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    sections(bat, e, rule, |i, section| take(i, layup.worth(section)));
+}
+
 /// The Legendre series of a formula ends in its round-off below this.
 const RESOLVED: f64 = 1e-13;
 
 /// How much of EI and ρA on an element the points of its rule may miss, relative: the last terms
 /// of their Legendre series through the points, 0 where these are mere round-off. 0 for stations,
-/// whose polynomials the rule holds exactly.
-pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule) -> f64 {
-    if matches!(bat.profile.pieces[e.piece].radii, Radii::Cubic(_)) {
+/// whose polynomials the rule holds exactly, but for the κGA of a bore that tapers, which is none.
+pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule, theory: Theory) -> f64 {
+    let piece = &bat.profile.pieces[e.piece];
+    let bored = match &piece.radii {
+        Radii::Cubic(cubics) => cubics.inner != [0.0; 4] && cubics.degree > 0,
+        Radii::Formula(_) => true,
+    };
+    let formula = matches!(piece.radii, Radii::Formula(_));
+    if !(formula || bored && theory.shears()) {
         return 0.0;
     }
-    let (mut bending, mut line) = ([0.0; MOST_POINTS], [0.0; MOST_POINTS]);
-    sections(bat, e, rule, |i, stiffness, mass| (bending[i], line[i]) = (stiffness, mass));
-    let tail = f64::max(rule.tail(&bending), rule.tail(&line));
+    let [mut bending, mut line, mut shear] = [[0.0; MOST_POINTS]; 3];
+    worths(bat, e, rule, |i, worth| {
+        (bending[i], line[i], shear[i]) = (worth.bending, worth.mass, worth.shear);
+    });
+    let mut tail = f64::max(rule.tail(&bending), rule.tail(&line));
+    if theory.shears() {
+        tail = tail.max(rule.tail(&shear));
+    }
     if tail > RESOLVED { tail } else { 0.0 }
 }
 
-/// All elements of a mesh, as degree `N − 1` sees them.
-pub fn elements<const N: usize>(bat: &Bat, mesh: &Mesh) -> Vec<Element<f64, N>> {
+/// All elements of a mesh, as degree `N − 1` and the theory see them.
+pub fn elements<const N: usize, const W: usize>(
+    bat: &Bat,
+    mesh: &Mesh,
+    theory: Theory,
+) -> Vec<Element<f64, N, W>> {
     let rule = Rule::of(bat, N - 1);
-    let (mut bending, mut line) = (vec![0.0; rule.count()], vec![0.0; rule.count()]);
+    let mut lists = [const { Vec::new() }; 4];
     let element = |e: &mesh::Element| {
-        sections(bat, e, rule, |i, stiffness, mass| (bending[i], line[i]) = (stiffness, mass));
-        Element::new(e.length, e.start + 0.5 * e.length, rule, &bending, &line)
+        lists.iter_mut().for_each(Vec::clear);
+        worths(bat, e, rule, |_, worth| {
+            lists[0].push(worth.bending);
+            lists[1].push(worth.mass);
+            if theory.turns() {
+                lists[2].push(worth.turning);
+            }
+            if theory.shears() {
+                lists[3].push(worth.shear);
+            }
+        });
+        let [bending, mass, turning, shear] = &lists;
+        let samples = Samples { bending, mass, turning, shear };
+        Element::new(e.length, e.start + 0.5 * e.length, rule, samples)
     };
     mesh.elements.iter().map(element).collect()
 }
 
-impl<const N: usize> Element<f64, N> {
-    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …]`: mean curvature `(θ₂ − θ₁)/h`, its
-    /// slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h`, and the bubbles, whose
-    /// amplitude `b_j` is the coefficient of `P_j` in the curvature.
-    pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, N> {
+impl<const N: usize, const W: usize> Element<f64, N, W> {
+    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature
+    /// `(θ₂ − θ₁)/h`, its slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the
+    /// bubbles, whose amplitude `b_j` is the coefficient of `P_j` in the curvature, and the shear
+    /// strains.
+    pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, W> {
         let h = self.length;
-        let chord = (u[2] - u[0]) / h;
-        let mut strains = [0.0; N];
+        let sheared = if W > N { u[N] } else { 0.0 };
+        let chord = (u[2] - u[0]) / h - sheared;
+        let mut strains = [0.0; W];
         strains[0] = (u[3] - u[1]) / h;
         strains[1] = 3.0 * ((u[1] - chord) + (u[3] - chord)) / h;
-        strains[2..N - 2].copy_from_slice(&u[4..]);
+        strains[2..W - 2].copy_from_slice(&u[4..W]);
         strains
     }
 
-    /// Stiffness and mass for the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …]`.
+    /// Stiffness and mass for the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`.
     ///
-    /// A bubble's deflection and slope vanish at both ends, because `P_j` with `j ≥ 2` has
+    /// A bubble's deflection and rotation vanish at both ends, because `P_j` with `j ≥ 2` has
     /// neither area nor moment.
-    pub fn hermite(&self) -> (Matrix<f64, N>, Matrix<f64, N>) {
+    pub fn hermite(&self) -> (Matrix<f64, W>, Matrix<f64, W>) {
         let unit =
-            |i: usize| -> Vector<f64, N> { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
-        let strains: Matrix<f64, N> = std::array::from_fn(|i| self.strains_of_hermite(&unit(i)));
-        let shapes: Matrix<f64, N> = std::array::from_fn(|i| {
+            |i: usize| -> Vector<f64, W> { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
+        let strains: Matrix<f64, W> = std::array::from_fn(|i| self.strains_of_hermite(&unit(i)));
+        let shapes: [[Vector<f64, N>; 2]; W] = std::array::from_fn(|i| {
             let u = unit(i);
-            deflection(self.length, &strains[i], u[0], u[1])
+            integrated(self.length, &strains[i], u[0], u[1])
         });
-        let product = |matrix: &Matrix<f64, N>, rows: &Matrix<f64, N>| {
-            let times = |x: &Vector<f64, N>| -> Vector<f64, N> {
-                std::array::from_fn(|k| dot(&matrix[k], x))
-            };
-            let images = rows.map(|row| times(&row));
-            std::array::from_fn(|i| std::array::from_fn(|j| dot(&images[i], &rows[j])))
+        let times = |matrix: &Matrix<f64, N>, x: &[f64]| -> Vector<f64, N> {
+            std::array::from_fn(|k| dot(&matrix[k], x))
         };
-        (product(&self.stiffness, &strains), product(&self.mass, &shapes))
+        let (mut stiffness, mut mass) = ([[0.0; W]; W], [[0.0; W]; W]);
+        for i in 0..W {
+            let bent = times(&self.stiffness, &strains[i][..N - 2]);
+            let moved = times(&self.mass, &shapes[i][0]);
+            let [turned, sheared] = match &self.beyond {
+                Some(beyond) => {
+                    let own = if W > N { &strains[i][N - 2..W - 2] } else { &[] };
+                    [times(&beyond.turning, &shapes[i][1]), times(&beyond.shear, own)]
+                }
+                None => [[0.0; N]; 2],
+            };
+            for j in 0..W {
+                stiffness[i][j] = dot(&bent, &strains[j][..N - 2]);
+                if W > N {
+                    stiffness[i][j] += dot(&sheared, &strains[j][N - 2..W - 2]);
+                }
+                mass[i][j] = dot(&moved, &shapes[j][0]) + dot(&turned, &shapes[j][1]);
+            }
+        }
+        (stiffness, mass)
     }
 }
 
@@ -337,9 +514,14 @@ mod tests {
     use super::*;
 
     /// A uniform element of length h with EI and ρA.
-    fn uniform<const N: usize>(h: f64, bending: f64, line: f64) -> Element<f64, N> {
-        let mut element =
-            Element { length: h, middle: 0.5 * h, stiffness: [[0.0; N]; N], mass: [[0.0; N]; N] };
+    fn uniform<const N: usize>(h: f64, bending: f64, line: f64) -> Element<f64, N, N> {
+        let mut element = Element {
+            length: h,
+            middle: 0.5 * h,
+            stiffness: [[0.0; N]; N],
+            mass: [[0.0; N]; N],
+            beyond: None,
+        };
         for k in 0..N {
             element.mass[k][k] = line * h * ODD[k];
             if k < N - 2 {

@@ -3,6 +3,9 @@
 pub mod mesh;
 pub mod rule;
 pub mod element;
+pub mod sweep;
+pub mod fixed;
 pub mod statics;
 pub mod motion;
+
 pub mod assembly;

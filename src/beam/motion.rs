@@ -2,14 +2,15 @@
 //!
 //! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a
 //! computed mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free
-//! ends, and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it
+//! ends (`M′ = −Q − ω²ρI θ` with rotary inertia), and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it
 //! is a polynomial in every element and because the eigensolve stops somewhere, and
 //!
 //! ```text
 //! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
 //! ```
 //!
-//! with `c_j` the share of the exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error
+//! (and, of a beam that shears, `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` in the numerator, `∫κGA γ² dx` in
+//! the denominator, and likewise for every spring and joint), with `c_j` the share of the exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error
 //! of Rayleigh's quotient is `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1 − λ/λ_j`,
 //! which is 1 for the fast modes that a mesh cannot hold. So `η/2` is the relative error of the
 //! frequency, from the answer itself and no second mesh, thin ends included.
@@ -20,26 +21,34 @@
 //! an equilibrated field; Rayleigh's, Schwarz' and Grammel's quotients in L. Collatz,
 //! Eigenwertaufgaben mit technischen Anwendungen (1963).
 
-use crate::beam::element::{Vector, deflection, over_strains};
+use std::ops::Range;
+
+use crate::beam::element::{Vector, integrated, over_strains};
+use crate::beam::fixed::{At, Stop, What};
 use crate::beam::rule::MOST_POINTS;
-use crate::beam::statics::{Rigid, Statics, with_ends};
+use crate::beam::statics::Statics;
+use crate::beam::sweep::{Loads, Rigid, with_ends};
 use crate::eigen::lanczos::dot;
 use crate::quadrature::RunningSum;
 use crate::real::{Over, Real};
 
 /// A bending motion with the memory it was computed in.
 #[derive(Debug, Clone, Default)]
-pub struct Motion<R, const N: usize> {
+pub struct Motion<R, const N: usize, const W: usize> {
     /// Deflection of every cell, outwards, the rigid motions taken out (m).
     pub shape: Vec<Vector<R, N>>,
-    /// The same at the points of every cell.
+    /// Rotation of every cell, outwards (rad); empty where it is the slope of the deflection.
+    pub turns: Vec<Vector<R, N>>,
+    /// The deflection at the points of every cell.
     pub deflections: Vec<R>,
     /// By how much the deflection that the motion's inertia makes is less, at the same points.
     pub changes: Vec<R>,
     /// Deflection and change at the outer ends of both sides: knob end, tip.
     pub ends: [[R; 2]; 2],
-    /// `∫ρA w² dx` (kg m²).
+    /// `∫ρA w² dx`, `∫ρI θ² dx` and what is attached (kg m²).
     pub kinetic: R,
+    /// The same of the motion with its change.
+    pub work: R,
     /// ω (rad/s): its square, Rayleigh's quotient, is strain energy over kinetic energy, both from
     /// the strains.
     pub omega: R,
@@ -49,22 +58,32 @@ pub struct Motion<R, const N: usize> {
     pub defect: R,
     /// Every cell's part of it.
     pub defects: Vec<R>,
+    /// Rotation and its change at the points, where it has inertia.
+    rotations: Vec<R>,
+    turn_changes: Vec<R>,
+    /// The shear strain less that of the inertia's shear force, at the points.
+    slips: Vec<R>,
+    /// Displacement and rotation of the point masses, outwards, and their changes.
+    points: Vec<[R; 2]>,
+    point_changes: Vec<[R; 2]>,
     image: Vec<R>,
-    loads: Vec<Vector<R, N>>,
+    loads: Loads<R, W>,
 }
 
-impl<R: Real, const N: usize> Motion<R, N> {
+impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     /// The motion with those scaled strains and its energies; its defect too if wanted.
     ///
-    /// With `value`, the eigenvalue of the compliance that the strains belong to, the kinetic
-    /// energy is taken from it: half the work, no residual (0), and round-off of ε times the
-    /// greatest eigenvalue over this one.
+    /// With `value`, the eigenvalue of the compliance that the strains of a bare bat belong to, the
+    /// kinetic energy is taken from it: half the work, no residual (0), and round-off of ε times the
+    /// greatest eigenvalue over this one. Strains in `known`, one motion after the other, are other
+    /// modes, whose round-off is taken out.
     #[inline(always)]
     pub fn take<S: Real>(
         &mut self,
-        statics: &Statics<S, N>,
+        statics: &Statics<S, N, W>,
         q: &[R],
         value: Option<R>,
+        known: &[S],
         with_defect: bool,
     ) where
         R: Over<S>,
@@ -79,6 +98,11 @@ impl<R: Real, const N: usize> Motion<R, N> {
             None => {
                 self.image.resize(q.len(), R::default());
                 let rigid = statics.apply(q, &mut self.image, &mut self.loads);
+                for known in known.chunks_exact(q.len()) {
+                    let mut part = R::default();
+                    self.image.iter().zip(known).for_each(|(y, v)| part += *y * *v);
+                    self.image.iter_mut().zip(known).for_each(|(y, v)| *y -= part * *v);
+                }
                 self.kinetic = dot(q, &self.image);
                 let scale = strain / self.kinetic;
                 self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
@@ -88,15 +112,22 @@ impl<R: Real, const N: usize> Motion<R, N> {
         };
         let lambda = strain * statics.energy_unit / self.kinetic;
         self.omega = lambda.sqrt();
-        let count = statics.cells.len();
-        self.shape.resize(count, [R::default(); N]);
-        self.deflections.resize(count * statics.rule.count(), R::default());
-        self.changes.resize(count * statics.rule.count(), R::default());
-        self.defects.resize(count, R::default());
+        let (zero, count) = (R::default(), statics.cells.len());
+        let samples = count * statics.rule.count();
+        self.shape.resize(count, [zero; N]);
+        self.turns.resize(if W > N { count } else { 0 }, [zero; N]);
+        self.deflections.resize(samples, zero);
+        self.changes.resize(samples, zero);
+        self.defects.resize(count, zero);
+        let turning = if statics.theory.turns() { samples } else { 0 };
+        self.rotations.resize(turning, zero);
+        self.turn_changes.resize(turning, zero);
+        self.slips.resize(if W > N { samples } else { 0 }, zero);
+        self.points.resize(self.loads.points.len(), [zero; 2]);
         for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
             self.outwards(statics, q, cells.clone(), rigid, side);
             if with_defect {
-                self.inwards(statics, q, cells, lambda);
+                self.inwards(statics, q, cells, lambda, side);
             }
         }
         if statics.split == 0 {
@@ -116,15 +147,21 @@ impl<R: Real, const N: usize> Motion<R, N> {
             *defect = *defect * scale;
             self.defect += *defect;
         }
+        // Springs and joints; the strain of one that does not give way is 0.
+        let springs = q.len().min((W - 2) * count);
+        if value.is_none() {
+            let missed = &self.image[springs..];
+            self.defect += dot(missed, missed) / strain;
+        }
     }
 
     /// Deflections outwards from the root at rest, less a rigid motion; loads `ρA w` at the points.
     #[inline(always)]
     fn outwards<S: Real>(
         &mut self,
-        statics: &Statics<S, N>,
+        statics: &Statics<S, N, W>,
         q: &[R],
-        cells: std::ops::Range<usize>,
+        cells: Range<usize>,
         rigid: Rigid<R>,
         side: usize,
     ) where
@@ -134,74 +171,151 @@ impl<R: Real, const N: usize> Motion<R, N> {
         let [mut w, mut theta] = [RunningSum::<R>::default(); 2];
         self.ends[side] = [R::default(); 2];
         let mut values = [R::default(); MOST_POINTS];
-        for k in cells {
-            let cell = &statics.cells[k];
-            let (h, q) = (cell.link.length, scaled::<R, N>(&q[k * (N - 2)..]));
-            let half = S::splat(0.5) * h;
-            let strains = cell.strains(&q);
-            let mut shape = deflection(h, &strains, w.value(), theta.value());
-            shape[0] -= rigid.deflection(cell.arm + half);
-            shape[1] -= rigid.turn * half;
-            let samples = k * points..(k + 1) * points;
-            statics.rule.values(&shape, &mut values);
-            let line = &statics.mass_per_length[samples.clone()];
-            let kept = self.deflections[samples.clone()].iter_mut();
-            let loads = self.changes[samples].iter_mut();
-            for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
-                *kept = *value;
-                *load = *value * *line;
+        let stops = statics.stops(side);
+        for run in runs(&cells, stops) {
+            for k in run.cells {
+                let cell = &statics.cells[k];
+                let (h, q) = (cell.link.length, scaled::<R, W>(&q[k * (W - 2)..]));
+                let half = S::splat(0.5) * h;
+                let strains = cell.strains(&q);
+                let [mut shape, mut turn] =
+                    integrated::<S, R, N, W>(h, &strains, w.value(), theta.value());
+                shape[0] -= rigid.deflection(cell.arm + half);
+                shape[1] -= rigid.turn * half;
+                turn[0] -= rigid.turn;
+                let samples = k * points..(k + 1) * points;
+                statics.rule.values(&shape, &mut values);
+                let line = &statics.mass_per_length[samples.clone()];
+                let kept = self.deflections[samples.clone()].iter_mut();
+                let loads = self.changes[samples.clone()].iter_mut();
+                for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
+                    *kept = *value;
+                    *load = *value * *line;
+                }
+                if statics.theory.turns() {
+                    statics.rule.values(&turn, &mut values);
+                    let line = &statics.turning_per_length[samples.clone()];
+                    let kept = self.rotations[samples.clone()].iter_mut();
+                    let couples = self.turn_changes[samples].iter_mut();
+                    for (((kept, couple), line), value) in kept.zip(couples).zip(line).zip(&values)
+                    {
+                        *kept = *value;
+                        *couple = *value * *line;
+                    }
+                }
+                w.add(theta.value() * h + over_strains(&cell.link.lift, &q));
+                theta.add(over_strains(&cell.link.turn, &q));
+                self.ends[side][0] = shape.iter().fold(R::default(), |sum, w| sum + *w);
+                self.shape[k] = shape;
+                if W > N {
+                    self.turns[k] = turn;
+                }
             }
-            w.add(theta.value() * h + over_strains(&cell.link.lift, &q));
-            theta.add(over_strains(&cell.link.turn, &q));
-            self.ends[side][0] = shape.iter().fold(R::default(), |sum, w| sum + *w);
-            self.shape[k] = shape;
+            let Some(fixed) = statics.fixed_for::<R>() else { continue };
+            match run.stop {
+                Some(What::Joint(k)) => {
+                    theta.add(q[fixed.joints[k].place] * fixed.joints[k].softness);
+                }
+                Some(What::Point(k)) => {
+                    let point = &fixed.points[k];
+                    let [moved, turned] = point.displaced(w.value(), theta.value(), q);
+                    let lift = rigid.deflection(point.arm + point.offset);
+                    self.points[k] = [moved - lift, turned - rigid.turn];
+                }
+                _ => {}
+            }
         }
     }
 
-    /// Bending moments inwards from the free end under these loads, and the other curvature that
-    /// they make: leaves `w″ − w*″` at the points and `∫EI (w″ − w*″)² dx` of every cell.
+    /// Bending moments inwards from the free end under these loads, and the other strains that they
+    /// make: leaves the differences at the points and their energy in every cell.
     #[inline(always)]
     fn inwards<S: Real>(
         &mut self,
-        statics: &Statics<S, N>,
+        statics: &Statics<S, N, W>,
         q: &[R],
-        cells: std::ops::Range<usize>,
+        cells: Range<usize>,
         lambda: R,
+        side: usize,
     ) where
         R: Over<S>,
     {
         let rule = statics.rule;
         let points = rule.count();
+        let turns = statics.theory.turns();
         let [mut shear, mut moment] = [RunningSum::<R>::default(); 2];
-        let [mut own, mut curvature] = [[R::default(); MOST_POINTS]; 2];
-        for k in cells.rev() {
-            let cell = &statics.cells[k];
-            let (h, q) = (cell.link.length, scaled::<R, N>(&q[k * (N - 2)..]));
-            let strains = cell.strains(&q);
-            let samples = k * points..(k + 1) * points;
-            let stiffness = &statics.bending_stiffness[samples.clone()];
-            let values = &mut self.changes[samples];
-            let [force, turning] = rule.integrals(values);
-            rule.twice_from_right(values, &mut own);
-            rule.values(&strains[..N - 2], &mut curvature);
-            let (v, m, square) = (shear.value() * h, moment.value(), h * h);
-            let mut energy = R::default();
-            for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
-                let bending = m + v * R::splat(1.0 - point.s) + own[j] * square;
-                let defect = curvature[j] * *stiffness - lambda * bending;
-                values[j] = defect * (S::splat(1.0) / *stiffness);
-                energy += defect * values[j] * (S::splat(point.weight) * h);
+        let [mut own, mut once, mut values_of] = [[R::default(); MOST_POINTS]; 3];
+        for run in runs(&cells, statics.stops(side)).rev() {
+            if let (Some(fixed), Some(stop)) = (statics.fixed_for::<R>(), run.stop) {
+                let [force, couple] = match stop {
+                    What::Point(k) => self.loads.points[k],
+                    What::Contact(k) => fixed.contacts[k].on_the_bat(self.loads.contacts[k]),
+                    What::Joint(_) => [R::default(); 2],
+                };
+                shear.add(force);
+                moment.add(couple);
             }
-            moment.add(v + turning * square);
-            shear.add(force * h);
-            self.defects[k] = energy;
+            for k in run.cells.rev() {
+                let cell = &statics.cells[k];
+                let (h, q) = (cell.link.length, scaled::<R, W>(&q[k * (W - 2)..]));
+                let strains = cell.strains(&q);
+                let samples = k * points..(k + 1) * points;
+                let stiffness = &statics.bending_stiffness[samples.clone()];
+                if let Some(fixed) = statics.fixed_for::<R>() {
+                    // An elastic bed: its points' reactions spread over their shares of the cell.
+                    for (contact, reaction) in fixed.contacts.iter().zip(&self.loads.contacts) {
+                        if let At::Bed { cell, point } = contact.at
+                            && cell == k
+                        {
+                            let share = S::splat(rule.points[point].weight) * h;
+                            self.changes[samples.start + point] -= *reaction / R::of(share);
+                        }
+                    }
+                }
+                let values = &mut self.changes[samples.clone()];
+                let [force, turning] = rule.integrals(values);
+                rule.twice_from_right(values, &mut own);
+                let (v, m, square) = (shear.value() * h, moment.value(), h * h);
+                let mut energy = R::default();
+                let mut gained = v + turning * square;
+                if W > N {
+                    rule.once_from_right(values, &mut once);
+                    rule.values(&strains[N - 2..W - 2], &mut values_of);
+                    let stiffness = &statics.shear_stiffness[samples.clone()];
+                    let slips = &mut self.slips[samples.clone()];
+                    for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
+                        let across = shear.value() + once[j] * h;
+                        let defect = values_of[j] * *stiffness - lambda * across;
+                        slips[j] = defect * (S::splat(1.0) / *stiffness);
+                        energy += defect * slips[j] * (S::splat(point.weight) * h);
+                    }
+                }
+                if turns {
+                    let couples = &self.turn_changes[samples.clone()];
+                    rule.once_from_right(couples, &mut once);
+                    gained += rule.integrals(couples)[0] * h;
+                }
+                rule.values(&strains[..N - 2], &mut values_of);
+                for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
+                    let mut bending = m + v * R::splat(1.0 - point.s) + own[j] * square;
+                    if turns {
+                        bending += once[j] * h;
+                    }
+                    let defect = values_of[j] * *stiffness - lambda * bending;
+                    values[j] = defect * (S::splat(1.0) / *stiffness);
+                    energy += defect * values[j] * (S::splat(point.weight) * h);
+                }
+                moment.add(gained);
+                shear.add(force * h);
+                self.defects[k] = energy;
+            }
         }
     }
 
     /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
     /// most as often as it is zero.
     #[inline(always)]
-    pub fn crossings<S: Real>(&self, statics: &Statics<S, N>) -> R {
+    pub fn crossings<S: Real>(&self, statics: &Statics<S, N, W>) -> R {
         let (knob, tip) = self.deflections.split_at(statics.split * statics.rule.count());
         let sign = |w: &R| R::splat(1.0).copysign(*w);
         let (mut count, mut before) = (R::default(), sign(&self.ends[0][0]));
@@ -214,7 +328,7 @@ impl<R: Real, const N: usize> Motion<R, N> {
     }
 
     /// Raises every element's number, knob to tip, to its part of the defect, in any lane.
-    pub fn add_defects<S>(&self, statics: &Statics<S, N>, most: &mut [f64]) {
+    pub fn add_defects<S>(&self, statics: &Statics<S, N, W>, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(statics.split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
             (0..R::LANES).for_each(|lane| *most = most.max(defect.lane(lane)));
@@ -223,65 +337,191 @@ impl<R: Real, const N: usize> Motion<R, N> {
 
     /// After [`Self::take`], leaves out what [`Self::take_changes`] would find.
     #[inline(always)]
-    pub fn no_changes<S>(&mut self, statics: &Statics<S, N>) {
+    pub fn no_changes<S>(&mut self, statics: &Statics<S, N, W>) {
         self.changes.clear();
         self.changes.resize(statics.cells.len() * statics.rule.count(), R::default());
         self.ends[0][1] = R::default();
         self.ends[1][1] = R::default();
+        self.work = R::default();
     }
 
-    /// After [`Self::take`], `w″ − w*″` at the points becomes `w − w*`, the rigid motions taken
-    /// out.
+    /// After [`Self::take`], the strains' differences at the points become `w − w*`, the rigid motions
+    /// taken out.
     #[inline(always)]
-    pub fn take_changes<S: Real>(&mut self, statics: &Statics<S, N>)
+    pub fn take_changes<S: Real>(&mut self, statics: &Statics<S, N, W>)
     where
         R: Over<S>,
     {
-        let points = statics.rule.count();
-        let (mut total, mut own) = ([R::default(); 2], [R::default(); MOST_POINTS]);
+        let (points, turns) = (statics.rule.count(), statics.theory.turns());
+        let [mut own, mut once] = [[R::default(); MOST_POINTS]; 2];
+        let mut total = [R::default(); 2];
+        let contacts = statics.fixed_for::<R>().map_or(0, |fixed| fixed.contacts.len());
+        let mut held = vec![R::default(); contacts];
+        self.point_changes.resize(self.points.len(), [R::default(); 2]);
         for (side, (cells, _)) in statics.sides(Rigid::<R>::default()).into_iter().enumerate() {
             let [mut w, mut theta, mut force, mut moment] = [R::default(); 4];
-            for k in cells {
-                let cell = &statics.cells[k];
-                let h = cell.link.length;
-                let samples = k * points..(k + 1) * points;
-                let line = &statics.mass_per_length[samples.clone()];
-                let change = &mut self.changes[samples];
-                let [turned, first] = statics.rule.integrals(change);
-                statics.rule.twice_from_left(change, &mut own);
-                for (j, point) in statics.rule.points.iter().enumerate() {
-                    let y = S::splat(point.s) * h;
-                    change[j] = w + theta * y + own[j] * (h * h);
-                    let share = change[j] * (S::splat(point.weight) * h * line[j]);
-                    force += share;
-                    moment += share * (cell.arm + y);
+            for run in runs(&cells, statics.stops(side)) {
+                for k in run.cells {
+                    let cell = &statics.cells[k];
+                    let h = cell.link.length;
+                    let samples = k * points..(k + 1) * points;
+                    let line = &statics.mass_per_length[samples.clone()];
+                    let change = &mut self.changes[samples.clone()];
+                    let [turned, first] = statics.rule.integrals(change);
+                    statics.rule.twice_from_left(change, &mut own);
+                    if turns {
+                        statics.rule.once_from_left(change, &mut once);
+                        let line = &statics.turning_per_length[samples.clone()];
+                        let turn = &mut self.turn_changes[samples.clone()];
+                        for (j, point) in statics.rule.points.iter().enumerate() {
+                            turn[j] = theta + once[j] * h;
+                            moment += turn[j] * (S::splat(point.weight) * h * line[j]);
+                        }
+                    }
+                    let mut slipped = R::default();
+                    if W > N {
+                        let slips = &self.slips[samples.clone()];
+                        statics.rule.once_from_left(slips, &mut once);
+                        slipped = statics.rule.integrals(slips)[0] * h;
+                    }
+                    for (j, point) in statics.rule.points.iter().enumerate() {
+                        let y = S::splat(point.s) * h;
+                        change[j] = w + theta * y + own[j] * (h * h);
+                        if W > N {
+                            change[j] += once[j] * h;
+                        }
+                        let share = change[j] * (S::splat(point.weight) * h * line[j]);
+                        force += share;
+                        moment += share * (cell.arm + y);
+                    }
+                    if let Some(fixed) = statics.fixed_for::<R>() {
+                        for (held, contact) in held.iter_mut().zip(&fixed.contacts) {
+                            if let At::Bed { cell, point } = contact.at
+                                && cell == k
+                            {
+                                *held = change[point];
+                            }
+                        }
+                    }
+                    w += theta * h + (turned - first) * (h * h) + slipped;
+                    theta += turned * h;
+                    self.ends[side][1] = w;
                 }
-                w += theta * h + (turned - first) * (h * h);
-                theta += turned * h;
-                self.ends[side][1] = w;
+                let Some(fixed) = statics.fixed_for::<R>() else { continue };
+                match run.stop {
+                    Some(What::Joint(k)) => {
+                        let joint = &fixed.joints[k];
+                        theta += self.image[joint.place] * joint.softness;
+                    }
+                    Some(What::Point(k)) => {
+                        let point = &fixed.points[k];
+                        let change = point.displaced(w, theta, &self.image);
+                        let [push, couple] = point.load(change);
+                        self.point_changes[k] = change;
+                        force += push;
+                        moment += push * point.arm + couple;
+                    }
+                    Some(What::Contact(k)) => {
+                        let contact = &fixed.contacts[k];
+                        held[k] = if contact.turning { theta * contact.sign } else { w };
+                    }
+                    None => {}
+                }
             }
             total[0] += force;
             total[1] += if side == 0 { -moment } else { moment };
         }
-        let (mass, inertia) = (R::of(statics.mass), R::of(statics.inertia));
-        let rigid = Rigid { push: total[0] / mass, turn: total[1] / inertia };
+        let rigid = match statics.fixed_for::<R>() {
+            None => Rigid {
+                push: total[0] / R::of(statics.mass),
+                turn: total[1] / R::of(statics.inertia),
+            },
+            Some(fixed) => {
+                let gives = |k: usize| {
+                    let spring = fixed.contacts[k].spring;
+                    spring.map_or(R::default(), |s| self.image[s.place] * s.softness)
+                };
+                let first = fixed.rigid_of(|k| held[k] - gives(k));
+                let (mass, inertia) = (R::of(statics.mass), R::of(statics.inertia));
+                let left = [total[0] - first.push * mass, total[1] - first.turn * inertia];
+                let free = fixed.free_part(&statics.body(), left);
+                Rigid { push: first.push + free.push, turn: first.turn + free.turn }
+            }
+        };
+        self.work = R::default();
         for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
             for k in cells {
                 let cell = &statics.cells[k];
-                let change = &mut self.changes[k * points..(k + 1) * points];
-                for (change, point) in change.iter_mut().zip(&statics.rule.points) {
-                    *change -= rigid.deflection(cell.arm + S::splat(point.s) * cell.link.length);
+                let h = cell.link.length;
+                let samples = k * points..(k + 1) * points;
+                let change = &mut self.changes[samples.clone()];
+                let mut sum = R::default();
+                for (j, point) in statics.rule.points.iter().enumerate() {
+                    change[j] -= rigid.deflection(cell.arm + S::splat(point.s) * h);
+                    let line = statics.mass_per_length[samples.start + j];
+                    let w = self.deflections[samples.start + j];
+                    sum += w * change[j] * (S::splat(point.weight) * line);
+                    if turns {
+                        let turn = &mut self.turn_changes[samples.start + j];
+                        *turn -= rigid.turn;
+                        let line = statics.turning_per_length[samples.start + j];
+                        let theta = self.rotations[samples.start + j];
+                        sum += theta * *turn * (S::splat(point.weight) * line);
+                    }
                 }
+                self.work += sum * h;
                 if k + 1 == statics.cells.len() || k + 1 == statics.split {
-                    self.ends[side][1] -= rigid.deflection(cell.arm + cell.link.length);
+                    self.ends[side][1] -= rigid.deflection(cell.arm + h);
                 }
+            }
+            let Some(fixed) = statics.fixed_for::<R>() else { continue };
+            for stop in &fixed.stops[side] {
+                let What::Point(k) = stop.what else { continue };
+                let point = &fixed.points[k];
+                let [moved, turned] = self.point_changes[k];
+                let lift = rigid.deflection(point.arm + point.offset);
+                let [push, couple] = point.load([moved - lift, turned - rigid.turn]);
+                let [at, turn] = self.points[k];
+                // The force acts at the centre of the mass, `offset` beyond its own place.
+                self.work += push * at + (couple - push * point.offset) * turn;
             }
         }
     }
 }
 
+impl<const N: usize, const W: usize> Motion<f64, N, W> {
+    /// One motion alone, for large meshes and few calls: [`Self::take`], compiled once.
+    #[inline(never)]
+    pub fn take_alone(
+        &mut self,
+        statics: &Statics<f64, N, W>,
+        q: &[f64],
+        known: &[f64],
+        with_defect: bool,
+    ) {
+        self.take(statics, q, None, known, with_defect);
+    }
+}
+
+/// Cells in a row, and what stands at their outer end.
+struct Run {
+    cells: Range<usize>,
+    stop: Option<What>,
+}
+
+/// The cells of a side from stop to stop.
+#[inline(always)]
+fn runs(cells: &Range<usize>, stops: &[Stop]) -> impl DoubleEndedIterator<Item = Run> {
+    let (first, last) = (cells.start, cells.end);
+    (0..=stops.len()).map(move |k| Run {
+        cells: if k == 0 { first } else { first + stops[k - 1].after }
+            ..stops.get(k).map_or(last, |stop| first + stop.after),
+        stop: stops.get(k).map(|stop| stop.what),
+    })
+}
+
 /// The scaled strains of one cell; the last two places stay empty.
 #[inline(always)]
-fn scaled<R: Real, const N: usize>(q: &[R]) -> Vector<R, N> {
+fn scaled<R: Real, const W: usize>(q: &[R]) -> Vector<R, W> {
     with_ends(q, R::default(), R::default())
 }

@@ -23,6 +23,9 @@ pub struct Rule {
     from_left: Vec<f64>,
     /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: the same from the right end.
     from_right: Vec<f64>,
+    /// `∫₀^{s_j} ℓ_i(s) ds` and `∫_{s_j}^1 ℓ_i(s) ds`, `[i][j]`: once integrated.
+    once_from_left: Vec<f64>,
+    once_from_right: Vec<f64>,
     /// Weights that give the last two coefficients of the Legendre series through the points.
     last: [Vec<f64>; 2],
 }
@@ -85,31 +88,42 @@ impl Rule {
         };
         let by_term = (0..terms).flat_map(|k| padded(&|j| at[j][k])).collect();
         // ℓ_i = Σ_k (2k + 1) weight_i P_k(ξ_i) P_k, and the integrals of P_k over ξ from −1.
-        let twice = |p: &[f64], k: usize| {
-            let once = |k: usize| match k {
-                0 => p[1] + p[0],
-                _ => (p[k + 1] - p[k - 1]) / (2 * k + 1) as f64,
-            };
-            match k {
-                0 => once(1) + once(0),
-                _ => (once(k + 1) - once(k - 1)) / (2 * k + 1) as f64,
-            }
+        let once = |p: &[f64], k: usize| match k {
+            0 => p[1] + p[0],
+            _ => (p[k + 1] - p[k - 1]) / (2 * k + 1) as f64,
         };
-        let entry = |j: usize, i: usize| {
-            let term = |k: usize| (2 * k + 1) as f64 * at[i][k] * twice(&at[j], k);
-            0.25 * places[i].1 * (0..count).map(term).sum::<f64>()
+        let twice = |p: &[f64], k: usize| match k {
+            0 => once(p, 1) + once(p, 0),
+            _ => (once(p, k + 1) - once(p, k - 1)) / (2 * k + 1) as f64,
         };
+        let integral = |j: usize, i: usize, of: &dyn Fn(&[f64], usize) -> f64| {
+            let term = |k: usize| (2 * k + 1) as f64 * at[i][k] * of(&at[j], k);
+            places[i].1 * (0..count).map(term).sum::<f64>()
+        };
+        let entry = |j: usize, i: usize| 0.25 * integral(j, i, &twice);
+        let simple = |j: usize, i: usize| 0.5 * integral(j, i, &once);
         let table = |entry: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
             (0..count).flat_map(|i| padded(&|j| entry(j, i))).collect()
         };
         let from_left = table(&entry);
         let from_right = table(&|j, i| entry(count - 1 - j, count - 1 - i));
+        let once_from_left = table(&simple);
+        let once_from_right = table(&|j, i| simple(count - 1 - j, count - 1 - i));
         let last = [count - 2, count - 1].map(|k| {
             let weight = |i: usize| (2 * k + 1) as f64 * places[i].1 * at[i][k];
             (0..count).map(weight).collect()
         });
         let points = places.iter().map(point).collect();
-        Self { points, legendre, by_term, from_left, from_right, last }
+        Self {
+            points,
+            legendre,
+            by_term,
+            from_left,
+            from_right,
+            once_from_left,
+            once_from_right,
+            last,
+        }
     }
 
     /// Number of points.
@@ -146,6 +160,18 @@ impl Rule {
     #[inline(always)]
     pub fn twice_from_right<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {
         self.combine(&self.from_right, function, twice);
+    }
+
+    /// A function given at the points, once integrated from the left end.
+    #[inline(always)]
+    pub fn once_from_left<R: Real>(&self, function: &[R], once: &mut [R; MOST_POINTS]) {
+        self.combine(&self.once_from_left, function, once);
+    }
+
+    /// A function given at the points, once integrated from the right end.
+    #[inline(always)]
+    pub fn once_from_right<R: Real>(&self, function: &[R], once: &mut [R; MOST_POINTS]) {
+        self.combine(&self.once_from_right, function, once);
     }
 
     /// `Σ parts[k] rows[k]`.
@@ -192,12 +218,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn powers_are_integrated_twice_exactly_from_both_ends() {
+    fn powers_are_integrated_once_and_twice_exactly_from_both_ends() {
         let rule = Rule::new(5, 9);
         for power in 0..9 {
             let n = f64::from(power);
             let values: Vec<f64> = rule.points.iter().map(|p| p.s.powi(power)).collect();
             let [mut left, mut right] = [[0.0; MOST_POINTS]; 2];
+            rule.once_from_left(&values, &mut left);
+            rule.once_from_right(&values, &mut right);
+            for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {
+                let exact = at.s.powf(n + 1.0) / (n + 1.0);
+                assert!((left - exact).abs() < 1e-15);
+                assert!((right - (1.0 / (n + 1.0) - exact)).abs() < 1e-15);
+            }
             rule.twice_from_left(&values, &mut left);
             rule.twice_from_right(&values, &mut right);
             for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {

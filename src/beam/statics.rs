@@ -22,30 +22,38 @@
 //! point of a cone, 4000 elements lost half the digits.
 
 use crate::bat::Bat;
-use crate::beam::element::{self, Element, Link, Matrix, Vector, over_strains};
+use crate::beam::element::{self, Element, Samples};
+use crate::beam::fixed::{Body, Fixed, Stop};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
 use crate::quadrature::RunningSum;
 use crate::real::{Over, Real};
+use crate::theory::Theory;
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
 
-/// The compliance of free bats, one in each lane of `R`, on elements of degree `N − 1`.
+/// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2` strains.
 ///
-/// Vectors of strains hold `N − 2` numbers for each element, the knob side first, both sides from
-/// the root outwards.
+/// Vectors of strains hold `W − 2` numbers for each element, the knob side first, both sides from
+/// the root outwards, and then those of springs.
 #[derive(Debug, Clone)]
-pub struct Statics<R, const N: usize> {
+pub struct Statics<R, const N: usize, const W: usize> {
     pub rule: &'static Rule,
+    pub theory: Theory,
     /// The elements in the order of the strains, each seen outwards.
-    pub cells: Vec<Cell<R, N>>,
+    pub cells: Vec<Cell<R, W>>,
     /// How many of them are on the knob side.
     pub split: usize,
-    /// EI (N m²) and ρA (kg/m) at the points of every cell, outwards.
+    /// EI (N m²) and ρA (kg/m) at the points of every cell, outwards; ρI (kg m) and κGA (N) if the
+    /// theory asks for them.
     pub bending_stiffness: Vec<R>,
     pub mass_per_length: Vec<R>,
-    /// Mass (kg) and line inertia about the balance point (kg m²), summed from the elements.
+    pub turning_per_length: Vec<R>,
+    pub shear_stiffness: Vec<R>,
+    /// Mass (kg) and the theory's inertia about the balance point (kg m²), summed from the elements
+    /// and what is attached.
     pub mass: R,
     pub inertia: R,
     /// Position of the balance point from the knob end (m).
@@ -54,90 +62,30 @@ pub struct Statics<R, const N: usize> {
     /// powers of two scales every number in here by powers of two, and no digit changes.
     pub energy_unit: R,
     pub length: R,
+    /// What is on the bat and what holds it, if anything; then there is one lane only.
+    pub fixed: Option<Box<Fixed<R>>>,
 }
 
-/// An element on one side of the root, seen in that direction.
-#[derive(Debug, Clone, Copy)]
-pub struct Cell<R, const N: usize> {
-    pub link: Link<R, N>,
-    /// `L⁻¹` of the stiffness of its strains.
-    pub inverse: Matrix<R, N>,
-    /// Distance of its inner end from the balance point, counted outwards (m).
-    pub arm: R,
-}
-
-impl<S: Real, const N: usize> Default for Cell<S, N> {
-    fn default() -> Self {
-        let (zero, zeros) = (S::default(), [S::default(); N]);
-        let link = Link { mass: [zeros; N], lift: zeros, turn: zeros, length: zero };
-        Self { link, inverse: [zeros; N], arm: zero }
-    }
-}
-
-impl<S: Real, const N: usize> Cell<S, N> {
-    /// `L⁻ᵀ q`: strains (1/m) from scaled strains.
-    #[inline(always)]
-    pub fn strains<R: Over<S>>(&self, q: &Vector<R, N>) -> Vector<R, N> {
-        let mut strains = [R::default(); N];
-        for i in 0..N - 2 {
-            for j in 0..=i {
-                strains[j] += q[i] * self.inverse[i][j];
-            }
-        }
-        strains
-    }
-}
-
-impl<const N: usize> Cell<f64, N> {
-    /// `Lᵀ c`: scaled strains from strains.
-    pub fn scaled_strains(&self, c: &Vector<f64, N>) -> Vector<f64, N> {
-        let mut q = [0.0; N];
-        for i in (0..N - 2).rev() {
-            let known: f64 = (i + 1..N - 2).map(|k| self.inverse[k][i] * q[k]).sum();
-            q[i] = (c[i] - known) / self.inverse[i][i];
-        }
-        q
-    }
-}
-
-/// A rigid motion seen outwards: translation of the balance point and rotation.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Rigid<R> {
-    pub push: R,
-    pub turn: R,
-}
-
-impl<R: Real> Rigid<R> {
-    /// The deflection at that distance from the balance point.
-    #[inline(always)]
-    pub fn deflection<S>(&self, arm: S) -> R
-    where
-        R: Over<S>,
-    {
-        self.push + self.turn * arm
-    }
-
-    /// The same seen from the other side: what turns outwards there turns inwards here.
-    fn mirrored(self) -> Self {
-        Self { turn: -self.turn, ..self }
-    }
-}
-
-impl<R: Real, const N: usize> Statics<R, N> {
+impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     /// Nothing yet; [`Self::assemble`] fills it.
-    pub fn empty(bat: &Bat) -> Self {
+    pub fn empty(bat: &Bat, theory: Theory) -> Self {
+        debug_assert!(theory.shears() == (W > N));
         let zero = R::default();
         Self {
             rule: Rule::of(bat, N - 1),
+            theory,
             cells: vec![],
             split: 0,
             bending_stiffness: vec![],
             mass_per_length: vec![],
+            turning_per_length: vec![],
+            shear_stiffness: vec![],
             mass: zero,
             inertia: zero,
             balance: zero,
             energy_unit: zero,
             length: zero,
+            fixed: None,
         }
     }
 
@@ -154,6 +102,9 @@ impl<R: Real, const N: usize> Statics<R, N> {
         self.bending_stiffness.resize(count * points, zero);
         self.mass_per_length.clear();
         self.mass_per_length.resize(count * points, zero);
+        if self.theory.turns() {
+            self.sample_the_rest(bats, meshes);
+        }
         let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
         let (mut greatest, mut stiffest) = (zero, 0.0);
         let mut at = zero;
@@ -166,7 +117,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
                 let e = &mesh.elements[k];
                 length.set_lane(lane, e.length);
                 start.set_lane(lane, e.start);
-                element::sections(bat, e, self.rule, |i, stiffness, mass| {
+                element::bending_and_mass(bat, e, self.rule, |i, [stiffness, mass]| {
                     bending[i].set_lane(lane, stiffness);
                     line[i].set_lane(lane, mass);
                 });
@@ -180,6 +131,10 @@ impl<R: Real, const N: usize> Statics<R, N> {
             stiffest = f64::max(stiffest, stiffness.lane(0) / length.lane(0));
             at = start + length;
         }
+        for [attached, x, _] in bats[0].fixtures.masses() {
+            mass.add(R::splat(attached));
+            first.add(R::splat(attached * x));
+        }
         self.length = at;
         self.mass = mass.value();
         self.balance = first.value() / self.mass;
@@ -189,6 +144,32 @@ impl<R: Real, const N: usize> Statics<R, N> {
         });
         self.split = self.root(count, stiffest);
         self.fill(meshes);
+        self.fixed = None;
+        if !bats[0].fixtures.none_moving() {
+            debug_assert!(R::LANES == 1);
+            self.fixed = Some(Box::new(Fixed::new(&self.body(), bats[0], meshes[0])));
+        }
+    }
+
+    /// ρI and κGA at the points, as far as the theory asks for them.
+    fn sample_the_rest(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
+        let (points, count) = (self.rule.count(), meshes[0].len());
+        let shears = self.theory.shears();
+        self.turning_per_length.clear();
+        self.turning_per_length.resize(count * points, R::default());
+        self.shear_stiffness.clear();
+        self.shear_stiffness.resize(if shears { count * points } else { 0 }, R::default());
+        for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
+            for (k, e) in mesh.elements.iter().enumerate() {
+                element::worths(bat, e, self.rule, |i, worth| {
+                    let place = k * points + i;
+                    self.turning_per_length[place].set_lane(lane, worth.turning);
+                    if shears {
+                        self.shear_stiffness[place].set_lane(lane, worth.shear);
+                    }
+                });
+            }
+        }
     }
 
     /// The middle one of the elements whose bending stiffness is at least half the greatest.
@@ -213,8 +194,15 @@ impl<R: Real, const N: usize> Statics<R, N> {
         let count = meshes[0].len();
         self.cells.resize(count, Cell::default());
         // The knob side's sections come outwards too: last element first, points reversed.
-        self.bending_stiffness[..self.split * points].reverse();
-        self.mass_per_length[..self.split * points].reverse();
+        for samples in [
+            &mut self.bending_stiffness,
+            &mut self.mass_per_length,
+            &mut self.turning_per_length,
+            &mut self.shear_stiffness,
+        ] {
+            let knob_side = (self.split * points).min(samples.len());
+            samples[..knob_side].reverse();
+        }
         for place in 0..count {
             let knob_side = place < self.split;
             let k = if knob_side { self.split - 1 - place } else { place };
@@ -225,13 +213,13 @@ impl<R: Real, const N: usize> Statics<R, N> {
             }
             let range = place * points..(place + 1) * points;
             let middle = start + half * length;
-            let element = Element::<R, N>::new(
-                length,
-                middle,
-                self.rule,
-                &self.bending_stiffness[range.clone()],
-                &self.mass_per_length[range],
-            );
+            let samples = Samples {
+                bending: &self.bending_stiffness[range.clone()],
+                mass: &self.mass_per_length[range.clone()],
+                turning: self.turning_per_length.get(range.clone()).unwrap_or(&[]),
+                shear: self.shear_stiffness.get(range).unwrap_or(&[]),
+            };
+            let element = Element::<R, N, W>::new(length, middle, self.rule, samples);
             let arm = if knob_side { balance - (start + length) } else { start - balance };
             let (middle, m) = (arm + half * length, &element.mass);
             // ∫ρA y² dx about the balance point, outwards.
@@ -239,6 +227,9 @@ impl<R: Real, const N: usize> Statics<R, N> {
                 middle * (middle * m[0][0] + length * m[0][1])
                     + half * half * length * length * m[1][1],
             );
+            if let Some(beyond) = &element.beyond {
+                inertia.add(beyond.turning[0][0]);
+            }
             let cell = &mut self.cells[place];
             cell.arm = arm;
             element.invert_factor(self.energy_unit, &mut cell.inverse);
@@ -252,9 +243,10 @@ impl<R: Real, const N: usize> Statics<R, N> {
     /// the moments there.
     #[inline(always)]
     pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
+        out[(W - 2) * self.cells.len()..].fill(R::default());
         let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
         let balance = self.balance * scale;
-        for (place, (cell, q)) in self.cells.iter().zip(out.chunks_exact_mut(N - 2)).enumerate() {
+        for (place, (cell, q)) in self.cells.iter().zip(out.chunks_exact_mut(W - 2)).enumerate() {
             let (first, step) = (cell.arm * scale, cell.link.length * scale);
             let mut values = [R::default(); MOST_POINTS];
             for (s, point) in values.iter_mut().zip(&self.rule.points) {
@@ -269,8 +261,8 @@ impl<R: Real, const N: usize> Statics<R, N> {
                     *work += share * R::splat(*p);
                 }
             }
+            q.fill(R::default());
             for i in 0..N - 2 {
-                q[i] = R::default();
                 for j in 0..=i {
                     q[i] += cell.inverse[i][j] * work[j];
                 }
@@ -289,6 +281,7 @@ impl<R: Real, const N: usize> Statics<R, N> {
     pub fn start(&self, count: usize, out: &mut [R]) {
         const TOUCH: f64 = 1e-9;
         let number = R::splat;
+        let held = self.fixed.is_some();
         self.strains_of_moments(
             out,
             #[inline(always)]
@@ -307,7 +300,8 @@ impl<R: Real, const N: usize> Statics<R, N> {
                     }
                 }
                 for (i, s) in places.iter_mut().enumerate() {
-                    let bump = *s * (number(1.0) - *s);
+                    // Where the bat is held there are moments at its ends too.
+                    let bump = if held { number(0.5) } else { *s * (number(1.0) - *s) };
                     *s = bump * bump * (now[i] - wave[i] * before[i]);
                 }
             },
@@ -317,28 +311,53 @@ impl<R: Real, const N: usize> Statics<R, N> {
         for (k, q) in out.iter_mut().enumerate() {
             *q += number(TOUCH * (golden(k) - 0.5)) * largest;
         }
+        self.fixed.iter().for_each(|fixed| fixed.project(out));
     }
 
-    /// Number of unknowns: the bending modes of the discrete bat.
+    /// What is met on one side on the way outwards.
+    pub fn stops(&self, side: usize) -> &[Stop] {
+        self.fixed.as_ref().map_or(&[], |fixed| &fixed.stops[side])
+    }
+
+    /// Number of strains.
     pub fn dimension(&self) -> usize {
-        (N - 2) * self.cells.len()
+        (W - 2) * self.cells.len() + self.fixed.as_ref().map_or(0, |fixed| fixed.springs)
+    }
+
+    /// Number of the discrete bat's bending modes.
+    pub fn freedom(&self) -> usize {
+        self.dimension() - self.fixed.as_ref().map_or(0, |fixed| fixed.redundant())
     }
 }
 
-impl<S: Real, const N: usize> Statics<S, N> {
+impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
+    /// What is on the bat and what holds it; then motions are looked at one by one.
+    #[inline(always)]
+    pub fn fixed_for<R: Real>(&self) -> Option<&Fixed<S>> {
+        if R::LANES == 1 { self.fixed.as_deref() } else { None }
+    }
+
+    /// The bare bat.
+    pub fn body(&self) -> Body<'_, S, N, W> {
+        Body {
+            cells: &self.cells,
+            split: self.split,
+            rule: self.rule,
+            mass: self.mass,
+            inertia: self.inertia,
+            balance: self.balance,
+            energy_unit: self.energy_unit,
+        }
+    }
+
     /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was taken out of the
     /// motion with these strains when it is at rest at the root.
     #[inline(always)]
-    pub fn apply<R: Over<S>>(
-        &self,
-        q: &[R],
-        y: &mut [R],
-        loads: &mut Vec<Vector<R, N>>,
-    ) -> Rigid<R> {
-        if self.cells.len() > LONG {
-            self.compliance::<R, true>(q, y, loads)
-        } else {
-            self.compliance::<R, false>(q, y, loads)
+    pub fn apply<R: Over<S>>(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
+        match self.fixed_for::<R>() {
+            Some(fixed) => fixed.compliance(&self.body(), q, y, loads),
+            None if self.cells.len() > LONG => self.compliance::<R, true>(q, y, loads),
+            None => self.compliance::<R, false>(q, y, loads),
         }
     }
 
@@ -347,21 +366,21 @@ impl<S: Real, const N: usize> Statics<S, N> {
         &self,
         q: &[R],
         y: &mut [R],
-        loads: &mut Vec<Vector<R, N>>,
+        loads: &mut Loads<R, W>,
     ) -> Rigid<R> {
         let rigid = self.balanced::<R, KEEP>(q, loads);
         let (knob, tip) = self.cells.split_at(self.split);
-        let (knob_loads, tip_loads) = loads.split_at(self.split);
-        let strains = (N - 2) * self.split;
-        let (knob_y, tip_y) = y.split_at_mut(strains);
-        inwards::<S, R, N, KEEP>(knob, knob_loads, rigid.mirrored(), knob_y);
-        inwards::<S, R, N, KEEP>(tip, tip_loads, rigid, tip_y);
+        let (knob_loads, tip_loads) = loads.cells.split_at(self.split);
+        let (knob_y, tip_y) = y.split_at_mut((W - 2) * self.split);
+        Inwards::<R, KEEP>::default().over(knob, knob_loads, rigid.mirrored(), knob_y);
+        Inwards::<R, KEEP>::default().over(tip, tip_loads, rigid, tip_y);
         rigid
     }
 
-    /// The rigid motion alone that [`Self::apply`] takes out: half the work.
+    /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
     #[inline(always)]
-    pub fn rigid<R: Over<S>>(&self, q: &[R], loads: &mut Vec<Vector<R, N>>) -> Rigid<R> {
+    pub fn rigid<R: Over<S>>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
+        debug_assert!(self.fixed.is_none());
         if self.cells.len() > LONG {
             self.balanced::<R, true>(q, loads)
         } else {
@@ -371,17 +390,16 @@ impl<S: Real, const N: usize> Statics<S, N> {
 
     /// Outwards on both sides: leaves the loads, returns the rigid motion they add up to.
     #[inline(always)]
-    fn balanced<R: Over<S>, const KEEP: bool>(
-        &self,
-        q: &[R],
-        loads: &mut Vec<Vector<R, N>>,
-    ) -> Rigid<R> {
-        loads.resize(self.cells.len(), [R::default(); N]);
+    fn balanced<R: Over<S>, const KEEP: bool>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
+        loads.cells.resize(self.cells.len(), [R::default(); W]);
         let (knob, tip) = self.cells.split_at(self.split);
-        let (knob_loads, tip_loads) = loads.split_at_mut(self.split);
-        let (knob_q, tip_q) = q.split_at((N - 2) * self.split);
-        let [knob_force, knob_moment] = outwards::<S, R, N, KEEP>(knob, knob_q, knob_loads);
-        let [tip_force, tip_moment] = outwards::<S, R, N, KEEP>(tip, tip_q, tip_loads);
+        let (knob_loads, tip_loads) = loads.cells.split_at_mut(self.split);
+        let (knob_q, tip_q) = q.split_at((W - 2) * self.split);
+        let [mut knob_side, mut tip_side] = [Outwards::<R, KEEP>::default(); 2];
+        knob_side.over(knob, knob_q, knob_loads);
+        tip_side.over(tip, tip_q, tip_loads);
+        let [knob_force, knob_moment] = [knob_side.force.value(), knob_side.moment.value()];
+        let [tip_force, tip_moment] = [tip_side.force.value(), tip_side.moment.value()];
         Rigid {
             push: (knob_force + tip_force) / R::of(self.mass),
             turn: (tip_moment - knob_moment) / R::of(self.inertia),
@@ -399,64 +417,6 @@ fn golden(k: usize) -> f64 {
     ((k + 1) as f64 * 0.618_033_988_749_894_9).fract()
 }
 
-/// The scaled strains of one cell with its deflection and slope in the last two places.
-#[inline(always)]
-pub fn with_ends<R: Real, const N: usize>(q: &[R], w: R, theta: R) -> Vector<R, N> {
-    let mut motion = [R::default(); N];
-    motion[..N - 2].copy_from_slice(&q[..N - 2]);
-    (motion[N - 2], motion[N - 1]) = (w, theta);
-    motion
-}
-
-/// Integrates strains outwards from the root at rest and keeps every element's loads; returns
-/// the force and the moment about the balance point of the side's inertia.
-#[inline(always)]
-fn outwards<S: Real, R: Over<S>, const N: usize, const KEEP: bool>(
-    cells: &[Cell<S, N>],
-    q: &[R],
-    loads: &mut [Vector<R, N>],
-) -> [R; 2] {
-    let [mut w, mut theta, mut force, mut moment] = [RunningSum::<R, KEEP>::default(); 4];
-    for ((cell, q), kept) in cells.iter().zip(q.chunks_exact(N - 2)).zip(loads) {
-        let link = &cell.link;
-        let motion = with_ends::<R, N>(q, w.value(), theta.value());
-        let load = link.load(&motion);
-        *kept = load;
-        force.add(load[N - 2]);
-        moment.add(load[N - 2] * cell.arm + load[N - 1]);
-        w.add(theta.value() * link.length + over_strains(&link.lift, &motion));
-        theta.add(over_strains(&link.turn, &motion));
-    }
-    [force.value(), moment.value()]
-}
-
-/// Shear and bending moment inwards from the free end, and with them the scaled strains: the
-/// adjoint of [`outwards`], the loads of the rigid motion taken out.
-#[inline(always)]
-fn inwards<S: Real, R: Over<S>, const N: usize, const KEEP: bool>(
-    cells: &[Cell<S, N>],
-    loads: &[Vector<R, N>],
-    rigid: Rigid<R>,
-    y: &mut [R],
-) {
-    let [mut shear, mut bending] = [RunningSum::<R, KEEP>::default(); 2];
-    for ((cell, load), y) in cells.iter().zip(loads).zip(y.chunks_exact_mut(N - 2)).rev() {
-        let link = &cell.link;
-        let [lifted, turned] = [&link.mass[N - 2], &link.mass[N - 1]];
-        let lift = rigid.deflection(cell.arm);
-        let mut f = *load;
-        for i in 0..N {
-            f[i] -= lift * lifted[i] + rigid.turn * turned[i];
-        }
-        let (v, m) = (shear.value(), bending.value());
-        for k in 0..N - 2 {
-            y[k] = f[k] + (v * link.lift[k] + m * link.turn[k]);
-        }
-        bending.add(v * link.length + f[N - 1]);
-        shear.add(f[N - 2]);
-    }
-}
-
 /// The greatest power of two that is not above a positive number.
 fn power_of_two_below(value: f64) -> f64 {
     // The bits of a normal number without those of its fraction.
@@ -466,9 +426,11 @@ fn power_of_two_below(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bat::Weighed;
     use crate::beam::element::elements;
     use crate::beam::motion::Motion;
     use crate::eigen::lanczos::dot;
+    use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
     use crate::material::Material;
     use crate::profile::{Interpolation, Profile, Stations};
 
@@ -479,12 +441,19 @@ mod tests {
             inner: vec![0.0; 2],
             interpolation: Interpolation::Linear,
         };
-        let material = Material::new(700.0, 14e9).unwrap();
+        let mut material = Material::new(700.0, 14e9).unwrap();
+        material.shear_modulus = Some(1e9);
         Bat::new("test", Profile::new(stations).unwrap(), material, None).unwrap()
     }
 
-    fn statics<const N: usize>(bat: &Bat, count: usize) -> Statics<f64, N> {
-        let mut statics = Statics::empty(bat);
+    const THEORIES: [Theory; 3] = Theory::ALL;
+
+    fn statics<const N: usize, const W: usize>(
+        bat: &Bat,
+        count: usize,
+        theory: Theory,
+    ) -> Statics<f64, N, W> {
+        let mut statics = Statics::empty(bat, theory);
         statics.assemble(&[bat], &[&Mesh::along(bat, count)]);
         statics
     }
@@ -494,52 +463,114 @@ mod tests {
         (0..dimension).map(|k| ((k + offset) as f64 * 0.754_877).fract() - 0.5).collect()
     }
 
-    fn symmetric<const N: usize>() {
-        let statics = statics::<N>(&bat([0.012, 0.033]), 9);
+    fn symmetric<const N: usize, const W: usize>(bat: &Bat, theory: Theory) {
+        let statics = statics::<N, W>(bat, 9, theory);
         let size = statics.dimension();
-        let (x, y) = (some(size, 1), some(size, 5));
+        let (mut x, mut y) = (some(size, 1), some(size, 5));
+        for strains in [&mut x, &mut y] {
+            statics.fixed.iter().for_each(|fixed| fixed.project(strains));
+        }
         let (mut ax, mut ay) = (vec![0.0; size], vec![0.0; size]);
-        statics.apply(&x, &mut ax, &mut Vec::new());
-        statics.apply(&y, &mut ay, &mut Vec::new());
+        statics.apply(&x, &mut ax, &mut Loads::default());
+        statics.apply(&y, &mut ay, &mut Loads::default());
         let (left, right) = (dot(&y, &ax), dot(&x, &ay));
-        assert!((left - right).abs() < 1e-14 * dot(&ax, &ax).sqrt(), "{N}");
+        assert!((left - right).abs() < 1e-13 * dot(&ax, &ax).sqrt(), "{N} {W} {left} {right}");
     }
 
     #[test]
     fn the_compliance_is_symmetric() {
-        symmetric::<4>();
-        symmetric::<7>();
-        symmetric::<13>();
+        let bat = bat([0.012, 0.033]);
+        let [plain, rayleigh, timoshenko] = THEORIES;
+        symmetric::<4, 4>(&bat, plain);
+        symmetric::<7, 7>(&bat, rayleigh);
+        symmetric::<13, 13>(&bat, plain);
+        symmetric::<4, 6>(&bat, timoshenko);
+        symmetric::<9, 16>(&bat, timoshenko);
+    }
+
+    #[test]
+    fn the_compliance_of_a_bat_with_everything_on_it_is_symmetric() {
+        let weight = Attachment {
+            x: 0.31,
+            mass: 0.2,
+            offset: 0.02,
+            rotary_inertia: 1e-4,
+            stiffness: 1e4,
+            rotational_stiffness: 50.0,
+        };
+        let mut fixtures = Fixtures {
+            attachments: vec![weight, Attachment { x: 0.7, ..weight }],
+            absorbers: vec![Absorber { x: 0.05, mass: 0.03, stiffness: 6e4, damping: 0.0 }],
+            joints: vec![Joint { x: 0.4, rotational_stiffness: 900.0 }],
+            grip: Some(Grip { from: 0.02, to: 0.2, stiffness: 4e5, damping: 0.0 }),
+            ..Fixtures::default()
+        };
+        let supports = [(0.1, Held::Pinned), (0.8, Held::Clamped), (0.55, Held::Pinned)];
+        for held in 0..=supports.len() {
+            let support = |(x, kind): &(f64, Held)| Support { x: *x, kind: *kind };
+            fixtures.supports = supports[..held].iter().map(support).collect();
+            let bare = bat([0.012, 0.033]);
+            let (profile, material) = (bare.profile, bare.material);
+            let weighed = Weighed::default();
+            let bat = Bat::with_fixtures("held", profile, material, fixtures.clone(), weighed);
+            let bat = bat.unwrap();
+            symmetric::<6, 6>(&bat, THEORIES[1]);
+            symmetric::<6, 10>(&bat, THEORIES[2]);
+        }
     }
 
     /// `qᵀAq` is the kinetic energy of the motion with these strains, element by element in
     /// Legendre polynomials, and that motion carries neither momentum nor angular momentum.
-    #[test]
-    fn the_quadratic_form_of_the_compliance_is_the_kinetic_energy() {
+    fn kinetic<const N: usize, const W: usize>(theory: Theory) {
         let bat = bat([0.033, 0.012]);
-        let statics = statics::<6>(&bat, 7);
+        let statics = statics::<N, W>(&bat, 7, theory);
         let mut motion = Motion::default();
-        motion.take(&statics, &some(statics.dimension(), 3), None, false);
-        let elements = elements::<6>(&bat, &Mesh::along(&bat, 7));
+        motion.take(&statics, &some(statics.dimension(), 3), None, &[], false);
+        let elements = elements::<N, W>(&bat, &Mesh::along(&bat, 7), theory);
         let [mut kinetic, mut momentum, mut spin] = [0.0; 3];
         for (place, outwards) in motion.shape.iter().enumerate() {
             let knob_side = place < statics.split;
             let e = &elements[if knob_side { statics.split - 1 - place } else { place }];
             // Seen outwards, odd polynomials change sign on the knob side.
             let turned = |k: usize| if knob_side && k % 2 == 1 { -1.0 } else { 1.0 };
-            let w: [f64; 6] = std::array::from_fn(|k| turned(k) * outwards[k]);
-            let load: [f64; 6] = std::array::from_fn(|k| dot(&e.mass[k], &w));
+            let w: [f64; N] = std::array::from_fn(|k| turned(k) * outwards[k]);
+            let load: [f64; N] = std::array::from_fn(|k| dot(&e.mass[k], &w));
             kinetic += dot(&load, &w);
             momentum += load[0];
             spin += e.middle * load[0] + 0.5 * e.length * load[1];
+            if let Some(beyond) = &e.beyond {
+                let turn: [f64; N] = match motion.turns.get(place) {
+                    Some(turn) => std::array::from_fn(|k| turned(k + 1) * turn[k]),
+                    None => slope(&w, e.length),
+                };
+                let load: [f64; N] = std::array::from_fn(|k| dot(&beyond.turning[k], &turn));
+                kinetic += dot(&load, &turn);
+                spin += load[0];
+            }
         }
-        assert!((motion.kinetic / kinetic - 1.0).abs() < 1e-13);
-        assert!(momentum.abs() < 1e-13 * kinetic.sqrt() && spin.abs() < 1e-13 * kinetic.sqrt());
+        assert!((motion.kinetic / kinetic - 1.0).abs() < 1e-12, "{theory:?} {kinetic}");
+        assert!(momentum.abs() < 1e-13 * kinetic.sqrt(), "{theory:?} {momentum}");
+        assert!(spin.abs() < 1e-13 * kinetic.sqrt(), "{theory:?} {spin}");
+    }
+
+    /// `dw/dx` in Legendre polynomials: `P′_k = Σ (2j + 1) P_j`, `j = k − 1, k − 3, …`.
+    fn slope<const N: usize>(w: &[f64; N], h: f64) -> [f64; N] {
+        std::array::from_fn(|j| {
+            let above = (j + 1..N).step_by(2).map(|k| w[k]).sum::<f64>();
+            2.0 / h * (2 * j + 1) as f64 * above
+        })
+    }
+
+    #[test]
+    fn the_quadratic_form_of_the_compliance_is_the_kinetic_energy() {
+        kinetic::<6, 6>(THEORIES[0]);
+        kinetic::<6, 6>(THEORIES[1]);
+        kinetic::<6, 10>(THEORIES[2]);
     }
 
     #[test]
     fn scaled_strains_of_strains_are_what_they_were() {
-        let statics = statics::<9>(&bat([0.02, 0.03]), 3);
+        let statics = statics::<9, 9>(&bat([0.02, 0.03]), 3, THEORIES[0]);
         for cell in &statics.cells {
             let mut q = [0.0; 9];
             q[..7].copy_from_slice(&some(7, 2));

@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::ignored::ignored;
 use crate::modes::Mode;
 use crate::profile::{FormulaPiece, Formulas, Interpolation, Stations};
 use crate::solve::Solution;
-use crate::theory::ignored;
 use crate::trade::reference::solver_name;
 
 /// Which samples of the shapes to write.
@@ -122,7 +122,7 @@ fn resolved(bat: &Bat) -> Value {
             None => columns(&bat.profile.stations),
         },
     });
-    if let Some(mass) = bat.weighed_mass {
+    if let Some(mass) = bat.weighed.mass {
         resolved["weighed"] = json!({ "mass": mass });
     }
     resolved

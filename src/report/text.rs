@@ -6,9 +6,9 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::SweetSpot;
+use crate::ignored::ignored;
 use crate::report::curve;
 use crate::solve::Solution;
-use crate::theory::ignored;
 use crate::trade::reference::solver_name;
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 

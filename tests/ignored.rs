@@ -2,8 +2,8 @@
 
 mod common;
 
+use sweetspot::ignored::shift;
 use sweetspot::material::Material;
-use sweetspot::theory::shift;
 use sweetspot::{Bat, Request, solve};
 
 /// Exact ratios of Timoshenko's to Euler–Bernoulli's frequency of the WPI report's dowel with

@@ -1,0 +1,678 @@
+//! What is on the bat and what holds it, in the running sums.
+//!
+//! A point mass is met on the way outwards, where its motion is known, and gives back its force on
+//! the way inwards. A joint is a strain of its own: the angle between both sides.
+//!
+//! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or
+//! one point of an elastic bed. Its displacement `a·q + a_ρ·ρ` follows from the strains q and the
+//! rigid motion ρ, and it may give way by `√δ s`, `δ = U/k` in the unit of energy `U`, with a strain
+//! `s` of its own; a support has `δ = 0`. Nothing is ever multiplied by a stiffness, so no digits go
+//! with it, however stiff or soft it is. Two contacts tell the rigid motion (the statically
+//! determinate bat), every further one is a condition on the strains alone, and the compliance is
+//! followed by the orthogonal projection on the strains that meet the conditions: the force method.
+//! Where fewer than two hold, the rigid motions that stay free are taken out as they are of a free
+//! bat.
+
+use std::ops::Range;
+
+use crate::bat::Bat;
+use crate::beam::element::{Vector, on_strains};
+use crate::beam::mesh::Mesh;
+use crate::beam::rule::Rule;
+use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
+use crate::fixtures::Held;
+use crate::quadrature::RunningSum;
+use crate::real::{Over, Real};
+
+/// A bare bat as the running sums see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Body<'a, S, const N: usize, const W: usize> {
+    pub cells: &'a [Cell<S, W>],
+    pub split: usize,
+    pub rule: &'static Rule,
+    /// With everything attached.
+    pub mass: S,
+    pub inertia: S,
+    pub balance: S,
+    pub energy_unit: S,
+}
+
+/// What is on one bat and what holds it.
+#[derive(Debug, Clone)]
+pub struct Fixed<S> {
+    pub points: Vec<Point<S>>,
+    pub joints: Vec<Spring<S>>,
+    pub contacts: Vec<Contact<S>>,
+    /// What is met on the way outwards on the knob side and on the tip side, in this order.
+    pub stops: [Vec<Stop>; 2],
+    /// How many strains springs have.
+    pub springs: usize,
+    /// Where the bat is clamped (m).
+    pub clamps: Vec<f64>,
+    holds: Holds<S>,
+}
+
+/// Something at the border of two cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    /// How many cells of this side lie before it.
+    pub after: usize,
+    pub what: What,
+}
+
+/// What there is, and its number among its kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum What {
+    Point(usize),
+    Joint(usize),
+    Contact(usize),
+}
+
+/// A strain beside those of the elements.
+#[derive(Debug, Clone, Copy)]
+pub struct Spring<S> {
+    /// Its place among the strains.
+    pub place: usize,
+    /// `√(U/k)`: displacement (m or rad) for a strain of 1.
+    pub softness: S,
+}
+
+/// A point mass, directly on the bat or on a spring.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<S> {
+    /// From the balance point, outwards (m).
+    pub arm: S,
+    pub mass: S,
+    /// How far outwards its centre is (m).
+    pub offset: S,
+    pub inertia: S,
+    pub spring: Option<Spring<S>>,
+}
+
+/// Something that holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Contact<S> {
+    pub at: At,
+    /// Whether it holds the rotation, else the deflection.
+    pub turning: bool,
+    /// 1, or −1 where outwards is towards the knob and a rotation changes its sign.
+    pub sign: S,
+    /// How it gives way, if it does.
+    pub spring: Option<Spring<S>>,
+    /// Its displacement by a rigid motion of push 1 and by one of turn 1.
+    pub rigid: [S; 2],
+}
+
+/// Where a contact is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum At {
+    /// At a stop.
+    Border,
+    /// At a point of the rule on a cell, for a share of its length (m) and so many N/m².
+    Bed { cell: usize, point: usize },
+}
+
+/// How the contacts hold the bat.
+#[derive(Debug, Clone, Default)]
+struct Holds<S> {
+    /// The rigid motions that stay free.
+    free: Vec<[S; 2]>,
+    /// The contacts that tell the rigid motion, two at most.
+    primary: Vec<usize>,
+    /// The rigid motion of a displacement 1 at each of them and none at the other.
+    inverse: Vec<[S; 2]>,
+    /// Their displacements by strains.
+    rows: Vec<Vec<S>>,
+    /// The contacts beyond, and how much of the primary ones' rows is taken out of theirs.
+    redundant: Vec<usize>,
+    shares: Vec<[S; 2]>,
+    /// The conditions on the strains, orthonormal, and their factor `L`: row i is `Σ_j L_ij Q_j`.
+    basis: Vec<Vec<S>>,
+    lower: Vec<Vec<S>>,
+}
+
+impl<S: Real> Fixed<S> {
+    /// Everything that the bat's fixtures say, on that mesh.
+    pub fn new<const N: usize, const W: usize>(
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) -> Self {
+        let stops = [vec![], vec![]];
+        let springs = 0;
+        let holds = Holds::default();
+        let clamped = bat.fixtures.supports.iter().filter(|s| s.kind == Held::Clamped);
+        let clamps = clamped.map(|support| support.x).collect();
+        let (points, joints, contacts) = (vec![], vec![], vec![]);
+        let mut fixed = Self { points, joints, contacts, stops, springs, clamps, holds };
+        fixed.add_points(body, bat, mesh);
+        fixed.add_contacts(body, bat, mesh);
+        // Outwards; at one place the knob's part comes first from the knob and last from the tip.
+        let order = |side: usize, what: What| match what {
+            What::Joint(_) => usize::from(side == 1) * 2,
+            _ => 1,
+        };
+        for (side, stops) in fixed.stops.iter_mut().enumerate() {
+            stops.sort_by_key(|stop| (stop.after, order(side, stop.what)));
+        }
+        fixed.holds = fixed.hold(body);
+        fixed
+    }
+
+    /// How many conditions the strains must meet.
+    pub fn redundant(&self) -> usize {
+        self.holds.redundant.len()
+    }
+
+    /// How many rigid motions are free.
+    pub fn rigid_modes(&self) -> usize {
+        self.holds.free.len()
+    }
+
+    /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
+    fn spring<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        stiffness: f64,
+    ) -> Spring<S> {
+        let place = body.cells.len() * (W - 2) + self.springs;
+        self.springs += 1;
+        Spring { place, softness: (body.energy_unit / S::splat(stiffness)).sqrt() }
+    }
+
+    /// Adds a stop where node `node` is; its side, 1 for the tip's.
+    fn stop(&mut self, split: usize, node: usize, what: What) -> usize {
+        // A joint at the root gives way on the tip side, everything else there is the knob side's.
+        let tip_side = node > split || (node == split && matches!(what, What::Joint(_)));
+        let after = if tip_side { node - split } else { split - node };
+        self.stops[usize::from(tip_side)].push(Stop { after, what });
+        usize::from(tip_side)
+    }
+
+    fn add_points<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        let number = S::splat;
+        for joint in &bat.fixtures.joints {
+            let spring = self.spring(body, joint.rotational_stiffness);
+            self.joints.push(spring);
+            let what = What::Joint(self.joints.len() - 1);
+            self.stop(body.split, node_at(bat, mesh, joint.x), what);
+        }
+        let masses = bat.fixtures.attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
+        let fixed = masses.map(|a| (a.x, [a.mass, a.offset, a.rotary_inertia], None));
+        let hung = bat.fixtures.absorbers.iter();
+        let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
+        for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
+            let what = What::Point(self.points.len());
+            let side = self.stop(body.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| self.spring(body, stiffness));
+            let outwards = if side == 1 { 1.0 } else { -1.0 };
+            self.points.push(Point {
+                arm: number(outwards) * (number(x) - body.balance),
+                mass: number(mass),
+                offset: number(outwards * offset),
+                inertia: number(inertia),
+                spring,
+            });
+        }
+    }
+
+    fn add_contacts<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        let add = |fixed: &mut Self, x: f64, turning: bool, stiffness: Option<f64>| {
+            let what = What::Contact(fixed.contacts.len());
+            let side = fixed.stop(body.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| fixed.spring(body, stiffness));
+            let sign = S::splat(if turning && side == 0 { -1.0 } else { 1.0 });
+            let arm = S::splat(x) - body.balance;
+            let one = S::splat(1.0);
+            let rigid = if turning { [S::default(), one] } else { [one, arm] };
+            fixed.contacts.push(Contact { at: At::Border, turning, sign, spring, rigid });
+        };
+        for support in &bat.fixtures.supports {
+            add(self, support.x, false, None);
+            if support.kind == Held::Clamped {
+                add(self, support.x, true, None);
+            }
+        }
+        for a in &bat.fixtures.attachments {
+            let springs = [(false, a.stiffness), (true, a.rotational_stiffness)];
+            for (turning, stiffness) in springs.into_iter().filter(|(_, k)| *k > 0.0) {
+                add(self, a.x, turning, Some(stiffness));
+            }
+        }
+        let Some(grip) = bat.fixtures.grip.filter(|grip| grip.stiffness > 0.0) else { return };
+        for (cell, e) in in_grip(bat, mesh, body.split) {
+            let length = mesh.elements[e].length;
+            let outwards = if cell < body.split { -1.0 } else { 1.0 };
+            for (point, place) in body.rule.points.iter().enumerate() {
+                let spring = self.spring(body, grip.stiffness * length * place.weight);
+                let arm = body.cells[cell].arm + S::splat(place.s * length);
+                let rigid = [S::splat(1.0), S::splat(outwards) * arm];
+                let at = At::Bed { cell, point };
+                let sign = S::splat(1.0);
+                self.contacts.push(Contact {
+                    at,
+                    turning: false,
+                    sign,
+                    spring: Some(spring),
+                    rigid,
+                });
+            }
+        }
+    }
+
+    /// How the contacts hold the bat.
+    fn hold<const N: usize, const W: usize>(&self, body: &Body<S, N, W>) -> Holds<S> {
+        let one = S::splat(1.0);
+        let zero = S::default();
+        let mut holds = Holds { free: vec![[one, zero], [zero, one]], ..Holds::default() };
+        if self.contacts.is_empty() {
+            return holds;
+        }
+        holds.primary = self.primary();
+        let a: Vec<[S; 2]> = holds.primary.iter().map(|k| self.contacts[*k].rigid).collect();
+        match a[..] {
+            [a, b] => {
+                let det = a[0] * b[1] - a[1] * b[0];
+                holds.inverse = vec![[b[1] / det, -b[0] / det], [-a[1] / det, a[0] / det]];
+                holds.free.clear();
+            }
+            _ if self.contacts[holds.primary[0]].turning => {
+                holds.inverse = vec![[zero, one]];
+                holds.free = vec![[one, zero]];
+            }
+            _ => {
+                holds.inverse = vec![[one, zero]];
+                holds.free = vec![[-a[0][1], one]];
+            }
+        }
+        let rows: Vec<Vec<S>> = (0..self.contacts.len()).map(|k| self.row(body, k)).collect();
+        holds.rows = holds.primary.iter().map(|k| rows[*k].clone()).collect();
+        for (k, mut row) in rows.into_iter().enumerate().filter(|(k, _)| !holds.primary.contains(k))
+        {
+            let rigid = self.contacts[k].rigid;
+            let mut shares = [zero; 2];
+            for (i, primary) in holds.rows.iter().enumerate() {
+                let inverse = holds.inverse[i];
+                shares[i] = rigid[0] * inverse[0] + rigid[1] * inverse[1];
+                row.iter_mut().zip(primary).for_each(|(r, p)| *r -= shares[i] * *p);
+            }
+            let mut lower = vec![zero; holds.basis.len() + 1];
+            for _ in 0..2 {
+                for (j, q) in holds.basis.iter().enumerate() {
+                    let part = inner(&row, q);
+                    lower[j] += part;
+                    row.iter_mut().zip(q).for_each(|(r, q)| *r -= part * *q);
+                }
+            }
+            let size = inner(&row, &row).sqrt();
+            row.iter_mut().for_each(|r| *r = *r / size);
+            lower[holds.basis.len()] = size;
+            holds.redundant.push(k);
+            holds.shares.push(shares);
+            holds.basis.push(row);
+            holds.lower.push(lower);
+        }
+        holds
+    }
+
+    /// The two contacts that tell the rigid motion best, or the one if all tell the same: supports
+    /// before springs, then the stiffest and farthest apart.
+    fn primary(&self) -> Vec<usize> {
+        let softness = |k: usize| self.contacts[k].spring.map_or(0.0, |s| s.softness.lane(0));
+        let rigid = |k: usize| self.contacts[k].rigid.map(|r| r.lane(0));
+        let mut best: Option<((usize, f64), [usize; 2])> = None;
+        for i in 0..self.contacts.len() {
+            for j in i + 1..self.contacts.len() {
+                let (a, b) = (rigid(i), rigid(j));
+                let det = (a[0] * b[1] - a[1] * b[0]).abs();
+                let soft = [i, j].into_iter().map(softness).filter(|s| *s > 0.0);
+                let hard = 2 - soft.clone().count();
+                let key = (hard, soft.fold(det, |key, softness| key / softness));
+                if det > 0.0 && best.is_none_or(|(most, _)| key > most) {
+                    best = Some((key, [i, j]));
+                }
+            }
+        }
+        match best {
+            Some((_, pair)) => pair.to_vec(),
+            None => {
+                let all = 0..self.contacts.len();
+                let first = all.min_by(|a, b| softness(*a).total_cmp(&softness(*b)));
+                first.into_iter().collect()
+            }
+        }
+    }
+
+    /// The displacement of a contact by the strains: the strains that a unit load there makes.
+    fn row<const N: usize, const W: usize>(&self, body: &Body<S, N, W>, k: usize) -> Vec<S> {
+        let mut loads = self.no_loads::<S, N, W>(body);
+        let contact = &self.contacts[k];
+        loads.contacts[k] = S::splat(-1.0);
+        if let At::Bed { cell, point } = contact.at {
+            loads.cells[cell] = body.point_load(cell, point);
+        }
+        let mut row = vec![S::default(); body.cells.len() * (W - 2) + self.springs];
+        self.inwards(body, &loads, &mut row);
+        if let Some(spring) = contact.spring {
+            row[spring.place] = -spring.softness;
+        }
+        row
+    }
+
+    fn no_loads<R: Real, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+    ) -> Loads<R, W> {
+        Loads {
+            cells: vec![[R::default(); W]; body.cells.len()],
+            points: vec![[R::default(); 2]; self.points.len()],
+            contacts: vec![R::default(); self.contacts.len()],
+        }
+    }
+
+    /// `y = A q` of the held bat. Leaves the loads, the rigid motion taken out, and the forces of the
+    /// contacts; returns the rigid motion.
+    pub fn compliance<R: Over<S>, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        q: &[R],
+        y: &mut [R],
+        loads: &mut Loads<R, W>,
+    ) -> Rigid<R> {
+        loads.cells.resize(body.cells.len(), [R::default(); W]);
+        loads.points.resize(self.points.len(), [R::default(); 2]);
+        loads.contacts.clear();
+        loads.contacts.resize(self.contacts.len(), R::default());
+        let mut rigid = self.holds.rigid_of(|k| inner(q, &self.holds.rows[k]));
+        self.outwards(body, q, loads);
+        let mut total = self.take_out(body, rigid, loads);
+        // Twice: where one mass is far above all others, the first time leaves its round-off.
+        for _ in 0..2 {
+            let free = self.holds.free_part(body.mass, body.inertia, total);
+            rigid = Rigid { push: rigid.push + free.push, turn: rigid.turn + free.turn };
+            total = self.take_out(body, free, loads);
+        }
+        self.inwards(body, loads, y);
+        self.holds.balance(total, y, &mut loads.contacts);
+        rigid
+    }
+
+    /// Integrates strains from the root at rest and leaves the loads of their inertia.
+    fn outwards<R: Over<S>, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        q: &[R],
+        loads: &mut Loads<R, W>,
+    ) {
+        for (side, cells) in body.sides().into_iter().enumerate() {
+            let mut way = Outwards::<R, true>::default();
+            let (stops, mut done) = (&self.stops[side], cells.start);
+            for k in 0..=stops.len() {
+                let run = done..stops.get(k).map_or(cells.end, |stop| cells.start + stop.after);
+                done = run.end;
+                let strains = &q[run.start * (W - 2)..run.end * (W - 2)];
+                way.over(&body.cells[run.clone()], strains, &mut loads.cells[run]);
+                let Some(stop) = stops.get(k) else { break };
+                match stop.what {
+                    What::Point(k) => {
+                        let point = &self.points[k];
+                        loads.points[k] =
+                            point.load(point.displaced(way.w.value(), way.theta.value(), q));
+                    }
+                    What::Joint(k) => {
+                        way.theta.add(q[self.joints[k].place] * self.joints[k].softness);
+                    }
+                    What::Contact(_) => {}
+                }
+            }
+        }
+    }
+
+    /// Takes the loads of a rigid motion out of these; force and moment about the balance point that
+    /// are left.
+    fn take_out<R: Over<S>, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        rigid: Rigid<R>,
+        loads: &mut Loads<R, W>,
+    ) -> [R; 2] {
+        let mut total = [R::default(); 2];
+        for (side, cells) in body.sides().into_iter().enumerate() {
+            let rigid = if side == 0 { rigid.mirrored() } else { rigid };
+            let [mut force, mut moment] = [RunningSum::<R>::default(); 2];
+            for (cell, load) in body.cells[cells.clone()].iter().zip(&mut loads.cells[cells]) {
+                let [lifted, turned] = [&cell.link.mass[W - 2], &cell.link.mass[W - 1]];
+                let lift = rigid.deflection(cell.arm);
+                for i in 0..W {
+                    load[i] -= lift * lifted[i] + rigid.turn * turned[i];
+                }
+                force.add(load[W - 2]);
+                moment.add(load[W - 2] * cell.arm + load[W - 1]);
+            }
+            for stop in &self.stops[side] {
+                let What::Point(k) = stop.what else { continue };
+                let point = &self.points[k];
+                let taken = point.load([rigid.deflection(point.arm + point.offset), rigid.turn]);
+                let load = &mut loads.points[k];
+                load[0] -= taken[0];
+                load[1] -= taken[1];
+                force.add(load[0]);
+                moment.add(load[0] * point.arm + load[1]);
+            }
+            total[0] += force.value();
+            total[1] += if side == 0 { -moment.value() } else { moment.value() };
+        }
+        total
+    }
+
+    /// The strains under loads and the forces of contacts.
+    fn inwards<R: Over<S>, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        loads: &Loads<R, W>,
+        y: &mut [R],
+    ) {
+        y[body.cells.len() * (W - 2)..].fill(R::default());
+        for (side, cells) in body.sides().into_iter().enumerate() {
+            let mut way = Inwards::<R, true>::default();
+            let (stops, mut done) = (&self.stops[side], cells.end);
+            for k in (0..=stops.len()).rev() {
+                let before = k.checked_sub(1).map(|k| &stops[k]);
+                let run = before.map_or(cells.start, |stop| cells.start + stop.after)..done;
+                done = run.start;
+                let strains = &mut y[run.start * (W - 2)..run.end * (W - 2)];
+                let rigid = Rigid::default();
+                way.over(&body.cells[run.clone()], &loads.cells[run], rigid, strains);
+                let Some(stop) = before else { break };
+                match stop.what {
+                    What::Point(k) => {
+                        let [force, couple] = loads.points[k];
+                        way.shear.add(force);
+                        way.bending.add(couple);
+                        let spring = self.points[k].spring;
+                        spring.iter().for_each(|s| y[s.place] = force * s.softness);
+                    }
+                    What::Joint(k) => {
+                        let spring = &self.joints[k];
+                        y[spring.place] = way.bending.value() * spring.softness;
+                    }
+                    What::Contact(k) => {
+                        let [force, couple] = self.contacts[k].on_the_bat(loads.contacts[k]);
+                        way.shear.add(force);
+                        way.bending.add(couple);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes out of the strains what the contacts do not allow.
+    pub fn project<R: Over<S>>(&self, strains: &mut [R]) {
+        self.holds.project(strains);
+    }
+
+    /// The rigid motion that these displacements of the primary contacts call for; `of` gets a
+    /// contact's number.
+    pub fn rigid_of<R: Over<S>>(&self, of: impl Fn(usize) -> R) -> Rigid<R> {
+        self.holds.rigid_of(|k| of(self.holds.primary[k]))
+    }
+
+    /// The free rigid motion that carries force and moment `total`.
+    pub fn free_part<R: Over<S>, const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        total: [R; 2],
+    ) -> Rigid<R> {
+        self.holds.free_part(body.mass, body.inertia, total)
+    }
+}
+
+impl<S: Real> Point<S> {
+    /// How far its mass and how far the bat turns, of a bat that is at `w` and `theta` here.
+    pub fn displaced<R: Over<S>>(&self, w: R, theta: R, strains: &[R]) -> [R; 2] {
+        let own = self.spring.map_or(R::default(), |s| strains[s.place] * s.softness);
+        [w + theta * self.offset + own, theta]
+    }
+
+    /// Force and couple of its inertia on the bat.
+    pub fn load<R: Over<S>>(&self, [moved, turned]: [R; 2]) -> [R; 2] {
+        let force = moved * self.mass;
+        [force, turned * self.inertia + force * self.offset]
+    }
+}
+
+impl<S: Real> Contact<S> {
+    /// Force and couple, outwards, that its reaction is for the bat.
+    pub fn on_the_bat<R: Over<S>>(&self, reaction: R) -> [R; 2] {
+        match (self.at, self.turning) {
+            (At::Bed { .. }, _) => [R::default(); 2],
+            (At::Border, false) => [-reaction, R::default()],
+            (At::Border, true) => [R::default(), -(reaction * self.sign)],
+        }
+    }
+}
+
+impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
+    /// The cells of the knob side and of the tip side.
+    pub fn sides(&self) -> [Range<usize>; 2] {
+        [0..self.split, self.split..self.cells.len()]
+    }
+
+    /// The loads on a cell of a unit force at a point of the rule.
+    fn point_load(&self, cell: usize, point: usize) -> Vector<S, W> {
+        let cell = &self.cells[cell];
+        let values = self.rule.at::<N>(point).map(S::splat);
+        let on: Vector<S, W> = on_strains::<S, N, W>(cell.link.length, &values);
+        let mut load = on;
+        for i in 0..W - 2 {
+            load[i] = S::default();
+            for j in 0..=i {
+                load[i] += cell.inverse[i][j] * on[j];
+            }
+        }
+        load
+    }
+}
+
+impl<S: Real> Holds<S> {
+    /// The rigid motion with these displacements at the primary contacts.
+    fn rigid_of<R: Over<S>>(&self, of: impl Fn(usize) -> R) -> Rigid<R> {
+        let mut rigid = Rigid::<R>::default();
+        for (k, inverse) in self.inverse.iter().enumerate() {
+            let displacement = of(k);
+            rigid.push += displacement * inverse[0];
+            rigid.turn += displacement * inverse[1];
+        }
+        rigid
+    }
+
+    /// The free rigid motion that carries force and moment `total`.
+    fn free_part<R: Over<S>>(&self, mass: S, inertia: S, total: [R; 2]) -> Rigid<R> {
+        let mut rigid = Rigid::<R>::default();
+        for free in &self.free {
+            let carried = total[0] * free[0] + total[1] * free[1];
+            let weight = free[0] * free[0] * mass + free[1] * free[1] * inertia;
+            let part = carried / R::of(weight);
+            rigid.push += part * free[0];
+            rigid.turn += part * free[1];
+        }
+        rigid
+    }
+
+    /// Strains under loads whose force and moment are `total` become those of the held bat; leaves
+    /// the contacts' reactions.
+    fn balance<R: Over<S>>(&self, total: [R; 2], y: &mut [R], reactions: &mut [R]) {
+        let carried = |inverse: &[S; 2]| total[0] * inverse[0] + total[1] * inverse[1];
+        for (k, inverse) in self.inverse.iter().enumerate() {
+            let reaction = carried(inverse);
+            reactions[self.primary[k]] = reaction;
+            y.iter_mut().zip(&self.rows[k]).for_each(|(y, row)| *y -= reaction * *row);
+        }
+        // L⁻ᵀ of the parts that are projected out.
+        let mut parts = self.project(y);
+        for i in (0..parts.len()).rev() {
+            parts[i] = parts[i] / R::of(self.lower[i][i]);
+            let known = parts[i];
+            for j in 0..i {
+                parts[j] -= known * self.lower[i][j];
+            }
+            reactions[self.redundant[i]] = known;
+            for (k, share) in self.shares[i].iter().enumerate().take(self.primary.len()) {
+                reactions[self.primary[k]] -= known * *share;
+            }
+        }
+    }
+
+    /// Takes the conditions' parts out of the strains and returns them.
+    fn project<R: Over<S>>(&self, strains: &mut [R]) -> Vec<R> {
+        let mut parts = vec![R::default(); self.basis.len()];
+        for _ in 0..2 {
+            for (part, condition) in parts.iter_mut().zip(&self.basis) {
+                let more = inner(strains, condition);
+                *part += more;
+                strains.iter_mut().zip(condition).for_each(|(y, q)| *y -= more * *q);
+            }
+        }
+        parts
+    }
+}
+
+/// `Σ a_k b_k`.
+fn inner<S: Real, R: Over<S>>(a: &[R], b: &[S]) -> R {
+    let mut sum = R::default();
+    a.iter().zip(b).for_each(|(a, b)| sum += *a * *b);
+    sum
+}
+
+/// The number of the mesh's node at `x`, or nearest to it: the bat's pieces end there.
+pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
+    let pieces = &bat.profile.pieces;
+    let starts = pieces.iter().map(|piece| piece.start).chain([bat.length()]);
+    let (piece, _) = starts
+        .enumerate()
+        .min_by(|(_, a), (_, b)| (a - x).abs().total_cmp(&(b - x).abs()))
+        .expect("a bat has pieces");
+    mesh.elements.partition_point(|e| e.piece < piece)
+}
+
+/// The elements in the grip: the place of the cell and the number of the element.
+fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
+    let Some(grip) = &bat.fixtures.grip else { return vec![] };
+    let held = |e: &usize| {
+        let e = &mesh.elements[*e];
+        let middle = e.start + 0.5 * e.length;
+        middle > grip.from && middle < grip.to
+    };
+    let cell = |e: usize| if e < split { split - 1 - e } else { e };
+    (0..mesh.len()).filter(held).map(|e| (cell(e), e)).collect()
+}

@@ -1,0 +1,166 @@
+//! The two ways over the elements: strains integrated outwards, loads summed up inwards.
+
+use crate::beam::element::{Link, Matrix, Vector, over_strains};
+use crate::quadrature::RunningSum;
+use crate::real::{Over, Real};
+
+/// An element on one side of the root, seen in that direction.
+#[derive(Debug, Clone, Copy)]
+pub struct Cell<R, const W: usize> {
+    pub link: Link<R, W>,
+    /// `L⁻¹` of the stiffness of its strains.
+    pub inverse: Matrix<R, W>,
+    /// Distance of its inner end from the balance point, counted outwards (m).
+    pub arm: R,
+}
+
+impl<S: Real, const W: usize> Default for Cell<S, W> {
+    fn default() -> Self {
+        let (zero, zeros) = (S::default(), [S::default(); W]);
+        let link = Link { mass: [zeros; W], lift: zeros, turn: zeros, length: zero };
+        Self { link, inverse: [zeros; W], arm: zero }
+    }
+}
+
+impl<S: Real, const W: usize> Cell<S, W> {
+    /// `L⁻ᵀ q`: strains (curvature in 1/m, shear in 1) from scaled strains.
+    #[inline(always)]
+    pub fn strains<R: Over<S>>(&self, q: &Vector<R, W>) -> Vector<R, W> {
+        let mut strains = [R::default(); W];
+        for i in 0..W - 2 {
+            for j in 0..=i {
+                strains[j] += q[i] * self.inverse[i][j];
+            }
+        }
+        strains
+    }
+}
+
+impl<const W: usize> Cell<f64, W> {
+    /// `Lᵀ c`: scaled strains from strains.
+    pub fn scaled_strains(&self, c: &Vector<f64, W>) -> Vector<f64, W> {
+        let mut q = [0.0; W];
+        for i in (0..W - 2).rev() {
+            let known: f64 = (i + 1..W - 2).map(|k| self.inverse[k][i] * q[k]).sum();
+            q[i] = (c[i] - known) / self.inverse[i][i];
+        }
+        q
+    }
+}
+
+/// A rigid motion seen outwards: translation of the balance point and rotation.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rigid<R> {
+    pub push: R,
+    pub turn: R,
+}
+
+impl<R: Real> Rigid<R> {
+    /// The deflection at that distance from the balance point.
+    #[inline(always)]
+    pub fn deflection<S>(&self, arm: S) -> R
+    where
+        R: Over<S>,
+    {
+        self.push + self.turn * arm
+    }
+
+    /// The same seen from the other side: what turns outwards there turns inwards here.
+    pub fn mirrored(self) -> Self {
+        Self { turn: -self.turn, ..self }
+    }
+}
+
+/// What a motion's inertia loads: the cells, and, where something is on the bat or holds it, force
+/// and couple of every point mass (outwards) and the force of every contact.
+#[derive(Debug, Clone, Default)]
+pub struct Loads<R, const W: usize> {
+    pub cells: Vec<Vector<R, W>>,
+    pub points: Vec<[R; 2]>,
+    pub contacts: Vec<R>,
+}
+
+/// The scaled strains of one cell with its deflection and slope in the last two places.
+#[inline(always)]
+pub fn with_ends<R: Real, const W: usize>(q: &[R], w: R, theta: R) -> Vector<R, W> {
+    let mut motion = [R::default(); W];
+    motion[..W - 2].copy_from_slice(&q[..W - 2]);
+    (motion[W - 2], motion[W - 1]) = (w, theta);
+    motion
+}
+
+/// A way outwards: deflection and rotation so far, force and moment about the balance point of the
+/// inertia.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Outwards<R, const KEEP: bool> {
+    pub w: RunningSum<R, KEEP>,
+    pub theta: RunningSum<R, KEEP>,
+    pub force: RunningSum<R, KEEP>,
+    pub moment: RunningSum<R, KEEP>,
+}
+
+impl<R: Real, const KEEP: bool> Outwards<R, KEEP> {
+    /// Integrates strains over these cells and keeps their loads.
+    #[inline(always)]
+    pub fn over<S: Real, const W: usize>(
+        &mut self,
+        cells: &[Cell<S, W>],
+        q: &[R],
+        loads: &mut [Vector<R, W>],
+    ) where
+        R: Over<S>,
+    {
+        let Self { mut w, mut theta, mut force, mut moment } = *self;
+        for ((cell, q), kept) in cells.iter().zip(q.chunks_exact(W - 2)).zip(loads) {
+            let link = &cell.link;
+            let motion = with_ends::<R, W>(q, w.value(), theta.value());
+            let load = link.load(&motion);
+            *kept = load;
+            force.add(load[W - 2]);
+            moment.add(load[W - 2] * cell.arm + load[W - 1]);
+            w.add(theta.value() * link.length + over_strains(&link.lift, &motion));
+            theta.add(over_strains(&link.turn, &motion));
+        }
+        *self = Self { w, theta, force, moment };
+    }
+}
+
+/// A way inwards, from a free end: shear and bending moment so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Inwards<R, const KEEP: bool> {
+    pub shear: RunningSum<R, KEEP>,
+    pub bending: RunningSum<R, KEEP>,
+}
+
+impl<R: Real, const KEEP: bool> Inwards<R, KEEP> {
+    /// The scaled strains of these cells under their loads, those of the rigid motion taken out: the
+    /// adjoint of [`Outwards::over`].
+    #[inline(always)]
+    pub fn over<S: Real, const W: usize>(
+        &mut self,
+        cells: &[Cell<S, W>],
+        loads: &[Vector<R, W>],
+        rigid: Rigid<R>,
+        y: &mut [R],
+    ) where
+        R: Over<S>,
+    {
+        let Self { mut shear, mut bending } = *self;
+        for ((cell, load), y) in cells.iter().zip(loads).zip(y.chunks_exact_mut(W - 2)).rev() {
+            let link = &cell.link;
+            let [lifted, turned] = [&link.mass[W - 2], &link.mass[W - 1]];
+            let lift = rigid.deflection(cell.arm);
+            let mut f = *load;
+            for i in 0..W {
+                f[i] -= lift * lifted[i] + rigid.turn * turned[i];
+            }
+            let (v, m) = (shear.value(), bending.value());
+            for k in 0..W - 2 {
+                y[k] = f[k] + (v * link.lift[k] + m * link.turn[k]);
+            }
+            bending.add(v * link.length + f[W - 1]);
+            shear.add(f[W - 2]);
+        }
+        *self = Self { shear, bending };
+    }
+}

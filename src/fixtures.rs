@@ -1,0 +1,248 @@
+//! What is on the bat and what holds it: weights, springs, supports, hands, joints.
+
+use crate::error::{Error, Result};
+use crate::layup::Layup;
+
+/// Everything that a bat may have beside its shape and its material.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Fixtures {
+    pub regions: Vec<Region>,
+    pub attachments: Vec<Attachment>,
+    pub absorbers: Vec<Absorber>,
+    pub joints: Vec<Joint>,
+    pub supports: Vec<Support>,
+    pub grip: Option<Grip>,
+}
+
+/// A stretch of other materials.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// Where it begins and ends (m).
+    pub from: f64,
+    pub to: f64,
+    pub layup: Layup,
+}
+
+/// A point mass and springs to ground.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Attachment {
+    /// Where it is fixed (m).
+    pub x: f64,
+    /// Mass (kg), and how far beyond `x`, towards the barrel, its centre is (m).
+    pub mass: f64,
+    pub offset: f64,
+    /// Moment of inertia about its own centre (kg m²).
+    pub rotary_inertia: f64,
+    /// Springs from the bat at `x` to the ground, against deflection (N/m) and rotation (N m/rad).
+    pub stiffness: f64,
+    pub rotational_stiffness: f64,
+}
+
+/// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Absorber {
+    /// Where it hangs (m).
+    pub x: f64,
+    /// Mass (kg), stiffness (N/m), damping (N s/m).
+    pub mass: f64,
+    pub stiffness: f64,
+    pub damping: f64,
+}
+
+/// Where two parts of a bat are joined by a spring that gives way to bending.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Where it is (m).
+    pub x: f64,
+    /// Bending moment per angle between both sides (N m/rad).
+    pub rotational_stiffness: f64,
+}
+
+/// A place that is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// Where (m).
+    pub x: f64,
+    pub kind: Held,
+}
+
+/// What a support holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held {
+    /// The deflection; the bat may turn.
+    Pinned,
+    /// Deflection and rotation.
+    Clamped,
+}
+
+/// Hands as an elastic bed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// Where they begin and end (m).
+    pub from: f64,
+    pub to: f64,
+    /// Force per deflection and per length (N/m²).
+    pub stiffness: f64,
+    /// Force per velocity and per length (N s/m²).
+    pub damping: f64,
+}
+
+impl Fixtures {
+    /// Whether nothing moves otherwise than a bare bat: regions of other materials may be there.
+    pub fn none_moving(&self) -> bool {
+        self.attachments.is_empty()
+            && self.absorbers.is_empty()
+            && self.joints.is_empty()
+            && !self.holding()
+    }
+
+    /// Whether anything holds the bat in place: a support, a spring to ground, a hand.
+    pub fn holding(&self) -> bool {
+        let spring = |a: &Attachment| a.stiffness > 0.0 || a.rotational_stiffness > 0.0;
+        !self.supports.is_empty()
+            || self.attachments.iter().any(spring)
+            || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
+    }
+
+    /// Whether anything but the materials takes energy out of the bat.
+    pub fn damping(&self) -> bool {
+        self.absorbers.iter().any(|absorber| absorber.damping > 0.0)
+            || self.grip.is_some_and(|grip| grip.damping > 0.0)
+    }
+
+    /// How many rigid motions are free: two of a bat that nothing holds, one of a bat that turns
+    /// about a pin or is held against turning alone.
+    pub fn rigid_modes(&self) -> usize {
+        let places = self.supports.iter().map(|support| support.x);
+        let springs = self.attachments.iter().filter(|a| a.stiffness > 0.0).map(|a| a.x);
+        let mut held: Vec<f64> = places.chain(springs).collect();
+        held.dedup();
+        let turning = self.supports.iter().any(|support| support.kind == Held::Clamped)
+            || self.attachments.iter().any(|a| a.rotational_stiffness > 0.0);
+        let elsewhere = held.iter().any(|x| *x != held[0]);
+        let bed = self.grip.is_some_and(|grip| grip.stiffness > 0.0);
+        let lines = usize::from(!held.is_empty() || bed);
+        let turns = usize::from(turning || elsewhere || bed);
+        2 - lines - turns
+    }
+
+    /// Where elements must end (m), in no order.
+    pub fn borders(&self) -> Vec<f64> {
+        let regions = self.regions.iter().flat_map(|region| [region.from, region.to]);
+        let grip = self.grip.iter().flat_map(|grip| [grip.from, grip.to]);
+        let points = self.attachments.iter().map(|a| a.x);
+        let points = points.chain(self.absorbers.iter().map(|a| a.x));
+        let points = points.chain(self.joints.iter().map(|joint| joint.x));
+        let points = points.chain(self.supports.iter().map(|support| support.x));
+        regions.chain(grip).chain(points).collect()
+    }
+
+    /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of everything
+    /// that is attached.
+    pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
+        let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
+        fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))
+    }
+
+    /// Every value in its possible range, on a bat of that length (m).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] with the path of the key in a bat file as its field.
+    pub fn check(&self, length: f64) -> Result<()> {
+        for (k, region) in self.regions.iter().enumerate() {
+            let name = |key: &str| format!("regions[{k}].{key}");
+            stretch(&name, region.from, region.to, length)?;
+            region.layup.materials().try_for_each(|material| material.check())?;
+            if let Some(before) = self.regions[..k].iter().find(|before| overlap(before, region)) {
+                let found = format!("{} to {} m, an overlap", region.from, region.to);
+                let expected = format!("a stretch outside {} to {} m", before.from, before.to);
+                return Err(Error::value(name("from"), found, expected));
+            }
+        }
+        for (k, a) in self.attachments.iter().enumerate() {
+            let name = |key: &str| format!("attachments[{k}].{key}");
+            on_the_bat(name("x"), a.x, length)?;
+            for (key, value, unit) in [
+                ("mass", a.mass, "kg"),
+                ("rotary_inertia", a.rotary_inertia, "kg m²"),
+                ("stiffness", a.stiffness, "N/m"),
+                ("rotational_stiffness", a.rotational_stiffness, "N m/rad"),
+            ] {
+                not_negative(name(key), value, unit)?;
+            }
+            if !a.offset.is_finite() || a.offset.abs() > 10.0 * length {
+                let expected = "a distance of at most ten lengths of the bat";
+                return Err(Error::value(name("offset"), format!("{} m", a.offset), expected));
+            }
+        }
+        for (k, a) in self.absorbers.iter().enumerate() {
+            let name = |key: &str| format!("absorbers[{k}].{key}");
+            on_the_bat(name("x"), a.x, length)?;
+            positive(name("mass"), a.mass, "kg")?;
+            positive(name("stiffness"), a.stiffness, "N/m")?;
+            not_negative(name("damping"), a.damping, "N s/m")?;
+        }
+        for (k, joint) in self.joints.iter().enumerate() {
+            let name = |key: &str| format!("joints[{k}].{key}");
+            let stiffness = joint.rotational_stiffness;
+            if !(joint.x > 0.0 && joint.x < length) {
+                let expected = format!("a place inside the bat, 0 to {length} m");
+                return Err(Error::value(name("x"), format!("{} m", joint.x), expected));
+            }
+            positive(name("rotational_stiffness"), stiffness, "N m/rad")?;
+            if self.joints[..k].iter().any(|before| before.x == joint.x) {
+                let expected = "one joint at one place";
+                return Err(Error::value(name("x"), format!("{} m again", joint.x), expected));
+            }
+        }
+        for (k, support) in self.supports.iter().enumerate() {
+            let name = format!("supports[{k}].x");
+            on_the_bat(name.clone(), support.x, length)?;
+            if self.supports[..k].iter().any(|before| before.x == support.x) {
+                let found = format!("{} m again", support.x);
+                return Err(Error::value(name, found, "one support at one place"));
+            }
+        }
+        if let Some(grip) = &self.grip {
+            stretch(&|key: &str| format!("grip.{key}"), grip.from, grip.to, length)?;
+            not_negative("grip.stiffness".to_owned(), grip.stiffness, "N/m²")?;
+            not_negative("grip.damping".to_owned(), grip.damping, "N s/m²")?;
+        }
+        Ok(())
+    }
+}
+
+fn overlap(a: &Region, b: &Region) -> bool {
+    a.from < b.to && b.from < a.to
+}
+
+fn stretch(name: &dyn Fn(&str) -> String, from: f64, to: f64, length: f64) -> Result<()> {
+    on_the_bat(name("from"), from, length)?;
+    on_the_bat(name("to"), to, length)?;
+    if to > from {
+        return Ok(());
+    }
+    Err(Error::value(name("to"), format!("{to} m"), format!("a place beyond {from} m")))
+}
+
+fn on_the_bat(field: String, x: f64, length: f64) -> Result<()> {
+    if x >= 0.0 && x <= length {
+        return Ok(());
+    }
+    Err(Error::value(field, format!("{x} m"), format!("a place on the bat, 0 to {length} m")))
+}
+
+fn positive(field: String, value: f64, unit: &str) -> Result<()> {
+    if value > 0.0 && value.is_finite() && value < 1e100 {
+        return Ok(());
+    }
+    Err(Error::value(field, format!("{value} {unit}"), "a number above 0"))
+}
+
+fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
+    if value >= 0.0 && value < 1e100 {
+        return Ok(());
+    }
+    Err(Error::value(field, format!("{value} {unit}"), "0 or more"))
+}

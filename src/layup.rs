@@ -1,0 +1,144 @@
+//! What a section is worth: stiffness and mass per length of one material around another.
+
+use crate::material::Material;
+use crate::profile::Section;
+
+/// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layup {
+    pub outer: Material,
+    /// What fills the bore; nothing, if none.
+    pub core: Option<Material>,
+}
+
+/// Stiffness and mass of a section, per length of bat.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Worth {
+    /// Bending stiffness EI (N m²).
+    pub bending: f64,
+    /// Mass per length ρA (kg/m).
+    pub mass: f64,
+    /// Rotary inertia per length ρI (kg m).
+    pub turning: f64,
+    /// Shear stiffness κGA (N); infinite if a shear modulus is not known.
+    pub shear: f64,
+}
+
+impl Layup {
+    /// One material and nothing in the bore.
+    pub fn of(outer: Material) -> Self {
+        Self { outer, core: None }
+    }
+
+    /// EI (N m²) and ρA (kg/m): all that the Euler–Bernoulli beam knows of a section.
+    #[inline(always)]
+    pub fn bending_and_mass(&self, section: Section) -> [f64; 2] {
+        let (outer, area) = (&self.outer, section.area());
+        let (r, ri) = (section.outer, section.inner);
+        let mut bending = outer.youngs_modulus * (area * (r * r + ri * ri) / 4.0);
+        let mut mass = outer.density * area;
+        if let Some(core) = &self.core {
+            let bore = section.bore();
+            bending += core.youngs_modulus * bore.second_moment();
+            mass += core.density * bore.area();
+        }
+        [bending, mass]
+    }
+
+    /// ρI (kg m): the rotary inertia per length.
+    #[inline(always)]
+    pub fn turning(&self, section: Section) -> f64 {
+        let own = self.outer.density * section.second_moment();
+        let inside = |core: &Material| core.density * section.bore().second_moment();
+        own + self.core.as_ref().map_or(0.0, inside)
+    }
+
+    /// All four: those of the layers added, each layer bending about the bat's axis.
+    ///
+    /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core is
+    /// as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is no
+    /// core, the solid rod where it is of the same material, an interpolation between.
+    pub fn worth(&self, section: Section) -> Worth {
+        let [bending, mass] = self.bending_and_mass(section);
+        let turning = self.turning(section);
+        let hole = (section.inner / section.outer).powi(2);
+        let shear = |material: &Material, area: f64, hole: f64| match material.shear_modulus {
+            Some(modulus) => material.kappa(hole) * modulus * area,
+            None => f64::INFINITY,
+        };
+        let mut empty = hole;
+        let mut inside = 0.0;
+        if let Some(core) = &self.core {
+            let bore = section.bore();
+            if bore.outer > 0.0 {
+                inside = shear(core, bore.area(), 0.0);
+            }
+            if let (Some(of_core), Some(of_tube)) = (core.shear_modulus, self.outer.shear_modulus) {
+                empty *= (1.0 - of_core / of_tube).max(0.0);
+            }
+        }
+        let shear = shear(&self.outer, section.area(), empty) + inside;
+        Worth { bending, mass, turning, shear }
+    }
+
+    /// The materials, the outer one first.
+    pub fn materials(&self) -> impl Iterator<Item = &Material> {
+        std::iter::once(&self.outer).chain(&self.core)
+    }
+
+    /// The same, heavier by one factor and stiffer by another.
+    pub fn scaled(&mut self, density: f64, modulus: f64) {
+        for material in std::iter::once(&mut self.outer).chain(&mut self.core) {
+            material.density *= density;
+            material.youngs_modulus *= modulus;
+            material.shear_modulus.iter_mut().for_each(|shear| *shear *= modulus);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wood() -> Material {
+        let mut wood = Material::new(650.0, 15e9).unwrap();
+        wood.shear_modulus = Some(1e9);
+        wood
+    }
+
+    fn close(a: Worth, b: Worth) {
+        for (a, b) in
+            [(a.bending, b.bending), (a.mass, b.mass), (a.turning, b.turning), (a.shear, b.shear)]
+        {
+            assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_bore_filled_with_its_own_material_and_one_of_no_size_are_solid() {
+        let solid = Layup::of(wood()).worth(Section { outer: 0.03, inner: 0.0 });
+        let filled = Layup { outer: wood(), core: Some(wood()) };
+        close(filled.worth(Section { outer: 0.03, inner: 0.02 }), solid);
+        close(filled.worth(Section { outer: 0.03, inner: 0.0 }), solid);
+        close(Layup::of(wood()).worth(Section { outer: 0.03, inner: 1e-12 }), solid);
+    }
+
+    /// Cowper's κ of a thin tube is `2(1 + ν)/(4 + 3ν)`; `EI/ρA` of a thin wall is `E r²/2ρ`.
+    #[test]
+    fn a_thin_wall_has_the_limits_of_the_textbooks() {
+        let r: f64 = 0.03;
+        let worth = Layup::of(wood()).worth(Section { outer: r, inner: r * (1.0 - 1e-9) });
+        assert!((worth.bending / worth.mass / (15e9 * r * r / 1300.0) - 1.0).abs() < 1e-8);
+        let area = worth.mass / 650.0;
+        assert!((worth.shear / (1e9 * area) / (2.6 / 4.9) - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_core_that_bears_nothing_leaves_the_tube() {
+        let mut air = Material::new(1e-20, 1e-20).unwrap();
+        air.shear_modulus = Some(1e-20);
+        let section = Section { outer: 0.03, inner: 0.025 };
+        let tube = Layup::of(wood()).worth(section);
+        close(Layup { outer: wood(), core: Some(air) }.worth(section), tube);
+    }
+}
