@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
+use crate::beam::motion::Depth;
 use crate::beam::rule::Rule;
 use crate::certificate::round_off;
-use crate::eigenpairs::{Depth, Eigenpairs};
+use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
 use crate::modes::Mode;
@@ -296,7 +297,7 @@ where
         motions.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
         let scale = Lanes::splat(1.0).copysign(motions.ends[1][0]) / largest;
         let mass = motions.kinetic * scale * scale;
-        let crossings = motions.crossings(statics);
+        let crossings = motions.crossings(statics.split);
         let elements = statics.cells.len();
         for lane in 0..WIDTH.min(R::LANES * (modes - first)) {
             let (k, bat) = (first + lane / R::LANES, lane % R::LANES);
@@ -311,15 +312,17 @@ where
             self.errors[place] = round_off + 0.5 * defect;
             self.counted[bat] &= crossings.lane(lane) == (k + 2) as f64;
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
-            let (knob, tip) = motions.shape.split_at(statics.split);
+            let (knob, tip) = motions.shape.split_at(N * statics.split);
             let scale = scale.lane(lane);
             // Outwards is backwards on the knob side, where odd polynomials change sign.
-            for (to, from) in shape.chunks_exact_mut(N).zip(knob.iter().rev()) {
+            for (to, from) in shape.chunks_exact_mut(N).zip(knob.chunks_exact(N).rev()) {
                 for (j, (to, w)) in to.iter_mut().zip(from).enumerate() {
                     *to = if j % 2 == 1 { -scale } else { scale } * w.lane(lane);
                 }
             }
-            for (to, from) in shape[N * statics.split..].chunks_exact_mut(N).zip(tip) {
+            for (to, from) in
+                shape[N * statics.split..].chunks_exact_mut(N).zip(tip.chunks_exact(N))
+            {
                 to.iter_mut().zip(from).for_each(|(to, w)| *to = scale * w.lane(lane));
             }
         }

@@ -8,9 +8,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
-use crate::beam::statics::Statics;
-use crate::beam::sweep::Loads;
+use crate::beam::motion::{Applied, Depth, Motion};
+use crate::beam::statics::{Statics, View};
+use crate::beam::sweep::{Loads, Rigid};
 use crate::eigen::lanczos::{Lanczos, Wanted};
 use crate::error::Result;
 use crate::lanes::{Lanes, WIDTH};
@@ -24,21 +24,11 @@ pub struct Eigenpairs<R, const N: usize, const W: usize> {
     pub lanczos: Lanczos<R>,
     /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
     /// mode.
-    pub motions: Motion<Lanes, N, W>,
+    pub motions: Motion<Lanes>,
+    applied: Applied<Lanes, W>,
     loads: Loads<R, W>,
     /// Their scaled strains.
     strains: Vec<Lanes>,
-}
-
-/// How closely a motion is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Depth {
-    /// Its shape and energies.
-    Shape,
-    /// Its defect too.
-    Defect,
-    /// And by how much the shape may be off.
-    Changes,
 }
 
 impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
@@ -54,6 +44,7 @@ where
             statics: Statics::empty(bat, theory),
             lanczos: Lanczos::default(),
             motions: Motion::default(),
+            applied: Applied::default(),
             loads: Loads::default(),
             strains: vec![],
         }
@@ -88,7 +79,7 @@ where
         let wanted = Wanted { count, residual, earliest: 0 };
         let mut start = vec![R::default(); self.statics.dimension()];
         self.statics.strains_of_moments(&mut start, moments);
-        self.run(wanted, &mut |_, next| next.copy_from_slice(&start))
+        self.run(wanted, &[], &mut |_, next| next.copy_from_slice(&start))
     }
 
     /// Takes that many steps and no more, whatever residual that leaves: [`Motion::defect`] tells.
@@ -105,12 +96,13 @@ where
         let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
             Arch::new().dispatch(Start { statics, count: wanted.count, next });
         };
-        self.run(wanted, start)
+        self.run(wanted, &[], start)
     }
 
     fn run(
         &mut self,
         wanted: Wanted,
+        known: &[R],
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
@@ -119,6 +111,7 @@ where
             lanczos,
             dimension: statics.dimension(),
             wanted,
+            known,
             start: &mut |next| start(statics, next),
             apply: &mut |q, y| arch.dispatch(Apply { statics, q, y, loads }),
         })
@@ -136,16 +129,23 @@ where
         }
         self.gather(&vectors, first);
         self.lanczos.vectors = vectors;
-        let Self { statics, motions, strains, .. } = self;
-        Arch::new().dispatch(Look { statics, motions, strains, value: Some(values), depth });
+        self.look_closely(Some(values), depth);
     }
 
     /// The same with the motions of these scaled strains, one after the other, their frequencies
     /// from both energies.
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
         self.gather(vectors, first);
-        let Self { statics, motions, strains, .. } = self;
-        widely(Look { statics, motions, strains, value: None, depth });
+        self.look_closely(None, depth);
+    }
+
+    fn look_closely(&mut self, value: Option<Lanes>, depth: Depth) {
+        let Self { statics, motions, applied, strains, .. } = self;
+        let known = value.is_some();
+        Arch::new().dispatch(Inertia { statics, motions, strains, known, applied });
+        let cell = |k: usize| statics.cell(k);
+        let (view, rigid) = (statics.view(&cell), applied.rigid);
+        Arch::new().dispatch(Look { view, rigid, motions, strains, value, depth });
     }
 
     /// Strains side by side; the last motion again where there are no more.
@@ -164,6 +164,38 @@ where
 }
 
 impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
+    /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat on
+    /// soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
+    /// round-off would else be in them. Returns how many are apart.
+    ///
+    /// # Errors
+    ///
+    /// As [`Lanczos::largest`].
+    pub fn solve_apart(&mut self, residual: f64) -> Result<usize> {
+        /// Eigenvalues of the compliance this far apart: frequencies a hundred times as far.
+        const FAR: f64 = 1e4;
+        const MOST: usize = 4;
+        let found = &self.lanczos.values;
+        let far = |k: &usize| found[k - 1] > FAR * found[*k];
+        let Some(apart) = (1..found.len().min(MOST + 1)).rev().find(far) else { return Ok(0) };
+        let (count, size) = (found.len() - apart, self.statics.dimension());
+        let mut values = found[..apart].to_vec();
+        let mut residuals = self.lanczos.residuals[..apart].to_vec();
+        let mut vectors = self.lanczos.vectors[..apart * size].to_vec();
+        let steps = self.lanczos.steps;
+        let earliest = steps_beyond(count, residual);
+        self.run(Wanted { count, residual, earliest }, &vectors, &mut |statics, next| {
+            statics.start(count, next);
+        })?;
+        values.append(&mut self.lanczos.values);
+        residuals.append(&mut self.lanczos.residuals);
+        vectors.append(&mut self.lanczos.vectors);
+        let lanczos = &mut self.lanczos;
+        (lanczos.values, lanczos.residuals, lanczos.vectors) = (values, residuals, vectors);
+        lanczos.steps += steps;
+        Ok(apart)
+    }
+
     /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
     ///
     /// Scaled strains in `known`, one motion after the other, are slower modes, whose round-off is
@@ -173,44 +205,9 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         strains: &[f64],
         known: &[f64],
         depth: Depth,
-        motion: &mut Motion<f64, N, W>,
+        motion: &mut Motion<f64>,
     ) {
-        let statics = &self.statics;
-        motion.take_alone(statics, strains, known, depth != Depth::Shape);
-        match depth {
-            Depth::Changes => motion.take_changes(statics),
-            _ => motion.no_changes(statics),
-        }
-    }
-}
-
-/// Whether looking at several motions together is faster than one by one.
-pub fn is_wide() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    return pulp::x86::V3::try_new().is_some();
-    #[cfg(not(target_arch = "x86_64"))]
-    return true;
-}
-
-/// Runs where [`is_wide`]: compiled for wide vectors alone.
-#[inline(always)]
-fn widely<O: WithSimd<Output = ()>>(operation: O) {
-    #[cfg(target_arch = "x86_64")]
-    pulp::x86::V3::try_new().expect("the caller asked").vectorize(Widely(operation));
-    #[cfg(not(target_arch = "x86_64"))]
-    Arch::new().dispatch(operation);
-}
-
-#[cfg(target_arch = "x86_64")]
-struct Widely<O>(O);
-
-#[cfg(target_arch = "x86_64")]
-impl<O: WithSimd<Output = ()>> pulp::NullaryFnOnce for Widely<O> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.0.with_simd(pulp::Scalar);
+        motion.take_alone(&self.statics, strains, known, depth);
     }
 }
 
@@ -242,6 +239,7 @@ struct Iteration<'a, R> {
     lanczos: &'a mut Lanczos<R>,
     dimension: usize,
     wanted: Wanted,
+    known: &'a [R],
     start: &'a mut dyn FnMut(&mut [R]),
     apply: &'a mut dyn FnMut(&[R], &mut [R]),
 }
@@ -251,7 +249,7 @@ impl<R: Real> WithSimd for Iteration<'_, R> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Result<()> {
-        self.lanczos.largest(self.dimension, self.wanted, self.start, self.apply)
+        self.lanczos.largest(self.dimension, self.wanted, self.known, self.start, self.apply)
     }
 }
 
@@ -286,25 +284,43 @@ impl<R: Real, const N: usize, const W: usize> WithSimd for Apply<'_, R, N, W> {
     }
 }
 
-struct Look<'a, S, R, const N: usize, const W: usize> {
+struct Inertia<'a, S, R, const N: usize, const W: usize> {
     statics: &'a Statics<S, N, W>,
-    motions: &'a mut Motion<R, N, W>,
+    motions: &'a mut Motion<R>,
+    strains: &'a [R],
+    known: bool,
+    applied: &'a mut Applied<R, W>,
+}
+
+impl<S: Real, R: Over<S>, const N: usize, const W: usize> WithSimd for Inertia<'_, S, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, _: V) {
+        self.motions.apply(self.statics, self.strains, self.known, self.applied);
+    }
+}
+
+struct Look<'a, S, R> {
+    view: View<'a, S>,
+    rigid: Rigid<R>,
+    motions: &'a mut Motion<R>,
     strains: &'a [R],
     value: Option<R>,
     depth: Depth,
 }
 
-impl<S: Real, R: Over<S>, const N: usize, const W: usize> WithSimd for Look<'_, S, R, N, W> {
+impl<S: Real, R: Over<S>> WithSimd for Look<'_, S, R> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, _: V) {
-        let with_defect = self.depth != Depth::Shape;
-        self.motions.take(self.statics, self.strains, self.value, &[], with_defect);
-        if self.depth == Depth::Changes {
-            self.motions.take_changes(self.statics);
+        let Self { view, rigid, motions, strains, value, depth } = self;
+        motions.take(&view, rigid, strains, value, &[], depth != Depth::Shape);
+        if depth == Depth::Changes {
+            motions.take_changes(&view);
         } else {
-            self.motions.no_changes(self.statics);
+            motions.no_changes(&view);
         }
     }
 }

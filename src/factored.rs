@@ -4,7 +4,7 @@ use crate::bat::Bat;
 use crate::beam::assembly::{Pencil, places};
 use crate::beam::element::{self, Element};
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
+use crate::beam::motion::{Depth, Motion};
 use crate::beam::statics::Statics;
 use crate::eigen::{dense, shift_invert};
 use crate::error::{Error, Result};
@@ -53,6 +53,8 @@ pub struct Found {
     /// What an iteration by the statics left of every mode, `‖A v − θ v‖/θ`, free of the round-off
     /// that is in [`Motion::residual`]; none for solvers that factor.
     pub residuals: Vec<f64>,
+    /// How many of the slowest modes were taken out before the others were found.
+    pub apart: usize,
 }
 
 /// The `count` lowest bending modes as scaled strains in the order of the statics.
@@ -76,6 +78,7 @@ pub fn strains<const N: usize, const W: usize>(
         steps: pairs.steps,
         beyond: pairs.values.get(count).map(|value| value.max(0.0).sqrt()),
         residuals: vec![],
+        apart: 0,
     })
 }
 
@@ -148,7 +151,7 @@ fn shift<const N: usize, const W: usize>(statics: &Statics<f64, N, W>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
     statics.start(1, &mut start);
     let mut motion = Motion::default();
-    motion.take_alone(statics, &start, &[], false);
+    motion.take_alone(statics, &start, &[], Depth::Shape);
     motion.omega.powi(2)
 }
 
@@ -196,7 +199,7 @@ pub fn own_and_recomputed(
     let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
     let both = pairs.values.iter().zip(&pairs.vectors).take(modes).map(|(value, vector)| {
-        motion.take_alone(&statics, &strains_of(&statics, &elements, vector), &[], false);
+        motion.take_alone(&statics, &strains_of(&statics, &elements, vector), &[], Depth::Shape);
         [value.max(0.0).sqrt(), motion.omega]
     });
     Ok(both.collect())

@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::beam::element::Vector;
 use crate::beam::motion::Motion;
-use crate::beam::statics::Statics;
+use crate::beam::statics::View;
 use crate::real::Real;
 
 /// One bending mode of a bat.
@@ -62,19 +61,19 @@ impl Mode {
     }
 
     /// The mode that is that motion in one lane.
-    pub fn new<R: Real, const N: usize, const W: usize>(
+    pub fn new<R: Real>(
         order: usize,
-        statics: &Statics<f64, N, W>,
-        motion: &Motion<R, N, W>,
+        view: &View<f64>,
+        motion: &Motion<R>,
         lane: usize,
         stretches: &Arc<Vec<(f64, f64)>>,
     ) -> Self {
-        let track = Track::new(statics, motion, lane);
+        let track = Track::new(view, motion, lane);
         let mut shape = Shape {
             stretches: Arc::clone(stretches),
-            terms: N,
-            coefficients: coefficients(statics, &motion.shape, lane, 1.0),
-            turns: coefficients(statics, &motion.turns, lane, -1.0),
+            terms: view.terms,
+            coefficients: coefficients(view, &motion.shape, lane, 1.0),
+            turns: coefficients(view, &motion.turns, lane, -1.0),
         };
         let (largest, change) = shape.largest(&track);
         // The barrel end is positive; if it is held, the knob end; if both are, the side of the peak.
@@ -87,9 +86,9 @@ impl Mode {
         };
         let sign = if leading < 0.0 { -1.0 } else { 1.0 };
         let scale = sign / largest;
-        let rest = if statics.fixed.is_some() { STILL * largest } else { 0.0 };
+        let rest = if view.fixed.is_some() { STILL * largest } else { 0.0 };
         let mut nodes = shape.zeros(&track.samples, &track.xi, rest);
-        if let Some(fixed) = &statics.fixed {
+        if let Some(fixed) = view.fixed {
             // Where a clamp holds the bat its deflection has more than a zero.
             let near = STILL.cbrt() * shape.length();
             nodes.retain(|x| fixed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
@@ -127,22 +126,18 @@ struct Track {
 }
 
 impl Track {
-    fn new<R: Real, const N: usize, const W: usize>(
-        statics: &Statics<f64, N, W>,
-        motion: &Motion<R, N, W>,
-        lane: usize,
-    ) -> Self {
-        let points = statics.rule.count();
-        let split = points * statics.split;
+    fn new<R: Real>(view: &View<f64>, motion: &Motion<R>, lane: usize) -> Self {
+        let points = view.rule.count();
+        let split = points * view.split;
         let along = |values: &[R]| -> Vec<f64> {
             let (knob, tip) = values.split_at(split);
             knob.iter().rev().chain(tip).map(|v| v.lane(lane)).collect()
         };
-        let xi = statics.rule.points.iter().map(|p| 2.0 * p.s - 1.0).collect();
+        let xi = view.rule.points.iter().map(|p| 2.0 * p.s - 1.0).collect();
         let samples = along(&motion.deflections);
         let changes = along(&motion.changes);
         let mut ends = motion.ends.map(|end| end.map(|v| v.lane(lane)));
-        if statics.split == 0 {
+        if view.split == 0 {
             // The root is the knob end itself.
             ends[0][1] = changes[0];
         }
@@ -155,21 +150,16 @@ const STILL: f64 = 1e-12;
 
 /// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob side,
 /// where odd polynomials change sign and, with `sign` −1, a rotation does.
-fn coefficients<R: Real, const N: usize, const W: usize>(
-    statics: &Statics<f64, N, W>,
-    cells: &[Vector<R, N>],
-    lane: usize,
-    sign: f64,
-) -> Vec<f64> {
-    let (knob, tip) = cells.split_at(statics.split.min(cells.len()));
-    let mut all = Vec::with_capacity(N * cells.len());
-    for shape in knob.iter().rev() {
+fn coefficients<R: Real>(view: &View<f64>, cells: &[R], lane: usize, sign: f64) -> Vec<f64> {
+    let (knob, tip) = cells.split_at((view.terms * view.split).min(cells.len()));
+    let mut all = Vec::with_capacity(cells.len());
+    for shape in knob.chunks_exact(view.terms).rev() {
         let turned = shape.iter().enumerate();
         all.extend(
             turned.map(|(k, w)| sign * if k % 2 == 1 { -w.lane(lane) } else { w.lane(lane) }),
         );
     }
-    all.extend(tip.iter().flatten().map(|w| w.lane(lane)));
+    all.extend(tip.iter().map(|w| w.lane(lane)));
     all
 }
 

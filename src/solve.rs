@@ -4,12 +4,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::bat::Bat;
+use crate::beam::count;
 use crate::beam::element;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::Motion;
+use crate::beam::motion::{Depth, Motion};
 use crate::beam::rule::DEGREES;
+use crate::beam::statics::Statics;
 use crate::certificate::{account, add_neighbours, round_off};
-use crate::eigenpairs::{Depth, Eigenpairs, is_wide};
+use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::factored::{self, Found};
 use crate::lanes::WIDTH;
@@ -91,7 +93,10 @@ impl Request {
 #[derive(Debug, Clone)]
 pub struct Solution {
     pub modes: Vec<Mode>,
+    /// How many motions of the bat are rigid, at frequency 0.
+    pub rigid_modes: usize,
     pub solver: Solver,
+    pub theory: Theory,
     pub mesh: Mesh,
     /// Degree of the elements' deflection.
     pub degree: usize,
@@ -102,6 +107,9 @@ pub struct Solution {
     /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
     /// missing.
     pub met: bool,
+    /// Whether it is certain that no mode is missing: by the number of nodes where theory demands it,
+    /// else by the number of slower motions. None where that could not be counted.
+    pub none_missing: Option<bool>,
     /// What ended the refinement before the tolerance was met, if something did.
     pub stopped: Option<String>,
     pub timing: Timing,
@@ -115,26 +123,29 @@ impl Solution {
         self.modes.iter().map(|mode| known(mode.error.total())).fold(0.0, f64::max)
     }
 
-    /// Whether every mode n has the n + 1 nodes that theory demands: then none is missing.
+    /// Whether it is certain that no mode is missing.
     pub fn complete(&self) -> bool {
-        self.modes.iter().all(Mode::has_its_nodes)
+        self.none_missing == Some(true)
     }
 
     /// Why the wanted tolerance was not met, for a person; empty if it was.
     pub fn shortfall(&self, tolerance: f64) -> String {
         let round_off = self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
         let lost = self.modes.iter().find(|mode| !mode.has_its_nodes());
-        match lost {
+        match lost.filter(|_| !self.complete()) {
             _ if self.met => String::new(),
             _ if round_off > tolerance => format!("round-off alone is {round_off:.1e}"),
-            Some(mode) => format!(
+            Some(mode) if self.rigid_modes == 2 && !self.theory.shears() => format!(
                 "mode {} has {} nodes, not {}: two frequencies are too near each other to tell \
                  their shapes apart, or a mode is missing",
                 mode.order,
                 mode.nodes.len(),
                 mode.order + 1
             ),
-            None => match &self.stopped {
+            _ if !self.complete() => "the number of slower motions does not show that no mode is \
+                 missing: two frequencies are too near each other to count between them"
+                .to_owned(),
+            _ => match &self.stopped {
                 Some(reason) => reason.clone(),
                 None => "further refinement gained nothing".to_owned(),
             },
@@ -143,7 +154,8 @@ impl Solution {
 
     /// Unknowns of the assembled matrices.
     pub fn degrees_of_freedom(&self) -> usize {
-        (self.degree - 1) * self.mesh.len() + 2
+        let strains = if self.theory.shears() { 2 } else { 1 };
+        strains * (self.degree - 1) * self.mesh.len() + 2
     }
 }
 
@@ -174,6 +186,11 @@ const MOST_ROUNDS: usize = 12;
 /// be reached is no error: the best answer comes back with `met` false.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     request.check(1)?;
+    if request.theory.shears() && !bat.knows_shear() {
+        let found = "timoshenko, of a bat whose shear modulus is not known";
+        let expected = "\"shear_modulus\" in every material, or a theory without shear";
+        return Err(Error::value("theory", found, expected));
+    }
     let started = Instant::now();
     let mut timing = Timing::default();
     let mut plan = match request.elements {
@@ -189,6 +206,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     }
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
+    if !bat.fixtures.none_moving() {
+        // Two frequencies may be the same, and then are no nearer to the truth than the residual.
+        residual = residual.min(request.tolerance).max(CONVERGED);
+    }
     for round in 0..MOST_ROUNDS {
         let task = Task { bat, plan: &plan, request, residual };
         let answer = match (task.run(&mut timing), &mut best) {
@@ -201,7 +222,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             (Err(error), None) => return Err(error),
         };
         let again = request.solver == Solver::Statics && residual > CONVERGED;
-        if again && !answer.modes.iter().all(Mode::has_its_nodes) {
+        if again && answer.none_missing != Some(true) {
             // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
             residual = CONVERGED;
             continue;
@@ -284,14 +305,19 @@ struct Answer {
     steps: usize,
     /// Each element's part in the worst mode's defect.
     defects: Vec<f64>,
+    none_missing: Option<bool>,
+    rigid_modes: usize,
 }
 
 impl Answer {
     /// The solution, and each element's part in its worst defect.
     fn solution(self, plan: Plan, request: &Request, timing: Timing) -> (Solution, Vec<f64>) {
-        let within = |mode: &Mode| mode.error.total() <= request.tolerance && mode.has_its_nodes();
+        let within = |mode: &Mode| mode.error.total() <= request.tolerance;
         let solution = Solution {
-            met: self.modes.iter().all(within),
+            met: self.modes.iter().all(within) && self.none_missing == Some(true),
+            none_missing: self.none_missing,
+            rigid_modes: self.rigid_modes,
+            theory: request.theory,
             modes: self.modes,
             solver: request.solver,
             mesh: plan.mesh,
@@ -356,7 +382,12 @@ impl Task<'_> {
         pairs.assemble(&[bat], &[&plan.mesh]);
         let assembled = Instant::now();
         timing.assemble += assembled - started;
-        let Found { strains, steps, beyond, residuals } = self.strains(&mut pairs)?;
+        if pairs.statics.freedom() < request.modes {
+            let least = request.modes.div_ceil(W - 2) + 1;
+            let found = plan.mesh.len();
+            return Err(Error::TooFewElements { wanted: request.modes, least, found });
+        }
+        let Found { strains, steps, beyond, residuals, apart } = self.strains(&mut pairs)?;
         let stretches = Arc::new(plan.mesh.stretches());
         let missed = |e| element::missed(bat, e, pairs.statics.rule, request.theory);
         let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
@@ -366,35 +397,41 @@ impl Task<'_> {
         let mut add = |mode: Mode| {
             let mut mode = mode;
             mode.error.discretization += missed;
-            account(&mut mode, modes.first(), plan.mesh.len(), factored);
+            // Round-off is that of the slowest mode that was not taken out of the others.
+            let first = modes.get(if modes.len() < apart { 0 } else { apart });
+            account(&mut mode, first, plan.mesh.len(), factored);
             modes.push(mode);
         };
-        let large = pairs.statics.dimension() > LARGE;
-        if large || pairs.statics.fixed.is_some() || !is_wide() {
-            let mut motion = Motion::<f64, N, W>::default();
-            for (k, strains) in strains.chunks_exact(pairs.statics.dimension()).enumerate() {
-                if large {
-                    look_closer(&pairs, strains, k, &mut motion);
+        let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
+        if size > LARGE || pairs.statics.fixed.is_some() {
+            let mut motion = Motion::<f64>::default();
+            for (k, own) in strains.chunks_exact(size).enumerate() {
+                if size > LARGE {
+                    look_closer(&pairs, own, k, &mut motion);
                 } else {
-                    pairs.look_at_one(strains, &[], Depth::Changes, &mut motion);
+                    let known = &strains[..size * if k < apart { 0 } else { apart }];
+                    pairs.look_at_one(own, known, Depth::Changes, &mut motion);
                 }
-                add(Mode::new(k + 1, &pairs.statics, &motion, 0, &stretches));
-                motion.add_defects(&pairs.statics, &mut defects);
+                let cell = |k: usize| pairs.statics.cell(k);
+                add(Mode::new(k + 1, &pairs.statics.view(&cell), &motion, 0, &stretches));
+                motion.add_defects(split, &mut defects);
             }
         } else {
-            let count = strains.len() / pairs.statics.dimension();
+            let count = strains.len() / size;
             for first in (0..count).step_by(WIDTH) {
                 pairs.look_at(&strains, first, Depth::Changes);
+                let cell = |k: usize| pairs.statics.cell(k);
+                let view = pairs.statics.view(&cell);
                 for k in first..count.min(first + WIDTH) {
-                    let (statics, motions) = (&pairs.statics, &pairs.motions);
-                    add(Mode::new(k + 1, statics, motions, k - first, &stretches));
+                    add(Mode::new(k + 1, &view, &pairs.motions, k - first, &stretches));
                 }
-                pairs.motions.add_defects(&pairs.statics, &mut defects);
+                pairs.motions.add_defects(split, &mut defects);
             }
         }
         add_neighbours(&mut modes, beyond, &residuals, factored);
+        let none_missing = none_missing(&pairs.statics, &modes, beyond);
         timing.solve += assembled.elapsed();
-        Ok(Answer { modes, steps, defects })
+        Ok(Answer { modes, steps, defects, none_missing, rigid_modes: pairs.statics.rigid_modes() })
     }
 
     /// Scaled strains of the wanted modes.
@@ -412,15 +449,35 @@ impl Task<'_> {
                     }
                     None => pairs.solve(request.modes, residual)?,
                 }
+                let apart = pairs.solve_apart(residual)?;
                 let lanczos = std::mem::take(&mut pairs.lanczos);
                 let omega = |value: f64| (pairs.statics.energy_unit / value).sqrt();
                 let (steps, beyond) = (lanczos.steps, lanczos.beyond.map(omega));
                 let residuals = lanczos.residuals;
-                Ok(Found { strains: lanczos.vectors, steps, beyond, residuals })
+                Ok(Found { strains: lanczos.vectors, steps, beyond, residuals, apart })
             }
             solver => factored::strains(bat, &plan.mesh, &pairs.statics, request.modes, solver),
         }
     }
+}
+
+/// Whether no mode is missing: mode n of a free bat that does not shear has n + 1 nodes; else as many
+/// motions must be slower than a frequency in the last gap of the list that is wide enough.
+fn none_missing<const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    modes: &[Mode],
+    beyond: Option<f64>,
+) -> Option<bool> {
+    const WIDE: f64 = 1e-9;
+    if statics.fixed.is_none() && !statics.theory.shears() {
+        return Some(modes.iter().all(Mode::has_its_nodes));
+    }
+    let omegas = modes.iter().map(|mode| mode.omega).chain(beyond);
+    let omegas: Vec<f64> = omegas.collect();
+    let gap = (1..omegas.len()).rev().find(|&k| omegas[k] > (1.0 + WIDE) * omegas[k - 1]);
+    let Some(below) = gap else { return modes.is_empty().then_some(true) };
+    let between = (omegas[below - 1] * omegas[below]).sqrt();
+    Some(count::slower(statics, between)? == below + statics.rigid_modes())
 }
 
 /// Looks at one motion of a large mesh, at its changes only if there are any beyond round-off.
@@ -428,7 +485,7 @@ fn look_closer<const N: usize, const W: usize>(
     pairs: &Eigenpairs<f64, N, W>,
     strains: &[f64],
     k: usize,
-    motion: &mut Motion<f64, N, W>,
+    motion: &mut Motion<f64>,
 ) {
     pairs.look_at_one(strains, &[], Depth::Defect, motion);
     // Mode n's frequency is about (n + ½)²/2.25 times the first.

@@ -69,6 +69,10 @@ pub struct Samples<'a, R> {
     pub shear: &'a [R],
 }
 
+/// Room for the Legendre polynomials of a deflection of any degree, and for the strains.
+pub const MOST_TERMS: usize = 13;
+pub const MOST_STRAINS: usize = 2 * MOST_TERMS - 4;
+
 /// `1/(2k + 1)`.
 const ODD: [f64; 16] = {
     let mut odd = [0.0; 16];
@@ -81,37 +85,33 @@ const ODD: [f64; 16] = {
 };
 
 /// Deflection (m) and rotation (rad) in Legendre polynomials of an element of length `h` with those
-/// strains, whose left end is at `w` with rotation `theta`.
+/// strains, curvature before shear, whose left end is at `w` with rotation `theta`.
 #[inline(always)]
-pub fn integrated<S: Real, R: Over<S>, const N: usize, const W: usize>(
+pub fn integrated<S: Real, R: Over<S>>(
     h: S,
-    strains: &Vector<R, W>,
-    w: R,
-    theta: R,
-) -> [Vector<R, N>; 2] {
+    strains: &[R],
+    [w, theta]: [R; 2],
+    shape: &mut [R],
+    turn: &mut [R],
+) {
     let half = S::splat(0.5) * h;
+    let (zero, n) = (R::default(), shape.len());
     let integral = |below: R, k: usize, above: R| {
         (R::splat(ODD[k - 1]) * below - R::splat(ODD[k + 1]) * above) * half
     };
-    let zero = R::default();
-    let mut turn = [zero; N];
-    let c = |k: usize| if k < N - 2 { strains[k] } else { zero };
-    turn[0] = theta + (c(0) - R::splat(ODD[1]) * c(1)) * half;
-    for k in 1..N - 1 {
-        turn[k] = integral(c(k - 1), k, c(k + 1));
+    let (bent, sheared) = strains.split_at(n - 2);
+    turn[0] = theta + (bent[0] - R::splat(ODD[1]) * bent[1]) * half;
+    for k in 1..n - 1 {
+        turn[k] = integral(bent[k - 1], k, if k + 1 < n - 2 { bent[k + 1] } else { zero });
     }
-    let mut slope = turn;
-    if W > N {
-        for k in 0..N - 2 {
-            slope[k] += strains[N - 2 + k];
-        }
-    }
-    let mut shape = [zero; N];
+    turn[n - 1] = zero;
+    let mut slope = [zero; MOST_TERMS];
+    slope[..n].copy_from_slice(turn);
+    slope.iter_mut().zip(sheared).for_each(|(slope, g)| *slope += *g);
     shape[0] = w + (slope[0] - R::splat(ODD[1]) * slope[1]) * half;
-    for k in 1..N {
-        shape[k] = integral(slope[k - 1], k, if k + 1 < N { slope[k + 1] } else { zero });
+    for k in 1..n {
+        shape[k] = integral(slope[k - 1], k, if k + 1 < n { slope[k + 1] } else { zero });
     }
-    [shape, turn]
 }
 
 /// The adjoint of [`integrated`] for its deflection: what loads on the Legendre polynomials are on
@@ -476,8 +476,10 @@ impl<const N: usize, const W: usize> Element<f64, N, W> {
             |i: usize| -> Vector<f64, W> { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
         let strains: Matrix<f64, W> = std::array::from_fn(|i| self.strains_of_hermite(&unit(i)));
         let shapes: [[Vector<f64, N>; 2]; W] = std::array::from_fn(|i| {
-            let u = unit(i);
-            integrated(self.length, &strains[i], u[0], u[1])
+            let (u, [mut shape, mut turn]) = (unit(i), [[0.0; N]; 2]);
+            let strains = &strains[i][..W - 2];
+            integrated(self.length, strains, [u[0], u[1]], &mut shape, &mut turn);
+            [shape, turn]
         });
         let times = |matrix: &Matrix<f64, N>, x: &[f64]| -> Vector<f64, N> {
             std::array::from_fn(|k| dot(&matrix[k], x))

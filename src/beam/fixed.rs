@@ -527,13 +527,9 @@ impl<S: Real> Fixed<S> {
         self.holds.rigid_of(|k| of(self.holds.primary[k]))
     }
 
-    /// The free rigid motion that carries force and moment `total`.
-    pub fn free_part<R: Over<S>, const N: usize, const W: usize>(
-        &self,
-        body: &Body<S, N, W>,
-        total: [R; 2],
-    ) -> Rigid<R> {
-        self.holds.free_part(body.mass, body.inertia, total)
+    /// The free rigid motion of a bat of that mass and inertia that carries force and moment `total`.
+    pub fn free_part<R: Over<S>>(&self, mass: S, inertia: S, total: [R; 2]) -> Rigid<R> {
+        self.holds.free_part(mass, inertia, total)
     }
 }
 
@@ -569,7 +565,7 @@ impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
     }
 
     /// The loads on a cell of a unit force at a point of the rule.
-    fn point_load(&self, cell: usize, point: usize) -> Vector<S, W> {
+    pub fn point_load(&self, cell: usize, point: usize) -> Vector<S, W> {
         let cell = &self.cells[cell];
         let values = self.rule.at::<N>(point).map(S::splat);
         let on: Vector<S, W> = on_strains::<S, N, W>(cell.link.length, &values);

@@ -6,6 +6,7 @@ pub mod element;
 pub mod sweep;
 pub mod fixed;
 pub mod statics;
+pub mod count;
 pub mod motion;
 
 pub mod assembly;

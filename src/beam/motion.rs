@@ -23,22 +23,24 @@
 
 use std::ops::Range;
 
-use crate::beam::element::{Vector, integrated, over_strains};
+use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
 use crate::beam::fixed::{At, Stop, What};
 use crate::beam::rule::MOST_POINTS;
-use crate::beam::statics::Statics;
-use crate::beam::sweep::{Loads, Rigid, with_ends};
+use crate::beam::statics::{Statics, View};
+use crate::beam::sweep::{Loads, Rigid};
 use crate::eigen::lanczos::dot;
 use crate::quadrature::RunningSum;
 use crate::real::{Over, Real};
 
 /// A bending motion with the memory it was computed in.
 #[derive(Debug, Clone, Default)]
-pub struct Motion<R, const N: usize, const W: usize> {
+pub struct Motion<R> {
+    /// Number of Legendre polynomials of a cell.
+    pub terms: usize,
     /// Deflection of every cell, outwards, the rigid motions taken out (m).
-    pub shape: Vec<Vector<R, N>>,
+    pub shape: Vec<R>,
     /// Rotation of every cell, outwards (rad); empty where it is the slope of the deflection.
-    pub turns: Vec<Vector<R, N>>,
+    pub turns: Vec<R>,
     /// The deflection at the points of every cell.
     pub deflections: Vec<R>,
     /// By how much the deflection that the motion's inertia makes is less, at the same points.
@@ -66,12 +68,62 @@ pub struct Motion<R, const N: usize, const W: usize> {
     /// Displacement and rotation of the point masses, outwards, and their changes.
     points: Vec<[R; 2]>,
     point_changes: Vec<[R; 2]>,
+    /// `A q`, then `q − ω² A q`.
     image: Vec<R>,
-    loads: Loads<R, W>,
+    /// Inertia of the point masses and reactions of the contacts.
+    forces: Vec<[R; 2]>,
+    reactions: Vec<R>,
 }
 
-impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
-    /// The motion with those scaled strains and its energies; its defect too if wanted.
+/// How closely a motion is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// Its shape and energies.
+    Shape,
+    /// Its defect too.
+    Defect,
+    /// And by how much the shape may be off.
+    Changes,
+}
+
+/// The loads of a motion's inertia, with the memory for them.
+#[derive(Debug, Clone)]
+pub struct Applied<R, const W: usize> {
+    loads: Loads<R, W>,
+    pub rigid: Rigid<R>,
+}
+
+impl<R: Real, const W: usize> Default for Applied<R, W> {
+    fn default() -> Self {
+        Self { loads: Loads::default(), rigid: Rigid::default() }
+    }
+}
+
+impl<R: Real> Motion<R> {
+    /// What the inertia of the motion with those scaled strains does, for [`Self::take`]; with the
+    /// eigenvalue of a bare bat known, half of it.
+    #[inline(always)]
+    pub fn apply<S: Real, const N: usize, const W: usize>(
+        &mut self,
+        statics: &Statics<S, N, W>,
+        q: &[R],
+        value_known: bool,
+        applied: &mut Applied<R, W>,
+    ) where
+        R: Over<S>,
+    {
+        if value_known {
+            applied.rigid = statics.rigid(q, &mut applied.loads);
+            return;
+        }
+        self.image.resize(q.len(), R::default());
+        applied.rigid = statics.apply(q, &mut self.image, &mut applied.loads);
+        self.forces.clone_from(&applied.loads.points);
+        self.reactions.clone_from(&applied.loads.contacts);
+    }
+
+    /// The motion with those scaled strains and its energies, after [`Self::apply`]; its defect too
+    /// if wanted.
     ///
     /// With `value`, the eigenvalue of the compliance that the strains of a bare bat belong to, the
     /// kinetic energy is taken from it: half the work, no residual (0), and round-off of ε times the
@@ -80,7 +132,8 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     #[inline(always)]
     pub fn take<S: Real>(
         &mut self,
-        statics: &Statics<S, N, W>,
+        view: &View<S>,
+        rigid: Rigid<R>,
         q: &[R],
         value: Option<R>,
         known: &[S],
@@ -89,15 +142,12 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
         R: Over<S>,
     {
         let strain = dot(q, q);
-        let rigid = match value {
+        match value {
             Some(value) => {
                 self.kinetic = value * strain;
                 self.residual = R::default();
-                statics.rigid(q, &mut self.loads)
             }
             None => {
-                self.image.resize(q.len(), R::default());
-                let rigid = statics.apply(q, &mut self.image, &mut self.loads);
                 for known in known.chunks_exact(q.len()) {
                     let mut part = R::default();
                     self.image.iter().zip(known).for_each(|(y, v)| part += *y * *v);
@@ -107,33 +157,32 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
                 let scale = strain / self.kinetic;
                 self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
                 self.residual = (dot(&self.image, &self.image) / strain).sqrt();
-                rigid
-            }
-        };
-        let lambda = strain * statics.energy_unit / self.kinetic;
-        self.omega = lambda.sqrt();
-        let (zero, count) = (R::default(), statics.cells.len());
-        let samples = count * statics.rule.count();
-        self.shape.resize(count, [zero; N]);
-        self.turns.resize(if W > N { count } else { 0 }, [zero; N]);
-        self.deflections.resize(samples, zero);
-        self.changes.resize(samples, zero);
-        self.defects.resize(count, zero);
-        let turning = if statics.theory.turns() { samples } else { 0 };
-        self.rotations.resize(turning, zero);
-        self.turn_changes.resize(turning, zero);
-        self.slips.resize(if W > N { samples } else { 0 }, zero);
-        self.points.resize(self.loads.points.len(), [zero; 2]);
-        for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
-            self.outwards(statics, q, cells.clone(), rigid, side);
-            if with_defect {
-                self.inwards(statics, q, cells, lambda, side);
             }
         }
-        if statics.split == 0 {
+        let lambda = strain * view.energy_unit / self.kinetic;
+        self.omega = lambda.sqrt();
+        let (zero, samples) = (R::default(), view.count * view.rule.count());
+        let (turning, shearing) = (view.theory.turns(), view.theory.shears());
+        self.terms = view.terms;
+        self.shape.resize(view.count * view.terms, zero);
+        self.turns.resize(if shearing { view.count * view.terms } else { 0 }, zero);
+        self.deflections.resize(samples, zero);
+        self.changes.resize(samples, zero);
+        self.defects.resize(view.count, zero);
+        self.rotations.resize(if turning { samples } else { 0 }, zero);
+        self.turn_changes.resize(if turning { samples } else { 0 }, zero);
+        self.slips.resize(if shearing { samples } else { 0 }, zero);
+        self.points.resize(self.forces.len(), [zero; 2]);
+        for (side, (cells, rigid)) in view.sides(rigid).into_iter().enumerate() {
+            self.outwards(view, q, cells.clone(), rigid, side);
+            if with_defect {
+                self.inwards(view, q, cells, lambda, side);
+            }
+        }
+        if view.split == 0 {
             // The root is the knob end itself: odd polynomials change sign there.
             let mut end = R::default();
-            for (k, w) in self.shape[0].iter().enumerate() {
+            for (k, w) in self.shape[..view.terms].iter().enumerate() {
                 end += if k % 2 == 1 { -*w } else { *w };
             }
             self.ends[0][0] = end;
@@ -142,15 +191,13 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
         if !with_defect {
             return;
         }
-        let scale = R::splat(1.0) / (strain * statics.energy_unit);
+        let scale = R::splat(1.0) / (strain * view.energy_unit);
         for defect in &mut self.defects {
             *defect = *defect * scale;
             self.defect += *defect;
         }
         // Springs and joints; the strain of one that does not give way is 0.
-        let springs = q.len().min((W - 2) * count);
-        if value.is_none() {
-            let missed = &self.image[springs..];
+        if let (None, Some(missed)) = (value, self.image.get(view.strains * view.count..)) {
             self.defect += dot(missed, missed) / strain;
         }
     }
@@ -159,7 +206,7 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     #[inline(always)]
     fn outwards<S: Real>(
         &mut self,
-        statics: &Statics<S, N, W>,
+        view: &View<S>,
         q: &[R],
         cells: Range<usize>,
         rigid: Rigid<R>,
@@ -167,34 +214,38 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     ) where
         R: Over<S>,
     {
-        let points = statics.rule.count();
+        let points = view.rule.count();
         let [mut w, mut theta] = [RunningSum::<R>::default(); 2];
         self.ends[side] = [R::default(); 2];
         let mut values = [R::default(); MOST_POINTS];
-        let stops = statics.stops(side);
+        let (mut strains, mut turn) = ([R::default(); MOST_STRAINS], [R::default(); MOST_TERMS]);
+        let shearing = view.theory.shears();
+        let stops = view.stops(side);
         for run in runs(&cells, stops) {
             for k in run.cells {
-                let cell = &statics.cells[k];
-                let (h, q) = (cell.link.length, scaled::<R, W>(&q[k * (W - 2)..]));
+                let cell = (view.cell)(k);
+                let (h, q) = (cell.length, &q[k * view.strains..(k + 1) * view.strains]);
                 let half = S::splat(0.5) * h;
-                let strains = cell.strains(&q);
-                let [mut shape, mut turn] =
-                    integrated::<S, R, N, W>(h, &strains, w.value(), theta.value());
+                let strains = &mut strains[..view.strains];
+                cell.strains(q, view.terms - 2, strains);
+                let shape = &mut self.shape[k * view.terms..(k + 1) * view.terms];
+                let turn = &mut turn[..view.terms];
+                integrated(h, strains, [w.value(), theta.value()], shape, turn);
                 shape[0] -= rigid.deflection(cell.arm + half);
                 shape[1] -= rigid.turn * half;
                 turn[0] -= rigid.turn;
                 let samples = k * points..(k + 1) * points;
-                statics.rule.values(&shape, &mut values);
-                let line = &statics.mass_per_length[samples.clone()];
+                view.rule.values(shape, &mut values);
+                let line = &view.mass_per_length[samples.clone()];
                 let kept = self.deflections[samples.clone()].iter_mut();
                 let loads = self.changes[samples.clone()].iter_mut();
                 for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
                     *kept = *value;
                     *load = *value * *line;
                 }
-                if statics.theory.turns() {
-                    statics.rule.values(&turn, &mut values);
-                    let line = &statics.turning_per_length[samples.clone()];
+                if view.theory.turns() {
+                    view.rule.values(turn, &mut values);
+                    let line = &view.turning_per_length[samples.clone()];
                     let kept = self.rotations[samples.clone()].iter_mut();
                     let couples = self.turn_changes[samples].iter_mut();
                     for (((kept, couple), line), value) in kept.zip(couples).zip(line).zip(&values)
@@ -203,15 +254,14 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
                         *couple = *value * *line;
                     }
                 }
-                w.add(theta.value() * h + over_strains(&cell.link.lift, &q));
-                theta.add(over_strains(&cell.link.turn, &q));
+                w.add(theta.value() * h + inner(q, cell.lift));
+                theta.add(inner(q, cell.turn));
                 self.ends[side][0] = shape.iter().fold(R::default(), |sum, w| sum + *w);
-                self.shape[k] = shape;
-                if W > N {
-                    self.turns[k] = turn;
+                if shearing {
+                    self.turns[k * view.terms..(k + 1) * view.terms].copy_from_slice(turn);
                 }
             }
-            let Some(fixed) = statics.fixed_for::<R>() else { continue };
+            let Some(fixed) = view.fixed_for::<R>() else { continue };
             match run.stop {
                 Some(What::Joint(k)) => {
                     theta.add(q[fixed.joints[k].place] * fixed.joints[k].softness);
@@ -232,7 +282,7 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     #[inline(always)]
     fn inwards<S: Real>(
         &mut self,
-        statics: &Statics<S, N, W>,
+        view: &View<S>,
         q: &[R],
         cells: Range<usize>,
         lambda: R,
@@ -240,30 +290,32 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     ) where
         R: Over<S>,
     {
-        let rule = statics.rule;
+        let rule = view.rule;
         let points = rule.count();
-        let turns = statics.theory.turns();
+        let (turns, shears) = (view.theory.turns(), view.theory.shears());
+        let mut strains = [R::default(); MOST_STRAINS];
         let [mut shear, mut moment] = [RunningSum::<R>::default(); 2];
         let [mut own, mut once, mut values_of] = [[R::default(); MOST_POINTS]; 3];
-        for run in runs(&cells, statics.stops(side)).rev() {
-            if let (Some(fixed), Some(stop)) = (statics.fixed_for::<R>(), run.stop) {
+        for run in runs(&cells, view.stops(side)).rev() {
+            if let (Some(fixed), Some(stop)) = (view.fixed_for::<R>(), run.stop) {
                 let [force, couple] = match stop {
-                    What::Point(k) => self.loads.points[k],
-                    What::Contact(k) => fixed.contacts[k].on_the_bat(self.loads.contacts[k]),
+                    What::Point(k) => self.forces[k],
+                    What::Contact(k) => fixed.contacts[k].on_the_bat(self.reactions[k]),
                     What::Joint(_) => [R::default(); 2],
                 };
                 shear.add(force);
                 moment.add(couple);
             }
             for k in run.cells.rev() {
-                let cell = &statics.cells[k];
-                let (h, q) = (cell.link.length, scaled::<R, W>(&q[k * (W - 2)..]));
-                let strains = cell.strains(&q);
+                let cell = (view.cell)(k);
+                let (h, q) = (cell.length, &q[k * view.strains..(k + 1) * view.strains]);
+                let strains = &mut strains[..view.strains];
+                cell.strains(q, view.terms - 2, strains);
                 let samples = k * points..(k + 1) * points;
-                let stiffness = &statics.bending_stiffness[samples.clone()];
-                if let Some(fixed) = statics.fixed_for::<R>() {
+                let stiffness = &view.bending_stiffness[samples.clone()];
+                if let Some(fixed) = view.fixed_for::<R>() {
                     // An elastic bed: its points' reactions spread over their shares of the cell.
-                    for (contact, reaction) in fixed.contacts.iter().zip(&self.loads.contacts) {
+                    for (contact, reaction) in fixed.contacts.iter().zip(&self.reactions) {
                         if let At::Bed { cell, point } = contact.at
                             && cell == k
                         {
@@ -278,10 +330,10 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
                 let (v, m, square) = (shear.value() * h, moment.value(), h * h);
                 let mut energy = R::default();
                 let mut gained = v + turning * square;
-                if W > N {
+                if shears {
                     rule.once_from_right(values, &mut once);
-                    rule.values(&strains[N - 2..W - 2], &mut values_of);
-                    let stiffness = &statics.shear_stiffness[samples.clone()];
+                    rule.values(&strains[view.terms - 2..], &mut values_of);
+                    let stiffness = &view.shear_stiffness[samples.clone()];
                     let slips = &mut self.slips[samples.clone()];
                     for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
                         let across = shear.value() + once[j] * h;
@@ -295,7 +347,7 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
                     rule.once_from_right(couples, &mut once);
                     gained += rule.integrals(couples)[0] * h;
                 }
-                rule.values(&strains[..N - 2], &mut values_of);
+                rule.values(&strains[..view.terms - 2], &mut values_of);
                 for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
                     let mut bending = m + v * R::splat(1.0 - point.s) + own[j] * square;
                     if turns {
@@ -313,10 +365,11 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     }
 
     /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
-    /// most as often as it is zero.
+    /// most as often as it is zero. `split` elements are on the knob side.
     #[inline(always)]
-    pub fn crossings<S: Real>(&self, statics: &Statics<S, N, W>) -> R {
-        let (knob, tip) = self.deflections.split_at(statics.split * statics.rule.count());
+    pub fn crossings(&self, split: usize) -> R {
+        let points = self.deflections.len() / self.defects.len();
+        let (knob, tip) = self.deflections.split_at(split * points);
         let sign = |w: &R| R::splat(1.0).copysign(*w);
         let (mut count, mut before) = (R::default(), sign(&self.ends[0][0]));
         for w in knob.iter().rev().chain(tip).chain([&self.ends[1][0]]) {
@@ -327,9 +380,10 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
         count
     }
 
-    /// Raises every element's number, knob to tip, to its part of the defect, in any lane.
-    pub fn add_defects<S>(&self, statics: &Statics<S, N, W>, most: &mut [f64]) {
-        let (knob, tip) = self.defects.split_at(statics.split);
+    /// Raises every element's number, knob to tip, to its part of the defect, in any lane; `split` of
+    /// them are on the knob side.
+    pub fn add_defects(&self, split: usize, most: &mut [f64]) {
+        let (knob, tip) = self.defects.split_at(split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
             (0..R::LANES).for_each(|lane| *most = most.max(defect.lane(lane)));
         }
@@ -337,9 +391,9 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
 
     /// After [`Self::take`], leaves out what [`Self::take_changes`] would find.
     #[inline(always)]
-    pub fn no_changes<S>(&mut self, statics: &Statics<S, N, W>) {
+    pub fn no_changes<S: Real>(&mut self, view: &View<S>) {
         self.changes.clear();
-        self.changes.resize(statics.cells.len() * statics.rule.count(), R::default());
+        self.changes.resize(view.count * view.rule.count(), R::default());
         self.ends[0][1] = R::default();
         self.ends[1][1] = R::default();
         self.work = R::default();
@@ -348,53 +402,54 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     /// After [`Self::take`], the strains' differences at the points become `w − w*`, the rigid motions
     /// taken out.
     #[inline(always)]
-    pub fn take_changes<S: Real>(&mut self, statics: &Statics<S, N, W>)
+    pub fn take_changes<S: Real>(&mut self, view: &View<S>)
     where
         R: Over<S>,
     {
-        let (points, turns) = (statics.rule.count(), statics.theory.turns());
+        let (points, turns) = (view.rule.count(), view.theory.turns());
+        let shears = view.theory.shears();
         let [mut own, mut once] = [[R::default(); MOST_POINTS]; 2];
         let mut total = [R::default(); 2];
-        let contacts = statics.fixed_for::<R>().map_or(0, |fixed| fixed.contacts.len());
+        let contacts = view.fixed_for::<R>().map_or(0, |fixed| fixed.contacts.len());
         let mut held = vec![R::default(); contacts];
         self.point_changes.resize(self.points.len(), [R::default(); 2]);
-        for (side, (cells, _)) in statics.sides(Rigid::<R>::default()).into_iter().enumerate() {
+        for (side, (cells, _)) in view.sides(Rigid::<R>::default()).into_iter().enumerate() {
             let [mut w, mut theta, mut force, mut moment] = [R::default(); 4];
-            for run in runs(&cells, statics.stops(side)) {
+            for run in runs(&cells, view.stops(side)) {
                 for k in run.cells {
-                    let cell = &statics.cells[k];
-                    let h = cell.link.length;
+                    let cell = (view.cell)(k);
+                    let h = cell.length;
                     let samples = k * points..(k + 1) * points;
-                    let line = &statics.mass_per_length[samples.clone()];
+                    let line = &view.mass_per_length[samples.clone()];
                     let change = &mut self.changes[samples.clone()];
-                    let [turned, first] = statics.rule.integrals(change);
-                    statics.rule.twice_from_left(change, &mut own);
+                    let [turned, first] = view.rule.integrals(change);
+                    view.rule.twice_from_left(change, &mut own);
                     if turns {
-                        statics.rule.once_from_left(change, &mut once);
-                        let line = &statics.turning_per_length[samples.clone()];
+                        view.rule.once_from_left(change, &mut once);
+                        let line = &view.turning_per_length[samples.clone()];
                         let turn = &mut self.turn_changes[samples.clone()];
-                        for (j, point) in statics.rule.points.iter().enumerate() {
+                        for (j, point) in view.rule.points.iter().enumerate() {
                             turn[j] = theta + once[j] * h;
                             moment += turn[j] * (S::splat(point.weight) * h * line[j]);
                         }
                     }
                     let mut slipped = R::default();
-                    if W > N {
+                    if shears {
                         let slips = &self.slips[samples.clone()];
-                        statics.rule.once_from_left(slips, &mut once);
-                        slipped = statics.rule.integrals(slips)[0] * h;
+                        view.rule.once_from_left(slips, &mut once);
+                        slipped = view.rule.integrals(slips)[0] * h;
                     }
-                    for (j, point) in statics.rule.points.iter().enumerate() {
+                    for (j, point) in view.rule.points.iter().enumerate() {
                         let y = S::splat(point.s) * h;
                         change[j] = w + theta * y + own[j] * (h * h);
-                        if W > N {
+                        if shears {
                             change[j] += once[j] * h;
                         }
                         let share = change[j] * (S::splat(point.weight) * h * line[j]);
                         force += share;
                         moment += share * (cell.arm + y);
                     }
-                    if let Some(fixed) = statics.fixed_for::<R>() {
+                    if let Some(fixed) = view.fixed_for::<R>() {
                         for (held, contact) in held.iter_mut().zip(&fixed.contacts) {
                             if let At::Bed { cell, point } = contact.at
                                 && cell == k
@@ -407,7 +462,7 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
                     theta += turned * h;
                     self.ends[side][1] = w;
                 }
-                let Some(fixed) = statics.fixed_for::<R>() else { continue };
+                let Some(fixed) = view.fixed_for::<R>() else { continue };
                 match run.stop {
                     Some(What::Joint(k)) => {
                         let joint = &fixed.joints[k];
@@ -431,50 +486,49 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
             total[0] += force;
             total[1] += if side == 0 { -moment } else { moment };
         }
-        let rigid = match statics.fixed_for::<R>() {
-            None => Rigid {
-                push: total[0] / R::of(statics.mass),
-                turn: total[1] / R::of(statics.inertia),
-            },
+        let rigid = match view.fixed_for::<R>() {
+            None => {
+                Rigid { push: total[0] / R::of(view.mass), turn: total[1] / R::of(view.inertia) }
+            }
             Some(fixed) => {
                 let gives = |k: usize| {
                     let spring = fixed.contacts[k].spring;
                     spring.map_or(R::default(), |s| self.image[s.place] * s.softness)
                 };
                 let first = fixed.rigid_of(|k| held[k] - gives(k));
-                let (mass, inertia) = (R::of(statics.mass), R::of(statics.inertia));
+                let (mass, inertia) = (R::of(view.mass), R::of(view.inertia));
                 let left = [total[0] - first.push * mass, total[1] - first.turn * inertia];
-                let free = fixed.free_part(&statics.body(), left);
+                let free = fixed.free_part(view.mass, view.inertia, left);
                 Rigid { push: first.push + free.push, turn: first.turn + free.turn }
             }
         };
         self.work = R::default();
-        for (side, (cells, rigid)) in statics.sides(rigid).into_iter().enumerate() {
+        for (side, (cells, rigid)) in view.sides(rigid).into_iter().enumerate() {
             for k in cells {
-                let cell = &statics.cells[k];
-                let h = cell.link.length;
+                let cell = (view.cell)(k);
+                let h = cell.length;
                 let samples = k * points..(k + 1) * points;
                 let change = &mut self.changes[samples.clone()];
                 let mut sum = R::default();
-                for (j, point) in statics.rule.points.iter().enumerate() {
+                for (j, point) in view.rule.points.iter().enumerate() {
                     change[j] -= rigid.deflection(cell.arm + S::splat(point.s) * h);
-                    let line = statics.mass_per_length[samples.start + j];
+                    let line = view.mass_per_length[samples.start + j];
                     let w = self.deflections[samples.start + j];
                     sum += w * change[j] * (S::splat(point.weight) * line);
                     if turns {
                         let turn = &mut self.turn_changes[samples.start + j];
                         *turn -= rigid.turn;
-                        let line = statics.turning_per_length[samples.start + j];
+                        let line = view.turning_per_length[samples.start + j];
                         let theta = self.rotations[samples.start + j];
                         sum += theta * *turn * (S::splat(point.weight) * line);
                     }
                 }
                 self.work += sum * h;
-                if k + 1 == statics.cells.len() || k + 1 == statics.split {
+                if k + 1 == view.count || k + 1 == view.split {
                     self.ends[side][1] -= rigid.deflection(cell.arm + h);
                 }
             }
-            let Some(fixed) = statics.fixed_for::<R>() else { continue };
+            let Some(fixed) = view.fixed_for::<R>() else { continue };
             for stop in &fixed.stops[side] {
                 let What::Point(k) = stop.what else { continue };
                 let point = &fixed.points[k];
@@ -489,17 +543,28 @@ impl<R: Real, const N: usize, const W: usize> Motion<R, N, W> {
     }
 }
 
-impl<const N: usize, const W: usize> Motion<f64, N, W> {
-    /// One motion alone, for large meshes and few calls: [`Self::take`], compiled once.
-    #[inline(never)]
-    pub fn take_alone(
+impl Motion<f64> {
+    /// One motion alone, for large meshes, few calls and bats with anything on them.
+    pub fn take_alone<const N: usize, const W: usize>(
         &mut self,
         statics: &Statics<f64, N, W>,
         q: &[f64],
         known: &[f64],
-        with_defect: bool,
+        depth: Depth,
     ) {
-        self.take(statics, q, None, known, with_defect);
+        let mut applied = Applied::default();
+        self.apply(statics, q, false, &mut applied);
+        let cell = |k: usize| statics.cell(k);
+        self.see(&statics.view(&cell), applied.rigid, q, known, depth);
+    }
+
+    /// [`Self::take`], compiled once.
+    fn see(&mut self, view: &View<f64>, rigid: Rigid<f64>, q: &[f64], known: &[f64], depth: Depth) {
+        self.take(view, rigid, q, None, known, depth != Depth::Shape);
+        match depth {
+            Depth::Changes => self.take_changes(view),
+            _ => self.no_changes(view),
+        }
     }
 }
 
@@ -520,8 +585,10 @@ fn runs(cells: &Range<usize>, stops: &[Stop]) -> impl DoubleEndedIterator<Item =
     })
 }
 
-/// The scaled strains of one cell; the last two places stay empty.
+/// `Σ q_k a_k`.
 #[inline(always)]
-fn scaled<R: Real, const W: usize>(q: &[R]) -> Vector<R, W> {
-    with_ends(q, R::default(), R::default())
+fn inner<S: Real, R: Over<S>>(q: &[R], a: &[S]) -> R {
+    let mut sum = R::default();
+    q.iter().zip(a).for_each(|(q, a)| sum += *q * *a);
+    sum
 }

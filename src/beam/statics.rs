@@ -21,12 +21,14 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
+use std::ops::Range;
+
 use crate::bat::Bat;
 use crate::beam::element::{self, Element, Samples};
 use crate::beam::fixed::{Body, Fixed, Stop};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{MOST_POINTS, Rule};
-use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
+use crate::beam::sweep::{Cell, CellView, Inwards, Loads, Outwards, Rigid};
 use crate::quadrature::RunningSum;
 use crate::real::{Over, Real};
 use crate::theory::Theory;
@@ -146,6 +148,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.fill(meshes);
         self.fixed = None;
         if !bats[0].fixtures.none_moving() {
+            self.attach(bats[0]);
             debug_assert!(R::LANES == 1);
             self.fixed = Some(Box::new(Fixed::new(&self.body(), bats[0], meshes[0])));
         }
@@ -238,6 +241,14 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.inertia = inertia.value();
     }
 
+    /// Adds what is attached to the inertia.
+    fn attach(&mut self, bat: &Bat) {
+        for [mass, x, own] in bat.fixtures.masses() {
+            let arm = R::splat(x) - self.balance;
+            self.inertia += R::splat(mass) * arm * arm + R::splat(own);
+        }
+    }
+
     /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
     /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
     /// the moments there.
@@ -324,6 +335,11 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         (W - 2) * self.cells.len() + self.fixed.as_ref().map_or(0, |fixed| fixed.springs)
     }
 
+    /// Number of rigid motions that nothing holds.
+    pub fn rigid_modes(&self) -> usize {
+        self.fixed.as_ref().map_or(2, |fixed| fixed.rigid_modes())
+    }
+
     /// Number of the discrete bat's bending modes.
     pub fn freedom(&self) -> usize {
         self.dimension() - self.fixed.as_ref().map_or(0, |fixed| fixed.redundant())
@@ -331,12 +347,6 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
 }
 
 impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
-    /// What is on the bat and what holds it; then motions are looked at one by one.
-    #[inline(always)]
-    pub fn fixed_for<R: Real>(&self) -> Option<&Fixed<S>> {
-        if R::LANES == 1 { self.fixed.as_deref() } else { None }
-    }
-
     /// The bare bat.
     pub fn body(&self) -> Body<'_, S, N, W> {
         Body {
@@ -354,7 +364,7 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
     /// motion with these strains when it is at rest at the root.
     #[inline(always)]
     pub fn apply<R: Over<S>>(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
-        match self.fixed_for::<R>() {
+        match self.fixed.as_deref().filter(|_| R::LANES == 1) {
             Some(fixed) => fixed.compliance(&self.body(), q, y, loads),
             None if self.cells.len() > LONG => self.compliance::<R, true>(q, y, loads),
             None => self.compliance::<R, false>(q, y, loads),
@@ -406,9 +416,71 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
         }
     }
 
+    /// A cell without its size in its type.
+    pub fn cell(&self, k: usize) -> CellView<'_, S> {
+        self.cells[k].view()
+    }
+
+    /// All but the loads, for a look at a motion; `cell` is [`Self::cell`].
+    pub fn view<'a>(&'a self, cell: &'a dyn Fn(usize) -> CellView<'a, S>) -> View<'a, S> {
+        View {
+            rule: self.rule,
+            theory: self.theory,
+            terms: N,
+            strains: W - 2,
+            count: self.cells.len(),
+            split: self.split,
+            cell,
+            bending_stiffness: &self.bending_stiffness,
+            mass_per_length: &self.mass_per_length,
+            turning_per_length: &self.turning_per_length,
+            shear_stiffness: &self.shear_stiffness,
+            mass: self.mass,
+            inertia: self.inertia,
+            energy_unit: self.energy_unit,
+            fixed: self.fixed.as_deref(),
+        }
+    }
+}
+
+/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions is
+/// then compiled once.
+#[derive(Clone, Copy)]
+pub struct View<'a, S> {
+    pub rule: &'static Rule,
+    pub theory: Theory,
+    /// Legendre polynomials of a deflection, and strains, of an element.
+    pub terms: usize,
+    pub strains: usize,
+    /// Number of cells, and how many of them are on the knob side.
+    pub count: usize,
+    pub split: usize,
+    pub cell: &'a dyn Fn(usize) -> CellView<'a, S>,
+    pub bending_stiffness: &'a [S],
+    pub mass_per_length: &'a [S],
+    pub turning_per_length: &'a [S],
+    pub shear_stiffness: &'a [S],
+    pub mass: S,
+    pub inertia: S,
+    pub energy_unit: S,
+    pub fixed: Option<&'a Fixed<S>>,
+}
+
+impl<'a, S: Real> View<'a, S> {
     /// The cells of one side, the places they take among all, and a rigid motion seen from there.
-    pub fn sides<R: Real>(&self, rigid: Rigid<R>) -> [(std::ops::Range<usize>, Rigid<R>); 2] {
-        [(0..self.split, rigid.mirrored()), (self.split..self.cells.len(), rigid)]
+    pub fn sides<R: Real>(&self, rigid: Rigid<R>) -> [(Range<usize>, Rigid<R>); 2] {
+        [(0..self.split, rigid.mirrored()), (self.split..self.count, rigid)]
+    }
+
+    /// What is met on one side on the way outwards.
+    pub fn stops(&self, side: usize) -> &'a [Stop] {
+        self.fixed.map_or(&[], |fixed| &fixed.stops[side])
+    }
+
+    /// What is on the bat and what holds it; then motions are looked at one by one.
+    #[inline(always)]
+    pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {
+        if R::LANES == 1 { self.fixed } else { None }
     }
 }
 

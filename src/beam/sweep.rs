@@ -23,16 +23,41 @@ impl<S: Real, const W: usize> Default for Cell<S, W> {
 }
 
 impl<S: Real, const W: usize> Cell<S, W> {
-    /// `L⁻ᵀ q`: strains (curvature in 1/m, shear in 1) from scaled strains.
+    /// The same without its size in its type.
     #[inline(always)]
-    pub fn strains<R: Over<S>>(&self, q: &Vector<R, W>) -> Vector<R, W> {
-        let mut strains = [R::default(); W];
-        for i in 0..W - 2 {
-            for j in 0..=i {
-                strains[j] += q[i] * self.inverse[i][j];
+    pub fn view(&self) -> CellView<'_, S> {
+        CellView {
+            inverse: self.inverse.as_flattened(),
+            lift: &self.link.lift[..W - 2],
+            turn: &self.link.turn[..W - 2],
+            length: self.link.length,
+            arm: self.arm,
+        }
+    }
+}
+
+/// A cell of any degree and theory, without what its motion loads.
+#[derive(Debug, Clone, Copy)]
+pub struct CellView<'a, S> {
+    /// Rows of `L⁻¹`, each with two numbers more than there are strains.
+    inverse: &'a [S],
+    pub lift: &'a [S],
+    pub turn: &'a [S],
+    pub length: S,
+    pub arm: S,
+}
+
+impl<S: Real> CellView<'_, S> {
+    /// `L⁻ᵀ q`: strains (curvature in 1/m, shear in 1) from scaled strains, in blocks of that size.
+    #[inline(always)]
+    pub fn strains<R: Over<S>>(&self, q: &[R], block: usize, strains: &mut [R]) {
+        strains.fill(R::default());
+        let row = q.len() + 2;
+        for (i, q) in q.iter().enumerate() {
+            for j in i / block * block..=i {
+                strains[j] += *q * self.inverse[i * row + j];
             }
         }
-        strains
     }
 }
 

@@ -47,7 +47,7 @@ pub struct Wanted {
 
 impl<R: Real> Lanczos<R> {
     /// The largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`, from
-    /// the vector that `start` writes.
+    /// the vector that `start` writes, orthogonal to the orthonormal vectors `known`.
     ///
     /// Lanczos' three-term recurrence, each new vector orthogonalised against all before it, twice
     /// where cancellation calls for it (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30 (1976)
@@ -63,34 +63,41 @@ impl<R: Real> Lanczos<R> {
         &mut self,
         dimension: usize,
         wanted: Wanted,
+        known: &[R],
         start: impl FnOnce(&mut [R]),
         mut apply: impl FnMut(&[R], &mut [R]),
     ) -> Result<()> {
         let count = wanted.count;
-        let most = dimension.min(3 * count + 60);
+        let before = known.len() / dimension;
+        let most = (dimension - before).min(3 * count + 60);
         self.next.clear();
         self.next.resize(dimension, R::default());
         self.basis.clear();
+        self.basis.extend_from_slice(known);
         self.basis.reserve_exact(dimension * most.min(count + wanted.earliest));
         self.alpha.clear();
         self.beta.clear();
         start(&mut self.next);
-        let size = dot(&self.next, &self.next).sqrt();
+        let size = match before {
+            0 => dot(&self.next, &self.next).sqrt(),
+            _ => self.orthogonalise(),
+        };
         self.take(size);
         loop {
             self.steps = self.alpha.len() + 1;
             let steps = self.steps;
-            let last = &self.basis[(steps - 1) * dimension..];
+            let last = &self.basis[(before + steps - 1) * dimension..];
             apply(last, &mut self.next);
             let alpha = dot(last, &self.next);
             self.alpha.push(alpha);
             subtract(alpha, last, &mut self.next);
             if let Some(beta) = self.beta.last() {
-                let before = &self.basis[(steps - 2) * dimension..(steps - 1) * dimension];
-                subtract(*beta, before, &mut self.next);
+                let place = (before + steps - 2) * dimension;
+                let last_but_one = &self.basis[place..place + dimension];
+                subtract(*beta, last_but_one, &mut self.next);
             }
             let rest = self.orthogonalise();
-            let spanned = steps == dimension
+            let spanned = steps == dimension - before
                 || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
             // The small eigenproblem costs steps³, so many modes are looked at less often.
             let beyond = steps.checked_sub(count + wanted.earliest);
@@ -113,7 +120,7 @@ impl<R: Real> Lanczos<R> {
                     residual.within(R::splat(NEARLY * wanted.residual) * value)
                 });
                 if missed == 0 && found == count && (spanned || shows) {
-                    self.combine(count, dimension);
+                    self.combine(count, dimension, before);
                     return Ok(());
                 }
                 if spanned || steps == most {
@@ -162,13 +169,13 @@ impl<R: Real> Lanczos<R> {
 
     /// `Σ weights[k][j] basis[j]` for the first `count` pairs.
     #[inline(always)]
-    fn combine(&mut self, count: usize, dimension: usize) {
+    fn combine(&mut self, count: usize, dimension: usize, before: usize) {
         self.vectors.clear();
         self.vectors.resize(count * dimension, R::default());
         self.values.clear();
         for (k, vector) in self.vectors.chunks_exact_mut(dimension).enumerate() {
             self.values.push(self.small.value(k));
-            for (j, b) in self.basis.chunks_exact(dimension).enumerate() {
+            for (j, b) in self.basis.chunks_exact(dimension).skip(before).enumerate() {
                 subtract(-self.small.weight(k, j), b, vector);
             }
         }
@@ -200,7 +207,7 @@ pub fn largest(
     let mut lanczos = Lanczos::default();
     let wanted = Wanted { count, residual, earliest: 8 };
     let dimension = start.len();
-    lanczos.largest(dimension, wanted, |next| next.copy_from_slice(&start), apply)?;
+    lanczos.largest(dimension, wanted, &[], |next| next.copy_from_slice(&start), apply)?;
     let vectors = lanczos.vectors.chunks_exact(dimension).map(<[f64]>::to_vec).collect();
     Ok(Ritz { values: lanczos.values, vectors, steps: lanczos.steps })
 }
