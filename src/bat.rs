@@ -1,7 +1,7 @@
 //! What bat is this; is it physical; its mass, balance point and swing weight.
 
 use crate::error::{Error, Result};
-use crate::fixtures::Fixtures;
+use crate::fixtures::{Fixtures, on_the_bat, positive};
 use crate::layup::{Layup, Worth};
 use crate::material::Material;
 use crate::profile::{Piece, Profile, Radii, Section};
@@ -35,6 +35,22 @@ pub struct Weighed {
     pub balance_point: Option<f64>,
     /// The first bending frequency of the bat as described (Hz).
     pub first_bending: Option<f64>,
+}
+
+impl Weighed {
+    /// Every value in its possible range, of a bat of that length (m).
+    fn check(&self, length: f64) -> Result<()> {
+        if let Some(mass) = self.mass.filter(|mass| *mass <= 0.0 || !mass.is_finite()) {
+            return Err(Error::value("weighed.mass", format!("{mass} kg"), "a mass above 0"));
+        }
+        if let Some(x) = self.balance_point {
+            on_the_bat("weighed.balance_point", x, length)?;
+        }
+        match self.first_bending {
+            Some(frequency) => positive("weighed.first_bending_hz", frequency, "Hz"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// What a bat is as a rigid body; positions from the knob end, inertias transverse.
@@ -84,6 +100,7 @@ impl Bat {
         let (name, source) = (name.into(), String::new());
         let layups = vec![Layup::of(material.clone())];
         fixtures.check(profile.length())?;
+        weighed.check(profile.length())?;
         let mut bat = Self { name, source, profile, material, layups, fixtures, weighed };
         bat.lay_out();
         bat.check_range()?;
@@ -184,59 +201,127 @@ impl Bat {
 
     /// Possible but strange for a bat: one sentence each, to be shown and not to stop anybody.
     pub fn warnings(&self) -> Vec<String> {
-        let inertia = self.inertia();
+        let Inertia { mass, balance_point, .. } = self.inertia();
+        let length = self.length();
         let widest = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let Material { density, youngs_modulus, .. } = self.material;
         let checks = [
-            ("length", self.length(), "m", 0.3, 1.2, ""),
+            ("length", length, "m", 0.3, 1.2, ""),
             ("largest radius", widest, "m", 0.01, 0.05, " (a diameter given as radius?)"),
-            ("mass", inertia.mass, "kg", 0.2, 2.0, ""),
-            ("density", density, "kg/m³", 50.0, 20e3, " (wood is 400 to 900: g/cm³ or lb/in³?)"),
-            ("youngs_modulus", youngs_modulus, "Pa", 1e9, 1e12, " (wood is 8e9 to 20e9: GPa?)"),
+            ("mass", mass, "kg", 0.2, 2.0, ""),
+            ("balance point", balance_point, "m", 0.0, length, ""),
         ];
-        checks
-            .into_iter()
-            .filter(|(_, value, _, low, high, _)| value < low || value > high)
-            .map(|(what, value, unit, low, high, hint)| {
-                let (value, low, high) = (plain(value), plain(low), plain(high));
-                format!("{what} is {value} {unit}; a bat's is {low} to {high}{hint}")
-            })
-            .collect()
+        let checks = checks.into_iter();
+        let strange = checks.filter_map(|(what, value, unit, low, high, hint)| {
+            strange(what, value, unit, [low, high], hint)
+        });
+        let mut warnings: Vec<String> = strange.collect();
+        warnings.extend(strange_material("", &self.material, WALL));
+        self.warn_of_regions(&mut warnings);
+        let attached: f64 = self.fixtures.masses().map(|[mass, ..]| mass).sum();
+        if attached > mass - attached {
+            let [attached, own] = [attached, mass - attached].map(plain);
+            warnings.push(format!("{attached} kg are attached to a bat of {own} kg"));
+        }
+        for (k, a) in self.fixtures.attachments.iter().enumerate() {
+            let center = a.x + a.offset;
+            if a.mass > 0.0 && !(0.0..=length).contains(&center) {
+                let [center, length] = [center, length].map(plain);
+                let offset = format!("attachments[{k}].offset puts the mass at {center} m");
+                warnings.push(format!("{offset}, outside the bat, 0 to {length} m"));
+            }
+        }
+        warnings
+    }
+
+    fn warn_of_regions(&self, warnings: &mut Vec<String>) {
+        for (k, region) in self.fixtures.regions.iter().enumerate() {
+            let name = |key: &str| format!("regions[{k}].{key}.");
+            let Layup { outer, core } = &region.layup;
+            if *outer != self.material {
+                warnings.extend(strange_material(&name("material"), outer, WALL));
+            }
+            let Some(core) = core else { continue };
+            warnings.extend(strange_material(&name("core"), core, CORE));
+            let solid = |piece: &Piece| [0.0, 0.5, 1.0].iter().all(|s| piece.at(*s).inner == 0.0);
+            if self.profile.pieces.iter().filter(|piece| piece.layup == k + 1).all(solid) {
+                warnings.push(format!("regions[{k}].core fills nothing: the bat is solid there"));
+            }
+        }
     }
 
     /// Mass, stiffness and the frequencies they make must be numbers a computer can hold.
     fn check_range(&self) -> Result<()> {
         let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
-        let widest = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let section = Section { outer: widest, inner: 0.0 };
-        let [stiffness, line] = self.layups[0].bending_and_mass(section);
-        let scale = stiffness / line / self.length().powi(4);
-        for (what, value, unit) in [
-            ("mass", mass, "kg"),
-            ("balance point", balance_point, "m"),
-            ("moment of inertia", about_balance, "kg m²"),
-            ("moment of inertia as a line", line_about_balance, "kg m²"),
-            ("bending stiffness", stiffness, "N m²"),
-            ("frequency scale EI/(ρA L⁴)", scale, "1/s²"),
-        ] {
-            // Far enough inside the range for products of two such values.
-            if !(value > 1e-100 && value < 1e100) {
-                let found = match value.is_finite() {
-                    true => format!("{value:e} {unit}"),
-                    false => "a value beyond the range of numbers".to_owned(),
-                };
-                let expected = "a value between 1e-100 and 1e100: check the units";
-                return Err(Error::value(what, found, expected));
+        in_range("mass", mass, "kg")?;
+        // Masses beside the bat may put it anywhere.
+        in_range("balance point", balance_point.abs().max(1.0), "m")?;
+        in_range("moment of inertia", about_balance, "kg m²")?;
+        in_range("moment of inertia as a line", line_about_balance, "kg m²")?;
+        let outer = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let widest = Section { outer, inner: 0.0 };
+        for (k, layup) in self.layups.iter().enumerate() {
+            let name = |what: &str| match k {
+                0 => what.to_owned(),
+                _ => format!("regions[{}].{what}", k - 1),
+            };
+            for material in layup.materials() {
+                let stiffness = material.youngs_modulus * widest.second_moment();
+                let scale = stiffness / (material.density * widest.area()) / self.length().powi(4);
+                in_range(&name("bending stiffness"), stiffness, "N m²")?;
+                in_range(&name("frequency scale EI/(ρA L⁴)"), scale, "1/s²")?;
             }
         }
         Ok(())
     }
 }
 
+/// Usual densities (kg/m³) and Young's moduli (Pa) of what bats are made of, and of what fills them.
+const WALL: [[f64; 2]; 2] = [[50.0, 20e3], [1e9, 1e12]];
+const CORE: [[f64; 2]; 2] = [[5.0, 20e3], [1e4, 1e12]];
+
+/// What is strange in a material; `of` is the path that leads to it.
+fn strange_material(
+    of: &str,
+    material: &Material,
+    usual: [[f64; 2]; 2],
+) -> impl Iterator<Item = String> {
+    let Material { density, youngs_modulus, .. } = *material;
+    let hint = " (wood is 400 to 900: g/cm³ or lb/in³?)";
+    let heavy = strange(&format!("{of}density"), density, "kg/m³", usual[0], hint);
+    let hint = " (wood is 8e9 to 20e9: GPa?)";
+    let stiff = strange(&format!("{of}youngs_modulus"), youngs_modulus, "Pa", usual[1], hint);
+    heavy.into_iter().chain(stiff)
+}
+
+/// A sentence about a value that is outside the usual range.
+fn strange(what: &str, value: f64, unit: &str, usual: [f64; 2], hint: &str) -> Option<String> {
+    if value >= usual[0] && value <= usual[1] {
+        return None;
+    }
+    let [value, low, high] = [value, usual[0], usual[1]].map(plain);
+    Some(format!("{what} is {value} {unit}; a bat's is {low} to {high}{hint}"))
+}
+
+/// Far enough inside the range of numbers for products of two such values.
+fn in_range(what: &str, value: f64, unit: &str) -> Result<()> {
+    if value > 1e-100 && value < 1e100 {
+        return Ok(());
+    }
+    let found = match value.is_finite() {
+        true => format!("{value:e} {unit}"),
+        false => "a value beyond the range of numbers".to_owned(),
+    };
+    Err(Error::value(what, found, "a value between 1e-100 and 1e100: check the units"))
+}
+
 /// Four digits, with a power of ten where the plain number would be a row of zeros.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().expect("it was written as a number");
-    if (1e-3..1e5).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 impl Inertia {

@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::bat::Bat;
 use crate::document::{Document, Node, Object};
 use crate::error::{Error, Result};
+use crate::fixtures_file;
 use crate::formula::Formula;
-use crate::material::{BUILT_IN, Material};
+use crate::material_file;
 use crate::profile::{FormulaPiece, Interpolation, Profile};
 use crate::station_table::Table;
 use crate::units::{self, Quantity};
@@ -20,11 +21,11 @@ const KEYS: &[&str] = &[
     "weighed",
     "regions",
     "attachments",
+    "absorbers",
+    "joints",
     "supports",
     "grip",
 ];
-/// Keys of the format that this version does not model; refused, never ignored.
-const NOT_YET: &[&str] = &["regions", "attachments", "supports", "grip"];
 const PROFILE_KEYS: &[&str] = &[
     "interpolation",
     "unit",
@@ -50,7 +51,7 @@ impl Bat {
     /// # Errors
     ///
     /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column if
-    /// anything in it is wrong, impossible or not supported yet.
+    /// anything in it is wrong or impossible.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -77,89 +78,25 @@ fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
     }
     let root = root.only(KEYS)?;
     root.require("format", "\"format\": \"sweetspot-bat/1\"")?;
-    refuse(&root, NOT_YET)?;
-    let weighed = weighed_mass(&root)?;
-    let material = material(root.require("material", "a material")?, weighed.is_some())?;
+    let weighed = fixtures_file::weighed(&root)?;
+    let without_density = match (weighed.mass, root.get("regions")) {
+        (None, _) => Err("\"density\" here or \"mass\" in \"weighed\""),
+        (Some(_), Some(_)) => Err("\"density\": the weighed mass is one factor for all regions"),
+        // The weighed mass will set it; any positive number is as good.
+        (Some(_), None) => Ok(1.0),
+    };
+    let node = root.require("material", "a material")?;
+    let material = material_file::read(node, without_density)?;
     let profile = profile(root.require("profile", "a profile")?, folder)?;
+    let fixtures = fixtures_file::read(&root, &material, profile.length())?;
     let name = root.string("name")?.unwrap_or_else(|| "unnamed bat".to_owned());
-    let mut bat = Bat::new(name, profile, material, weighed).map_err(|error| match error {
-        Error::Value(complaint) => root.node.complain(complaint),
+    let bat = Bat::with_fixtures(name, profile, material, fixtures, weighed);
+    let mut bat = bat.map_err(|error| match error {
+        Error::Value(complaint) => root.node.locate(complaint),
         other => other,
     })?;
     bat.source = root.string("source")?.unwrap_or_default();
     Ok(bat)
-}
-
-fn refuse(object: &Object, keys: &[&str]) -> Result<()> {
-    for key in keys {
-        if let Some(node) = object.get(key) {
-            let found = format!("\"{key}\", which is not supported yet");
-            return Err(node.error(found, "a bat without it: nothing is silently ignored"));
-        }
-    }
-    Ok(())
-}
-
-fn weighed_mass(root: &Object) -> Result<Option<f64>> {
-    let Some(node) = root.get("weighed") else { return Ok(None) };
-    let weighed = node.object(&["mass", "balance_point", "first_bending_hz"])?;
-    refuse(&weighed, &["balance_point", "first_bending_hz"])?;
-    let node = weighed.require("mass", "the mass that a scale shows")?;
-    let mass = node.quantity(Quantity::Mass)?;
-    if mass > 0.0 { Ok(Some(mass)) } else { Err(node.error(node.shown(), "a mass above 0")) }
-}
-
-fn material(node: &Node, weighed: bool) -> Result<Material> {
-    if !node.is_object() {
-        let named: Vec<(&str, &str)> = BUILT_IN.iter().map(|m| (m.name, m.name)).collect();
-        let name = node.word(&named)?;
-        return Ok(Material::named(name).expect("the list holds its own names"));
-    }
-    let object = node.object(&[
-        "density",
-        "youngs_modulus",
-        "shear_modulus",
-        "poisson_ratio",
-        "shear_coefficient",
-        "loss_factor",
-    ])?;
-    let density = match object.quantity("density", Quantity::Density)? {
-        Some(density) => density,
-        // The weighed mass will set it; any positive number is as good.
-        None if weighed => 1.0,
-        None => {
-            let expected = "\"density\" here or \"mass\" in \"weighed\"";
-            return Err(object.require("density", expected).err().expect("it is not there"));
-        }
-    };
-    let modulus = object.require("youngs_modulus", "\"youngs_modulus\", such as \"18.1 GPa\"")?;
-    let youngs_modulus = modulus.quantity(Quantity::Pressure)?;
-    object.one_of(&["shear_modulus", "poisson_ratio"])?;
-    let poisson_ratio = object.number("poisson_ratio")?;
-    let material = Material {
-        name: None,
-        density,
-        youngs_modulus,
-        shear_modulus: object
-            .quantity("shear_modulus", Quantity::Pressure)?
-            .or(poisson_ratio.map(|nu| youngs_modulus / (2.0 * (1.0 + nu)))),
-        poisson_ratio,
-        shear_coefficient: object.number("shear_coefficient")?,
-        loss_factor: object.number("loss_factor")?.unwrap_or(0.0),
-    };
-    material.check().map_err(|error| match error {
-        Error::Value(mut complaint) => {
-            // A value that is not in the file was made from others: its name stays then.
-            let place = object.get(&complaint.field);
-            if let Some(place) = place {
-                complaint.field.clear();
-                complaint.found = place.shown();
-            }
-            place.unwrap_or(node).complain(complaint)
-        }
-        other => other,
-    })?;
-    Ok(material)
 }
 
 fn profile(node: &Node, folder: &Path) -> Result<Profile> {
@@ -192,11 +129,7 @@ fn formulas(object: &Object, node: &Node) -> Result<Profile> {
         Error::Value(mut complaint) => {
             // The field is `pieces[k].key`: its value's place, or that of the piece.
             let field = std::mem::take(&mut complaint.field);
-            let place = field.strip_prefix("pieces[").and_then(|rest| rest.split_once("]."));
-            let item = place.and_then(|(k, key)| Some((items.get(k.parse::<usize>().ok()?)?, key)));
-            let Some((item, key)) = item else { return node.complain(complaint) };
-            let value = item.members().ok().and_then(|members| members.get(key).cloned());
-            value.as_ref().unwrap_or(item).complain(complaint)
+            object.node.nearest(&field).complain(complaint)
         }
         other => other,
     })

@@ -123,6 +123,31 @@ impl<'a> Node<'a> {
         self.document.error(offset, complaint)
     }
 
+    /// An error about the value at the path in a complaint, from this one, which is the root. What was
+    /// found is shown as it stands in the file too, where that has a unit.
+    pub fn locate(&self, mut complaint: Complaint) -> Error {
+        let place = self.nearest(&complaint.field);
+        if place.path == complaint.field && place.raw.starts_with('"') {
+            complaint.found = format!("{} ({})", place.shown(), complaint.found);
+        }
+        place.complain(complaint)
+    }
+
+    /// The value at a path from here, such as `attachments[1].x`; where it is not there, the nearest
+    /// one around it.
+    pub fn nearest(&self, path: &str) -> Self {
+        let mut node = self.clone();
+        for step in path.split(['.', '[']) {
+            let inner = match step.strip_suffix(']') {
+                Some(k) => k.parse::<usize>().ok().and_then(|k| node.items().ok()?.get(k).cloned()),
+                None => node.members().ok().and_then(|members| members.get(step).cloned()),
+            };
+            let Some(inner) = inner else { break };
+            node = inner;
+        }
+        node
+    }
+
     /// The value itself, shortened, to be shown in a message.
     pub fn shown(&self) -> String {
         let kind = match self.raw.as_bytes().first() {
@@ -271,6 +296,16 @@ impl<'a> Object<'a> {
         self.get(key).ok_or_else(|| self.node.error(format!("no \"{key}\""), expected))
     }
 
+    /// An error unless one of these members at least is there.
+    pub fn require_some(&self, keys: &[&str]) -> Result<()> {
+        if keys.iter().any(|key| self.get(key).is_some()) {
+            return Ok(());
+        }
+        let names: Vec<String> = keys.iter().map(|key| format!("\"{key}\"")).collect();
+        let names = names.join(", ");
+        Err(self.node.error(format!("none of {names}"), "one of them at least"))
+    }
+
     /// The one member of a set of alternatives that is there, if any; two are an error.
     pub fn one_of(&self, keys: &[&'static str]) -> Result<Option<(&'static str, &Node<'a>)>> {
         let mut found = None;
@@ -338,6 +373,23 @@ mod tests {
         let list = root.get("a").unwrap().object(&["b"]).unwrap().get("b").unwrap().clone();
         let said = list.quantities(Quantity::Mass, 1.0).unwrap_err().to_string();
         assert!(said.starts_with("bat.json:3:19: a.b[1]: found unit \"lbf\""), "{said}");
+    }
+
+    #[test]
+    fn a_complaint_finds_its_value_or_what_is_around_it() {
+        let text = "{\n \"a\": [{}, { \"x\": \"5 in\" }]\n}";
+        let document = Document::new("bat.json".into(), text);
+        let root = document.root().unwrap();
+        for (path, place, found) in [
+            ("a[1].x", "2:19", "\"5 in\" (0.127 m)"),
+            ("a[1].y", "2:12", "0.127 m"),
+            ("a[2].x", "2:7", "0.127 m"),
+            ("a.x", "2:7", "0.127 m"),
+            ("mass", "1:1", "0.127 m"),
+        ] {
+            let said = root.locate(Complaint::new(path, "0.127 m", "less")).to_string();
+            assert_eq!(said, format!("bat.json:{place}: {path}: found {found}, expected less"));
+        }
     }
 
     #[test]

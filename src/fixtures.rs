@@ -87,6 +87,9 @@ pub struct Grip {
     pub damping: f64,
 }
 
+/// Products of larger values are beyond the range of numbers.
+const MOST: f64 = 1e100;
+
 impl Fixtures {
     /// Whether nothing moves otherwise than a bare bat: regions of other materials may be there.
     pub fn none_moving(&self) -> bool {
@@ -153,8 +156,14 @@ impl Fixtures {
         for (k, region) in self.regions.iter().enumerate() {
             let name = |key: &str| format!("regions[{k}].{key}");
             stretch(&name, region.from, region.to, length)?;
-            region.layup.materials().try_for_each(|material| material.check())?;
-            if let Some(before) = self.regions[..k].iter().find(|before| overlap(before, region)) {
+            for (key, material) in ["material", "core"].iter().zip(region.layup.materials()) {
+                material.check().map_err(|error| within(&name(key), error))?;
+            }
+            // Ends that differ by their last digits only are the same place.
+            let same = 1e-12 * length;
+            let overlap =
+                |before: &&Region| before.from < region.to - same && region.from < before.to - same;
+            if let Some(before) = self.regions[..k].iter().find(overlap) {
                 let found = format!("{} to {} m, an overlap", region.from, region.to);
                 let expected = format!("a stretch outside {} to {} m", before.from, before.to);
                 return Err(Error::value(name("from"), found, expected));
@@ -173,7 +182,7 @@ impl Fixtures {
             }
             if !a.offset.is_finite() || a.offset.abs() > 10.0 * length {
                 let expected = "a distance of at most ten lengths of the bat";
-                return Err(Error::value(name("offset"), format!("{} m", a.offset), expected));
+                return Err(Error::value(name("offset"), shown(a.offset, "m"), expected));
             }
         }
         for (k, a) in self.absorbers.iter().enumerate() {
@@ -188,7 +197,7 @@ impl Fixtures {
             let stiffness = joint.rotational_stiffness;
             if !(joint.x > 0.0 && joint.x < length) {
                 let expected = format!("a place inside the bat, 0 to {length} m");
-                return Err(Error::value(name("x"), format!("{} m", joint.x), expected));
+                return Err(Error::value(name("x"), shown(joint.x, "m"), expected));
             }
             positive(name("rotational_stiffness"), stiffness, "N m/rad")?;
             if self.joints[..k].iter().any(|before| before.x == joint.x) {
@@ -213,8 +222,15 @@ impl Fixtures {
     }
 }
 
-fn overlap(a: &Region, b: &Region) -> bool {
-    a.from < b.to && b.from < a.to
+/// An error about a part, as one about the whole: its field is a path from there.
+fn within(path: &str, error: Error) -> Error {
+    match error {
+        Error::Value(mut complaint) => {
+            complaint.field = format!("{path}.{}", complaint.field);
+            Error::Value(complaint)
+        }
+        other => other,
+    }
 }
 
 fn stretch(name: &dyn Fn(&str) -> String, from: f64, to: f64, length: f64) -> Result<()> {
@@ -223,26 +239,35 @@ fn stretch(name: &dyn Fn(&str) -> String, from: f64, to: f64, length: f64) -> Re
     if to > from {
         return Ok(());
     }
-    Err(Error::value(name("to"), format!("{to} m"), format!("a place beyond {from} m")))
+    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))
 }
 
-fn on_the_bat(field: String, x: f64, length: f64) -> Result<()> {
+pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Result<()> {
     if x >= 0.0 && x <= length {
         return Ok(());
     }
-    Err(Error::value(field, format!("{x} m"), format!("a place on the bat, 0 to {length} m")))
+    Err(Error::value(field, shown(x, "m"), format!("a place on the bat, 0 to {length} m")))
 }
 
-fn positive(field: String, value: f64, unit: &str) -> Result<()> {
-    if value > 0.0 && value.is_finite() && value < 1e100 {
+pub(crate) fn positive(field: impl Into<String>, value: f64, unit: &str) -> Result<()> {
+    if value > 0.0 && value < MOST {
         return Ok(());
     }
-    Err(Error::value(field, format!("{value} {unit}"), "a number above 0"))
+    Err(Error::value(field, shown(value, unit), format!("a number above 0, below {MOST:e}")))
 }
 
 fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
-    if value >= 0.0 && value < 1e100 {
+    if value >= 0.0 && value < MOST {
         return Ok(());
     }
-    Err(Error::value(field, format!("{value} {unit}"), "0 or more"))
+    Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
+}
+
+/// A value without a row of zeros.
+fn shown(value: f64, unit: &str) -> String {
+    match value.abs() {
+        size if !size.is_finite() => "a value beyond the range of numbers".to_owned(),
+        0.0 | 1e-4..1e6 => format!("{value} {unit}"),
+        _ => format!("{value:e} {unit}"),
+    }
 }

@@ -90,6 +90,8 @@ pub mod bat;
 mod document;
 mod csv_file;
 mod station_table;
+mod material_file;
+mod fixtures_file;
 mod bat_file;
 pub mod shape_file;
 pub mod eigen;

@@ -43,13 +43,17 @@ pub enum Quantity {
     Frequency,
     Force,
     Stiffness,
+    RotationalStiffness,
+    BedStiffness,
+    Damping,
+    BedDamping,
     Inertia,
     Impulse,
 }
 
 impl Quantity {
     /// All of them, for tables and tests.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 17] = [
         Self::Length,
         Self::Mass,
         Self::Density,
@@ -61,6 +65,10 @@ impl Quantity {
         Self::Frequency,
         Self::Force,
         Self::Stiffness,
+        Self::RotationalStiffness,
+        Self::BedStiffness,
+        Self::Damping,
+        Self::BedDamping,
         Self::Inertia,
         Self::Impulse,
     ];
@@ -79,9 +87,23 @@ impl Quantity {
             Self::Frequency => ("a frequency", [0, 0, -1, 0], "Hz", "170 Hz"),
             Self::Force => ("a force", [1, 1, -2, 0], "N", "20 lbf"),
             Self::Stiffness => ("a stiffness", [0, 1, -2, 0], "N/m", "1000 N/m"),
+            Self::RotationalStiffness => {
+                ("a rotational stiffness", [2, 1, -2, -1], "N m/rad", "500 N m/rad")
+            }
+            Self::BedStiffness => ("a stiffness per length", [-1, 1, -2, 0], "N/m^2", "4e5 N/m^2"),
+            Self::Damping => ("a damping", [0, 1, -1, 0], "N s/m", "5 N s/m"),
+            Self::BedDamping => ("a damping per length", [-1, 1, -1, 0], "N s/m^2", "200 N s/m^2"),
             Self::Inertia => ("a moment of inertia", [2, 1, 0, 0], "kg m^2", "10425 oz in^2"),
             Self::Impulse => ("an impulse", [1, 1, -1, 0], "N s", "12 N s"),
         }
+    }
+
+    /// Whether a unit of that dimension measures it. A stiffness against rotation may leave its
+    /// radian out: `N m`.
+    fn has(self, dimension: Dimension) -> bool {
+        let [length, mass, time, angle] = self.facts().1;
+        let without = self == Self::RotationalStiffness && dimension == [length, mass, time, 0];
+        dimension == [length, mass, time, angle] || without
     }
 
     /// The quantity in words, with its article: "a length".
@@ -186,7 +208,7 @@ pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
     let (factor, dimension) =
         product(unit).map_err(|found| Complaint::new("", found, quantity.expected()))?;
-    if dimension == quantity.facts().1 {
+    if quantity.has(dimension) {
         return Ok(factor);
     }
     let is = Quantity::ALL.iter().find(|q| q.facts().1 == dimension);
@@ -200,6 +222,7 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
 /// What to do about a force for a mass or a mass for a force.
 fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static str {
     let per_area = unit.contains("lb/in^2") || unit.contains("lb/in2");
+    let of_mass = unit.contains("lb") && !unit.contains("lbf");
     match (wanted, found) {
         (Quantity::Mass, Some(Quantity::Force)) => {
             "; mass is mass here: a bat that a scale shows as 2 lbf has a mass of 2 lb"
@@ -207,6 +230,14 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
         (Quantity::Force, Some(Quantity::Mass)) => "; oz and lb are masses here: write ozf or lbf",
         (Quantity::Density, _) if unit.contains("lbf") => "; lb is the mass, lbf the force",
         (Quantity::Pressure, _) if per_area => "; lb is a mass here: write psi",
+        (
+            Quantity::Stiffness
+            | Quantity::RotationalStiffness
+            | Quantity::BedStiffness
+            | Quantity::Damping
+            | Quantity::BedDamping,
+            _,
+        ) if of_mass => "; lb is a mass here: write lbf",
         _ => "",
     }
 }
@@ -335,6 +366,25 @@ mod tests {
             ("0.75 ms", Time, 0.75e-3),
             ("1 lbf", Force, 4.448_221_615_260_5),
             ("1 lbf/in", Stiffness, 4.448_221_615_260_5 / 0.0254),
+            ("500 N m/rad", RotationalStiffness, 500.0),
+            ("500 N·m/rad", RotationalStiffness, 500.0),
+            ("500 N m", RotationalStiffness, 500.0),
+            ("0.5 kN m / rad", RotationalStiffness, 500.0),
+            ("1 ft lbf/rad", RotationalStiffness, 0.3048 * 4.448_221_615_260_5),
+            ("1 lbf ft", RotationalStiffness, 0.3048 * 4.448_221_615_260_5),
+            (
+                "1 in lbf/deg",
+                RotationalStiffness,
+                0.0254 * 4.448_221_615_260_5 * 180.0 / std::f64::consts::PI,
+            ),
+            ("4e5 N/m^2", BedStiffness, 4e5),
+            ("0.4 N/mm²", BedStiffness, 4e5),
+            ("1 psi", BedStiffness, PSI),
+            ("1 lbf/in/in", BedStiffness, PSI),
+            ("5 N s/m", Damping, 5.0),
+            ("1 lbf s/in", Damping, 4.448_221_615_260_5 / 0.0254),
+            ("200 N s/m^2", BedDamping, 200.0),
+            ("1 kPa s", BedDamping, 1000.0),
             ("1 oz in^2", Inertia, 0.028_349_523_125 * 0.0254 * 0.0254),
             ("1 oz·in²", Inertia, 0.028_349_523_125 * 0.0254 * 0.0254),
             ("2 N s", Impulse, 2.0),
@@ -355,6 +405,20 @@ mod tests {
         assert!(said.contains("write psi"), "{said}");
         let said = parse("0.0257 lbf/in^3", Quantity::Density).unwrap_err().to_string();
         assert!(said.contains("lb is the mass"), "{said}");
+    }
+
+    #[test]
+    fn a_mass_or_an_angle_in_a_stiffness_is_explained() {
+        let said = parse("10 lb/in", Quantity::Stiffness).unwrap_err().to_string();
+        assert!(said.contains("does not measure a stiffness") && said.contains("lbf"), "{said}");
+        let said = parse("10 ft lb/rad", Quantity::RotationalStiffness).unwrap_err().to_string();
+        assert!(said.contains("write lbf"), "{said}");
+        let said = parse("10 N/m", Quantity::RotationalStiffness).unwrap_err().to_string();
+        assert!(said.contains("measures a stiffness,"), "{said}");
+        // Only a stiffness against rotation may leave the angle out.
+        assert!(parse("10 N/rad", Quantity::Stiffness).is_err());
+        assert!(parse("10 N m rad", Quantity::RotationalStiffness).is_err());
+        assert!(parse("10 1/s", Quantity::AngularSpeed).is_err());
     }
 
     #[test]

@@ -703,29 +703,29 @@ fn pieces_that_make_no_bat_are_refused() {
 }
 
 #[test]
-fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
-    let later: &[&str] = &["bat.json:3:", "not supported yet", "nothing is silently ignored"];
+fn what_was_not_weighed_or_measured_so_is_refused() {
     refused(
-        "later",
+        "weighed",
         &[
-            ("\"dowel\"", r#""", "regions": []"#, later),
-            ("\"dowel\"", r#""", "attachments": []"#, later),
-            ("\"dowel\"", r#""", "supports": []"#, later),
-            ("\"dowel\"", r#""", "grip": {}"#, later),
-            ("\"dowel\"", r#""", "weighed": { "mass": 1, "balance_point": 0.5 }"#, later),
-            ("\"dowel\"", r#""", "weighed": { "first_bending_hz": 170 }"#, later),
-            ("\"dowel\"", r#""", "weighed": {}"#, &["bat.json:3:26: weighed", "no \"mass\""]),
+            (
+                "\"dowel\"",
+                r#""", "weighed": {}"#,
+                &[
+                    r#"bat.json:3:26: weighed: found none of "mass", "balance_point", "first_bending_hz""#,
+                    "one of them at least",
+                ],
+            ),
             ("\"dowel\"", r#""", "weighed": null"#, &["weighed: found null", "an object"]),
             (
                 "\"dowel\"",
                 r#""", "weighed": { "mas": 1 }"#,
-                &["weighed.mas", "\"mass\" (did you mean"],
+                &["weighed.mas", r#""mass" (did you mean"#],
             ),
             (
                 "\"dowel\"",
                 r#""", "weighed": { "mass": "31 lbf" }"#,
                 &[
-                    "weighed.mass: found unit \"lbf\", which measures a force",
+                    r#"weighed.mass: found unit "lbf", which measures a force"#,
                     "expected a mass",
                     "mass is mass here",
                 ],
@@ -733,7 +733,7 @@ fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
             (
                 "\"dowel\"",
                 r#""", "weighed": { "mass": "9 N" }"#,
-                &["unit \"N\", which measures a force"],
+                &[r#"unit "N", which measures a force"#],
             ),
             (
                 "\"dowel\"",
@@ -743,12 +743,376 @@ fn what_is_not_modelled_yet_is_refused_and_a_weighed_mass_is_a_mass() {
             (
                 "\"dowel\"",
                 r#""", "weighed": { "mass": -1 }"#,
-                &["weighed.mass: found -1", "above 0"],
+                &["bat.json:3:36: weighed.mass: found -1", "above 0"],
             ),
             (
                 "\"dowel\"",
                 r#""", "weighed": { "mass": "0 oz" }"#,
-                &["weighed.mass: found \"0 oz\""],
+                &[r#"weighed.mass: found "0 oz""#, "above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "mass": 0.2 }, "attachments": [{ "x": 0.1, "mass": 0.3 }]"#,
+                &["bat.json:3:36: weighed.mass: found 0.2 kg, no more than the 0.3 kg attached"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "balance_point": 0.9 }"#,
+                &[
+                    "bat.json:3:45: weighed.balance_point: found 0.9 m",
+                    "a place on the bat, 0 to 0.8 m",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "balance_point": "90 cm" }"#,
+                &[r#"weighed.balance_point: found "90 cm" (0.9 m)"#, "on the bat"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "first_bending_hz": 0 }"#,
+                &["weighed.first_bending_hz: found 0 Hz", "a number above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "weighed": { "first_bending_hz": "170 rpm" }"#,
+                &[
+                    r#"weighed.first_bending_hz: found unit "rpm", which measures an angular speed"#,
+                    "170 Hz",
+                ],
+            ),
+            (
+                MATERIAL,
+                r#"{ "youngs_modulus": 14e9 }, "weighed": { "balance_point": 0.4 }"#,
+                &["bat.json:4:15: material: found no \"density\"", "\"mass\" in \"weighed\""],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn a_wrong_region_is_refused() {
+    refused(
+        "regions",
+        &[
+            (
+                "\"dowel\"",
+                r#""", "regions": {}"#,
+                &["bat.json:3:26: regions: found an object", "a list"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [7]"#,
+                &["bat.json:3:27: regions[0]: found 7", "an object"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4 }]"#,
+                &[
+                    r#"bat.json:3:27: regions[0]: found none of "material", "core""#,
+                    "one of them at least",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "to": 0.4, "material": "white-ash" }]"#,
+                &[r#"bat.json:3:27: regions[0]: found no "from""#, "from the knob end"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.9, "material": "white-ash" }]"#,
+                &[
+                    "bat.json:3:46: regions[0].to: found 0.9 m, expected a place on the bat, 0 to 0.8 m",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": "90 cm", "material": "white-ash" }]"#,
+                &[r#"regions[0].to: found "90 cm" (0.9 m), expected"#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 1e300, "material": "white-ash" }]"#,
+                &["regions[0].to: found 1e300 m, expected"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0.4, "to": 0.4, "material": "white-ash" }]"#,
+                &["regions[0].to: found 0.4 m, expected a place beyond 0.4 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "material": "white-ash" }, { "from": 0.3, "to": 0.5, "material": "white-ash" }]"#,
+                &["regions[1].from: found 0.3 to 0.5 m, an overlap", "outside 0 to 0.4 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "materials": "white-ash" }]"#,
+                &["regions[0].materials", r#""material" (did you mean"#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "material": "whiteash" }]"#,
+                &[r#"regions[0].material: found "whiteash""#, "did you mean white-ash?"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "material": { "youngs_modulus": 1e9 } }]"#,
+                &[r#"bat.json:3:63: regions[0].material: found no "density""#, "g/cm^3"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "core": { "density": -1, "youngs_modulus": 1e7 } }]"#,
+                &["bat.json:3:72: regions[0].core.density: found -1, expected a number above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "core": { "density": 200, "youngs_modulus": 1e7, "poisson_ratio": 0.6 } }]"#,
+                &["regions[0].core.poisson_ratio: found 0.6", "0.5 at most"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "regions": [{ "from": 0, "to": 0.4, "core": { "density": 200, "youngs_modulus": 1e300 } }]"#,
+                &["bat.json:3:27: regions[0].bending stiffness: found", "check the units"],
+            ),
+            (
+                MATERIAL,
+                r#"{ "youngs_modulus": 14e9 }, "weighed": { "mass": 1 }, "regions": [
+                   { "from": 0, "to": 0.4, "material": "white-ash" }]"#,
+                &["bat.json:4:15: material: found no \"density\"", "one factor for all regions"],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn a_wrong_weight_or_spring_is_refused() {
+    refused(
+        "weights",
+        &[
+            (
+                "\"dowel\"",
+                r#""", "attachments": { "x": 0.1, "mass": 0.1 }"#,
+                &["bat.json:3:30: attachments: found an object", "a list"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1 }]"#,
+                &[
+                    r#"bat.json:3:31: attachments[0]: found none of "mass", "rotary_inertia", "stiffness", "rotational_stiffness""#,
+                    "one of them at least",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "mass": 0.1 }]"#,
+                &[r#"bat.json:3:31: attachments[0]: found no "x""#, "from the knob end"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0, "mass": 0.1 }, { "x": 0.9, "mass": 0.1 }]"#,
+                &["bat.json:3:63: attachments[1].x: found 0.9 m", "a place on the bat, 0 to 0.8 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": "-1 in", "mass": 0.1 }]"#,
+                &[r#"attachments[0].x: found "-1 in" (-0.0254 m)"#, "on the bat"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "mass": -0.1 }]"#,
+                &["attachments[0].mass: found -0.1 kg", "0 or more"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "mass": "1 lbf" }]"#,
+                &[
+                    r#"attachments[0].mass: found unit "lbf", which measures a force"#,
+                    "mass is mass here",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "mass": 1e200 }]"#,
+                &["attachments[0].mass: found 1e200 kg", "0 or more, below 1e100"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "mass": 0.1, "offset": 9 }]"#,
+                &["attachments[0].offset: found 9 m", "ten lengths of the bat"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "stiffness": 100, "offset": 0.1 }]"#,
+                &[r#"attachments[0]: found no "mass""#, r#"whose centre has that "offset""#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "rotary_inertia": "1 oz in" }]"#,
+                &[r#"attachments[0].rotary_inertia: found unit "oz in""#, "a moment of inertia"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "stiffness": "10 lb/in" }]"#,
+                &[r#"attachments[0].stiffness: found unit "lb/in""#, "write lbf"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "rotational_stiffness": "5 N/m" }]"#,
+                &[
+                    r#"attachments[0].rotational_stiffness: found unit "N/m", which measures a stiffness"#,
+                    "500 N m/rad",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "rotary_stiffness": 5 }]"#,
+                &["attachments[0].rotary_stiffness: found unknown key"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "stiffness": 100 }]"#,
+                &[r#"bat.json:3:29: absorbers[0]: found no "mass""#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1 }]"#,
+                &[r#"absorbers[0]: found no "stiffness" and no "frequency""#, "one of them"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1, "stiffness": 1, "frequency": 1 }]"#,
+                &[
+                    r#"absorbers[0].frequency: found both "stiffness" and "frequency""#,
+                    "one of them",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1, "frequency": -170 }]"#,
+                &["bat.json:3:67: absorbers[0].frequency: found -170", "a frequency above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1, "frequency": 1e200 }]"#,
+                &["bat.json:3:29: absorbers[0].stiffness: found a value beyond the range"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0, "stiffness": 1 }]"#,
+                &["absorbers[0].mass: found 0 kg", "a number above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1, "stiffness": 0 }]"#,
+                &["absorbers[0].stiffness: found 0 N/m", "a number above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "absorbers": [{ "x": 0.1, "mass": 0.1, "stiffness": 1, "damping": -1 }]"#,
+                &["absorbers[0].damping: found -1 N s/m", "0 or more"],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn what_cannot_hold_a_bat_or_join_its_parts_is_refused() {
+    refused(
+        "held",
+        &[
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "x": 0.1 }]"#,
+                &[r#"bat.json:3:28: supports[0]: found no "type""#, r#""pinned" or "clamped""#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "type": "pinned" }]"#,
+                &[r#"supports[0]: found no "x""#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "x": 0.1, "type": "fixed" }]"#,
+                &[r#"supports[0].type: found "fixed", expected one of pinned, clamped"#],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "x": 0.1, "type": "clampd" }]"#,
+                &["supports[0].type", "did you mean clamped?"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "x": "90 cm", "type": "pinned" }]"#,
+                &[r#"supports[0].x: found "90 cm" (0.9 m)"#, "0 to 0.8 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "supports": [{ "x": 0.1, "type": "pinned" }, { "x": 0.1, "type": "clamped" }]"#,
+                &["supports[1].x: found 0.1 m again", "one support at one place"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "joints": [{ "x": 0.4 }]"#,
+                &[
+                    r#"bat.json:3:26: joints[0]: found no "rotational_stiffness""#,
+                    "moment per angle",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "joints": [{ "x": 0, "rotational_stiffness": 9 }]"#,
+                &["joints[0].x: found 0 m", "a place inside the bat, 0 to 0.8 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "joints": [{ "x": 0.4, "rotational_stiffness": 0 }]"#,
+                &["joints[0].rotational_stiffness: found 0 N m/rad", "a number above 0"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "joints": [{ "x": 0.4, "rotational_stiffness": 9 }, { "x": 0.4, "rotational_stiffness": 9 }]"#,
+                &["joints[1].x: found 0.4 m again", "one joint at one place"],
+            ),
+            ("\"dowel\"", r#""", "grip": null"#, &["bat.json:3:23: grip: found null", "an object"]),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0, "to": 0.2 }"#,
+                &[
+                    r#"bat.json:3:23: grip: found none of "stiffness", "damping""#,
+                    "one of them at least",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0, "stiffness": 1e5 }"#,
+                &[r#"grip: found no "to""#, "from the knob end"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0.2, "to": 0.1, "stiffness": 1e5 }"#,
+                &["grip.to: found 0.1 m", "a place beyond 0.2 m"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0, "to": 0.2, "stiffness": -1 }"#,
+                &["grip.stiffness: found -1 N/m²", "0 or more"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0, "to": 0.2, "stiffness": "5 N/m" }"#,
+                &[
+                    r#"grip.stiffness: found unit "N/m", which measures a stiffness"#,
+                    "a stiffness per length such as",
+                ],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "grip": { "from": 0, "to": 0.2, "damping": "5 N s/m" }"#,
+                &[
+                    r#"grip.damping: found unit "N s/m", which measures a damping"#,
+                    "a damping per length such as",
+                ],
             ),
         ],
     );
@@ -1127,6 +1491,79 @@ fn unusual_but_right_files_are_read() {
     assert!((summary(&taper) - summary(&turned)).abs() < 1e-15);
 }
 
+/// A rod, so that its halves have their centres at 0.2 and 0.6 m.
+#[test]
+fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
+    let folder = Folder::new("on the bat");
+    let rod = BAT.replace(RADIUS, r#""radius": [0.02, 0.02, 0.02]"#);
+    let body = |text: &str| {
+        folder.write("bat.json", text);
+        let run = ["modes", "bat.json", "--modes", "0", "--json", "-"];
+        let (document, told) = accepted(&folder, &run);
+        assert_eq!(told, "", "{text}");
+        folder.write("again.json", document["bat"].to_string());
+        let run = ["modes", "again.json", "--modes", "0", "--json", "-"];
+        let again = accepted(&folder, &run).0;
+        let number = |document: &Value, key: &str| document["summary"][key].as_f64().unwrap();
+        ["mass_kg", "balance_point_m", "inertia_balance_kg_m2"].map(|key| {
+            let value = number(&document, key);
+            assert!((number(&again, key) / value - 1.0).abs() < 1e-14, "{text}: {key}");
+            value
+        })
+    };
+    let with = |more: &str| body(&rod.replace("\"dowel\"", &format!("\"\", {more}")));
+    let is = |found: [f64; 3], expected: [f64; 3]| {
+        for (a, b) in found.iter().zip(expected) {
+            assert!((a / b - 1.0).abs() < 1e-14, "{found:?} {expected:?}");
+        }
+    };
+    let [mass, _, inertia] = body(&rod);
+    is([mass, 0.4, inertia], body(&rod));
+    // A weight moves the balance point by m d / (M + m).
+    let (m, d) = (0.1, 0.35);
+    let sum = mass + m;
+    let heavier = [sum, 0.4 + m * d / sum, inertia + mass * m / sum * d * d + 1e-4];
+    for weight in [
+        r#"{ "x": 0.7, "mass": 0.1, "offset": 0.05, "rotary_inertia": 1e-4 }"#,
+        r#"{ "x": "80 cm", "mass": "100 g", "offset": "-50 mm", "rotary_inertia": "1 kg cm^2" }"#,
+        r#"{ "x": 0.75, "mass": 0.1 }, { "x": 0.1, "rotary_inertia": 1e-4 }"#,
+    ] {
+        is(with(&format!("\"attachments\": [{weight}]")), heavier);
+    }
+    for spring in [r#""frequency": "170 Hz""#, r#""stiffness": 1e4, "damping": "2 N s/m""#] {
+        let hung = format!(r#""absorbers": [{{ "x": 0.75, "mass": 0.1, {spring} }}]"#);
+        is(with(&hung), [heavier[0], heavier[1], heavier[2] - 1e-4]);
+    }
+    // A scale weighs both; the inertia of the wood goes with its mass.
+    let weighed = r#""weighed": { "mass": "1 kg", "balance_point": 0.435, "first_bending_hz": 300 },
+        "attachments": [{ "x": 0.75, "mass": 0.1 }]"#;
+    is(with(weighed), [1.0, 0.4 + m * d, inertia * 0.9 / mass + 0.9 * m * d * d]);
+    let unknown = rod.replace("\"density\": 700, ", "").replace("\"dowel\"", "\"\", WEIGHED");
+    is(body(&unknown.replace("WEIGHED", weighed)), with(weighed));
+    // Springs, supports and hands weigh nothing.
+    for massless in [
+        r#""attachments": [{ "x": 0.1, "stiffness": "10 lbf/in", "rotational_stiffness": "5 N m" }]"#,
+        r#""joints": [{ "x": 0.3, "rotational_stiffness": "1000 ft lbf/rad" }]"#,
+        r#""supports": [{ "x": 0, "type": "clamped" }, { "x": "0.8 m", "type": "pinned" }]"#,
+        r#""grip": { "from": 0, "to": "8 in", "stiffness": "50 psi", "damping": "100 N s/m^2" }"#,
+        r#""regions": [{ "from": 0.1, "to": 0.3, "material": {
+            "density": "0.7 g/cm^3", "youngs_modulus": "10 GPa" } }]"#,
+    ] {
+        is(with(massless), [mass, 0.4, inertia]);
+    }
+    // The barrel half of three times the density.
+    let region = r#"{ "from": 0.4, "to": "80 cm", "material": {
+        "density": 2100, "youngs_modulus": 14e9 } }"#;
+    let heavy = with(&format!("\"regions\": [{region}]"));
+    is([heavy[0], heavy[1], 1.0], [2.0 * mass, 0.25 * 0.2 + 0.75 * 0.6, 1.0]);
+    let weighed = with(&format!("\"weighed\": {{ \"mass\": 1 }}, \"regions\": [{region}]"));
+    is(weighed, [1.0, heavy[1], heavy[2] / heavy[0]]);
+    // A core of the bat's own material makes it solid again.
+    let core = format!("\"\", \"regions\": [{{ \"from\": 0, \"to\": 0.8, \"core\": {MATERIAL} }}]");
+    let hollow = rod.replace(X, "[0, 0.4, 0.8], \"inner_radius\": [0.01, 0.015, 0.01]");
+    is(body(&hollow.replace("\"dowel\"", &core)), [mass, 0.4, inertia]);
+}
+
 #[test]
 fn unusual_but_right_options_are_taken() {
     let folder = Folder::new("taken");
@@ -1211,6 +1648,34 @@ fn an_implausible_bat_is_warned_of_and_solved() {
         ("700", "1e-90", "density is 1e-90"),
         ("14e9", "1e90", "youngs_modulus is 1e90 Pa"),
         (X, "[0, 1e20, 2e20]", "length is 2e20 m"),
+        (
+            "\"dowel\"",
+            r#""", "attachments": [{ "x": 0.4, "mass": 3 }]"#,
+            "3 kg are attached to a bat of 1.",
+        ),
+        (
+            "\"dowel\"",
+            r#""", "attachments": [{ "x": 0.8, "mass": 1e-6, "offset": 0.1 }]"#,
+            "attachments[0].offset puts the mass at 0.9 m, outside the bat, 0 to 0.8 m",
+        ),
+        (
+            "\"dowel\"",
+            r#""", "regions": [{ "from": 0, "to": 0.4, "material": {
+                "density": 0.7, "youngs_modulus": 14e9 } }]"#,
+            "regions[0].material.density is 0.7 kg/m³; a bat's is 50 to 20000",
+        ),
+        (
+            "\"dowel\"",
+            r#""", "regions": [{ "from": 0, "to": 0.4, "core": {
+                "density": 0.2, "youngs_modulus": 2e7 } }]"#,
+            "regions[0].core.density is 0.2 kg/m³",
+        ),
+        (
+            "\"dowel\"",
+            r#""", "regions": [{ "from": 0, "to": 0.4, "core": {
+                "density": 200, "youngs_modulus": 2e7 } }]"#,
+            "regions[0].core fills nothing: the bat is solid there",
+        ),
     ] {
         folder.write("bat.json", BAT.replace(good, bad));
         let (modes, told) = accepted(&folder, &["modes", "bat.json", "--json", "-"]);

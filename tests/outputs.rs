@@ -5,11 +5,14 @@ mod common;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Output, Stdio};
 
 use common::folder::Folder;
 use serde_json::Value;
+use sweetspot::report::resolved::resolved;
 use sweetspot::validation::Truth;
+use sweetspot::{Bat, Request, solve};
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
@@ -220,6 +223,64 @@ fn numbers_are_written_in_the_shortest_form_that_reads_back_to_the_same_bits() {
     let second = folder.json(&["modes", "again.json", "--json", "-", "--reproducible"]);
     for part in ["summary", "modes"] {
         assert_eq!(first[part], second[part]);
+    }
+}
+
+/// Everything that a bat file may hold, materials in numbers.
+const EVERYTHING: &str = r#"{
+  "format": "sweetspot-bat/1",
+  "name": "everything",
+  "source": "made up",
+  "material": { "density": 700, "youngs_modulus": 14e9, "poisson_ratio": 0.3, "loss_factor": 0.01 },
+  "profile": {
+    "unit": "in",
+    "x": [0, 13, 21, 29, 33], "diameter": [1, 1.2, 2.5, 2.6, 2.4], "inner_diameter": [0, 0, 1, 1, 1]
+  },
+  "regions": [
+    { "from": 0, "to": "6 in", "material": {
+      "density": 1500, "youngs_modulus": "60 GPa", "shear_modulus": "5 GPa", "shear_coefficient": 0.8 } },
+    { "from": "22 in", "to": "33 in", "core": { "density": 200, "youngs_modulus": "20 MPa" } }
+  ],
+  "attachments": [
+    { "x": "33 in", "mass": "2 oz", "offset": "-0.5 in", "rotary_inertia": "1 oz in^2" },
+    { "x": 0.05, "stiffness": 2000, "rotational_stiffness": "30 ft lbf/rad" }
+  ],
+  "absorbers": [{ "x": 0.02, "mass": 0.03, "frequency": 170, "damping": 1.5 }],
+  "joints": [{ "x": 0.4, "rotational_stiffness": 2e4 }],
+  "supports": [{ "x": 0.1, "type": "pinned" }, { "x": 0.2, "type": "clamped" }],
+  "grip": { "from": 0, "to": 0.15, "stiffness": 4e5, "damping": 300 },
+  "weighed": { "balance_point": "21 in", "first_bending_hz": "170 Hz" }
+}"#;
+
+#[test]
+fn a_bat_written_again_is_the_same_bat() {
+    let read = |text: &str| Bat::from_text("bat.json", text, Path::new("")).unwrap();
+    let bat = read(EVERYTHING);
+    let fixtures = &bat.fixtures;
+    let counts = [fixtures.regions.len(), fixtures.attachments.len(), fixtures.supports.len()];
+    assert_eq!((counts, fixtures.absorbers.len(), fixtures.joints.len()), ([2; 3], 1, 1));
+    assert!(fixtures.grip.is_some());
+    let tuned = 0.03 * (std::f64::consts::TAU * 170.0).powi(2);
+    assert!((fixtures.absorbers[0].stiffness / tuned - 1.0).abs() < 1e-15);
+    assert_eq!(read(&resolved(&bat).to_string()), bat);
+    // Weighed, turned, with a named material, held otherwise: the same to round-off.
+    let weighed = EVERYTHING.replace("\"weighed\": {", "\"weighed\": { \"mass\": 1.1,");
+    let named = EVERYTHING.replace("\"core\": {", "\"material\": \"white-ash\", \"core\": {");
+    let held = EVERYTHING.replace("\"pinned\"", "\"clamped\"");
+    let turned = EVERYTHING.replace("\"in\",", "\"in\", \"measured_from\": \"tip\",");
+    for text in [weighed, named, held, turned] {
+        let bat = read(&text);
+        let again = read(&resolved(&bat).to_string());
+        assert_eq!(again.weighed, bat.weighed);
+        let (a, b) = (again.inertia(), bat.inertia());
+        assert!((a.mass / b.mass - 1.0).abs() < 1e-14);
+        assert!((a.balance_point / b.balance_point - 1.0).abs() < 1e-14);
+        assert!((a.about_balance / b.about_balance - 1.0).abs() < 1e-14);
+        let few = Request { modes: 3, elements: Some(24), degree: Some(6), ..Request::default() };
+        let modes = |bat: &Bat| solve(bat, &few).unwrap().modes;
+        for (a, b) in modes(&again).iter().zip(modes(&bat)) {
+            assert!((a.frequency() / b.frequency() - 1.0).abs() < 1e-12);
+        }
     }
 }
 

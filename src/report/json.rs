@@ -11,7 +11,7 @@ use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::ignored::ignored;
 use crate::modes::Mode;
-use crate::profile::{FormulaPiece, Formulas, Interpolation, Stations};
+use crate::report::resolved::resolved;
 use crate::solve::Solution;
 use crate::trade::reference::solver_name;
 
@@ -94,68 +94,6 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
         ShapePoints::Even(1) => vec![0.0],
         ShapePoints::Even(n) => (0..n).map(|k| bat.length() * k as f64 / (n - 1) as f64).collect(),
     }
-}
-
-/// The bat as it was understood: SI, defaults filled in, a bat file in its own right.
-fn resolved(bat: &Bat) -> Value {
-    let material = &bat.material;
-    let mut numbers = json!({
-        "density": material.density,
-        "youngs_modulus": material.youngs_modulus,
-        "loss_factor": material.loss_factor,
-    });
-    match (material.poisson_ratio, material.shear_modulus) {
-        (Some(nu), _) => numbers["poisson_ratio"] = json!(nu),
-        (None, Some(g)) => numbers["shear_modulus"] = json!(g),
-        _ => {}
-    }
-    if let Some(kappa) = material.shear_coefficient {
-        numbers["shear_coefficient"] = json!(kappa);
-    }
-    let mut resolved = json!({
-        "format": "sweetspot-bat/1",
-        "name": bat.name,
-        "source": bat.source,
-        "material": numbers,
-        "profile": match &bat.profile.formulas {
-            Some(formulas) => pieces(formulas),
-            None => columns(&bat.profile.stations),
-        },
-    });
-    if let Some(mass) = bat.weighed.mass {
-        resolved["weighed"] = json!({ "mass": mass });
-    }
-    resolved
-}
-
-fn columns(stations: &Stations) -> Value {
-    let interpolation =
-        if stations.interpolation == Interpolation::Pchip { "pchip" } else { "linear" };
-    let mut profile = json!({
-        "interpolation": interpolation,
-        "unit": "m",
-        "x": stations.x,
-        "radius": stations.outer,
-    });
-    if stations.inner.iter().any(|r| *r > 0.0) {
-        profile["inner_radius"] = json!(stations.inner);
-    }
-    profile
-}
-
-fn pieces(formulas: &Formulas) -> Value {
-    let piece = |piece: &FormulaPiece| {
-        let mut written =
-            json!({ "from": piece.from, "to": piece.to, "formula": piece.outer.text() });
-        if let Some(inner) = &piece.inner {
-            written["inner_formula"] = json!(inner.text());
-        }
-        written
-    };
-    json!({
-        "measured_from": if formulas.from_tip { "tip" } else { "knob" },
-        "pieces": formulas.pieces.iter().map(piece).collect::<Vec<_>>(),
-    })
 }
 
 fn summary(bat: &Bat) -> Value {

@@ -2,6 +2,7 @@
 
 pub mod file;
 pub mod curve;
+pub mod resolved;
 pub mod json;
 pub mod text;
 pub mod u_curve;
