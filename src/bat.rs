@@ -18,12 +18,12 @@ pub struct Bat {
     pub source: String,
     /// Its pieces end wherever a material or a fixture begins.
     pub profile: Profile,
-    /// The material; its density is the weighed one where a weighed mass was given.
-    pub material: Material,
     /// What the pieces of the profile are made of; the first is the bat's own material.
     pub layups: Vec<Layup>,
     pub fixtures: Fixtures,
     pub weighed: Weighed,
+    /// By how much what was weighed and tapped made all densities and all moduli larger.
+    pub factors: [f64; 2],
 }
 
 /// What a scale and a tap said, where they were asked.
@@ -98,10 +98,11 @@ impl Bat {
         weighed: Weighed,
     ) -> Result<Self> {
         let (name, source) = (name.into(), String::new());
-        let layups = vec![Layup::of(material.clone())];
+        let layups = vec![Layup::of(material)];
         fixtures.check(profile.length())?;
         weighed.check(profile.length())?;
-        let mut bat = Self { name, source, profile, material, layups, fixtures, weighed };
+        let factors = [1.0; 2];
+        let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
         bat.lay_out();
         bat.check_range()?;
         if let Some(mass) = weighed.mass {
@@ -137,7 +138,13 @@ impl Bat {
         for region in &mut self.fixtures.regions {
             region.layup.scaled(density, modulus);
         }
-        self.material = self.layups[0].outer.clone();
+        self.factors[0] *= density;
+        self.factors[1] *= modulus;
+    }
+
+    /// The bat's own material; its density is the weighed one where a weighed mass was given.
+    pub fn material(&self) -> &Material {
+        &self.layups[0].outer
     }
 
     /// From the knob end to the tip (m).
@@ -215,7 +222,7 @@ impl Bat {
             strange(what, value, unit, [low, high], hint)
         });
         let mut warnings: Vec<String> = strange.collect();
-        warnings.extend(strange_material("", &self.material, WALL));
+        warnings.extend(strange_material("", self.material(), WALL));
         self.warn_of_regions(&mut warnings);
         let attached: f64 = self.fixtures.masses().map(|[mass, ..]| mass).sum();
         if attached > mass - attached {
@@ -237,7 +244,7 @@ impl Bat {
         for (k, region) in self.fixtures.regions.iter().enumerate() {
             let name = |key: &str| format!("regions[{k}].{key}.");
             let Layup { outer, core } = &region.layup;
-            if *outer != self.material {
+            if outer != self.material() {
                 warnings.extend(strange_material(&name("material"), outer, WALL));
             }
             let Some(core) = core else { continue };

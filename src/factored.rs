@@ -69,6 +69,10 @@ pub fn strains<const N: usize, const W: usize>(
     count: usize,
     solver: Solver,
 ) -> Result<Found> {
+    if statics.fixed.is_some() {
+        let expected = "the solver statics: the others take a bare bat";
+        return Err(Error::value("solver", "a bat with attachments, joints or supports", expected));
+    }
     check_size(statics.dimension() + 2, solver)?;
     let elements = element::elements::<N, W>(bat, mesh, statics.theory);
     let pairs = of_pencil(statics, &elements, count, solver)?;

@@ -129,6 +129,18 @@ impl Fixtures {
         2 - lines - turns
     }
 
+    /// How free the bat is, in words.
+    pub fn freedom(&self) -> &'static str {
+        let pinned = self.supports.iter().any(|support| support.kind == Held::Pinned)
+            || self.attachments.iter().any(|a| a.stiffness > 0.0);
+        match self.rigid_modes() {
+            0 => "held: no rigid motion is free",
+            1 if pinned => "and one rigid motion at 0 Hz exactly: it turns about where it is held",
+            1 => "and one rigid motion at 0 Hz exactly: it moves sideways without turning",
+            _ => "and two rigid ones of the free bat, at 0 Hz exactly",
+        }
+    }
+
     /// Where elements must end (m), in no order.
     pub fn borders(&self) -> Vec<f64> {
         let regions = self.regions.iter().flat_map(|region| [region.from, region.to]);

@@ -62,10 +62,10 @@
 //!
 //! # What is left out
 //!
-//! This version solves the Euler–Bernoulli beam, free at both ends, of one material. Rotary
-//! inertia and shear are not in the frequencies; what they would change is estimated and
-//! reported with every solution ([`theory`]). The collision models are the rigid bat and the
-//! WPI report's empirical energy loss.
+//! Sections stay round and plane: hoop modes of hollow barrels, and wood that differs across the
+//! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
+//! solution ([`ignored`]). The collision models are the rigid bat and the WPI report's empirical
+//! energy loss, both of a bat that nothing holds.
 
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]
@@ -106,6 +106,8 @@ pub mod solve;
 pub mod batch;
 pub mod trade;
 pub mod ignored;
+pub mod choice;
+pub mod weighed;
 pub mod dowel;
 pub mod response;
 pub mod ringing;

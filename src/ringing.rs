@@ -28,8 +28,12 @@ impl<'a> Ringing<'a> {
     pub fn new(bat: &Bat, solution: &'a Solution, bending_only: bool) -> Self {
         let inertia = bat.inertia();
         let rigid = |mass| Oscillator { omega: 0.0, damping_ratio: 0.0, mass };
-        let pair = [rigid(inertia.mass), rigid(inertia.line_about_balance)];
-        let damping_ratio = 0.5 * bat.material.loss_factor;
+        let turning = match solution.theory.turns() {
+            true => inertia.about_balance,
+            false => inertia.line_about_balance,
+        };
+        let pair = [rigid(inertia.mass), rigid(turning)];
+        let damping_ratio = 0.5 * bat.material().loss_factor;
         let bending = solution.modes.iter().map(|mode| Oscillator {
             omega: mode.omega,
             damping_ratio,

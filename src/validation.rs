@@ -11,6 +11,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::dowel::{Dowel, Ends, UniformMode};
 use crate::error::{Error, Result};
 use crate::solve::{Request, Solution, solve};
+use crate::theory::Theory;
 use crate::units::ounce_square_inches;
 
 /// One bat and what is known about it.
@@ -32,6 +33,8 @@ struct Solve {
     modes: usize,
     tolerance: Option<f64>,
     elements: Option<usize>,
+    /// A name; the plain beam if there is none.
+    theory: Option<String>,
 }
 
 /// One known number.
@@ -85,6 +88,11 @@ impl Row {
 
 /// The cases that travel with the program: file name and text.
 pub const CASES: &[(&str, &str)] = &[
+    ("absorber", include_str!("../validation/absorber.json")),
+    ("clamped_clamped", include_str!("../validation/clamped_clamped.json")),
+    ("clamped_free", include_str!("../validation/clamped_free.json")),
+    ("clamped_pinned", include_str!("../validation/clamped_pinned.json")),
+    ("clamped_tip_mass", include_str!("../validation/clamped_tip_mass.json")),
     ("cone_1_10", include_str!("../validation/cone_1_10.json")),
     ("cone_1_100", include_str!("../validation/cone_1_100.json")),
     ("cone_1_1000", include_str!("../validation/cone_1_1000.json")),
@@ -93,10 +101,16 @@ pub const CASES: &[(&str, &str)] = &[
     ("cone_1_2p64", include_str!("../validation/cone_1_2p64.json")),
     ("cone_1_2p64_60", include_str!("../validation/cone_1_2p64_60.json")),
     ("cone_complete", include_str!("../validation/cone_complete.json")),
+    ("cork", include_str!("../validation/cork.json")),
     ("dowel", include_str!("../validation/dowel.json")),
     ("dumbbell", include_str!("../validation/dumbbell.json")),
+    ("end_springs", include_str!("../validation/end_springs.json")),
     ("exponential", include_str!("../validation/exponential.json")),
+    ("grip_bed", include_str!("../validation/grip_bed.json")),
+    ("grip_bed_cone_timo", include_str!("../validation/grip_bed_cone_timo.json")),
     ("handle_1mm", include_str!("../validation/handle_1mm.json")),
+    ("heavy_free", include_str!("../validation/heavy_free.json")),
+    ("heavy_tip", include_str!("../validation/heavy_tip.json")),
     ("hermite_01", include_str!("../validation/hermite_01.json")),
     ("hermite_02", include_str!("../validation/hermite_02.json")),
     ("hermite_04", include_str!("../validation/hermite_04.json")),
@@ -106,22 +120,47 @@ pub const CASES: &[(&str, &str)] = &[
     ("hermite_64", include_str!("../validation/hermite_64.json")),
     ("hollow_linear", include_str!("../validation/hollow_linear.json")),
     ("house_reference", include_str!("../validation/house_reference.json")),
+    ("interior_clamp", include_str!("../validation/interior_clamp.json")),
+    ("interior_clamp_middle", include_str!("../validation/interior_clamp_middle.json")),
+    ("joint", include_str!("../validation/joint.json")),
     ("linear_bat", include_str!("../validation/linear_bat.json")),
+    ("mid_mass", include_str!("../validation/mid_mass.json")),
+    ("nafems_fv2_clamped_pinned", include_str!("../validation/nafems_fv2_clamped_pinned.json")),
+    ("nafems_fv2_pinned_pinned", include_str!("../validation/nafems_fv2_pinned_pinned.json")),
+    ("nafems_fv5", include_str!("../validation/nafems_fv5.json")),
     ("northwestern_aluminium", include_str!("../validation/northwestern_aluminium.json")),
     ("northwestern_wood", include_str!("../validation/northwestern_wood.json")),
     ("northwestern_wood_misprint", include_str!("../validation/northwestern_wood_misprint.json")),
+    ("offset_mass", include_str!("../validation/offset_mass.json")),
     ("pchip_bat", include_str!("../validation/pchip_bat.json")),
+    ("pin_inside", include_str!("../validation/pin_inside.json")),
+    ("pinned_pinned", include_str!("../validation/pinned_pinned.json")),
     ("r161_nathan", include_str!("../validation/r161_nathan.json")),
     ("r161_reference", include_str!("../validation/r161_reference.json")),
     ("r161_slices", include_str!("../validation/r161_slices.json")),
+    ("rayleigh_cone", include_str!("../validation/rayleigh_cone.json")),
+    ("rayleigh_dowel", include_str!("../validation/rayleigh_dowel.json")),
     ("sinusoidal", include_str!("../validation/sinusoidal.json")),
+    ("soft_springs", include_str!("../validation/soft_springs.json")),
     ("step_1_3", include_str!("../validation/step_1_3.json")),
     ("step_1_3_60", include_str!("../validation/step_1_3_60.json")),
     ("steps_many", include_str!("../validation/steps_many.json")),
+    ("stiff_springs", include_str!("../validation/stiff_springs.json")),
     ("tanh_bat", include_str!("../validation/tanh_bat.json")),
     ("thomson_table", include_str!("../validation/thomson_table.json")),
+    ("three_supports", include_str!("../validation/three_supports.json")),
+    ("timo_clamped_tip_mass", include_str!("../validation/timo_clamped_tip_mass.json")),
+    ("timo_cone", include_str!("../validation/timo_cone.json")),
+    ("timo_dowel", include_str!("../validation/timo_dowel.json")),
+    ("timo_dowel_60", include_str!("../validation/timo_dowel_60.json")),
+    ("timo_pinned_pinned", include_str!("../validation/timo_pinned_pinned.json")),
+    ("timo_slender", include_str!("../validation/timo_slender.json")),
+    ("timo_step", include_str!("../validation/timo_step.json")),
+    ("timo_stubby", include_str!("../validation/timo_stubby.json")),
+    ("timo_tube", include_str!("../validation/timo_tube.json")),
     ("torpedo_reference", include_str!("../validation/torpedo_reference.json")),
     ("torpedo_slices", include_str!("../validation/torpedo_slices.json")),
+    ("two_materials", include_str!("../validation/two_materials.json")),
 ];
 
 /// The bats that travel with the program: path and text.
@@ -216,8 +255,8 @@ fn dowel(bat: &Bat) -> Dowel {
     Dowel {
         length: bat.length(),
         radius: bat.profile.at(0.0).outer,
-        youngs_modulus: bat.material.youngs_modulus,
-        density: bat.material.density,
+        youngs_modulus: bat.material().youngs_modulus,
+        density: bat.material().density,
     }
 }
 
@@ -265,7 +304,15 @@ fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
     let (case, bat) = read(name, text)?;
+    let theory = match &case.solve.theory {
+        None => Theory::EulerBernoulli,
+        Some(theory) => Theory::ALL
+            .into_iter()
+            .find(|known| known.name() == theory)
+            .ok_or_else(|| Error::value(name, theory, "a theory"))?,
+    };
     let request = Request {
+        theory,
         modes: case.solve.modes,
         tolerance: case.solve.tolerance.unwrap_or(Request::default().tolerance),
         elements: case.solve.elements,

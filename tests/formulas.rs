@@ -17,6 +17,7 @@ const REQUEST: Request = Request {
     elements: Some(64),
     degree: None,
     solver: sweetspot::Solver::Statics,
+    theory: sweetspot::theory::Theory::EulerBernoulli,
 };
 
 /// A bat of the common material with that `profile`.
@@ -163,7 +164,7 @@ fn a_smooth_bat_is_the_limit_of_its_stations() {
     let inner = vec![0.0; x.len()];
     let profile =
         Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear }).unwrap();
-    let stations = Bat::new("stations", profile, formula.material.clone(), None).unwrap();
+    let stations = Bat::new("stations", profile, formula.material().clone(), None).unwrap();
     let fine = Request { elements: Some(2000), ..REQUEST };
     let of = |bat: &Bat| solve(bat, &fine).unwrap().modes;
     for (a, b) in of(&formula).iter().zip(of(&stations)) {

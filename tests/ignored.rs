@@ -13,11 +13,11 @@ fn the_first_order_shift_of_a_slender_mode_is_the_exact_one() {
     for (ratio, exact) in [(2.6, 0.993), (16.0, 0.979)] {
         let dowel = sweetspot::validation::bundled_bat("meshes/dowel.json").unwrap();
         let material = Material {
-            shear_modulus: Some(dowel.material.youngs_modulus / ratio),
+            shear_modulus: Some(dowel.material().youngs_modulus / ratio),
             shear_coefficient: Some(0.9),
-            ..dowel.material.clone()
+            ..dowel.material().clone()
         };
-        let bat = Bat { material, ..dowel };
+        let bat = Bat::new("dowel", dowel.profile, material, None).unwrap();
         let solution = solve(&bat, &Request { tolerance: 1e-6, ..Request::default() }).unwrap();
         let shift = shift(&bat, &solution.modes[0]);
         let total = 1.0 + shift.rotary_inertia + shift.shear.unwrap();

@@ -54,7 +54,7 @@ fn the_weighed_mass_sets_the_density_and_nothing_else() {
     let light = Material::new(1.0, common::MODULUS).unwrap();
     let bat = Bat::new("weighed", profile, light, Some(0.9)).unwrap();
     assert!((bat.inertia().mass - 0.9).abs() < 1e-15);
-    let ratio = (common::DENSITY / bat.material.density).sqrt();
+    let ratio = (common::DENSITY / bat.material().density).sqrt();
     for (a, b) in frequencies(&dowel()).iter().zip(frequencies(&bat)) {
         assert!((b / a / ratio - 1.0).abs() < 1e-13);
     }

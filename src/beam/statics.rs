@@ -500,7 +500,7 @@ mod tests {
     use super::*;
     use crate::bat::Weighed;
     use crate::beam::element::elements;
-    use crate::beam::motion::Motion;
+    use crate::beam::motion::{Depth, Motion};
     use crate::eigen::lanczos::dot;
     use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
     use crate::material::Material;
@@ -582,7 +582,8 @@ mod tests {
             let support = |(x, kind): &(f64, Held)| Support { x: *x, kind: *kind };
             fixtures.supports = supports[..held].iter().map(support).collect();
             let bare = bat([0.012, 0.033]);
-            let (profile, material) = (bare.profile, bare.material);
+            let material = bare.material().clone();
+            let profile = bare.profile;
             let weighed = Weighed::default();
             let bat = Bat::with_fixtures("held", profile, material, fixtures.clone(), weighed);
             let bat = bat.unwrap();
@@ -597,10 +598,10 @@ mod tests {
         let bat = bat([0.033, 0.012]);
         let statics = statics::<N, W>(&bat, 7, theory);
         let mut motion = Motion::default();
-        motion.take(&statics, &some(statics.dimension(), 3), None, &[], false);
+        motion.take_alone(&statics, &some(statics.dimension(), 3), &[], Depth::Shape);
         let elements = elements::<N, W>(&bat, &Mesh::along(&bat, 7), theory);
         let [mut kinetic, mut momentum, mut spin] = [0.0; 3];
-        for (place, outwards) in motion.shape.iter().enumerate() {
+        for (place, outwards) in motion.shape.chunks_exact(N).enumerate() {
             let knob_side = place < statics.split;
             let e = &elements[if knob_side { statics.split - 1 - place } else { place }];
             // Seen outwards, odd polynomials change sign on the knob side.
@@ -611,7 +612,7 @@ mod tests {
             momentum += load[0];
             spin += e.middle * load[0] + 0.5 * e.length * load[1];
             if let Some(beyond) = &e.beyond {
-                let turn: [f64; N] = match motion.turns.get(place) {
+                let turn: [f64; N] = match motion.turns.chunks_exact(N).nth(place) {
                     Some(turn) => std::array::from_fn(|k| turned(k + 1) * turn[k]),
                     None => slope(&w, e.length),
                 };
@@ -646,7 +647,9 @@ mod tests {
         for cell in &statics.cells {
             let mut q = [0.0; 9];
             q[..7].copy_from_slice(&some(7, 2));
-            let back = cell.scaled_strains(&cell.strains(&q));
+            let mut strains = [0.0; 9];
+            cell.view().strains(&q[..7], 7, &mut strains[..7]);
+            let back = cell.scaled_strains(&strains);
             for (a, b) in back.iter().zip(&q) {
                 assert!((a - b).abs() < 1e-13, "{a} {b}");
             }

@@ -6,12 +6,12 @@ use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
-use sweetspot::solve::Solution;
+use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, curve_csv};
-use crate::cli::hit::verdict as hit_verdict;
+use crate::cli::hit::{refuse_held, verdict as hit_verdict};
 
 /// Everything about a bat: modes, proof on the dowel, collision, sweet spot
 ///
@@ -47,7 +47,9 @@ pub fn run(args: &Args) -> Result<Done> {
     args.output.progress("solving …");
     args.solve.refuse_budget("analyze")?;
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
-    let request = args.solve.request(args.solve.modes_within(10, bat.profile.pieces.len()));
+    refuse_held(&bat)?;
+    let modes = args.solve.modes_within(10, bat.profile.pieces.len());
+    let request = Request { theory: solution.theory, ..args.solve.request(modes) };
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::bat::Bat;
+use sweetspot::choice;
 use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Impact, Model, Scene};
@@ -13,7 +14,9 @@ use sweetspot::error::{Error, Result, nearest};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};
+use sweetspot::theory::Theory;
 use sweetspot::units::{self, Quantity};
+use sweetspot::weighed;
 
 use crate::cli::{NOT_REACHED, printable};
 
@@ -42,8 +45,7 @@ impl BatArgs {
 
     /// Reads the bat and finds its modes.
     pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
-        let bat = self.read(output)?;
-        let request = solve.request(self.count());
+        let (bat, request) = solve.prepare(self.read(output)?, self.count(), output)?;
         let solution = match solve.budget {
             Some(budget) => solve::solve_within(&bat, &request, budget)?,
             None => solve::solve(&bat, &request)?,
@@ -60,9 +62,10 @@ pub struct SolveArgs {
     #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance)]
     pub tol: f64,
 
-    /// Beam theory: auto or euler-bernoulli
+    /// Beam theory: auto (the simplest within the tolerance), euler-bernoulli, rayleigh (rotary
+    /// inertia) or timoshenko (and shear)
     #[arg(long, default_value = "auto", value_parser = theory)]
-    theory: String,
+    theory: Chosen,
 
     /// Total number of elements; the tolerance is then not enforced
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -87,7 +90,20 @@ impl SolveArgs {
     pub fn request(&self, modes: usize) -> Request {
         let elements = self.elements.map(|n| n as usize);
         let degree = self.degree.map(usize::from);
-        Request { modes, tolerance: self.tol, elements, degree, solver: self.solver }
+        let theory = self.theory.0.unwrap_or_default();
+        Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
+    }
+
+    /// The same with the theory chosen for this bat, and the bat as stiff as it was tapped.
+    pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<(Bat, Request)> {
+        let mut request = self.request(modes);
+        if self.theory.0.is_none() {
+            let choice = choice::theory(&bat, &request)?;
+            choice.warning.iter().for_each(|w| output.warn(&format!("warning: {w}")));
+            request.theory = choice.theory;
+        }
+        let bat = weighed::tuned(bat, request.theory, request.tolerance)?;
+        Ok((bat, request))
     }
 
     /// A time for the modes alone says nothing of a whole hit.
@@ -349,7 +365,7 @@ fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
 }
 
 /// One of `now`, with a word of its own for what comes `later`.
-fn choice(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
+fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
     if now.contains(&text) {
         return Ok(text.to_owned());
     }
@@ -361,13 +377,19 @@ fn choice(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<Strin
     Err(format!("expected one of {names}{hint}"))
 }
 
-fn theory(text: &str) -> std::result::Result<String, String> {
-    choice(text, &["auto", "euler-bernoulli"], &["rayleigh", "timoshenko"])
+/// A theory, or none: that which the bat needs.
+#[derive(Debug, Clone, Copy)]
+struct Chosen(Option<Theory>);
+
+fn theory(text: &str) -> std::result::Result<Chosen, String> {
+    let names = ["auto", "euler-bernoulli", "rayleigh", "timoshenko"];
+    let name = one_of(text, &names, &[])?;
+    Ok(Chosen(Theory::ALL.into_iter().find(|theory| theory.name() == name)))
 }
 
 fn solver(text: &str) -> std::result::Result<Solver, String> {
     let names = ["auto", "statics", "dense", "shift-invert", "arpack"];
-    Ok(match choice(text, &names, &[])?.as_str() {
+    Ok(match one_of(text, &names, &[])?.as_str() {
         "dense" => Solver::Dense,
         "shift-invert" => Solver::ShiftInvert,
         "arpack" => Solver::Arpack,
@@ -376,11 +398,11 @@ fn solver(text: &str) -> std::result::Result<Solver, String> {
 }
 
 fn model(text: &str) -> std::result::Result<String, String> {
-    choice(text, &["energy-loss", "rigid"], &["pulse", "contact"])
+    one_of(text, &["energy-loss", "rigid"], &["pulse", "contact"])
 }
 
 fn unit_system(text: &str) -> std::result::Result<Units, String> {
-    Ok(match choice(text, &["si", "us", "both"], &[])?.as_str() {
+    Ok(match one_of(text, &["si", "us", "both"], &[])?.as_str() {
         "si" => Units::Si,
         "us" => Units::Us,
         _ => Units::Both,

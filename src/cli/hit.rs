@@ -86,7 +86,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.solve.refuse_budget("hit")?;
-    let request = args.solve.request(args.bat.count());
+    refuse_held(&bat)?;
+    let (bat, request) = args.solve.prepare(bat, args.bat.count(), &args.output)?;
     let sweep = sweep(&bat, model, &scene, &request, &args.place.places(&bat)?)?;
     args.solve.say_raised(&sweep.solution, &args.output);
     let units = args.output.units;
@@ -101,6 +102,19 @@ pub fn run(args: &Args) -> Result<Done> {
     let document = || json::hit(&bat, model, &scene, &sweep.impacts, &sweep.spot);
     let code = verdict(&args.solve, &sweep, &args.output);
     Ok((args.output.deliver(table, document)?, code))
+}
+
+/// The collision models of this version strike a bat that nothing holds.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a bat with supports, springs to ground or hands.
+pub fn refuse_held(bat: &Bat) -> Result<()> {
+    if !bat.fixtures.holding() {
+        return Ok(());
+    }
+    let expected = "a free bat: hits on a held one are not supported yet";
+    Err(Error::value("hit", "a bat with supports, springs to ground or hands", expected))
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

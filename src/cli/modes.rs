@@ -10,7 +10,7 @@ use sweetspot::report::{file, text};
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs};
 
-/// Natural frequencies, shapes and nodes of the free bat
+/// Natural frequencies, shapes and nodes
 ///
 /// Example: sweetspot modes meshes/r161.json -n 5 --tol 1e-8
 #[derive(clap::Args)]
@@ -40,7 +40,15 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
-        let pencil = Pencil::of(&bat, &solution.mesh, solution.degree);
+        if !bat.fixtures.none_moving() {
+            let found = "a bat with attachments, joints or supports";
+            return Err(Error::value(
+                "--matrices",
+                found,
+                "a bare bat: K and M are those of its body",
+            ));
+        }
+        let pencil = Pencil::of(&bat, &solution.mesh, solution.degree, solution.theory);
         let failed = |source| Error::Write { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;
         for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {

@@ -63,6 +63,10 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
+    if !bat.fixtures.none_moving() {
+        let found = "a bat with attachments, joints or supports";
+        return Err(Error::value("ring", found, "a bare bat: others are not supported yet"));
+    }
     let ringing = Ringing::new(&bat, &solution, args.bending_only);
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();

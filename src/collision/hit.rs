@@ -98,10 +98,11 @@ pub struct Hitter<'a> {
 }
 
 impl<'a> Hitter<'a> {
-    /// A free bat in that scene. It recoils as the line of mass that an Euler–Bernoulli beam is.
+    /// A free bat in that scene. It recoils as its theory says: without rotary inertia, as a line of
+    /// mass.
     pub fn new(model: Model, scene: &'a Scene, bat: &Bat, solution: &'a Solution) -> Self {
         let body = bat.inertia();
-        let line = body.as_line();
+        let line = if solution.theory.turns() { body } else { body.as_line() };
         let rigid = RigidBat {
             mass: line.mass,
             balance_point: line.balance_point,

@@ -55,7 +55,7 @@ fn on_the_line(bat: &Bat, count: usize) -> Result<Bat> {
         inner: vec![0.0; count],
         interpolation: Interpolation::Linear,
     })?;
-    let Material { density, youngs_modulus, .. } = bat.material;
+    let Material { density, youngs_modulus, .. } = *bat.material();
     Bat::new("stations on a line", profile, Material::new(density, youngs_modulus)?, None)
 }
 

@@ -48,7 +48,7 @@ fn split(bat: &Bat, places: &[f64]) -> Result<Bat> {
         }
     }
     let stations = Stations { x, outer, inner, interpolation: Interpolation::Linear };
-    let Material { density, youngs_modulus, .. } = bat.material;
+    let Material { density, youngs_modulus, .. } = *bat.material();
     Bat::new("split", Profile::new(stations)?, Material::new(density, youngs_modulus)?, None)
 }
 

@@ -95,7 +95,7 @@ fn r161_times(length: f64, modulus: f64, density: f64) -> Result<Bat> {
         inner: times(&stations.inner),
         interpolation: stations.interpolation,
     })?;
-    let material = &original.material;
+    let material = original.material();
     let material = Material::new(material.density * density, material.youngs_modulus * modulus)?;
     Bat::new("scaled", profile, material, None)
 }
@@ -117,7 +117,7 @@ fn by_decades(scales: impl Iterator<Item = [f64; 3]>) -> Result<Outcome> {
 
 /// E from 1 to 1e15 Pa.
 pub fn moduli_by_decades() -> Result<Outcome> {
-    let own = bundled_bat("meshes/r161.json")?.material.youngs_modulus;
+    let own = bundled_bat("meshes/r161.json")?.material().youngs_modulus;
     by_decades((0..=15).map(|decade| [1.0, 10f64.powi(decade) / own, 1.0]))
 }
 

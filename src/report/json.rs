@@ -6,7 +6,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::bat::{Bat, STANDARD_PIVOT, Weighed};
 use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::ignored::ignored;
@@ -34,7 +34,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
         "bat": resolved(bat),
         "summary": summary(bat),
         "model": {
-            "theory": "euler-bernoulli",
+            "theory": solution.theory.name(),
             "elements": solution.mesh.len(),
             "degree": solution.degree,
             "solver": solver_name(solution.solver),
@@ -45,7 +45,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
             "no_mode_missing": solution.complete(),
             "ignored": ignored(bat, solution),
         },
-        "rigid_modes": 2,
+        "rigid_modes": solution.rigid_modes,
         "modes": modes,
     });
     if timing {
@@ -69,7 +69,7 @@ fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
         "order": mode.order,
         "frequency_hz": mode.frequency(),
         "omega_rad_s": mode.omega,
-        "damping_ratio": 0.5 * bat.material.loss_factor,
+        "damping_ratio": 0.5 * bat.material().loss_factor,
         "modal_mass_kg": mode.modal_mass,
         "nodes_m": mode.nodes,
         "error": {
@@ -98,7 +98,7 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
 
 fn summary(bat: &Bat) -> Value {
     let inertia = bat.inertia();
-    json!({
+    let mut summary = json!({
         "length_m": bat.length(),
         "mass_kg": inertia.mass,
         "balance_point_m": inertia.balance_point,
@@ -106,7 +106,19 @@ fn summary(bat: &Bat) -> Value {
         "pivot_m": STANDARD_PIVOT,
         "inertia_pivot_kg_m2": inertia.about(STANDARD_PIVOT),
         "center_of_percussion_m": inertia.center_of_percussion(STANDARD_PIVOT),
-    })
+    });
+    let weighed = &bat.weighed;
+    if weighed != &Weighed::default() {
+        summary["weighed"] = json!({
+            "density_factor": bat.factors[0],
+            "modulus_factor": bat.factors[1],
+        });
+    }
+    if let Some(weighed) = weighed.balance_point {
+        summary["weighed"]["balance_point_m"] = json!(weighed);
+        summary["weighed"]["balance_point_difference_m"] = json!(inertia.balance_point - weighed);
+    }
+    summary
 }
 
 /// The `sweetspot-hit/1` document.

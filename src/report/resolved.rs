@@ -14,7 +14,7 @@ pub fn resolved(bat: &Bat) -> Value {
         "format": "sweetspot-bat/1",
         "name": bat.name,
         "source": bat.source,
-        "material": material(&bat.material),
+        "material": material(bat.material()),
         "profile": match &bat.profile.formulas {
             Some(formulas) => pieces(formulas),
             None => columns(&bat.profile.stations),

@@ -9,6 +9,7 @@ use crate::collision::sweet_spot::SweetSpot;
 use crate::ignored::ignored;
 use crate::report::curve;
 use crate::solve::Solution;
+use crate::theory::Theory;
 use crate::trade::reference::solver_name;
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 
@@ -82,6 +83,9 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     line("mass", units.mass(inertia.mass));
     line("balance point, from knob", units.length(inertia.balance_point));
     line("balance point, from tip", units.length(length - inertia.balance_point));
+    if let Some(weighed) = bat.weighed.balance_point {
+        line("  less the weighed one", units.length(inertia.balance_point - weighed));
+    }
     line("inertia about balance point", units.inertia(inertia.about_balance));
     line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
     if let Some(center) = inertia.center_of_percussion(STANDARD_PIVOT) {
@@ -96,8 +100,7 @@ const MOST_NODES: usize = 20;
 
 /// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
 pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
-    let mut out =
-        String::from("Bending modes of the free bat (and two rigid ones, at 0 Hz exactly)\n");
+    let mut out = format!("Bending modes ({})\n", bat.fixtures.freedom());
     if solution.modes.is_empty() {
         return out;
     }
@@ -137,7 +140,12 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
 /// How the modes were found, and what the model left out.
 pub fn model(bat: &Bat, solution: &Solution) -> String {
     let mut out = format!(
-        "Model: Euler-Bernoulli, {} elements of degree {}, solver {}",
+        "Model: {}, {} elements of degree {}, solver {}",
+        match solution.theory {
+            Theory::EulerBernoulli => "Euler-Bernoulli",
+            Theory::Rayleigh => "Rayleigh (rotary inertia)",
+            Theory::Timoshenko => "Timoshenko (rotary inertia and shear)",
+        },
         solution.mesh.len(),
         solution.degree,
         solver_name(solution.solver)
@@ -146,10 +154,12 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
         let _ = write!(out, " ({} Lanczos steps)", solution.steps);
     }
     out += "\n";
-    let count = if solution.complete() {
-        "none is missing: mode n has its n + 1 nodes".to_owned()
-    } else {
-        "A MODE MAY BE MISSING: not every mode n has n + 1 nodes".to_owned()
+    let by_nodes = bat.fixtures.none_moving() && !solution.theory.shears();
+    let count = match (solution.complete(), by_nodes) {
+        (true, true) => "none is missing: mode n has its n + 1 nodes",
+        (true, false) => "none is missing: as many motions are slower",
+        (false, true) => "A MODE MAY BE MISSING: not every mode n has n + 1 nodes",
+        (false, false) => "A MODE MAY BE MISSING: the number of slower motions is another",
     };
     let plan = format!(
         "  why: {}; every frequency within {:.0e}; {count}",

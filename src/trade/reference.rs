@@ -105,8 +105,8 @@ mod tests {
         let dowel = Dowel {
             length: bat.length(),
             radius: bat.profile.at(0.0).outer,
-            youngs_modulus: bat.material.youngs_modulus,
-            density: bat.material.density,
+            youngs_modulus: bat.material().youngs_modulus,
+            density: bat.material().density,
         };
         let reference = Reference::of(&bat, 8).unwrap();
         let exact: Vec<f64> = (1..=8).map(|n| dowel.omega(Ends::FreeFree, n)).collect();
