@@ -14,9 +14,21 @@ pub fn round_off(ratio: f64, elements: usize) -> f64 {
 /// What is the mesh's fault and what the arithmetic's.
 ///
 /// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
-/// quotient.
-pub fn account(mode: &mut Mode, first: Option<&Mode>, elements: usize, factored: bool) {
-    let sums = round_off(mode.omega / first.map_or(mode.omega, |m| m.omega), elements);
+/// quotient. Far slower modes leave their own round-off in the compliance: of a mode they were
+/// taken out of, the residual beyond what the iteration stopped at (`left`) shows it, and half of
+/// that is the frequency's.
+pub fn account(
+    mode: &mut Mode,
+    first: Option<&Mode>,
+    elements: usize,
+    factored: bool,
+    left: Option<f64>,
+) {
+    let mut sums = round_off(mode.omega / first.map_or(mode.omega, |m| m.omega), elements);
+    if let Some(left) = left {
+        let residual = mode.error.residual;
+        sums += 0.5 * ((residual - left) * (residual + left)).max(0.0).sqrt();
+    }
     mode.error.round_off = sums;
     if factored {
         let solver = 0.5 * mode.error.residual.powi(2);

@@ -106,6 +106,16 @@ where
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
+        // What the contacts do not allow: a step divides by a small number, and would let it grow.
+        let mut all: Vec<R> = vec![];
+        let known = match &statics.fixed {
+            None => known,
+            Some(fixed) => {
+                fixed.conditions().for_each(|condition| all.extend_from_slice(condition));
+                all.extend_from_slice(known);
+                &all
+            }
+        };
         let arch = Arch::new();
         arch.dispatch(Iteration {
             lanczos,

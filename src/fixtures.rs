@@ -129,6 +129,21 @@ impl Fixtures {
         2 - lines - turns
     }
 
+    /// How many conditions the supports and the springs to ground put on the bat: the order of a
+    /// motion rises by no more. Hands, who hardly hold more than a rigid motion, count as two.
+    pub fn held(&self) -> usize {
+        let supports = self.supports.iter().map(|support| match support.kind {
+            Held::Pinned => 1,
+            Held::Clamped => 2,
+        });
+        let springs = self
+            .attachments
+            .iter()
+            .map(|a| usize::from(a.stiffness > 0.0) + usize::from(a.rotational_stiffness > 0.0));
+        let bed = self.grip.filter(|grip| grip.stiffness > 0.0).map_or(0, |_| 2);
+        supports.chain(springs).sum::<usize>() + bed
+    }
+
     /// How free the bat is, in words.
     pub fn freedom(&self) -> &'static str {
         let pinned = self.supports.iter().any(|support| support.kind == Held::Pinned)

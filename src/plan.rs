@@ -18,7 +18,7 @@
 //! ```
 //!
 //! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to
-//! `t = 1`). An element may have as much of both as lies on an ellipse. Bores are not looked at: the
+//! `t = 1`). Where sections turn or shear, `k` is the greater wave number of that theory. An element may have as much of both as lies on an ellipse. Bores are not looked at: the
 //! outer radius stands for the section, and the check after the solve for the rest.
 //!
 //! # Source
@@ -119,9 +119,12 @@ impl Plan {
         degrees: impl IntoIterator<Item = usize>,
     ) -> Self {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
-        let survey = Survey::of(bat);
-        // Mode n of a free beam is near the phase (n + ½)π from end to end.
-        let wave = (modes as f64 + 0.5) * std::f64::consts::PI / survey.phase();
+        // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds to
+        // the order of a motion at most one for each thing held beyond the two rigid motions.
+        let held = bat.fixtures.held().saturating_sub(2);
+        let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
+        let survey = Survey::of(bat, wanted.theory, phase);
+        let wave = survey.root_omega;
         let mut best: Option<(f64, usize, Reach)> = None;
         let mut range: Option<[usize; 2]> = None;
         for degree in degrees {

@@ -398,12 +398,14 @@ impl Task<'_> {
             let mut mode = mode;
             mode.error.discretization += missed;
             // Round-off is that of the slowest mode that was not taken out of the others.
-            let first = modes.get(if modes.len() < apart { 0 } else { apart });
-            account(&mut mode, first, plan.mesh.len(), factored);
+            let slow = modes.len() < apart;
+            let first = modes.get(if slow { 0 } else { apart });
+            let left = residuals.get(modes.len()).filter(|_| apart > 0 && !slow);
+            account(&mut mode, first, plan.mesh.len(), factored, left.copied());
             modes.push(mode);
         };
         let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
-        if size > LARGE || pairs.statics.fixed.is_some() {
+        if size > LARGE || pairs.statics.fixed.is_some() || apart > 0 {
             let mut motion = Motion::<f64>::default();
             for (k, own) in strains.chunks_exact(size).enumerate() {
                 if size > LARGE {

@@ -2,6 +2,7 @@
 
 use crate::bat::Bat;
 use crate::profile::{Cubics, Piece, Radii, Section};
+use crate::theory::Theory;
 
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
@@ -13,8 +14,8 @@ const THIN: f64 = 1e-3;
 pub struct Sample {
     /// From 0 to 1 along the piece.
     pub s: f64,
-    /// `∫(ρA/EI)^¼ dx` from the piece's left end: for a mode of angular frequency ω its phase is
-    /// `√ω` times that (rad).
+    /// `∫k dx/√ω` from the piece's left end, with the wave number `k` at the angular frequency ω:
+    /// for the Euler–Bernoulli beam `∫(ρA/EI)^¼ dx`, whatever ω.
     pub phase: f64,
     /// The taper from there, for a straight side `∫|d ln r|`.
     pub taper: f64,
@@ -26,19 +27,87 @@ pub struct Survey {
     samples: Vec<Sample>,
     /// Where in them each piece ends.
     ends: Vec<usize>,
+    /// The highest frequency that is looked at, as `√ω` (√(rad/s)).
+    pub root_omega: f64,
+}
+
+/// What the wave number at a sample comes from where sections turn or shear: ρA/EI (s²/m⁴), ρI/EI and
+/// ρA/κGA (s²/m²), and how far the sample before is (m).
+#[derive(Debug, Clone, Copy, Default)]
+struct Ratios {
+    slender: f64,
+    turning: f64,
+    shear: f64,
+    step: f64,
+}
+
+impl Ratios {
+    /// The squares of both wave numbers (1/m²) at ω²; the second is of a wave only where positive.
+    ///
+    /// ```text
+    /// k⁴ − ω² (ρA/κGA + ρI/EI) k² + ω⁴ (ρA/κGA)(ρI/EI) − ω² ρA/EI = 0
+    /// ```
+    ///
+    /// # Source
+    ///
+    /// Timoshenko's equation (named in [`Theory::Timoshenko`]) for `w = e^{i(kx − ωt)}`.
+    fn waves(&self, square: f64) -> [f64; 2] {
+        let middle = 0.5 * square * (self.shear + self.turning);
+        let half = 0.5 * square * (self.shear - self.turning);
+        let root = (half * half + square * self.slender).sqrt();
+        [middle + root, middle - root]
+    }
 }
 
 impl Survey {
-    pub fn of(bat: &Bat) -> Self {
+    /// A bat whose highest wanted mode has that phase from end to end (rad), all waves together.
+    pub fn of(bat: &Bat, theory: Theory, phase: f64) -> Self {
         let widest = bat.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let pieces = &bat.profile.pieces;
         let mut samples = Vec::with_capacity(5 * pieces.len());
         let mut ends = Vec::with_capacity(pieces.len());
+        let mut ratios = Vec::new();
         for piece in pieces {
             take(bat, piece, THIN * widest, &mut samples);
             ends.push(samples.len());
+            if theory.turns() {
+                let first = ratios.len();
+                ratios.extend(
+                    samples[first..]
+                        .iter()
+                        .map(|sample| ratios_at(bat, piece, sample.s, THIN * widest, theory)),
+                );
+                for k in first + 1..samples.len() {
+                    ratios[k].step = piece.length * (samples[k].s - samples[k - 1].s);
+                }
+            }
         }
-        Self { samples, ends }
+        let slender: f64 = ends.iter().map(|end| samples[end - 1].phase).sum();
+        let mut survey = Self { samples, ends, root_omega: phase / slender };
+        if theory.turns() {
+            survey.tune(&ratios, phase);
+        }
+        survey
+    }
+
+    /// Finds the frequency at which the waves have that phase, and the longer of them there.
+    fn tune(&mut self, ratios: &[Ratios], phase: f64) {
+        // Waves slowed by shear and rotary inertia go between √ω and ω: the phase is a power of ω
+        // between ½ and 1, and these many steps leave little.
+        for _ in 0..4 {
+            let square = self.root_omega.powi(4);
+            let both = |r: &Ratios| r.waves(square).map(|k| k.max(0.0).sqrt()).iter().sum::<f64>();
+            let found: f64 = pairs(ratios, both).sum();
+            self.root_omega *= (phase / found).powf(0.6);
+        }
+        let square = self.root_omega.powi(4);
+        let faster = |r: &Ratios| r.waves(square)[0].sqrt() / self.root_omega;
+        let steps: Vec<f64> = pairs(ratios, faster).collect();
+        let mut sum = 0.0;
+        for (k, sample) in self.samples.iter_mut().enumerate() {
+            sum = if ratios[k].step == 0.0 { 0.0 } else { sum + steps[k - 1] };
+            sample.phase = sum;
+        }
     }
 
     /// The samples of every piece.
@@ -50,11 +119,24 @@ impl Survey {
     pub fn piece(&self, k: usize) -> &[Sample] {
         &self.samples[if k == 0 { 0 } else { self.ends[k - 1] }..self.ends[k]]
     }
+}
 
-    /// The phase of the whole bat.
-    pub fn phase(&self) -> f64 {
-        self.ends.iter().map(|end| self.samples[end - 1].phase).sum()
-    }
+/// `∫ f dx` from each sample to the next by the trapezoid rule; 0 between pieces.
+fn pairs(ratios: &[Ratios], f: impl Fn(&Ratios) -> f64) -> impl Iterator<Item = f64> {
+    ratios.windows(2).map(move |w| match w[1].step {
+        0.0 => 0.0,
+        step => 0.5 * step * (f(&w[0]) + f(&w[1])),
+    })
+}
+
+/// [`Ratios`] at a place of a piece, without its step.
+fn ratios_at(bat: &Bat, piece: &Piece, s: f64, thin: f64, theory: Theory) -> Ratios {
+    let section = piece.at(s);
+    let section = Section { outer: section.outer.max(thin), ..section };
+    let worth = bat.layup(piece).worth(section);
+    let shear = if theory.shears() { worth.mass / worth.shear } else { 0.0 };
+    let [slender, turning] = [worth.mass, worth.turning].map(|inertia| inertia / worth.bending);
+    Ratios { slender, turning, shear, step: 0.0 }
 }
 
 /// What a sample is made from.

@@ -192,12 +192,13 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
 #[derive(Debug, Clone)]
 pub struct Truth {
     pub bat: Bat,
+    pub theory: Theory,
     /// Of mode 1, 2, … (Hz).
     pub frequencies: Vec<f64>,
-    /// From the knob end (m), of as many of the lowest modes as are known.
+    /// From the knob end (m), of the lowest modes; empty where they are not known.
     pub nodes: Vec<Vec<f64>>,
-    /// In kg, of as many of the lowest modes as are known.
-    pub modal_masses: Vec<f64>,
+    /// In kg, of the lowest modes, where they are known.
+    pub modal_masses: Vec<Option<f64>>,
 }
 
 impl Truth {
@@ -210,7 +211,9 @@ impl Truth {
         let mut truth: Option<Self> = None;
         for name in names {
             let (case, bat) = read(name, text(name)?)?;
-            let empty = Self { bat, frequencies: vec![], nodes: vec![], modal_masses: vec![] };
+            let theory = theory(name, &case)?;
+            let (frequencies, nodes, modal_masses) = (vec![], vec![], vec![]);
+            let empty = Self { bat, theory, frequencies, nodes, modal_masses };
             case.checks.iter().for_each(|check| truth.get_or_insert(empty.clone()).add(check));
         }
         truth.ok_or_else(|| Error::value("cases", "none", "at least one"))
@@ -227,9 +230,10 @@ impl Truth {
         let nodes = |n| UniformMode::new(Ends::FreeFree, n).nodes();
         Ok(Self {
             bat,
+            theory: Theory::EulerBernoulli,
             frequencies: (1..=modes).map(|n| dowel.frequency(Ends::FreeFree, n)).collect(),
             nodes: (1..=modes).map(|n| nodes(n).iter().map(|x| x * length).collect()).collect(),
-            modal_masses: (1..=modes).map(|n| dowel.modal_mass(Ends::FreeFree, n)).collect(),
+            modal_masses: (1..=modes).map(|n| Some(dowel.modal_mass(Ends::FreeFree, n))).collect(),
         })
     }
 
@@ -240,7 +244,10 @@ impl Truth {
             Known::FrequencyHz if mode > self.frequencies.len() => {
                 self.frequencies.push(check.expected);
             }
-            Known::ModalMassKg => self.modal_masses.push(check.expected),
+            Known::ModalMassKg => {
+                self.modal_masses.resize(mode.max(self.modal_masses.len()), None);
+                self.modal_masses.last_mut().into_iter().for_each(|m| *m = Some(check.expected));
+            }
             Known::NodeM => {
                 self.nodes.resize(mode.max(self.nodes.len()), vec![]);
                 self.nodes.last_mut().into_iter().for_each(|nodes| nodes.push(check.expected));
@@ -297,6 +304,14 @@ fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
     Ok((case, bat))
 }
 
+/// The theory that a case asks for.
+fn theory(name: &str, case: &Case) -> Result<Theory> {
+    let Some(theory) = &case.solve.theory else { return Ok(Theory::EulerBernoulli) };
+    let mut all = Theory::ALL.into_iter();
+    let known = all.find(|known| known.name() == theory);
+    known.ok_or_else(|| Error::value(name, theory, "a theory"))
+}
+
 /// Runs one case: a row for every known number.
 ///
 /// # Errors
@@ -304,15 +319,8 @@ fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
     let (case, bat) = read(name, text)?;
-    let theory = match &case.solve.theory {
-        None => Theory::EulerBernoulli,
-        Some(theory) => Theory::ALL
-            .into_iter()
-            .find(|known| known.name() == theory)
-            .ok_or_else(|| Error::value(name, theory, "a theory"))?,
-    };
     let request = Request {
-        theory,
+        theory: theory(name, &case)?,
         modes: case.solve.modes,
         tolerance: case.solve.tolerance.unwrap_or(Request::default().tolerance),
         elements: case.solve.elements,

@@ -222,7 +222,7 @@ impl Form {
         let end = self.rows.len() - kept;
         while first < end {
             let largest = |row: &[f64]| row[first..].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-            if self.rows[first][first].abs() < SMALL * largest(&self.rows[first]) {
+            if self.rows[first][first].abs() <= SMALL * largest(&self.rows[first]) {
                 let (i, j) = self.pivot(first, end)?;
                 self.exchange(first, i);
                 if i != j {

@@ -164,6 +164,11 @@ impl<S: Real> Fixed<S> {
         self.holds.redundant.len()
     }
 
+    /// These conditions: orthonormal vectors of strains.
+    pub fn conditions(&self) -> impl Iterator<Item = &[S]> {
+        self.holds.basis.iter().map(Vec::as_slice)
+    }
+
     /// How many rigid motions are free.
     pub fn rigid_modes(&self) -> usize {
         self.holds.free.len()
@@ -393,8 +398,15 @@ impl<S: Real> Fixed<S> {
         loads.points.resize(self.points.len(), [R::default(); 2]);
         loads.contacts.clear();
         loads.contacts.resize(self.contacts.len(), R::default());
-        let mut rigid = self.holds.rigid_of(|k| inner(q, &self.holds.rows[k]));
+        // The contacts' displacements wait in the place of their forces. They come from the sums
+        // themselves: as products with the rows they would keep ε of the slowest motion only.
         self.outwards(body, q, loads);
+        let held = |k: usize| match self.contacts[self.holds.primary[k]].at {
+            At::Border => loads.contacts[self.holds.primary[k]],
+            At::Bed { .. } => inner(q, &self.holds.rows[k]),
+        };
+        let mut rigid = self.holds.rigid_of(held);
+        loads.contacts.fill(R::default());
         let mut total = self.take_out(body, rigid, loads);
         // Twice: where one mass is far above all others, the first time leaves its round-off.
         for _ in 0..2 {
@@ -407,7 +419,8 @@ impl<S: Real> Fixed<S> {
         rigid
     }
 
-    /// Integrates strains from the root at rest and leaves the loads of their inertia.
+    /// Integrates strains from the root at rest and leaves the loads of their inertia and the
+    /// displacements of contacts at borders.
     fn outwards<R: Over<S>, const N: usize, const W: usize>(
         &self,
         body: &Body<S, N, W>,
@@ -432,7 +445,15 @@ impl<S: Real> Fixed<S> {
                     What::Joint(k) => {
                         way.theta.add(q[self.joints[k].place] * self.joints[k].softness);
                     }
-                    What::Contact(_) => {}
+                    What::Contact(k) => {
+                        let contact = &self.contacts[k];
+                        let given = contact.spring.map(|s| q[s.place] * s.softness);
+                        let moved = match contact.turning {
+                            false => way.w.value(),
+                            true => way.theta.value() * contact.sign,
+                        };
+                        loads.contacts[k] = moved - given.unwrap_or_default();
+                    }
                 }
             }
         }

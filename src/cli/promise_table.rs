@@ -7,7 +7,7 @@ use sweetspot::promise::{BATS, DIGITS, Row, Summary};
 const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
 30 times the true ones in nine of ten above 1e-13. Worst true/stated error:
 
-bat           modes  frequency   nodes  masses  within 30  1e-2 ... 1e-12
+bat                 modes  frequency  nodes  masses    close  1e-2..1e-12
 ";
 const LEGEND: &str =
     "+ met; ~ met by the estimate, not quite by the truth; - out of reach, and said
@@ -31,7 +31,7 @@ pub fn summary(rows: &[Row]) -> String {
 fn line(out: &mut String, bat: &str, modes: &str, summary: &Summary, marks: &str) {
     let _ = writeln!(
         out,
-        "{bat:<13} {modes:>5}  {:>9}  {:>6}  {:>6}  {:>7.1} %  {marks}",
+        "{bat:<19} {modes:>5}  {:>9}  {:>5}  {:>6}  {:>5.1} %  {marks}",
         ratio(summary.frequency_ratio),
         ratio(summary.node_ratio),
         ratio(summary.mass_ratio),
@@ -42,8 +42,8 @@ fn line(out: &mut String, bat: &str, modes: &str, summary: &Summary, marks: &str
 /// One line per bat and tolerance.
 pub fn table(rows: &[Row]) -> String {
     let mut out = String::from(
-        "                    degree x   worst error     true/stated         within\n\
-         bat          tol    elements   true   stated  freq nodes masses   30    met\n",
+        "                          degree x   worst error     true/stated         within\n\
+         bat                tol    elements   true   stated  freq nodes masses   30    met\n",
     );
     for (k, row) in rows.iter().enumerate() {
         if k > 0 && k % DIGITS.count() == 0 {
@@ -52,7 +52,7 @@ pub fn table(rows: &[Row]) -> String {
         let plan = format!("{:>2} x {}", row.degree, row.elements);
         let _ = writeln!(
             out,
-            "{:<12} {:>5.0e}  {plan:<8} {:>7.1e} {:>7.1e}  {:>4} {:>4}  {:>4}  {:>2}/{:<2}   {}",
+            "{:<18} {:>5.0e}  {plan:<8} {:>7.1e} {:>7.1e}  {:>4} {:>4}  {:>4}  {:>2}/{:<2}   {}",
             row.bat,
             row.tolerance,
             row.truth,
