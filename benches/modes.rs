@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
+use sweetspot::theory::Theory;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, Solver, solve};
 
@@ -55,6 +56,38 @@ fn fixed_meshes() {
             "{name:<34} {fast:>10.1?} {:>7.0}x {:>12.0}x",
             ratio(dense, fast),
             ratio(sparse, fast)
+        );
+    }
+}
+
+/// What rotary inertia and shear cost at equal degree on the same mesh.
+fn theories() {
+    let r161 = bundled_bat("meshes/r161.json").unwrap();
+    let mut dowel = bundled_bat("meshes/dowel.json").unwrap();
+    // The wood of Nathan's R161 in shear.
+    dowel.layups[0].outer.shear_modulus = Some(1.05e9);
+    println!("\nTheories on one mesh, everything included: time, and how many times as long");
+    println!("{:<34} {:>15} {:>9} {:>11}", "", "Euler-Bernoulli", "Rayleigh", "Timoshenko");
+    for (name, bat, elements, degree, modes) in [
+        ("dowel, 40 x p3, 6 modes", &dowel, 40, 3, 6),
+        ("dowel, 8 x p9, 6 modes", &dowel, 8, 9, 6),
+        ("R161, 40 x p3, 10 modes", &r161, 40, 3, 10),
+        ("R161, 31 x p5, 10 modes", &r161, 31, 5, 10),
+        ("R161, 31 x p8, 10 modes", &r161, 31, 8, 10),
+    ] {
+        let of = |theory| {
+            let (elements, degree) = (Some(elements), Some(degree));
+            let request = Request { modes, elements, degree, theory, ..Request::default() };
+            move || drop(job(bat, &request))
+        };
+        let [plain, rayleigh, timoshenko] = side_by_side(
+            31,
+            [&of(Theory::EulerBernoulli), &of(Theory::Rayleigh), &of(Theory::Timoshenko)],
+        );
+        println!(
+            "{name:<34} {plain:>15.1?} {:>8.2}x {:>10.2}x",
+            ratio(rayleigh, plain),
+            ratio(timoshenko, plain)
         );
     }
 }
@@ -130,6 +163,7 @@ criterion_group!(benches, modes);
 
 fn main() {
     fixed_meshes();
+    theories();
     prices();
     benches();
     Criterion::default().configure_from_args().final_summary();

@@ -106,7 +106,7 @@ impl Bat {
         bat.lay_out();
         bat.check_range()?;
         if let Some(mass) = weighed.mass {
-            let attached: f64 = bat.fixtures.masses().map(|[mass, ..]| mass).sum();
+            let attached = bat.fixtures.attached_mass();
             let own = mass - attached;
             if own <= 0.0 {
                 let found = format!("{mass} kg, no more than the {attached} kg attached");
@@ -124,9 +124,25 @@ impl Bat {
         for region in &self.fixtures.regions {
             self.layups.push(region.layup.clone());
             for piece in &mut self.profile.pieces {
-                let middle = piece.start + 0.5 * piece.length;
-                if middle > region.from && middle < region.to {
+                if piece.is_within(region.from, region.to) {
                     piece.layup = self.layups.len() - 1;
+                }
+            }
+        }
+        for tape in &self.fixtures.tapes {
+            let per_length = tape.mass / (tape.to - tape.from);
+            // Each layup under it once more, with the tape.
+            let bare = self.layups.len();
+            let mut taped: Vec<Option<usize>> = vec![None; bare];
+            for piece in &mut self.profile.pieces {
+                if piece.is_within(tape.from, tape.to) {
+                    let layups = &mut self.layups;
+                    piece.layup = *taped[piece.layup].get_or_insert_with(|| {
+                        let mut layup = layups[piece.layup].clone();
+                        layup.tape += per_length;
+                        layups.push(layup);
+                        layups.len() - 1
+                    });
                 }
             }
         }
@@ -224,7 +240,7 @@ impl Bat {
         let mut warnings: Vec<String> = strange.collect();
         warnings.extend(strange_material("", self.material(), WALL));
         self.warn_of_regions(&mut warnings);
-        let attached: f64 = self.fixtures.masses().map(|[mass, ..]| mass).sum();
+        let attached = self.fixtures.attached_mass();
         if attached > mass - attached {
             let [attached, own] = [attached, mass - attached].map(plain);
             warnings.push(format!("{attached} kg are attached to a bat of {own} kg"));
@@ -243,14 +259,15 @@ impl Bat {
     fn warn_of_regions(&self, warnings: &mut Vec<String>) {
         for (k, region) in self.fixtures.regions.iter().enumerate() {
             let name = |key: &str| format!("regions[{k}].{key}.");
-            let Layup { outer, core } = &region.layup;
+            let Layup { outer, core, .. } = &region.layup;
             if outer != self.material() {
                 warnings.extend(strange_material(&name("material"), outer, WALL));
             }
             let Some(core) = core else { continue };
             warnings.extend(strange_material(&name("core"), core, CORE));
             let solid = |piece: &Piece| [0.0, 0.5, 1.0].iter().all(|s| piece.at(*s).inner == 0.0);
-            if self.profile.pieces.iter().filter(|piece| piece.layup == k + 1).all(solid) {
+            let here = |piece: &&Piece| piece.is_within(region.from, region.to);
+            if self.profile.pieces.iter().filter(here).all(solid) {
                 warnings.push(format!("regions[{k}].core fills nothing: the bat is solid there"));
             }
         }
@@ -268,8 +285,10 @@ impl Bat {
         let widest = Section { outer, inner: 0.0 };
         for (k, layup) in self.layups.iter().enumerate() {
             let name = |what: &str| match k {
-                0 => what.to_owned(),
-                _ => format!("regions[{}].{what}", k - 1),
+                k if (1..=self.fixtures.regions.len()).contains(&k) => {
+                    format!("regions[{}].{what}", k - 1)
+                }
+                _ => what.to_owned(),
             };
             for material in layup.materials() {
                 let stiffness = material.youngs_modulus * widest.second_moment();

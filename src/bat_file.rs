@@ -21,6 +21,7 @@ const KEYS: &[&str] = &[
     "weighed",
     "regions",
     "attachments",
+    "tapes",
     "absorbers",
     "joints",
     "supports",

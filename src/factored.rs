@@ -69,11 +69,7 @@ pub fn strains<const N: usize, const W: usize>(
     count: usize,
     solver: Solver,
 ) -> Result<Found> {
-    if statics.fixed.is_some() {
-        let expected = "the solver statics: the others take a bare bat";
-        return Err(Error::value("solver", "a bat with attachments, joints or supports", expected));
-    }
-    check_size(statics.dimension() + 2, solver)?;
+    check(statics, solver)?;
     let elements = element::elements::<N, W>(bat, mesh, statics.theory);
     let pairs = of_pencil(statics, &elements, count, solver)?;
     let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
@@ -86,10 +82,18 @@ pub fn strains<const N: usize, const W: usize>(
     })
 }
 
-fn check_size(unknowns: usize, solver: Solver) -> Result<()> {
-    match solver {
-        Solver::Dense if unknowns > MOST_DENSE => {
-            Err(Error::TooLarge { most: MOST_DENSE, found: unknowns })
+/// Whether a solver that factors `K` takes that bat on that mesh.
+fn check<const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    solver: Solver,
+) -> Result<()> {
+    if statics.fixed.is_some() {
+        let expected = "the solver statics: the others take a bare bat";
+        return Err(Error::value("solver", "a bat with attachments, joints or supports", expected));
+    }
+    match statics.dimension() + 2 {
+        found if solver == Solver::Dense && found > MOST_DENSE => {
+            Err(Error::TooLarge { most: MOST_DENSE, found })
         }
         _ => Ok(()),
     }
@@ -189,17 +193,33 @@ fn strains_of<const N: usize, const W: usize>(
 ///
 /// # Errors
 ///
-/// [`Error::TooLarge`], [`Error::Factorization`], [`Error::NotBuilt`], [`Error::NotConverged`].
+/// [`Error::Value`] for a bat that is not bare, [`Error::TooLarge`], [`Error::Factorization`],
+/// [`Error::NotBuilt`], [`Error::NotConverged`].
 pub fn own_and_recomputed(
     bat: &Bat,
     mesh: &Mesh,
     modes: usize,
     solver: Solver,
+    theory: Theory,
 ) -> Result<Vec<[f64; 2]>> {
-    let mut statics = Statics::<f64, 4, 4>::empty(bat, Theory::EulerBernoulli);
+    if theory.shears() {
+        both_of::<4, 6>(bat, mesh, modes, solver, theory)
+    } else {
+        both_of::<4, 4>(bat, mesh, modes, solver, theory)
+    }
+}
+
+fn both_of<const N: usize, const W: usize>(
+    bat: &Bat,
+    mesh: &Mesh,
+    modes: usize,
+    solver: Solver,
+    theory: Theory,
+) -> Result<Vec<[f64; 2]>> {
+    let mut statics = Statics::<f64, N, W>::empty(bat, theory);
     statics.assemble(&[bat], &[mesh]);
-    check_size(statics.dimension() + 2, solver)?;
-    let elements = element::elements::<4, 4>(bat, mesh, Theory::EulerBernoulli);
+    check(&statics, solver)?;
+    let elements = element::elements::<N, W>(bat, mesh, theory);
     let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
     let both = pairs.values.iter().zip(&pairs.vectors).take(modes).map(|(value, vector)| {

@@ -8,6 +8,7 @@ use crate::layup::Layup;
 pub struct Fixtures {
     pub regions: Vec<Region>,
     pub attachments: Vec<Attachment>,
+    pub tapes: Vec<Tape>,
     pub absorbers: Vec<Absorber>,
     pub joints: Vec<Joint>,
     pub supports: Vec<Support>,
@@ -36,6 +37,16 @@ pub struct Attachment {
     /// Springs from the bat at `x` to the ground, against deflection (N/m) and rotation (N m/rad).
     pub stiffness: f64,
     pub rotational_stiffness: f64,
+}
+
+/// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tape {
+    /// Where it begins and ends (m).
+    pub from: f64,
+    pub to: f64,
+    /// Mass of the whole (kg).
+    pub mass: f64,
 }
 
 /// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
@@ -91,7 +102,8 @@ pub struct Grip {
 const MOST: f64 = 1e100;
 
 impl Fixtures {
-    /// Whether nothing moves otherwise than a bare bat: regions of other materials may be there.
+    /// Whether nothing moves otherwise than a bare bat: regions of other materials and tape may be
+    /// there.
     pub fn none_moving(&self) -> bool {
         self.attachments.is_empty()
             && self.absorbers.is_empty()
@@ -159,16 +171,23 @@ impl Fixtures {
     /// Where elements must end (m), in no order.
     pub fn borders(&self) -> Vec<f64> {
         let regions = self.regions.iter().flat_map(|region| [region.from, region.to]);
+        let tapes = self.tapes.iter().flat_map(|tape| [tape.from, tape.to]);
         let grip = self.grip.iter().flat_map(|grip| [grip.from, grip.to]);
         let points = self.attachments.iter().map(|a| a.x);
         let points = points.chain(self.absorbers.iter().map(|a| a.x));
         let points = points.chain(self.joints.iter().map(|joint| joint.x));
         let points = points.chain(self.supports.iter().map(|support| support.x));
-        regions.chain(grip).chain(points).collect()
+        regions.chain(tapes).chain(grip).chain(points).collect()
+    }
+
+    /// Mass (kg) of everything that is attached or spread on the bat.
+    pub fn attached_mass(&self) -> f64 {
+        let spread = self.tapes.iter().map(|tape| tape.mass);
+        self.masses().map(|[mass, ..]| mass).chain(spread).sum()
     }
 
     /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of everything
-    /// that is attached.
+    /// that is attached at a point.
     pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
         let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
         fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))
@@ -211,6 +230,11 @@ impl Fixtures {
                 let expected = "a distance of at most ten lengths of the bat";
                 return Err(Error::value(name("offset"), shown(a.offset, "m"), expected));
             }
+        }
+        for (k, tape) in self.tapes.iter().enumerate() {
+            let name = |key: &str| format!("tapes[{k}].{key}");
+            stretch(&name, tape.from, tape.to, length)?;
+            not_negative(name("mass"), tape.mass, "kg")?;
         }
         for (k, a) in self.absorbers.iter().enumerate() {
             let name = |key: &str| format!("absorbers[{k}].{key}");

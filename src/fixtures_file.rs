@@ -3,7 +3,7 @@
 use crate::bat::Weighed;
 use crate::document::{Node, Object};
 use crate::error::Result;
-use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support};
+use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape};
 use crate::layup::Layup;
 use crate::material::Material;
 use crate::material_file;
@@ -14,6 +14,7 @@ pub(crate) fn read(root: &Object, material: &Material, length: f64) -> Result<Fi
     Ok(Fixtures {
         regions: list(root, "regions", |node| region(node, material, length))?,
         attachments: list(root, "attachments", |node| attachment(node, length))?,
+        tapes: list(root, "tapes", |node| tape(node, length))?,
         absorbers: list(root, "absorbers", |node| absorber(node, length))?,
         joints: list(root, "joints", |node| joint(node, length))?,
         supports: list(root, "supports", |node| support(node, length))?,
@@ -50,7 +51,7 @@ fn region(node: &Node, own: &Material, length: f64) -> Result<Region> {
     Ok(Region {
         from: place(&object, "from", length)?,
         to: place(&object, "to", length)?,
-        layup: Layup { outer, core: material("core")? },
+        layup: Layup { core: material("core")?, ..Layup::of(outer) },
     })
 }
 
@@ -78,6 +79,16 @@ fn attachment(node: &Node, length: f64) -> Result<Attachment> {
             "rotational_stiffness",
             Quantity::RotationalStiffness,
         )?,
+    })
+}
+
+fn tape(node: &Node, length: f64) -> Result<Tape> {
+    let object = node.object(&["from", "to", "mass"])?;
+    let mass = object.require("mass", "the \"mass\" that is spread there")?;
+    Ok(Tape {
+        from: place(&object, "from", length)?,
+        to: place(&object, "to", length)?,
+        mass: mass.quantity(Quantity::Mass)?,
     })
 }
 

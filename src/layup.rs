@@ -9,6 +9,8 @@ pub struct Layup {
     pub outer: Material,
     /// What fills the bore; nothing, if none.
     pub core: Option<Material>,
+    /// Mass on the surface that bears nothing (kg per m of bat): tape.
+    pub tape: f64,
 }
 
 /// Stiffness and mass of a section, per length of bat.
@@ -27,7 +29,7 @@ pub struct Worth {
 impl Layup {
     /// One material and nothing in the bore.
     pub fn of(outer: Material) -> Self {
-        Self { outer, core: None }
+        Self { outer, core: None, tape: 0.0 }
     }
 
     /// EI (N m²) and ρA (kg/m): all that the Euler–Bernoulli beam knows of a section.
@@ -36,7 +38,7 @@ impl Layup {
         let (outer, area) = (&self.outer, section.area());
         let (r, ri) = (section.outer, section.inner);
         let mut bending = outer.youngs_modulus * (area * (r * r + ri * ri) / 4.0);
-        let mut mass = outer.density * area;
+        let mut mass = outer.density * area + self.tape;
         if let Some(core) = &self.core {
             let bore = section.bore();
             bending += core.youngs_modulus * bore.second_moment();
@@ -45,10 +47,11 @@ impl Layup {
         [bending, mass]
     }
 
-    /// ρI (kg m): the rotary inertia per length.
+    /// ρI (kg m): the rotary inertia per length; of tape on the surface, a ring, `½ m r²`.
     #[inline(always)]
     pub fn turning(&self, section: Section) -> f64 {
-        let own = self.outer.density * section.second_moment();
+        let ring = 0.5 * self.tape * section.outer * section.outer;
+        let own = self.outer.density * section.second_moment() + ring;
         let inside = |core: &Material| core.density * section.bore().second_moment();
         own + self.core.as_ref().map_or(0.0, inside)
     }
@@ -86,7 +89,7 @@ impl Layup {
         std::iter::once(&self.outer).chain(&self.core)
     }
 
-    /// The same, heavier by one factor and stiffer by another.
+    /// The same materials, heavier by one factor and stiffer by another; tape stays what it weighs.
     pub fn scaled(&mut self, density: f64, modulus: f64) {
         for material in std::iter::once(&mut self.outer).chain(&mut self.core) {
             material.density *= density;
@@ -117,7 +120,7 @@ mod tests {
     #[test]
     fn a_bore_filled_with_its_own_material_and_one_of_no_size_are_solid() {
         let solid = Layup::of(wood()).worth(Section { outer: 0.03, inner: 0.0 });
-        let filled = Layup { outer: wood(), core: Some(wood()) };
+        let filled = Layup { core: Some(wood()), ..Layup::of(wood()) };
         close(filled.worth(Section { outer: 0.03, inner: 0.02 }), solid);
         close(filled.worth(Section { outer: 0.03, inner: 0.0 }), solid);
         close(Layup::of(wood()).worth(Section { outer: 0.03, inner: 1e-12 }), solid);
@@ -139,6 +142,6 @@ mod tests {
         air.shear_modulus = Some(1e-20);
         let section = Section { outer: 0.03, inner: 0.025 };
         let tube = Layup::of(wood()).worth(section);
-        close(Layup { outer: wood(), core: Some(air) }.worth(section), tube);
+        close(Layup { core: Some(air), ..Layup::of(wood()) }.worth(section), tube);
     }
 }

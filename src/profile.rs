@@ -210,6 +210,12 @@ impl Profile {
 }
 
 impl Piece {
+    /// Whether it lies between these places (m); pieces end at both.
+    pub fn is_within(&self, from: f64, to: f64) -> bool {
+        let middle = self.start + 0.5 * self.length;
+        middle > from && middle < to
+    }
+
     /// The section at `s` in [0, 1] along the piece.
     pub fn at(&self, s: f64) -> Section {
         match &self.radii {

@@ -311,7 +311,8 @@ fn more_elements_hurt_a_factored_matrix_and_not_the_sums() {
     let error = |omega: f64| (omega / exact - 1.0).abs();
     let own = |n: usize| {
         let mesh = Mesh::along(&bat, n);
-        own_and_recomputed(&bat, &mesh, 1, Solver::Dense).unwrap()[0].map(error)
+        own_and_recomputed(&bat, &mesh, 1, Solver::Dense, Theory::EulerBernoulli).unwrap()[0]
+            .map(error)
     };
     let sums = |n: usize| {
         let request = Request { modes: 1, elements: Some(n), ..Request::default() };

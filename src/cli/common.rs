@@ -65,7 +65,7 @@ pub struct SolveArgs {
     /// Beam theory: auto (the simplest within the tolerance), euler-bernoulli, rayleigh (rotary
     /// inertia) or timoshenko (and shear)
     #[arg(long, default_value = "auto", value_parser = theory)]
-    theory: Chosen,
+    theory: TheoryChoice,
 
     /// Total number of elements; the tolerance is then not enforced
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -96,14 +96,7 @@ impl SolveArgs {
 
     /// The same with the theory chosen for this bat, and the bat as stiff as it was tapped.
     pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<(Bat, Request)> {
-        let mut request = self.request(modes);
-        if self.theory.0.is_none() {
-            let choice = choice::theory(&bat, &request)?;
-            choice.warning.iter().for_each(|w| output.warn(&format!("warning: {w}")));
-            request.theory = choice.theory;
-        }
-        let bat = weighed::tuned(bat, request.theory, request.tolerance)?;
-        Ok((bat, request))
+        prepare(bat, self.theory, self.request(modes), output.quiet)
     }
 
     /// A time for the modes alone says nothing of a whole hit.
@@ -210,6 +203,23 @@ pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
     let file = path.display();
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok(bat)
+}
+
+/// A request with the theory chosen for this bat, if none was asked for, and the bat as stiff as it
+/// was tapped.
+pub fn prepare(
+    bat: Bat,
+    asked: TheoryChoice,
+    mut request: Request,
+    quiet: bool,
+) -> Result<(Bat, Request)> {
+    if asked.0.is_none() {
+        let choice = choice::theory(&bat, &request)?;
+        choice.warning.iter().for_each(|w| warn(&format!("warning: {w}"), quiet));
+        request.theory = choice.theory;
+    }
+    let bat = weighed::tuned(bat, request.theory, request.tolerance)?;
+    Ok((bat, request))
 }
 
 fn warn(text: &str, quiet: bool) {
@@ -379,12 +389,13 @@ fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<Strin
 
 /// A theory, or none: that which the bat needs.
 #[derive(Debug, Clone, Copy)]
-struct Chosen(Option<Theory>);
+pub struct TheoryChoice(pub Option<Theory>);
 
-fn theory(text: &str) -> std::result::Result<Chosen, String> {
+/// `--theory` on the command line.
+pub fn theory(text: &str) -> std::result::Result<TheoryChoice, String> {
     let names = ["auto", "euler-bernoulli", "rayleigh", "timoshenko"];
     let name = one_of(text, &names, &[])?;
-    Ok(Chosen(Theory::ALL.into_iter().find(|theory| theory.name() == name)))
+    Ok(TheoryChoice(Theory::ALL.into_iter().find(|theory| theory.name() == name)))
 }
 
 fn solver(text: &str) -> std::result::Result<Solver, String> {

@@ -7,12 +7,13 @@ use std::time::Duration;
 use serde_json::Value;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::{file, trade, u_curve};
+use sweetspot::solve::Request;
 use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;
 use sweetspot::trade::u_curve as curve;
 
 use crate::cli::Done;
-use crate::cli::common::{budget, read};
+use crate::cli::common::{TheoryChoice, budget, prepare, read, theory};
 
 /// Speed against accuracy, measured on this bat, here and now
 ///
@@ -26,6 +27,10 @@ pub struct Args {
     #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5",
           value_parser = clap::value_parser!(u16).range(1..=200))]
     count: u16,
+
+    /// Beam theory: auto (the simplest within 1e-4), euler-bernoulli, rayleigh or timoshenko
+    #[arg(long, default_value = "auto", value_parser = theory)]
+    theory: TheoryChoice,
 
     /// Error against the number of cubic elements, up to a million, for every solver instead
     #[arg(long)]
@@ -60,13 +65,16 @@ pub fn run(args: &Args) -> Result<Done> {
         let expected = "one of --json and --csv on standard output";
         return Err(Error::value("--csv", "- and --json -", expected));
     }
-    let bat = read(&args.bat, args.quiet)?;
     let modes = usize::from(args.count);
+    let theory = args.theory.0.unwrap_or_default();
+    let request = Request { modes, theory, ..Request::default() };
+    let bat = read(&args.bat, args.quiet)?;
+    let (bat, Request { theory, .. }) = prepare(bat, args.theory, request, args.quiet)?;
     let mut progress = Progress::new(args.quiet);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
     let (table, document, rows) = if args.u_curve {
         progress.say("the reference");
-        let reference = Reference::of(&bat, modes)?;
+        let reference = Reference::of(&bat, modes, theory)?;
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &mut |what| {
             progress.say(what);
@@ -74,7 +82,8 @@ pub fn run(args: &Args) -> Result<Done> {
         let document = u_curve::json(&bat, &reference, &columns);
         (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns))
     } else {
-        let trade = measure(&bat, modes, time(TRADE), &mut |what| progress.say(what))?;
+        let say = &mut |what: &str| progress.say(what);
+        let trade = measure(&bat, modes, theory, time(TRADE), say)?;
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
     };
     Ok((deliver(args, table, &document, rows)?, 0))

@@ -68,6 +68,9 @@ fn fixtures(resolved: &mut Value, fixtures: &Fixtures) {
         })
     });
     list("attachments", attachments.collect());
+    let tapes = fixtures.tapes.iter();
+    let tapes = tapes.map(|tape| json!({ "from": tape.from, "to": tape.to, "mass": tape.mass }));
+    list("tapes", tapes.collect());
     let absorbers = fixtures.absorbers.iter().map(
         |a| json!({ "x": a.x, "mass": a.mass, "stiffness": a.stiffness, "damping": a.damping }),
     );

@@ -19,7 +19,8 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
     };
     let title = format!("{what}: {}", bat.name);
     let truth = format!(
-        "  measured against {}, every frequency within {:.0e}; {} agree with them to {:.0e}",
+        "  {}, measured against {}, every frequency within {:.0e}; {} agree with them to {:.0e}",
+        reference.theory.name(),
         discretisation(&reference.choice),
         reference.stated,
         discretisation(&reference.other),
@@ -159,6 +160,7 @@ pub fn json(bat: &Bat, reference: &Reference, curve: &[Column]) -> Value {
 pub fn of_reference(reference: &Reference) -> Value {
     let hertz: Vec<f64> = reference.omegas.iter().map(|w| w / std::f64::consts::TAU).collect();
     let mut document = of_choice(&reference.choice);
+    document["theory"] = json!(reference.theory.name());
     document["frequencies_hz"] = json!(hertz);
     document["stated_error"] = json!(reference.stated);
     document["floor"] = json!(reference.floor());

@@ -6,6 +6,7 @@ use crate::bat::Bat;
 use crate::beam::rule::DEGREES;
 use crate::error::Result;
 use crate::solve::{Request, Solution, Solver, solve};
+use crate::theory::Theory;
 use crate::trade::front::{Run, mark};
 use crate::trade::reference::{Choice, Reference, solver_name};
 use crate::trade::u_curve::{self, Column, first_time, order};
@@ -60,12 +61,13 @@ const MOST_REPEATS: usize = 61;
 pub fn measure(
     bat: &Bat,
     modes: usize,
+    theory: Theory,
     budget: Duration,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Trade> {
     let started = Instant::now();
     progress("the reference");
-    let reference = Reference::of(bat, modes)?;
+    let reference = Reference::of(bat, modes, theory)?;
     let mut bench = Bench { bat, reference, started, budget: budget.as_secs_f64(), runs: vec![] };
     bench.ask_planner(progress)?;
     progress("more elements");
@@ -115,14 +117,19 @@ impl Bench<'_> {
         self.started.elapsed().as_secs_f64() < part * self.budget
     }
 
+    /// The reference's modes by its theory.
+    fn request(&self) -> Request {
+        let Reference { omegas, theory, .. } = &self.reference;
+        Request { modes: omegas.len(), theory: *theory, ..Request::default() }
+    }
+
     fn ask_planner(&mut self, progress: &mut dyn FnMut(&str)) -> Result<()> {
         for tolerance in TOLERANCES {
             if !self.runs.is_empty() && !self.before(COLUMNS) {
                 break;
             }
             progress(&format!("the planner at {tolerance:.0e}"));
-            let request =
-                Request { modes: self.reference.omegas.len(), tolerance, ..Request::default() };
+            let request = Request { tolerance, ..self.request() };
             let mut measured = self.timed(request)?;
             measured.run.planned_for = Some(tolerance);
             self.runs.push(measured);
@@ -172,11 +179,10 @@ impl Bench<'_> {
             return;
         }
         let request = Request {
-            modes,
             elements: Some(elements as usize),
             degree: Some(ladder.degree),
             solver: ladder.solver,
-            ..Request::default()
+            ..self.request()
         };
         let Ok(measured) = self.timed(request) else {
             ladder.done = true;
@@ -281,7 +287,9 @@ mod tests {
     #[test]
     fn errors_on_the_ladder_are_what_the_solutions_say_and_the_front_goes_down() {
         let bat = bundled_bat("meshes/cone.json").unwrap();
-        let trade = measure(&bat, 3, Duration::from_millis(600), &mut |_| {}).unwrap();
+        let trade =
+            measure(&bat, 3, Theory::EulerBernoulli, Duration::from_millis(600), &mut |_| {})
+                .unwrap();
         let floor = trade.reference.floor();
         assert!(trade.runs.len() > 20, "{}", trade.runs.len());
         for run in &trade.runs {

@@ -176,10 +176,12 @@ fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> R
     let (own, recomputed): (Vec<f64>, Vec<f64>) = match solver {
         Solver::Statics => {
             let (elements, degree) = (Some(elements), Some(3));
-            let solution = solve(bat, &Request { modes, elements, degree, ..Request::default() })?;
+            let theory = reference.theory;
+            let request = Request { modes, elements, degree, theory, ..Request::default() };
+            let solution = solve(bat, &request)?;
             (vec![], solution.modes.iter().map(|mode| mode.omega).collect())
         }
-        _ => own_and_recomputed(bat, &Mesh::along(bat, elements), modes, solver)?
+        _ => own_and_recomputed(bat, &Mesh::along(bat, elements), modes, solver, reference.theory)?
             .into_iter()
             .map(|[own, recomputed]| (own, recomputed))
             .unzip(),
@@ -192,11 +194,12 @@ fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::theory::Theory;
     use crate::validation::bundled_bat;
 
     fn dowel(solvers: &[Solver], most: usize) -> Vec<Column> {
         let bat = bundled_bat("meshes/dowel.json").unwrap();
-        let reference = Reference::of(&bat, 5).unwrap();
+        let reference = Reference::of(&bat, 5, Theory::EulerBernoulli).unwrap();
         measure(&bat, &reference, solvers, most, Duration::from_secs(3600), &mut |_| {})
     }
 

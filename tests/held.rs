@@ -1,0 +1,235 @@
+//! What weights, springs and supports do to a bat, whatever its shape.
+
+mod common;
+
+use common::{LENGTH, cone};
+use sweetspot::bat::Weighed;
+use sweetspot::fixtures::{
+    Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
+};
+use sweetspot::layup::Layup;
+use sweetspot::material::Material;
+use sweetspot::theory::Theory;
+use sweetspot::{Bat, Request, solve};
+
+/// A cone with that on it.
+fn with(fixtures: Fixtures) -> Bat {
+    let cone = cone(0.0125, 0.033);
+    let mut material = cone.material().clone();
+    material.shear_modulus = Some(1e9);
+    Bat::with_fixtures("test", cone.profile, material, fixtures, Weighed::default()).unwrap()
+}
+
+fn springs(list: &[(f64, f64, f64)]) -> Vec<Attachment> {
+    let spring = |(x, stiffness, rotational_stiffness): &(f64, f64, f64)| Attachment {
+        x: *x,
+        stiffness: *stiffness,
+        rotational_stiffness: *rotational_stiffness,
+        ..Attachment::default()
+    };
+    list.iter().map(spring).collect()
+}
+
+fn weights(list: &[(f64, f64)]) -> Vec<Attachment> {
+    list.iter()
+        .map(|(x, mass)| Attachment { x: *x, mass: *mass, ..Attachment::default() })
+        .collect()
+}
+
+fn pins(list: &[f64]) -> Vec<Support> {
+    list.iter().map(|x| Support { x: *x, kind: Held::Pinned }).collect()
+}
+
+/// The frequencies (Hz) of all motions, the free rigid ones as zeros.
+fn spectrum(fixtures: Fixtures, theory: Theory) -> Vec<f64> {
+    let request = Request { modes: 12, tolerance: 1e-10, theory, ..Request::default() };
+    let solution = solve(&with(fixtures), &request).unwrap();
+    assert!(solution.met && solution.complete(), "{}", solution.shortfall(1e-10));
+    let rigid = std::iter::repeat_n(0.0, solution.rigid_modes);
+    rigid.chain(solution.modes.iter().map(|mode| mode.frequency())).collect()
+}
+
+/// Rayleigh's theorem on one constraint: a spring or a support more moves a frequency up, at most to
+/// the next one; a mass more moves it down, at most to the one before.
+#[test]
+fn one_thing_more_moves_a_frequency_at_most_to_its_neighbour() {
+    let base = || Fixtures {
+        attachments: weights(&[(0.1, 0.05)]),
+        grip: Some(Grip { from: 0.0, to: 0.15, stiffness: 3e4, damping: 0.0 }),
+        ..Fixtures::default()
+    };
+    const SAME: f64 = 1e-9;
+    for theory in [Theory::EulerBernoulli, Theory::Timoshenko] {
+        for start in [Fixtures::default(), base()] {
+            let before = spectrum(start.clone(), theory);
+            for x in [0.0, 0.3, LENGTH] {
+                let mut stiffer = vec![];
+                for k in [10.0, 1e5, 1e9, 1e15] {
+                    let mut sprung = start.clone();
+                    sprung.attachments.extend(springs(&[(x, k, 0.0)]));
+                    stiffer.push(spectrum(sprung, theory));
+                    let mut turned = start.clone();
+                    turned.attachments.extend(springs(&[(x, 0.0, k)]));
+                    stiffer.push(spectrum(turned, theory));
+                }
+                let mut held = start.clone();
+                held.supports = pins(&[x]);
+                stiffer.push(spectrum(held, theory));
+                for after in stiffer {
+                    for k in 0..11 {
+                        assert!(after[k] >= before[k] * (1.0 - SAME), "{x} {k} {after:?}");
+                        assert!(after[k] <= before[k + 1] * (1.0 + SAME), "{x} {k} {after:?}");
+                    }
+                }
+                for mass in [1e-3, 0.1, 1e3] {
+                    let mut heavier = start.clone();
+                    heavier.attachments.extend(weights(&[(x, mass)]));
+                    let after = spectrum(heavier, theory);
+                    for k in 1..12 {
+                        assert!(after[k] <= before[k] * (1.0 + SAME), "{x} {k} {after:?}");
+                        assert!(after[k] >= before[k - 1] * (1.0 - SAME), "{x} {k} {after:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A spring of stiffness k is a pin but for a displacement of force over k.
+#[test]
+fn a_stiff_spring_tends_to_a_support() {
+    let pinned = Fixtures { supports: pins(&[0.2, 0.7]), ..Fixtures::default() };
+    let pinned = spectrum(pinned, Theory::Timoshenko);
+    let off = |k: f64| -> Vec<f64> {
+        let springs = springs(&[(0.2, k, 0.0), (0.7, k, 0.0)]);
+        let sprung = Fixtures { attachments: springs, ..Fixtures::default() };
+        let sprung = spectrum(sprung, Theory::Timoshenko);
+        sprung.iter().zip(&pinned).take(5).map(|(a, b)| 1.0 - a / b).collect()
+    };
+    for (soft, stiff) in off(1e11).into_iter().zip(off(1e12)) {
+        assert!((soft / stiff / 10.0 - 1.0).abs() < 0.03, "{soft:e} {stiff:e}");
+    }
+    for off in off(1e19) {
+        assert!(off.abs() < 1e-10, "{off:e}");
+    }
+}
+
+/// A mass m on each side at a distance d weighs as 2 m with the rotary inertia 2 m d², and half a
+/// mass twice as the mass.
+#[test]
+fn masses_add_up() {
+    let at = |mass: f64, offset: f64, rotary_inertia: f64| Attachment {
+        x: 0.6,
+        mass,
+        offset,
+        rotary_inertia,
+        ..Attachment::default()
+    };
+    let of = |attachments: &[Attachment]| {
+        let attachments = attachments.to_vec();
+        spectrum(Fixtures { attachments, ..Fixtures::default() }, Theory::Timoshenko)
+    };
+    let two = of(&[at(0.05, 0.04, 0.0), at(0.05, -0.04, 0.0)]);
+    let one = of(&[at(0.1, 0.0, 2.0 * 0.05 * 0.04 * 0.04)]);
+    let twice = of(&[at(0.05, 0.0, 4e-5), at(0.05, 0.0, 1.2e-4)]);
+    for ((a, b), c) in two.iter().zip(&one).zip(&twice).skip(2) {
+        assert!((a / b - 1.0).abs() < 1e-11 && (c / b - 1.0).abs() < 1e-11, "{a} {b} {c}");
+    }
+}
+
+/// Everything at once, from the other end: the same bat.
+#[test]
+fn a_bat_with_everything_turned_end_for_end_is_the_same() {
+    let turned = |x: f64| LENGTH - x;
+    let aluminium =
+        Material { shear_modulus: Some(27e9), ..Material::new(2810.0, 71.7e9).unwrap() };
+    let all = |place: &dyn Fn(f64) -> f64, sign: f64| {
+        let stretch = |from: f64, to: f64| {
+            let ends = [place(from), place(to)];
+            [ends[0].min(ends[1]), ends[0].max(ends[1])]
+        };
+        let ([r0, r1], [t0, t1], [g0, g1]) =
+            (stretch(0.5, 0.7), stretch(0.1, 0.3), stretch(0.0, 0.15));
+        Fixtures {
+            regions: vec![Region { from: r0, to: r1, layup: Layup::of(aluminium.clone()) }],
+            attachments: vec![Attachment {
+                x: place(0.8),
+                mass: 0.1,
+                offset: sign * 0.02,
+                rotary_inertia: 1e-4,
+                stiffness: 1e4,
+                rotational_stiffness: 30.0,
+            }],
+            tapes: vec![Tape { from: t0, to: t1, mass: 0.02 }],
+            absorbers: vec![Absorber { x: place(0.05), mass: 0.03, stiffness: 4e4, damping: 0.0 }],
+            joints: vec![Joint { x: place(0.45), rotational_stiffness: 1e4 }],
+            supports: vec![Support { x: place(0.35), kind: Held::Pinned }],
+            grip: Some(Grip { from: g0, to: g1, stiffness: 1e5, damping: 0.0 }),
+        }
+    };
+    let original = with(all(&|x| x, 1.0));
+    let mirror = all(&turned, -1.0);
+    let bare = cone(0.033, 0.0125);
+    let material = original.material().clone();
+    let mirrored =
+        Bat::with_fixtures("turned", bare.profile, material, mirror, Weighed::default()).unwrap();
+    for theory in Theory::ALL {
+        let request = Request { modes: 10, tolerance: 1e-11, theory, ..Request::default() };
+        let [a, b] = [&original, &mirrored].map(|bat| solve(bat, &request).unwrap());
+        assert!(a.met && b.met && a.rigid_modes == 0);
+        for (a, b) in a.modes.iter().zip(&b.modes) {
+            assert!((a.omega / b.omega - 1.0).abs() < 2e-11, "{theory:?} {}", a.order);
+        }
+    }
+    let (a, b) = (original.inertia(), mirrored.inertia());
+    assert!((a.mass / b.mass - 1.0).abs() < 1e-14);
+    assert!((a.balance_point + b.balance_point - LENGTH).abs() < 1e-14);
+    assert!((a.about_balance / b.about_balance - 1.0).abs() < 1e-13);
+}
+
+/// Tape along a stretch is many small weights along it, but for its own rotary inertia about its
+/// diameter (which the plain beam leaves out): second order in their distance.
+#[test]
+fn tape_is_the_limit_of_many_small_weights() {
+    let tape = vec![Tape { from: 0.1, to: 0.4, mass: 0.06 }];
+    let taped = Fixtures { tapes: tape, ..Fixtures::default() };
+    let taped = spectrum(taped, Theory::EulerBernoulli);
+    let off = |count: usize| -> Vec<f64> {
+        let place = |k: usize| 0.1 + 0.3 * (k as f64 + 0.5) / count as f64;
+        let list: Vec<_> = (0..count).map(|k| (place(k), 0.06 / count as f64)).collect();
+        let dotted = Fixtures { attachments: weights(&list), ..Fixtures::default() };
+        let dotted = spectrum(dotted, Theory::EulerBernoulli);
+        dotted.iter().zip(&taped).skip(2).take(4).map(|(a, b)| a / b - 1.0).collect()
+    };
+    for (coarse, fine) in off(8).into_iter().zip(off(16)) {
+        assert!((coarse / fine / 4.0 - 1.0).abs() < 0.05, "{coarse:e} {fine:e}");
+    }
+}
+
+/// The rigid motions that stay, and their names.
+#[test]
+fn rigid_motions_are_found_and_named() {
+    let none = Fixtures::default();
+    let pinned = Fixtures { supports: pins(&[0.0]), ..Fixtures::default() };
+    let twice = Fixtures { supports: pins(&[0.0, 0.5]), ..Fixtures::default() };
+    let turning = Fixtures { attachments: springs(&[(0.3, 0.0, 1e-9)]), ..Fixtures::default() };
+    let soft = Fixtures { attachments: springs(&[(0.3, 1e-9, 0.0)]), ..Fixtures::default() };
+    let hands = Grip { from: 0.0, to: 0.1, stiffness: 1e-9, damping: 0.0 };
+    let hands = Fixtures { grip: Some(hands), ..Fixtures::default() };
+    for (fixtures, rigid, words) in [
+        (none, 2, "two rigid"),
+        (pinned, 1, "turns about"),
+        (twice, 0, "no rigid"),
+        (turning, 1, "sideways"),
+        (soft, 1, "turns about"),
+        (hands, 0, "no rigid"),
+    ] {
+        let bat = with(fixtures);
+        let solution = solve(&bat, &Request { modes: 3, ..Request::default() }).unwrap();
+        assert!(solution.met && solution.complete());
+        assert_eq!((solution.rigid_modes, bat.fixtures.rigid_modes()), (rigid, rigid));
+        assert!(bat.fixtures.freedom().contains(words), "{}", bat.fixtures.freedom());
+        // A spring of 1e-9 N/m holds: slow is not rigid.
+        assert!(solution.modes.iter().all(|mode| mode.omega > 0.0));
+    }
+}
