@@ -14,9 +14,9 @@ pub fn round_off(ratio: f64, elements: usize) -> f64 {
 /// What is the mesh's fault and what the arithmetic's.
 ///
 /// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
-/// quotient. Far slower modes leave their own round-off in the compliance: of a mode they were
-/// taken out of, the residual beyond what the iteration stopped at (`left`) shows it, and half of
-/// that is the frequency's.
+/// quotient. Far slower modes leave their own round-off in the compliance: of a mode they and all
+/// other slower ones were taken out of, the residual beyond what the iteration stopped at (`left`)
+/// shows it, and half of that is the frequency's.
 pub fn account(
     mode: &mut Mode,
     first: Option<&Mode>,

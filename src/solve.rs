@@ -411,7 +411,8 @@ impl Task<'_> {
                 if size > LARGE {
                     look_closer(&pairs, own, k, &mut motion);
                 } else {
-                    let known = &strains[..size * if k < apart { 0 } else { apart }];
+                    // The compliance's rounding in the slower modes is no part of this one.
+                    let known = &strains[..size * if k < apart { 0 } else { k }];
                     pairs.look_at_one(own, known, Depth::Changes, &mut motion);
                 }
                 let cell = |k: usize| pairs.statics.cell(k);

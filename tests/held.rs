@@ -40,11 +40,16 @@ fn pins(list: &[f64]) -> Vec<Support> {
     list.iter().map(|x| Support { x: *x, kind: Held::Pinned }).collect()
 }
 
+/// The program knows no more of a ton inside a bat in soft hands; of most others it does.
+const TOLERANCE: f64 = 1e-9;
+
 /// The frequencies (Hz) of all motions, the free rigid ones as zeros.
 fn spectrum(fixtures: Fixtures, theory: Theory) -> Vec<f64> {
-    let request = Request { modes: 12, tolerance: 1e-10, theory, ..Request::default() };
-    let solution = solve(&with(fixtures), &request).unwrap();
-    assert!(solution.met && solution.complete(), "{}", solution.shortfall(1e-10));
+    let request = Request { modes: 12, tolerance: TOLERANCE, theory, ..Request::default() };
+    let bat = with(fixtures);
+    let solution = solve(&bat, &request).unwrap();
+    let why = || format!("{} {:?}", solution.shortfall(TOLERANCE), bat.fixtures);
+    assert!(solution.met && solution.complete(), "{}", why());
     let rigid = std::iter::repeat_n(0.0, solution.rigid_modes);
     rigid.chain(solution.modes.iter().map(|mode| mode.frequency())).collect()
 }
@@ -58,7 +63,7 @@ fn one_thing_more_moves_a_frequency_at_most_to_its_neighbour() {
         grip: Some(Grip { from: 0.0, to: 0.15, stiffness: 3e4, damping: 0.0 }),
         ..Fixtures::default()
     };
-    const SAME: f64 = 1e-9;
+    const SAME: f64 = 2.0 * TOLERANCE;
     for theory in [Theory::EulerBernoulli, Theory::Timoshenko] {
         for start in [Fixtures::default(), base()] {
             let before = spectrum(start.clone(), theory);
@@ -201,7 +206,7 @@ fn tape_is_the_limit_of_many_small_weights() {
         let dotted = spectrum(dotted, Theory::EulerBernoulli);
         dotted.iter().zip(&taped).skip(2).take(4).map(|(a, b)| a / b - 1.0).collect()
     };
-    for (coarse, fine) in off(8).into_iter().zip(off(16)) {
+    for (coarse, fine) in off(16).into_iter().zip(off(32)) {
         assert!((coarse / fine / 4.0 - 1.0).abs() < 0.05, "{coarse:e} {fine:e}");
     }
 }
