@@ -17,7 +17,7 @@ use crate::units::{inches, ounce_square_inches, ounces};
 const ABREAST: usize = 5;
 /// Columns of a row's name and of a number beside it.
 const NAME: usize = 24;
-const CELL: usize = 11;
+const CELL: usize = 10;
 
 /// The advice in full, 80 columns wide.
 pub fn text(advice: &Advice, units: Units) -> String {
@@ -51,8 +51,11 @@ pub fn text(advice: &Advice, units: Units) -> String {
             |effect, k| {
                 let shift = &effect.shifts.as_ref()?[k];
                 let nodes = shift.nodes.as_ref()?;
-                let further = |a: &&f64, b: &&f64| a.abs().total_cmp(&b.abs());
-                let most = scale * nodes.iter().max_by(further)?;
+                // Of those that a symmetric bat moves as far, the one next to the knob.
+                let most = nodes.iter().fold(0.0, |most: f64, moved| {
+                    if moved.abs() > (1.0 + 1e-6) * most.abs() { *moved } else { most }
+                });
+                let most = if nodes.is_empty() { return None } else { scale * most };
                 // A rounding of nothing has no sign.
                 Some(if most.abs() < 5e-3 { "0.00".to_owned() } else { format!("{most:+.2}") })
             },
@@ -125,7 +128,16 @@ fn row(name: &str, cells: impl Iterator<Item = String>) -> String {
 }
 
 fn frequency(solved: &Solved, k: usize) -> String {
-    solved.solution.modes.get(k).map_or("-".to_owned(), |mode| format!("{:.2}", mode.frequency()))
+    solved.solution.modes.get(k).map_or("-".to_owned(), |mode| shown(mode.frequency()))
+}
+
+/// A frequency (Hz) that fits a cell.
+fn shown(frequency: f64) -> String {
+    if (0.1..1e6).contains(&frequency) {
+        format!("{frequency:.2}")
+    } else {
+        format!("{frequency:.2e}")
+    }
 }
 
 /// A relative change with its possible error, in % and without the sign for it.
