@@ -23,6 +23,8 @@ pub struct Choice {
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     /// The shifts are to be known to a part of themselves.
     const ROUGH: f64 = 1e-2;
+    // What cannot be asked is refused before any work.
+    request.check(1)?;
     let tolerance = request.tolerance.max(ROUGH);
     let plain = Request { modes: request.modes, tolerance, ..Request::default() };
     let solution = solve(bat, &plain)?;

@@ -108,6 +108,7 @@ pub mod trade;
 pub mod ignored;
 pub mod choice;
 pub mod weighed;
+pub mod advise;
 pub mod dowel;
 pub mod response;
 pub mod ringing;

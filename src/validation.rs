@@ -166,6 +166,7 @@ pub const CASES: &[(&str, &str)] = &[
 /// The bats that travel with the program: path and text.
 pub const BATS: &[(&str, &str)] = &[
     ("meshes/cone.json", include_str!("../meshes/cone.json")),
+    ("meshes/corked.json", include_str!("../meshes/corked.json")),
     ("meshes/dowel.json", include_str!("../meshes/dowel.json")),
     ("meshes/house.json", include_str!("../meshes/house.json")),
     ("meshes/northwestern_aluminium.json", include_str!("../meshes/northwestern_aluminium.json")),
@@ -173,6 +174,7 @@ pub const BATS: &[(&str, &str)] = &[
     ("meshes/r161.json", include_str!("../meshes/r161.json")),
     ("meshes/tanh.json", include_str!("../meshes/tanh.json")),
     ("meshes/torpedo.json", include_str!("../meshes/torpedo.json")),
+    ("meshes/two_piece.json", include_str!("../meshes/two_piece.json")),
 ];
 
 /// One of the bats that travel with the program.

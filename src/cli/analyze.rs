@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use sweetspot::Bat;
+use sweetspot::advise::advice::advise;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{file, text};
+use sweetspot::report::{advice, file, text};
 use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
@@ -57,11 +59,12 @@ pub fn run(args: &Args) -> Result<Done> {
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
-        "{}\n{}\n{}{}\n{}{}\n{}\n{}\n{}{}",
+        "{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}",
         text::summary(&bat, units),
         text::modes(&bat, &solution, 3, units),
         text::model(&bat, &solution),
         proof(args, &solution)?,
+        advice(args, &bat),
         text::scene(&scene, json::model_name(model), units),
         text::empirical(model),
         text::impacts(&bat, &few, units),
@@ -82,6 +85,20 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = args.solve.verdict(&solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
     Ok((args.output.deliver(table, || both)?, code))
+}
+
+/// What the model needs, in short; nothing for a bat of so many pieces that it would take long, nor
+/// where there is none to give.
+fn advice(args: &Args, bat: &Bat) -> String {
+    const MODES: usize = 5;
+    const MOST_PIECES: usize = 1000;
+    if bat.profile.pieces.len() > MOST_PIECES {
+        return "Advice: see sweetspot advise\n".to_owned();
+    }
+    match advise(bat, MODES, args.solve.tol) {
+        Ok(found) => advice::short(&found),
+        Err(_) => "Advice: see sweetspot advise\n".to_owned(),
+    }
 }
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.

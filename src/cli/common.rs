@@ -341,7 +341,8 @@ pub fn quantity(text: &str, quantity: Quantity) -> std::result::Result<f64, Stri
     units::parse_or_si(text, quantity).map_err(|complaint| complaint.to_string())
 }
 
-fn tolerance(text: &str) -> std::result::Result<f64, String> {
+/// A relative accuracy from the command line, as a number or in %.
+pub fn tolerance(text: &str) -> std::result::Result<f64, String> {
     let (number, scale) = match text.trim().strip_suffix('%') {
         Some(number) => (number, 0.01),
         None => (text, 1.0),

@@ -1,5 +1,6 @@
 //! The command line: verbs, options, exit codes.
 
+mod advise;
 mod analyze;
 mod common;
 mod extremes_table;
@@ -41,13 +42,14 @@ enum Verb {
     Hit(hit::Args),
     Ring(ring::Args),
     Trade(trade::Args),
+    Advise(advise::Args),
     Validate(validate::Args),
     Materials(materials::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] =
-    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new"];
+    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] =
     &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
@@ -62,6 +64,7 @@ pub fn run() -> Result<Done> {
         Verb::Hit(args) => hit::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Trade(args) => trade::run(&args),
+        Verb::Advise(args) => advise::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
     }

@@ -7,3 +7,4 @@ pub mod json;
 pub mod text;
 pub mod u_curve;
 pub mod trade;
+pub mod advice;
