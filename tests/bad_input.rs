@@ -1371,6 +1371,9 @@ fn a_wrong_command_line_is_refused() {
         (&["trade", "bat.json", "--json", "-", "--csv", "-"], &["--csv: found", "one of --json"]),
         (&["trade", "none.json"], &["cannot read none.json"]),
         (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
+        (&["validate", "--case", "r161_natan"], &["r161_natan", "did you mean r161_nathan?"]),
+        (&["validate", "--case", "zebra"], &["zebra", "a name of validation/"]),
+        (&["validate", "--case", "dowel", "--page", "-"], &["--page", "cannot be used with"]),
         (&["materials", "--json", "-"], &["unexpected argument '--json'"]),
     ];
     let mut faults = Vec::new();
