@@ -115,6 +115,8 @@ pub mod ringing;
 pub mod collision;
 pub mod report;
 pub mod validation;
+pub mod published;
+pub mod validation_page;
 pub mod promise;
 pub mod extremes;
 

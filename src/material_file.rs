@@ -30,7 +30,6 @@ pub(crate) fn read(
     };
     let modulus = object.require("youngs_modulus", "\"youngs_modulus\", such as \"18.1 GPa\"")?;
     let youngs_modulus = modulus.quantity(Quantity::Pressure)?;
-    object.one_of(&["shear_modulus", "poisson_ratio"])?;
     let poisson_ratio = object.number("poisson_ratio")?;
     let material = Material {
         name: None,

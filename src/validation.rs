@@ -22,9 +22,30 @@ pub struct Case {
     pub name: String,
     /// Where the expected numbers come from.
     pub source: String,
+    /// Whose numbers they are; a case without it has an exact answer.
+    pub published: Option<Published>,
     bat: Value,
     solve: Solve,
-    checks: Vec<Check>,
+    pub checks: Vec<Check>,
+}
+
+/// Which published numbers a case holds, and where they stand when set side by side.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Published {
+    /// Cases of one bat stand in one table.
+    pub bat: String,
+    pub kind: Kind,
+    /// Which of several meshes, where the bat has more than one.
+    pub row: Option<String>,
+}
+
+/// Where a published number is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    Measured,
+    Computed,
 }
 
 #[derive(Debug, Deserialize)]
@@ -41,20 +62,26 @@ struct Solve {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
-    quantity: Known,
-    mode: Option<usize>,
-    node: Option<usize>,
+    pub quantity: Known,
+    pub mode: Option<usize>,
+    pub node: Option<usize>,
     pub expected: f64,
     relative: Option<f64>,
     absolute: Option<f64>,
-    /// Why the tolerance is what it is.
+    /// Shown with its difference and neither passed nor missed; the note says why.
+    #[serde(default)]
+    information: bool,
+    /// Why the tolerance is what it is; a check without it has the note above.
     pub note: Option<String>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+/// What is known, with its unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Known {
+pub enum Known {
     FrequencyHz,
+    /// To the first frequency.
+    FrequencyRatio,
     NodeM,
     ModalMassKg,
     MassKg,
@@ -77,12 +104,28 @@ pub struct Row {
     pub error: f64,
     pub tolerance: f64,
     pub relative: bool,
+    /// For information only: neither passed nor missed.
+    pub information: bool,
+    /// Why the tolerance is what it is, or why there is none.
+    pub note: Option<String>,
 }
 
 impl Row {
     /// Whether the error is within the tolerance; NaN is not.
     pub fn passes(&self) -> bool {
         self.error <= self.tolerance
+    }
+
+    /// Whether it is to be within the tolerance and is not.
+    pub fn missed(&self) -> bool {
+        !self.information && !self.passes()
+    }
+
+    /// The error in units of the tolerance. A missing value is infinitely far, not NaN, which a
+    /// maximum would pass over; what is for information is no distance at all.
+    pub fn share(&self) -> f64 {
+        let share = if self.information { 0.0 } else { self.error / self.tolerance };
+        if share.is_nan() { f64::INFINITY } else { share }
     }
 }
 
@@ -129,17 +172,40 @@ pub const CASES: &[(&str, &str)] = &[
     ("nafems_fv2_pinned_pinned", include_str!("../validation/nafems_fv2_pinned_pinned.json")),
     ("nafems_fv5", include_str!("../validation/nafems_fv5.json")),
     ("northwestern_aluminium", include_str!("../validation/northwestern_aluminium.json")),
+    ("northwestern_aluminium_09", include_str!("../validation/northwestern_aluminium_09.json")),
+    ("northwestern_aluminium_20", include_str!("../validation/northwestern_aluminium_20.json")),
+    ("northwestern_aluminium_40", include_str!("../validation/northwestern_aluminium_40.json")),
+    ("northwestern_aluminium_80", include_str!("../validation/northwestern_aluminium_80.json")),
+    (
+        "northwestern_aluminium_ansys",
+        include_str!("../validation/northwestern_aluminium_ansys.json"),
+    ),
+    ("northwestern_aluminium_fit", include_str!("../validation/northwestern_aluminium_fit.json")),
+    (
+        "northwestern_aluminium_measured",
+        include_str!("../validation/northwestern_aluminium_measured.json"),
+    ),
     ("northwestern_wood", include_str!("../validation/northwestern_wood.json")),
+    ("northwestern_wood_09", include_str!("../validation/northwestern_wood_09.json")),
+    ("northwestern_wood_20", include_str!("../validation/northwestern_wood_20.json")),
+    ("northwestern_wood_40", include_str!("../validation/northwestern_wood_40.json")),
+    ("northwestern_wood_80", include_str!("../validation/northwestern_wood_80.json")),
+    ("northwestern_wood_above", include_str!("../validation/northwestern_wood_above.json")),
     ("northwestern_wood_misprint", include_str!("../validation/northwestern_wood_misprint.json")),
+    ("northwestern_wood_side", include_str!("../validation/northwestern_wood_side.json")),
     ("offset_mass", include_str!("../validation/offset_mass.json")),
     ("pchip_bat", include_str!("../validation/pchip_bat.json")),
     ("pin_inside", include_str!("../validation/pin_inside.json")),
     ("pinned_pinned", include_str!("../validation/pinned_pinned.json")),
     ("r161_nathan", include_str!("../validation/r161_nathan.json")),
+    ("r161_nathan_timoshenko", include_str!("../validation/r161_nathan_timoshenko.json")),
     ("r161_reference", include_str!("../validation/r161_reference.json")),
     ("r161_slices", include_str!("../validation/r161_slices.json")),
+    ("r161_wolfish", include_str!("../validation/r161_wolfish.json")),
     ("rayleigh_cone", include_str!("../validation/rayleigh_cone.json")),
     ("rayleigh_dowel", include_str!("../validation/rayleigh_dowel.json")),
+    ("russell_little_league", include_str!("../validation/russell_little_league.json")),
+    ("russell_usual", include_str!("../validation/russell_usual.json")),
     ("sinusoidal", include_str!("../validation/sinusoidal.json")),
     ("soft_springs", include_str!("../validation/soft_springs.json")),
     ("step_1_3", include_str!("../validation/step_1_3.json")),
@@ -160,7 +226,11 @@ pub const CASES: &[(&str, &str)] = &[
     ("timo_tube", include_str!("../validation/timo_tube.json")),
     ("torpedo_reference", include_str!("../validation/torpedo_reference.json")),
     ("torpedo_slices", include_str!("../validation/torpedo_slices.json")),
+    ("torpedo_wolfish", include_str!("../validation/torpedo_wolfish.json")),
+    ("torpedo_wolfish_later", include_str!("../validation/torpedo_wolfish_later.json")),
     ("two_materials", include_str!("../validation/two_materials.json")),
+    ("van_zandt_computed", include_str!("../validation/van_zandt_computed.json")),
+    ("van_zandt_measured", include_str!("../validation/van_zandt_measured.json")),
 ];
 
 /// The bats that travel with the program: path and text.
@@ -213,7 +283,7 @@ impl Truth {
         let mut truth: Option<Self> = None;
         for name in names {
             let (case, bat) = read(name, text(name)?)?;
-            let theory = theory(name, &case)?;
+            let theory = case.request()?.theory;
             let (frequencies, nodes, modal_masses) = (vec![], vec![], vec![]);
             let empty = Self { bat, theory, frequencies, nodes, modal_masses };
             case.checks.iter().for_each(|check| truth.get_or_insert(empty.clone()).add(check));
@@ -299,19 +369,50 @@ fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
     if case.format != "sweetspot-validation/1" {
         return Err(Error::value(name, &case.format, "\"sweetspot-validation/1\""));
     }
-    let bat = match &case.bat {
-        Value::String(path) => bundled_bat(path)?,
-        inline => Bat::from_text(name, &inline.to_string(), Path::new(""))?,
-    };
+    let bat = case.bat()?;
     Ok((case, bat))
 }
 
-/// The theory that a case asks for.
-fn theory(name: &str, case: &Case) -> Result<Theory> {
-    let Some(theory) = &case.solve.theory else { return Ok(Theory::EulerBernoulli) };
-    let mut all = Theory::ALL.into_iter();
-    let known = all.find(|known| known.name() == theory);
-    known.ok_or_else(|| Error::value(name, theory, "a theory"))
+impl Case {
+    /// The case's bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if there is none of that name, and whatever its file raises.
+    pub fn bat(&self) -> Result<Bat> {
+        match &self.bat {
+            Value::String(path) => bundled_bat(path),
+            inline => Bat::from_text(&self.name, &inline.to_string(), Path::new("")),
+        }
+    }
+
+    /// Where the case's bat is from: the file that travels with the program, or what it says.
+    pub fn bat_source(&self) -> String {
+        match &self.bat {
+            Value::String(path) => format!("`{path}`."),
+            inline => format!("{}.", inline["source"].as_str().unwrap_or("of the case")),
+        }
+    }
+
+    /// What the case asks of its bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where its theory is none.
+    pub fn request(&self) -> Result<Request> {
+        let known = |name: &String| Theory::ALL.into_iter().find(|theory| theory.name() == name);
+        let theory = match &self.solve.theory {
+            None => Theory::EulerBernoulli,
+            Some(name) => known(name).ok_or_else(|| Error::value("theory", name, "a theory"))?,
+        };
+        Ok(Request {
+            theory,
+            modes: self.solve.modes,
+            tolerance: self.solve.tolerance.unwrap_or(Request::default().tolerance),
+            elements: self.solve.elements,
+            ..Request::default()
+        })
+    }
 }
 
 /// Runs one case: a row for every known number.
@@ -321,22 +422,23 @@ fn theory(name: &str, case: &Case) -> Result<Theory> {
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
     let (case, bat) = read(name, text)?;
-    let request = Request {
-        theory: theory(name, &case)?,
-        modes: case.solve.modes,
-        tolerance: case.solve.tolerance.unwrap_or(Request::default().tolerance),
-        elements: case.solve.elements,
-        ..Request::default()
-    };
-    let solution = solve(&bat, &request)?;
-    let rows = case.checks.iter().map(|check| row(name, check, &bat, &solution)).collect();
+    let solution = solve(&bat, &case.request()?)?;
+    let mut note = None;
+    let mut rows = Vec::new();
+    for check in &case.checks {
+        note = check.note.clone().or(note);
+        rows.push(Row { note: note.clone(), ..row(name, check, &bat, &solution) });
+    }
     Ok((case, rows))
 }
 
+/// A check beside what was found, the note aside.
 fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution) -> Row {
     // A case that asks for what is not there gets NaN, which passes no test.
     let found = found(check, bat, solution).unwrap_or(f64::NAN);
-    let relative = check.relative.is_some();
+    // Without a tolerance, places differ by a length and all else by a share.
+    let shown = check.information && check.quantity != Known::NodeM;
+    let relative = check.relative.is_some() || shown;
     let scale = if relative { check.expected.abs() } else { 1.0 };
     Row {
         case: case.to_owned(),
@@ -346,6 +448,8 @@ fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution) -> Row {
         error: (found - check.expected).abs() / scale,
         tolerance: check.relative.or(check.absolute).unwrap_or(0.0),
         relative,
+        information: check.information,
+        note: None,
     }
 }
 
@@ -354,6 +458,7 @@ fn found(check: &Check, bat: &Bat, solution: &Solution) -> Option<f64> {
     let inertia = bat.inertia();
     match check.quantity {
         Known::FrequencyHz => Some(mode()?.frequency()),
+        Known::FrequencyRatio => Some(mode()?.frequency() / solution.modes.first()?.frequency()),
         Known::NodeM => mode()?.nodes.get(check.node?.checked_sub(1)?).copied(),
         Known::ModalMassKg => Some(mode()?.modal_mass),
         Known::MassKg => Some(inertia.mass),
@@ -369,6 +474,7 @@ fn label(check: &Check) -> String {
     let mode = check.mode.unwrap_or(0);
     match check.quantity {
         Known::FrequencyHz => format!("f{mode} Hz"),
+        Known::FrequencyRatio => format!("f{mode}/f1"),
         Known::NodeM => format!("mode {mode} node {} m", check.node.unwrap_or(0)),
         Known::ModalMassKg => format!("mode {mode} mass kg"),
         Known::MassKg => "mass kg".into(),
@@ -402,6 +508,45 @@ mod tests {
         assert_eq!(bats, files("meshes"));
     }
 
+    /// Checks that no reader could take for a pass: every tolerance is one, every reason is there.
+    #[test]
+    fn every_check_has_a_tolerance_and_a_reason_or_is_for_information() {
+        for (name, text) in CASES {
+            let (case, _) = read(name, text).unwrap();
+            assert!(!case.source.is_empty(), "{name}");
+            let reason = case.checks.first().and_then(|check| check.note.as_ref());
+            assert!(reason.is_some(), "{name}: the first check has no note");
+            let mut information = false;
+            for check in &case.checks {
+                let tolerances = [check.relative, check.absolute];
+                let given = tolerances.iter().flatten().filter(|t| **t > 0.0).count();
+                assert_eq!(given, usize::from(!check.information), "{name}: {check:?}");
+                // A reason to count is none not to, and the other way round.
+                assert!(check.note.is_some() || check.information == information, "{name}");
+                information = check.information;
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_for_information_is_neither_passed_nor_missed() {
+        let row = Row {
+            case: String::new(),
+            quantity: String::new(),
+            expected: 1.0,
+            found: 2.0,
+            error: 1.0,
+            tolerance: 0.0,
+            relative: true,
+            information: true,
+            note: None,
+        };
+        assert!(!row.missed() && row.share() == 0.0);
+        let counted = Row { information: false, ..row.clone() };
+        assert!(counted.missed() && counted.share() > 1.0);
+        assert_eq!(Row { found: f64::NAN, error: f64::NAN, ..counted }.share(), f64::INFINITY);
+    }
+
     #[test]
     fn a_wrong_answer_and_a_missing_one_do_not_pass() {
         let row = |found: f64| Row {
@@ -412,6 +557,8 @@ mod tests {
             error: (found - 1.0).abs(),
             tolerance: 0.1,
             relative: true,
+            information: false,
+            note: None,
         };
         assert!(row(1.05).passes() && !row(1.2).passes() && !row(f64::NAN).passes());
     }

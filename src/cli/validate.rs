@@ -1,10 +1,14 @@
 //! `sweetspot validate`: every known answer beside ours.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
-use sweetspot::error::Result;
+use sweetspot::error::{Error, Result, nearest};
 use sweetspot::promise::{self, Summary};
+use sweetspot::published::Answer;
+use sweetspot::report::file;
 use sweetspot::validation::{CASES, Row, run as run_case};
+use sweetspot::validation_page;
 
 use crate::cli::{Done, FAILED, extremes_table, promise_table};
 
@@ -15,12 +19,21 @@ pub struct Args {
     #[arg(long)]
     summary: bool,
 
+    /// This case only, by its name in validation/; may be given again
+    #[arg(long = "case", value_name = "NAME", value_parser = case)]
+    cases: Vec<String>,
+
+    /// Write the page docs/validation.md to this file (- = standard output): published bats side by
+    /// side and the exact answers in one table
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["summary", "cases"])]
+    page: Option<PathBuf>,
+
     /// The promise only: true beside stated errors, one line per bat and tolerance
-    #[arg(long, conflicts_with = "summary")]
+    #[arg(long, conflicts_with_all = ["summary", "cases", "page"])]
     promise: bool,
 
     /// The extremes only: huge, tiny, thin and stepped bats, a million elements
-    #[arg(long, conflicts_with_all = ["summary", "promise"])]
+    #[arg(long, conflicts_with_all = ["summary", "cases", "page", "promise"])]
     extremes: bool,
 }
 
@@ -29,35 +42,67 @@ pub fn run(args: &Args) -> Result<Done> {
         let (out, good) = extremes_table::table();
         return Ok((out, if good { 0 } else { FAILED }));
     }
+    if let Some(path) = &args.page {
+        return page(path);
+    }
     let mut out = String::new();
     let mut good = true;
     if !args.promise {
-        good &= known_answers(args.summary, &mut out)?;
-        out.push('\n');
+        good &= known_answers(args, &mut out)?;
     }
-    let rows = promise::rows()?;
-    if args.promise {
-        out += &promise_table::table(&rows);
+    if args.cases.is_empty() {
+        let rows = promise::rows()?;
+        out += if args.promise { "" } else { "\n" };
+        if args.promise {
+            out += &promise_table::table(&rows);
+        }
+        out += &promise_table::summary(&rows);
+        good &= Summary::of(&rows).holds();
     }
-    out += &promise_table::summary(&rows);
-    good &= Summary::of(&rows).holds();
     Ok((out, if good { 0 } else { FAILED }))
 }
 
-/// Every known answer beside ours; whether none is missed.
-fn known_answers(summary: bool, out: &mut String) -> Result<bool> {
-    let (mut rows_in_all, mut misses) = (0, 0);
-    if summary {
-        *out += "case                          rows  missed  worst error/tolerance\n";
+/// The name of a case that travels with the program.
+fn case(name: &str) -> std::result::Result<String, Error> {
+    let names: Vec<&str> = CASES.iter().map(|(known, _)| *known).collect();
+    if names.contains(&name) {
+        return Ok(name.to_owned());
     }
-    for (name, text) in CASES {
+    let meant = nearest(name, &names).map(|near| format!("; did you mean {near}?"));
+    let expected = format!("a name of validation/{}", meant.unwrap_or_default());
+    Err(Error::value("--case", name, expected))
+}
+
+/// Writes the page; what is left for standard output.
+fn page(path: &std::path::Path) -> Result<Done> {
+    let answers = Answer::all()?;
+    let text = validation_page::text(&answers)?;
+    let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
+    if path.as_os_str() == "-" {
+        return Ok((text, code));
+    }
+    file::write(path, text.as_bytes())?;
+    Ok((format!("{}\n", validation_page::verdict(&answers)), code))
+}
+
+/// Every known answer beside ours; whether none is missed.
+fn known_answers(args: &Args, out: &mut String) -> Result<bool> {
+    let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
+    let (mut cases, mut counted, mut information, mut misses) = (0, 0, 0, 0);
+    if args.summary {
+        *out += "case                               rows  missed  worst error/tolerance\n";
+    }
+    for (name, text) in CASES.iter().filter(|(name, _)| asked(name)) {
         let (case, rows) = run_case(name, text)?;
-        let missed = rows.iter().filter(|row| !row.passes()).count();
-        rows_in_all += rows.len();
+        let missed = rows.iter().filter(|row| row.missed()).count();
+        let shown = rows.iter().filter(|row| row.information).count();
+        cases += 1;
+        counted += rows.len() - shown;
+        information += shown;
         misses += missed;
-        if summary {
-            let worst = rows.iter().map(share).fold(0.0, f64::max);
-            let _ = writeln!(out, "{name:<28} {:>5}  {missed:>6}  {worst:>8.3}", rows.len());
+        if args.summary {
+            let worst = rows.iter().map(Row::share).fold(0.0, f64::max);
+            let _ = writeln!(out, "{name:<33} {:>5}  {missed:>6}  {worst:>8.3}", rows.len());
         } else {
             let _ = writeln!(out, "{} ({name})", case.name);
             *out += "  quantity                expected            got     error  tolerance\n";
@@ -65,28 +110,24 @@ fn known_answers(summary: bool, out: &mut String) -> Result<bool> {
             out.push('\n');
         }
     }
-    let _ = writeln!(out, "{} cases, {rows_in_all} rows, {misses} missed", CASES.len());
+    let _ = write!(out, "{cases} cases, {counted} rows, {misses} missed");
+    if information > 0 {
+        let _ = write!(out, "; {information} more for information");
+    }
+    out.push('\n');
     Ok(misses == 0)
 }
 
-/// Error in units of the tolerance. A missing value is NaN, which a maximum would pass over.
-fn share(row: &Row) -> f64 {
-    let share = row.error / row.tolerance;
-    if share.is_nan() { f64::INFINITY } else { share }
-}
-
 fn line(row: &Row, out: &mut String) {
-    let _ = writeln!(
-        out,
-        "  {:<18} {:>13} {:>14}  {:>8.1e}  {:>8.1e} {}  {}",
-        row.quantity,
-        significant(row.expected),
-        significant(row.found),
-        row.error,
-        row.tolerance,
-        if row.relative { "rel" } else { "abs" },
-        if row.passes() { "ok" } else { "MISSED" }
-    );
+    let (expected, found) = (significant(row.expected), significant(row.found));
+    let _ = write!(out, "  {:<18} {expected:>13} {found:>14}  {:>8.1e}", row.quantity, row.error);
+    let _ = if row.information {
+        writeln!(out, "            for information")
+    } else {
+        let sense = if row.relative { "rel" } else { "abs" };
+        let verdict = if row.passes() { "ok" } else { "MISSED" };
+        writeln!(out, "  {:>8.1e} {sense}  {verdict}", row.tolerance)
+    };
 }
 
 /// The number with about nine significant digits.
