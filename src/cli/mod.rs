@@ -3,6 +3,7 @@
 mod analyze;
 mod common;
 mod extremes_table;
+mod frf;
 mod hit;
 mod materials;
 mod modes;
@@ -40,6 +41,7 @@ enum Verb {
     Modes(modes::Args),
     Hit(hit::Args),
     Ring(ring::Args),
+    Frf(frf::Args),
     Trade(trade::Args),
     Validate(validate::Args),
     Materials(materials::Args),
@@ -47,7 +49,7 @@ enum Verb {
 
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] =
-    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "advise", "new"];
+    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "advise", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] =
     &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
@@ -61,6 +63,7 @@ pub fn run() -> Result<Done> {
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
         Verb::Ring(args) => ring::run(&args),
+        Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
