@@ -124,6 +124,14 @@ impl Frf {
         dot(&at, &to) / self.reduced.flexible.energy_unit
     }
 
+    /// The receptance (m/N) without the rigid motions that nothing holds, at 0 Hz or more, of the
+    /// strains that are there: those of the modes and of a constant force until
+    /// [`Self::receptances`] has asked for others.
+    pub fn strained(&self, frequency: f64) -> c64 {
+        let answer = self.reduced.answer(&self.reduced.damping(), &self.places[0], TAU * frequency);
+        answer.at(&self.places[1])
+    }
+
     /// The part of the receptance (m/N) of rigid motions that nothing holds.
     pub fn rigid(&self, frequency: f64) -> f64 {
         if self.reduced.coupled {

@@ -168,6 +168,7 @@ impl Reduced {
         if rest < NEW || !normalize(&mut strains) {
             return false;
         }
+        self.flexible.project(&mut strains);
         take_out(&mut strains, &self.members);
         if !normalize(&mut strains) {
             return false;
@@ -429,8 +430,8 @@ impl Reduced {
         pole.norm = norm * self.flexible.energy_unit;
     }
 
-    /// M (s²) of all unknowns, and C (s) with the materials' part.
-    fn viscous(&self) -> [Mat<f64>; 2] {
+    /// M (s²) of all unknowns, rigid motions first, and C (s) with the materials' part.
+    pub fn viscous(&self) -> [Mat<f64>; 2] {
         let (n, r) = (self.members.len(), self.rigid_unknowns());
         let mass = Mat::from_fn(r + n, r + n, |i, j| match (i < r, j < r) {
             (false, false) => self.mass[i.max(j) - r][i.min(j) - r],
@@ -568,14 +569,23 @@ fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
     let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
     real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
     let mut strained = real.split_off(rigid.min(real.len()));
-    // The slowest belongs to the fastest.
+    // Two that belong together have nearly the same strains; the slowest looks for its own first.
     strained.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let size = |a: &Pole| a.parts.iter().map(|p| p.norm_sqr()).sum::<f64>().sqrt();
+    let alike = |a: &Pole, b: &Pole| {
+        let both = a.parts.iter().zip(&b.parts).map(|(a, b)| *a * *b).sum::<c64>();
+        both.norm() / (size(a) * size(b))
+    };
     let mut groups: Vec<Group> =
         pairs.into_iter().map(|pole| Group { poles: vec![pole] }).collect();
     while strained.len() > 1 {
-        let fast = strained.pop();
-        let poles = std::iter::once(strained.remove(0)).chain(fast).collect();
-        groups.push(Group { poles });
+        let slow = strained.remove(0);
+        let order = |i: &usize, j: &usize| {
+            alike(&slow, &strained[*i]).total_cmp(&alike(&slow, &strained[*j]))
+        };
+        let partner = (0..strained.len()).max_by(order).unwrap_or(0);
+        let fast = strained.remove(partner);
+        groups.push(Group { poles: vec![slow, fast] });
     }
     groups.sort_by(|a, b| a.natural().total_cmp(&b.natural()));
     (groups, real)

@@ -9,7 +9,7 @@ use sweetspot::error::{Error, Result, nearest};
 use sweetspot::frf::{Frf, Kind, Sample};
 use sweetspot::report::{file, json};
 use sweetspot::solve::{self, Request};
-use sweetspot::units::Quantity;
+use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
@@ -221,6 +221,10 @@ fn csv(kind: Kind, samples: &[Sample]) -> String {
     out
 }
 
+fn place(x: f64) -> String {
+    format!("{x:.4} m ({:.2} in)", inches(x))
+}
+
 /// Degrees; 0 of nothing.
 fn phase(re: f64, im: f64) -> f64 {
     // A zero without a sign: on the negative axis it would turn the phase over.
@@ -234,11 +238,8 @@ fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> Strin
         Kind::Accelerance => "1/kg",
     };
     let name = kind.name();
-    let mut out = format!(
-        "Frequency response: {name} from a force at {} to {}\n",
-        shown_length(at),
-        shown_length(to)
-    );
+    let mut out =
+        format!("Frequency response: {name} from a force at {} to {}\n", place(at), place(to));
     let _ = writeln!(
         out,
         "  {:>14} {:>18} {:>14}",
