@@ -56,19 +56,16 @@ impl Damped {
     ///
     /// # Source
     ///
-    /// S. S. Rao, Mechanical Vibrations, 5th edition, section 3.4.2.
+    /// J. O. Smith, Introduction to Digital Filters (2007), appendix "Quality Factor (Q)": the
+    /// resonance frequency over twice the decay rate.
     pub fn q_half_power(&self) -> Option<f64> {
         (self.ratio > 0.0).then(|| 0.5 / self.ratio)
     }
 
-    /// Q as a count of cycles: π over the logarithmic decrement, `π f_d/|Re s| = √(1 − ζ²)/(2ζ)`, so
+    /// Q as a count of cycles, as a ringing bell or bat is measured: π over the logarithmic decrement, `π f_d/|Re s| = √(1 − ζ²)/(2ζ)`, so
     /// that the amplitude falls to 1/e in `Q/π` cycles. None without damping, 0 where it does not
-    /// swing.
-    ///
-    /// # Source
-    ///
-    /// The logarithmic decrement `δ = 2πζ/√(1 − ζ²)` is in S. S. Rao, section 2.6.3; `Q = π/δ` is
-    /// how a ringing bell or bat is measured.
+    /// swing. The decrement, the logarithm of the ratio of two peaks a period apart, is
+    /// `δ = 2πζ/√(1 − ζ²)`; both Qs differ by `√(1 − ζ²)`.
     pub fn q_decay(&self) -> Option<f64> {
         (self.ratio > 0.0).then(|| 0.5 * self.swinging() / (self.ratio * self.natural))
     }

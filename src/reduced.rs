@@ -14,7 +14,7 @@
 //!
 //! # Source
 //!
-//! F. Tisseur, K. Meerbergen, SIAM Review 43 (2001) 235, on quadratic eigenproblems.
+//! F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001) 235.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
@@ -64,6 +64,9 @@ pub struct Pole {
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
+    /// Share of the strains in the sum of both energies: a half where it swings, more where it creeps
+    /// back, less where a dashpot stops it.
+    pub strain_share: f64,
 }
 
 /// Strains under a force as `e^{iωt}`.
@@ -264,7 +267,8 @@ impl Reduced {
     ) -> Result<(Vec<Group>, Vec<Pole>)> {
         const MOST_ROUNDS: usize = 12;
         const MOST_MEMBERS: usize = 400;
-        for round in 0.. {
+        let mut round = 0;
+        loop {
             let (mut groups, rigid) = grouped(self.poles()?, self.rigid_unknowns());
             groups.truncate(wanted);
             let [mass, damping] = self.viscous();
@@ -292,8 +296,8 @@ impl Reduced {
                 rigid.iter_mut().for_each(|pole| self.polish(&mass, &damping, pole));
                 return Ok((groups, rigid));
             }
+            round += 1;
         }
-        unreachable!("the rounds end themselves")
     }
 
     /// All eigenvalues of the reduced bat with `Im s ≥ 0`.
@@ -376,6 +380,10 @@ impl Reduced {
             poles.push(Pole {
                 s: 1.0 / *mu,
                 rigid_share: square * size(&rigid) / moving,
+                strain_share: {
+                    let strained = size(&strains);
+                    strained / (strained + moving / mu.norm_sqr())
+                },
                 rigid: rigid.iter().zip(&unit).map(|(p, unit)| *p * *unit).collect(),
                 parts,
                 norm: c64::new(0.0, 0.0),
@@ -458,6 +466,7 @@ impl Reduced {
             norm: c64::new(norm * unit, 0.0),
             error: 0.0,
             rigid_share: 1.0,
+            strain_share: 0.0,
         };
         match r {
             0 => vec![],
@@ -568,9 +577,12 @@ impl Group {
 fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
     let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
     real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
-    let mut strained = real.split_off(rigid.min(real.len()));
-    // Two that belong together have nearly the same strains; the slowest looks for its own first.
-    strained.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let strained = real.split_off(rigid.min(real.len()));
+    // Of two that belong together one creeps back and the other is stopped, with nearly the same
+    // strains; the slowest looks for its own first.
+    let (mut slow, mut fast): (Vec<Pole>, Vec<Pole>) =
+        strained.into_iter().partition(|pole| pole.strain_share > 0.5);
+    slow.sort_by(|a, b| b.s.norm().total_cmp(&a.s.norm()));
     let size = |a: &Pole| a.parts.iter().map(|p| p.norm_sqr()).sum::<f64>().sqrt();
     let alike = |a: &Pole, b: &Pole| {
         let both = a.parts.iter().zip(&b.parts).map(|(a, b)| *a * *b).sum::<c64>();
@@ -578,14 +590,11 @@ fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
     };
     let mut groups: Vec<Group> =
         pairs.into_iter().map(|pole| Group { poles: vec![pole] }).collect();
-    while strained.len() > 1 {
-        let slow = strained.remove(0);
-        let order = |i: &usize, j: &usize| {
-            alike(&slow, &strained[*i]).total_cmp(&alike(&slow, &strained[*j]))
-        };
-        let partner = (0..strained.len()).max_by(order).unwrap_or(0);
-        let fast = strained.remove(partner);
-        groups.push(Group { poles: vec![slow, fast] });
+    while let Some(one) = slow.pop() {
+        let order =
+            |i: &usize, j: &usize| alike(&one, &fast[*i]).total_cmp(&alike(&one, &fast[*j]));
+        let Some(partner) = (0..fast.len()).max_by(order) else { break };
+        groups.push(Group { poles: vec![one, fast.remove(partner)] });
     }
     groups.sort_by(|a, b| a.natural().total_cmp(&b.natural()));
     (groups, real)

@@ -71,8 +71,8 @@ impl Oscillator {
     ///
     /// # Source
     ///
-    /// The ramp-invariant recursion of D. O. Smallwood, Shock and Vibration Bulletin 51 (1981), in
-    /// the form that needs no coefficients.
+    /// The ramp-invariant simulation of D. O. Smallwood, An improved recursive formula for
+    /// calculating shock response spectra, Shock and Vibration Bulletin 51 (1981).
     pub fn forced(&self, [q, v]: [f64; 2], [from, to]: [f64; 2], h: f64) -> [f64; 2] {
         /// Gauss's 10 points integrate the impulse response below it to all digits.
         const SMALL: f64 = 1.0;

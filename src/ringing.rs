@@ -7,8 +7,7 @@
 //!
 //! # Source
 //!
-//! F. Tisseur, K. Meerbergen, SIAM Review 43 (2001) 235, section 3, on the response of a second-order
-//! system in its own vectors.
+//! F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001) 235.
 
 use faer::c64;
 
@@ -286,4 +285,185 @@ fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> Motion {
         false => vec![take(&|part| part.re), take(&|part| part.im)],
     };
     Motion { clock: Clock::Pole(pole), forms }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bat::Weighed;
+    use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Support};
+    use crate::material::Material;
+    use crate::profile::{Interpolation, Profile, Stations};
+    use crate::solve::{Request, solve};
+    use crate::theory::Theory;
+
+    const LENGTH: f64 = 0.8;
+
+    fn bat(fixtures: Fixtures) -> Bat {
+        let stations = Stations {
+            x: vec![0.0, LENGTH],
+            outer: vec![0.014, 0.03],
+            inner: vec![0.0; 2],
+            interpolation: Interpolation::Linear,
+        };
+        let mut material = Material::new(700.0, 14e9).unwrap();
+        material.shear_modulus = Some(1e9);
+        let profile = Profile::new(stations).unwrap();
+        Bat::with_fixtures("ringing", profile, material, fixtures, Weighed::default()).unwrap()
+    }
+
+    fn solved(bat: &Bat, modes: usize, theory: Theory) -> Solution {
+        let request = Request { modes, tolerance: 1e-9, theory, ..Request::default() };
+        solve(bat, &request).unwrap()
+    }
+
+    fn hands(stiffness: f64, damping: f64) -> Fixtures {
+        let grip = Grip { from: 0.02, to: 0.2, stiffness, damping };
+        let absorber = Absorber { x: 0.05, mass: 0.03, stiffness: 3e4, damping: 4.0 };
+        Fixtures { grip: Some(grip), absorbers: vec![absorber], ..Fixtures::default() }
+    }
+
+    /// Displacements of all unknowns and their rates, from the poles alone.
+    fn state(ringing: &Ringing, start: &Start, t: f64) -> [Vec<f64>; 2] {
+        let (Start::Blow(parts) | Start::Shape(parts) | Start::Force(parts, _)) = start;
+        let mut both = [vec![], vec![]];
+        for (motion, part) in ringing.motions.iter().zip(parts) {
+            let Clock::Pole(pole) = &motion.clock else { panic!("no pole") };
+            let now = *part * (pole.s * t).exp() * if pole.s.im == 0.0 { 1.0 } else { 2.0 };
+            let v: Vec<c64> = pole.rigid.iter().chain(&pole.parts).copied().collect();
+            for (sum, factor) in both.iter_mut().zip([now, now * pole.s]) {
+                sum.resize(v.len(), 0.0);
+                sum.iter_mut().zip(&v).for_each(|(sum, v)| *sum += (*v * factor).re);
+            }
+        }
+        both
+    }
+
+    /// Strain and kinetic energy (J).
+    fn energy(ringing: &Ringing, mass: &faer::Mat<f64>, [u, v]: &[Vec<f64>; 2]) -> f64 {
+        let rigid = u.len() - ringing.reduced.len();
+        let moving = |i: usize| (0..v.len()).map(|j| v[i] * mass[(i, j)] * v[j]).sum::<f64>();
+        let kinetic: f64 = (0..v.len()).map(moving).sum();
+        let strain: f64 = u[rigid..].iter().map(|u| u * u).sum();
+        0.5 * ringing.reduced.flexible.energy_unit * (kinetic + strain)
+    }
+
+    #[test]
+    fn what_rings_freely_loses_energy_all_the_time() {
+        for fixtures in [hands(2e5, 300.0), hands(0.0, 300.0)] {
+            let bat = bat(fixtures);
+            let solution = solved(&bat, 5, Theory::Timoshenko);
+            let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+            let start = ringing.blow(0.6, 1.0);
+            let [mass, _] = ringing.reduced.viscous();
+            let mut before = f64::INFINITY;
+            for k in 0..200 {
+                let now = energy(&ringing, &mass, &state(&ringing, &start, 1e-4 * f64::from(k)));
+                assert!(now < before, "{k} {now} {before}");
+                before = now;
+            }
+        }
+    }
+
+    /// A blow and a push of the same impulse, very short, are the same; a push of half a sine by its
+    /// chords is off by the chords' own deviation from it.
+    #[test]
+    fn a_short_push_is_a_blow() {
+        let pin = Support { x: 0.3, kind: Held::Pinned };
+        let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };
+        let pinned =
+            Fixtures { supports: vec![pin], attachments: vec![weight], ..Fixtures::default() };
+        for fixtures in [Fixtures::default(), pinned, hands(2e5, 300.0), hands(0.0, 300.0)] {
+            let bat = bat(fixtures);
+            let solution = solved(&bat, 4, Theory::Rayleigh);
+            let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+            let short = 1e-9;
+            let history = ForceHistory { t: vec![0.0, short], force: vec![2.0 / short; 2] };
+            let (blow, push) = (ringing.blow(0.7, 2.0), ringing.pushed(0.7, history));
+            for t in [1e-3, 0.02, 0.3] {
+                let [a, b] = [ringing.amplitudes(&blow, t), ringing.amplitudes(&push, t)];
+                let shapes = ringing.shapes(&[0.1, 0.4, 0.75]);
+                for i in 0..3 {
+                    let w = |parts: &[f64]| -> f64 {
+                        shapes.iter().zip(parts).map(|(shape, part)| shape[i] * part).sum()
+                    };
+                    // The push is half of its length late: ω times that, 1e4 × 5e-10.
+                    assert!((w(&a) - w(&b)).abs() < 2e-5 * w(&a).abs().max(1e-4), "{t} {i}");
+                }
+            }
+        }
+    }
+
+    /// A free bat of its own weight and one with everything that is attached keep the momentum and the
+    /// angular momentum of a blow; a pinned one turns about its pin with them.
+    #[test]
+    fn rigid_motions_carry_what_is_attached() {
+        let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };
+        let weighted = Fixtures { attachments: vec![weight], ..Fixtures::default() };
+        let bat = bat(weighted);
+        let inertia = bat.inertia();
+        let solution = solved(&bat, 3, Theory::Rayleigh);
+        let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+        let (x, t) = (0.7, 0.01);
+        let amplitudes = ringing.amplitudes(&ringing.blow(x, 3.0), t);
+        let shapes = ringing.shapes(&[0.0, 0.8]);
+        let rigid = |i: usize| shapes[0][i] * amplitudes[0] + shapes[1][i] * amplitudes[1];
+        let arm = x - inertia.balance_point;
+        for (i, at) in [0.0, 0.8].into_iter().enumerate() {
+            let turn = arm / inertia.about_balance * (at - inertia.balance_point);
+            let exact = 3.0 * t * (1.0 / inertia.mass + turn);
+            assert!((rigid(i) / exact - 1.0).abs() < 1e-12, "{}", rigid(i));
+        }
+    }
+
+    /// Released from the shape of a mode, or from a rigid one, the bat moves in that motion alone.
+    #[test]
+    fn a_mode_s_own_shape_rings_in_that_mode_alone() {
+        let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };
+        let pin = Support { x: 0.3, kind: Held::Pinned };
+        for supports in [vec![], vec![pin]] {
+            let free = Fixtures { attachments: vec![weight], supports, ..Fixtures::default() };
+            let bat = bat(free);
+            let solution = solved(&bat, 4, Theory::EulerBernoulli);
+            let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+            let rigid = solution.rigid_modes;
+            let x: Vec<f64> = (0..=4000).map(|k| LENGTH * f64::from(k) / 4000.0).collect();
+            let w = x.iter().map(|x| solution.modes[1].shape.deflection(*x)).collect();
+            let start = ringing.release(&bat, &InitialShape { x: x.clone(), w });
+            let parts = ringing.amplitudes(&start, 0.0);
+            let shapes = ringing.shapes(&[LENGTH]);
+            for (k, (part, shape)) in parts.iter().zip(shapes).enumerate() {
+                let exact =
+                    if k == rigid + 1 { solution.modes[1].shape.deflection(LENGTH) } else { 0.0 };
+                // Chords of 0.2 mm are off by h²/8 of the curvature, 5e-9 × 60.
+                assert!((part * shape[0] - exact).abs() < 1e-5, "{k} {part}");
+            }
+        }
+    }
+
+    /// Released with weak dashpots it starts as it does without.
+    #[test]
+    fn weak_dashpots_change_little() {
+        let x: Vec<f64> = (0..=80).map(|k| LENGTH * f64::from(k) / 80.0).collect();
+        let w = x.iter().map(|x| 1e-3 * (x - 0.5).powi(2)).collect();
+        let shape = InitialShape { x, w };
+        let rings = |damping: f64| {
+            let mut fixtures = hands(2e5, damping);
+            fixtures.absorbers[0].damping = 1e-3 * damping;
+            let bat = bat(fixtures);
+            let solution = solved(&bat, 4, Theory::Rayleigh);
+            let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+            let start = ringing.release(&bat, &shape);
+            let shapes = ringing.shapes(&[0.75]);
+            let at = |t: f64| -> f64 {
+                let parts = ringing.amplitudes(&start, t);
+                shapes.iter().zip(parts).map(|(shape, part)| shape[0] * part).sum()
+            };
+            [0.0, 1e-3, 5e-3].map(at)
+        };
+        // Complex motions and oscillators, which differ by about the damping ratio, 1e-5.
+        for (a, b) in rings(0.1).into_iter().zip(rings(0.0)) {
+            assert!((a - b).abs() < 1e-3 * 1e-4, "{a} {b}");
+        }
+    }
 }

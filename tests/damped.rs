@@ -222,7 +222,7 @@ fn the_elastic_response_at_0_hz_is_the_static_deflection() {
 
 /// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL − 1`,
 /// `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of Vibration,
-/// 1960, table 7.1(c)); with losses λ and EI are complex.
+/// 1960); with losses λ and EI are complex.
 fn at_the_tip(frequency: f64, loss: f64, bed: [f64; 2]) -> c64 {
     let omega = TAU * frequency;
     let area = std::f64::consts::PI * RADIUS.powi(2);
@@ -366,39 +366,5 @@ fn complex_modes_are_used_where_they_matter() {
     for mode in &strong.modes {
         let both = mode.q_decay().unwrap() / mode.q_half_power().unwrap();
         assert!((both.powi(2) + mode.ratio.powi(2) - 1.0).abs() < 1e-12);
-    }
-}
-
-#[test]
-fn zz_debug() {
-    for bed in [[4e5, 0.0], [4e5, 200.0], [4e5, 2e4]] {
-        for modes in [4, 8] {
-            for degree in [None, Some(12)] {
-                let grip = Grip { from: 0.0, to: LENGTH, stiffness: bed[0], damping: bed[1] };
-                let bat = dowel(Fixtures { grip: Some(grip), ..Fixtures::default() }, 0.0);
-                let elements = degree.map(|_| 8);
-                let request =
-                    Request { degree, elements, ..request(modes, Theory::EulerBernoulli) };
-                let mut frf = Frf::new(&bat, &request, LENGTH, LENGTH).unwrap();
-                println!(
-                    "{bed:?} {modes} {degree:?} met {} worst {:.1e} mesh {} x {}",
-                    frf.solution.met,
-                    frf.solution.worst(),
-                    frf.solution.mesh.len(),
-                    frf.solution.degree
-                );
-                for sample in frf.receptances(&[20.0, 237.0, 700.0]).unwrap() {
-                    let exact = at_the_tip(sample.frequency, 0.0, bed);
-                    let off = (sample.receptance - exact).norm() / exact.norm();
-                    println!(
-                        "   {} {:.3e} off {off:.1e} trunc {:.1e}",
-                        sample.frequency,
-                        exact.norm(),
-                        sample.truncation / exact.norm()
-                    );
-                }
-                println!("   strains {}", frf.strains());
-            }
-        }
     }
 }

@@ -15,13 +15,14 @@ pub fn table(solution: &Solution) -> String {
         return String::new();
     }
     let mut out = String::from(
-        "Damping\n  mode  damped frequency   damping ratio    decay     Q = 1/(2 zeta)  Q = pi/decrement\n",
+        "Damping (Q of the half-power width is 1/(2 ratio), Q of the decay pi/decrement)\n",
     );
+    out += "  mode  damped frequency      ratio       decay    Q, width    Q, decay\n";
     let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| digits(q, 4));
     for (mode, damped) in solution.modes.iter().zip(&damping.modes) {
         let _ = writeln!(
             out,
-            "  {:>4} {:>13.2} Hz {:>15} {:>9}/s {:>15} {:>17}",
+            "  {:>4} {:>14.2} Hz {:>10} {:>9}/s {:>11} {:>11}",
             mode.order,
             damped.swinging() / TAU,
             digits(damped.ratio, 3),
