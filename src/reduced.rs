@@ -359,6 +359,8 @@ impl Reduced {
                 }
             }
         }
+        /// Round-off takes a double eigenvalue apart by its root, 1e-8.
+        const SAME: f64 = 1e-6;
         let eigen = state.eigen().map_err(|_| failed())?;
         let mut poles = vec![];
         for (j, mu) in eigen.S().column_vector().iter().enumerate() {
@@ -373,22 +375,37 @@ impl Reduced {
                     column(2 * n + k) - bound
                 })
                 .collect();
-            let size = |of: &[c64]| of.iter().map(|p| p.norm_sqr()).sum::<f64>();
-            let moving = strains.iter().zip(&lengths).map(|(p, l)| p.norm_sqr() * l * l);
-            let moving = moving.sum::<f64>() + square * size(&rigid);
-            let parts = (0..n).map(|i| (0..n).map(|k| strains[k] * turned[(i, k)]).sum()).collect();
-            poles.push(Pole {
-                s: 1.0 / *mu,
-                rigid_share: square * size(&rigid) / moving,
-                strain_share: {
-                    let strained = size(&strains);
-                    strained / (strained + moving / mu.norm_sqr())
-                },
-                rigid: rigid.iter().zip(&unit).map(|(p, unit)| *p * *unit).collect(),
-                parts,
-                norm: c64::new(0.0, 0.0),
-                error: 0.0,
-            });
+            let pole = |s: c64, strains: &[c64], rigid: &[c64]| {
+                let size = |of: &[c64]| of.iter().map(|p| p.norm_sqr()).sum::<f64>();
+                let moving = strains.iter().zip(&lengths).map(|(p, l)| p.norm_sqr() * l * l);
+                let moving = moving.sum::<f64>() + square * size(rigid);
+                let strained = size(strains);
+                let part = |i: usize| (0..n).map(|k| strains[k] * turned[(i, k)]).sum();
+                Pole {
+                    s,
+                    rigid: rigid.iter().zip(&unit).map(|(p, unit)| *p * *unit).collect(),
+                    parts: (0..n).map(part).collect(),
+                    norm: c64::new(0.0, 0.0),
+                    error: 0.0,
+                    rigid_share: square * size(rigid) / moving,
+                    strain_share: strained / (strained + moving * s.norm_sqr()),
+                }
+            };
+            let one = pole(1.0 / *mu, &strains, &rigid);
+            // What swings has as much of both energies. A pair that has not is the same real
+            // eigenvalue twice, and round-off an imaginary part; its vectors are both parts.
+            let twice = mu.im != 0.0
+                && mu.im.abs() < SAME * mu.norm()
+                && (one.strain_share - 0.5).abs() > SAME;
+            if !twice {
+                poles.push(one);
+                continue;
+            }
+            for of in [|p: &c64| c64::new(p.re, 0.0), |p: &c64| c64::new(p.im, 0.0)] {
+                let [strains, rigid] =
+                    [&strains, &rigid].map(|all| all.iter().map(of).collect::<Vec<c64>>());
+                poles.push(pole(c64::new(one.s.re, 0.0), &strains, &rigid));
+            }
         }
         Ok(poles)
     }

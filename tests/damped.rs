@@ -12,6 +12,9 @@
 //! `Q(x+) = Q(x−) − 1`. The values were computed with 60-digit arithmetic by matrix exponentials of
 //! the uniform stretches, and again by Taylor series with 80 digits.
 
+// Values are carried with all the digits they were given.
+#![allow(clippy::excessive_precision)]
+
 use std::f64::consts::TAU;
 
 use faer::c64;
