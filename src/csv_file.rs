@@ -25,6 +25,16 @@ impl Csv {
         quantity: Quantity,
         unit: f64,
     ) -> Result<Self> {
+        let columns: Vec<_> = keys.iter().map(|key| (*key, quantity, unit)).collect();
+        Self::read_columns(document, &columns)
+    }
+
+    /// Reads columns of several quantities: name, quantity and the unit where the header has none.
+    pub fn read_columns(
+        document: &Document,
+        columns: &[(&'static str, Quantity, f64)],
+    ) -> Result<Self> {
+        let keys: Vec<&'static str> = columns.iter().map(|(key, ..)| *key).collect();
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
@@ -45,7 +55,7 @@ impl Csv {
         let header = offset(&names);
         let mut scales: Vec<(&'static str, f64)> = Vec::new();
         for name in &names {
-            let (key, scale) = column(name, keys, quantity, unit)
+            let (key, scale) = column(name, &keys, columns)
                 .map_err(|complaint| document.error(header, complaint))?;
             if scales.iter().any(|(other, _)| *other == key) {
                 let found = format!("column \"{key}\" a second time");
@@ -53,7 +63,7 @@ impl Csv {
             }
             scales.push((key, scale));
         }
-        let mut columns: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
+        let mut filled: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
         let mut rows = Vec::new();
         for record in records {
             let record =
@@ -63,7 +73,7 @@ impl Csv {
                 let found = format!("{} cells in this row", record.len());
                 return Err(wrong(at, "", found, format!("{}, as in the header", scales.len())));
             }
-            let cells = record.iter().zip(&scales).zip(&mut columns).enumerate();
+            let cells = record.iter().zip(&scales).zip(&mut filled).enumerate();
             for (k, ((cell, (key, scale)), (_, values))) in cells {
                 match cell.parse::<f64>() {
                     Ok(v) if (v * scale).is_finite() => values.push(v * scale),
@@ -80,7 +90,7 @@ impl Csv {
             name[key.len()..].trim_start_matches('_').to_owned()
         };
         let units = names.iter().zip(&scales).map(unit).collect();
-        Ok(Self { columns, units, header, rows })
+        Ok(Self { columns: filled, units, header, rows })
     }
 
     /// Where a cell stands in the text, what is written there, and its unit.
@@ -119,8 +129,7 @@ fn cell_start(text: &str, offset: usize, column: usize) -> usize {
 fn column(
     name: &str,
     keys: &[&'static str],
-    quantity: Quantity,
-    unit: f64,
+    columns: &[(&'static str, Quantity, f64)],
 ) -> std::result::Result<(&'static str, f64), Complaint> {
     // Longer keys first, so that none is taken for the beginning of another.
     let known = keys.iter().filter(|key| {
@@ -129,10 +138,16 @@ fn column(
     let Some(&key) = known.max_by_key(|key| key.len()) else {
         let stem = name.rsplit_once('_').map_or(name, |(stem, _)| stem);
         let hint = nearest(stem, keys).map_or(String::new(), |n| format!(" (did you mean {n}?)"));
-        let expected = format!("{} with a unit, as in x_in{hint}", keys.join(", "));
+        let example = if keys.contains(&"x") { "x_in" } else { "t_ms" };
+        let expected = format!("{} with a unit, as in {example}{hint}", keys.join(", "));
         return Err(Complaint::new("header", format!("column \"{name}\""), expected));
     };
+    let named = columns.iter().find(|(name, ..)| *name == key);
+    let &(_, quantity, unit) = named.expect("it is one of the names");
     match name[key.len()..].strip_prefix('_') {
+        // Names of columns are often in small letters throughout.
+        Some("n") if quantity == Quantity::Force => Ok((key, 1.0)),
+        Some("kn") if quantity == Quantity::Force => Ok((key, 1e3)),
         Some(unit) => units::factor(unit, quantity)
             .map(|scale| (key, scale))
             .map_err(|complaint| Complaint { field: "header".into(), ..complaint }),

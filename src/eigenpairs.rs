@@ -206,6 +206,11 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         Ok(apart)
     }
 
+    /// `y = A q`; `loads` is scratch space.
+    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Loads<f64, W>) {
+        Arch::new().dispatch(Apply { statics: &self.statics, q, y, loads });
+    }
+
     /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
     ///
     /// Scaled strains in `known`, one motion after the other, are slower modes, whose round-off is

@@ -120,7 +120,8 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     }
     if bat.fixtures.damping() {
         ignored.push(
-            "damping by hands and absorbers: frequencies and shapes are those without it"
+            "damping by hands and absorbers in shapes, nodes and undamped frequencies: the damped \
+             frequencies are given beside them"
                 .to_owned(),
         );
     }

@@ -64,6 +64,12 @@ impl Layup {
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
         let turning = self.turning(section);
+        let [outer, inside] = self.shears(section);
+        Worth { bending, mass, turning, shear: outer + inside }
+    }
+
+    /// κGA (N) of the outer layer and of the core.
+    fn shears(&self, section: Section) -> [f64; 2] {
         let hole = (section.inner / section.outer).powi(2);
         let shear = |material: &Material, area: f64, hole: f64| match material.shear_modulus {
             Some(modulus) => material.kappa(hole) * modulus * area,
@@ -80,8 +86,29 @@ impl Layup {
                 empty *= (1.0 - of_core / of_tube).max(0.0);
             }
         }
-        let shear = shear(&self.outer, section.area(), empty) + inside;
-        Worth { bending, mass, turning, shear }
+        [shear(&self.outer, section.area(), empty), inside]
+    }
+
+    /// The loss factors of the section in bending and in shear: those of the layers, each weighted
+    /// with its share of the stiffness, for all layers have one curvature and one shear strain. They
+    /// share the strain energy likewise.
+    ///
+    /// # Source
+    ///
+    /// E. E. Ungar, E. M. Kerwin, J. Acoust. Soc. Am. 34 (1962) 954: the loss factor of a
+    /// composite is the mean of the parts' weighted with their strain energies.
+    pub fn loss(&self, section: Section) -> [f64; 2] {
+        let own = self.outer.loss_factor;
+        let Some(core) = self.core.as_ref().filter(|core| core.loss_factor != own) else {
+            return [own; 2];
+        };
+        let inside = core.youngs_modulus * section.bore().second_moment();
+        let share = inside / self.bending_and_mass(section)[0];
+        let [outer, inner] = self.shears(section);
+        // Of two that do not give way in shear neither has a share.
+        let sheared = if outer.is_finite() { inner / (outer + inner) } else { 0.0 };
+        let sheared = if sheared.is_finite() { sheared } else { 1.0 };
+        [share, sheared].map(|share| own + share * (core.loss_factor - own))
     }
 
     /// The materials, the outer one first.

@@ -69,12 +69,7 @@ impl Mode {
         stretches: &Arc<Vec<(f64, f64)>>,
     ) -> Self {
         let track = Track::new(view, motion, lane);
-        let mut shape = Shape {
-            stretches: Arc::clone(stretches),
-            terms: view.terms,
-            coefficients: coefficients(view, &motion.shape, lane, 1.0),
-            turns: coefficients(view, &motion.turns, lane, -1.0),
-        };
+        let mut shape = Shape::in_lane(view, motion, lane, stretches);
         let (largest, change) = shape.largest(&track);
         // The barrel end is positive; if it is held, the knob end; if both are, the side of the peak.
         const AT_REST: f64 = 1e-9;
@@ -188,6 +183,25 @@ const RECURRENCE: [[f64; 3]; 14] = {
 };
 
 impl Shape {
+    /// The deflection of a motion, in metres.
+    pub fn of(view: &View<f64>, motion: &Motion<f64>, stretches: &Arc<Vec<(f64, f64)>>) -> Self {
+        Self::in_lane(view, motion, 0, stretches)
+    }
+
+    fn in_lane<R: Real>(
+        view: &View<f64>,
+        motion: &Motion<R>,
+        lane: usize,
+        stretches: &Arc<Vec<(f64, f64)>>,
+    ) -> Self {
+        Self {
+            stretches: Arc::clone(stretches),
+            terms: view.terms,
+            coefficients: coefficients(view, &motion.shape, lane, 1.0),
+            turns: coefficients(view, &motion.turns, lane, -1.0),
+        }
+    }
+
     /// Deflection at `x` (m from the knob end), for a largest deflection of 1.
     pub fn deflection(&self, x: f64) -> f64 {
         let (k, xi) = self.locate(x);

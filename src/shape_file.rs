@@ -24,6 +24,15 @@ impl InitialShape {
         let s = (x - self.x[k - 1]) / (self.x[k] - self.x[k - 1]);
         (1.0 - s) * self.w[k - 1] + s * self.w[k]
     }
+
+    /// The slope at `x`, at a row the mean of both sides.
+    pub fn slope(&self, x: f64) -> f64 {
+        let last = self.x.len() - 1;
+        let of = |k: usize| (self.w[k] - self.w[k - 1]) / (self.x[k] - self.x[k - 1]);
+        let right = self.x.partition_point(|at| *at <= x).clamp(1, last);
+        let left = self.x.partition_point(|at| *at < x).clamp(1, last);
+        0.5 * (of(left) + of(right))
+    }
 }
 
 /// Reads columns `x_…` and `w_…` (units in the header) that span a bat of that length (m).

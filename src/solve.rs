@@ -11,6 +11,7 @@ use crate::beam::motion::{Depth, Motion};
 use crate::beam::rule::DEGREES;
 use crate::beam::statics::Statics;
 use crate::certificate::{account, add_neighbours, round_off};
+use crate::damping::{Damping, damping};
 use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::factored::{self, Found};
@@ -112,6 +113,8 @@ pub struct Solution {
     pub none_missing: Option<bool>,
     /// What ended the refinement before the tolerance was met, if something did.
     pub stopped: Option<String>,
+    /// How the modes die out.
+    pub damping: Damping,
     pub timing: Timing,
 }
 
@@ -256,7 +259,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             best.iter_mut().for_each(|best| best.stopped = Some(rounds.clone()));
         }
     }
-    Ok(best.expect("there was a round"))
+    let mut best = best.expect("there was a round");
+    let body = (&best.mesh, best.degree, best.theory);
+    best.damping = damping(bat, body, &best.modes, request.tolerance)?;
+    Ok(best)
 }
 
 /// The most accurate answer that a time allows: one digit after the other, until the next would
@@ -325,6 +331,7 @@ impl Answer {
             reason: plan.reason,
             steps: self.steps,
             stopped: None,
+            damping: Damping::default(),
             timing,
         };
         (solution, self.defects)

@@ -1347,7 +1347,50 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
         (&["hit", "bat.json", "--reproducible=1"], &["--reproducible"]),
         (&["ring", "bat.json"], &["neither a blow nor an initial shape", "--at X --impulse J"]),
-        (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>"]),
+        (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>", "--force <FILE>"]),
+        (&["ring", "bat.json", "--force", "f.csv"], &["--at <X>"]),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--force", "f.csv"],
+            &["cannot be used with"],
+        ),
+        (&["ring", "bat.json", "--at", "0.6", "--force", "f.csv"], &["cannot read f.csv"]),
+        (
+            &["ring", "bat.json", "--at", "0.9", "--force", "f.csv"],
+            &["--at: found 0.9 m", "0 to 0.8 m"],
+        ),
+        (&["frf", "bat.json"], &["--at <X>"]),
+        (&["frf", "bat.json", "--at", "0.9"], &["--at: found 0.9 m", "0 to 0.8 m"]),
+        (&["frf", "bat.json", "--at", "0.6", "--to", "-1 mm"], &["--to: found -0.001 m"]),
+        (&["frf", "bat.json", "--at", "0.6 s"], &["measures a time", "a length"]),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--kind", "mobilty"],
+            &["expected one of receptance", "did you mean mobility?"],
+        ),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--from-hz", "0"],
+            &["--from-hz: found 0 Hz", "--linear"],
+        ),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--from-hz", "0", "--linear"],
+            &["frequencies: found 0 Hz", "nothing holds the bat"],
+        ),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--from-hz", "300", "--to-hz", "200"],
+            &["--to-hz: found 200.0 Hz", "more than 300.0 Hz"],
+        ),
+        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "-5"], &["--to-hz: found -5.0 Hz"]),
+        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "1e300"], &["--to-hz: found", "1e6 Hz"]),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--frequencies", "100,fast"],
+            &["'fast'", "a frequency"],
+        ),
+        (
+            &["frf", "bat.json", "--at", "0.6", "--frequencies", "100", "--to-hz", "200"],
+            &["cannot be used with"],
+        ),
+        (&["frf", "bat.json", "--at", "0.6", "--points", "0"], &["1..="]),
+        (&["frf", "bat.json", "--at", "0.6", "--csv", "-", "--json", "-"], &["--csv: found -"]),
+        (&["frf", "bat.json", "--at", "0.6", "--budget", "5 ms"], &["--budget", "frf"]),
         (&["ring", "bat.json", "--impulse", "1"], &["--at <X>"]),
         (
             &["ring", "bat.json", "--at", "0.9", "--impulse", "1"],
@@ -1406,6 +1449,22 @@ fn a_wrong_command_line_is_refused() {
         folder.write("w.csv", shape);
         let fault = folder.misanswer(&["ring", "bat.json", "--initial", "w.csv"], says);
         faults.extend(fault.map(|f| format!("{shape:?}: {f}")));
+    }
+    for (force, says) in [
+        ("", &["p.csv:1:1", "no header", "t, force"][..]),
+        ("t_ms\n0\n1\n", &["p.csv:1:1: header", "a column missing", "t_ms,force_n"]),
+        ("t_ms,forse_n\n0,1\n", &["column \"forse_n\"", "did you mean force?"]),
+        ("t_ms,force_n\n0,1\n", &["p.csv:2:1: t", "1 row", "two at least"]),
+        ("t_ms,force_n\n0,1\n0,2\n", &["p.csv:3:1: t: found 0 s", "rising times"]),
+        ("t_ms,force_n\n-1,1\n0,2\n", &["p.csv:2:1: t: found -0.001 s", "0 or later"]),
+        ("t_ms,force_n\n0,1\n1,hard\n", &["p.csv:3:3: force: found \"hard\""]),
+        ("t_ms,force_n\n0,1\n1,1e12\n", &["p.csv:3:1: force", "less than 1e9 N"]),
+        ("t_ms,force_lb\n0,1\n1,2\n", &["measures a mass", "write ozf or lbf"]),
+        ("t_m,force_n\n0,1\n1,2\n", &["p.csv:1:1: header", "measures a length", "a time"]),
+    ] {
+        folder.write("p.csv", force);
+        let args = ["ring", "bat.json", "--at", "0.6", "--force", "p.csv"];
+        faults.extend(folder.misanswer(&args, says).map(|f| format!("{force:?}: {f}")));
     }
     assert_none(faults);
     assert_eq!(folder.run(&[]).status.code(), Some(2));

@@ -162,6 +162,89 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
     }
 }
 
+#[test]
+fn damped_bats_go_from_their_file_to_json() {
+    let folder = Folder::new("damped");
+    let bat = |more: &str| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": {{
+            "density": 700, "youngs_modulus": 14e9, "loss_factor": 0.02 }},
+            "profile": {{ "x": [0, 0.8], "radius": [0.02, 0.03] }}{more} }}"#
+        );
+        folder.write("bat.json", text);
+    };
+    bat("");
+    let lossy =
+        folder.json(&["modes", "bat.json", "-n", "3", "--theory", "rayleigh", "--json", "-"]);
+    for mode in lossy["modes"].as_array().unwrap() {
+        assert_eq!(mode["damping_ratio"], 0.01);
+        let damping = &mode["damping"];
+        let own = "natural_frequency_hz damped_frequency_hz decay_1_per_s loss_factor \
+                   q_half_power q_decay material_damping_ratio complex error";
+        assert_eq!(keys(damping), set(own));
+        assert_eq!((&damping["q_half_power"], &damping["complex"]), (&50.0.into(), &false.into()));
+        assert_eq!(damping["natural_frequency_hz"], mode["frequency_hz"]);
+    }
+    assert!(lossy["model"]["damping"]["method"].as_str().unwrap().contains("materials"));
+    let rayleigh = ["--theory", "rayleigh"];
+    let table = folder.text(&[&["modes", "bat.json", "-n", "3"], &rayleigh[..]].concat());
+    assert!(
+        table.contains("\nDamping (Q")
+            && table.lines().all(|l| l.starts_with("Model") || l.chars().count() <= 80)
+    );
+    bat(r#", "grip": { "from": 0, "to": 0.2, "stiffness": 1e5, "damping": 300 }"#);
+    let held =
+        folder.json(&["modes", "bat.json", "-n", "3", "--theory", "rayleigh", "--json", "-"]);
+    for mode in held["modes"].as_array().unwrap() {
+        assert_eq!(mode["damping"]["complex"], true);
+        let [f, ratio] =
+            ["natural_frequency_hz", "loss_factor"].map(|k| mode["damping"][k].as_f64());
+        assert_eq!(mode["damping_ratio"].as_f64().unwrap(), 0.5 * ratio.unwrap());
+        let decay = mode["damping"]["decay_1_per_s"].as_f64().unwrap();
+        let own = std::f64::consts::TAU * f.unwrap() * 0.5 * ratio.unwrap();
+        assert!((decay / own - 1.0).abs() < 1e-12);
+    }
+    // The same response as table, as CSV and as JSON; at 0 Hz it is the static one.
+    let frf = ["frf", "bat.json", "--at", "0.7", "--to", "0.1", "-n", "3", "--theory", "rayleigh"];
+    let ask = |more: &[&str]| folder.text(&[&frf[..], more].concat());
+    let listed = ["--frequencies", "50,200", "--kind", "accelerance"];
+    let json: Value =
+        serde_json::from_str(&ask(&[&listed[..], &["--json", "-"]].concat())).unwrap();
+    let own = "format generator kind at_m to_m theory modes strains static_compliance_m_per_n \
+               rigid_modes frequency_hz real_1_per_kg imaginary_1_per_kg truncation_1_per_kg \
+               frequencies_within";
+    assert_eq!(keys(&json), set(own));
+    assert_eq!(json["format"], "sweetspot-frf/1");
+    let csv = ask(&[&listed[..], &["--csv", "-"]].concat());
+    let header = "frequency_hz,real_1_per_kg,imaginary_1_per_kg,magnitude_1_per_kg,phase_deg,\
+                  truncation_1_per_kg";
+    assert_eq!(csv.lines().next(), Some(header));
+    for (k, line) in csv.lines().skip(1).enumerate() {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(cells[0], json["frequency_hz"][k]);
+        assert_eq!(cells[1], json["real_1_per_kg"][k]);
+        assert!((cells[3] / cells[1].hypot(cells[2]) - 1.0).abs() < 1e-15);
+    }
+    assert!(ask(&[]).contains("static compliance"));
+    let still = ask(&["--frequencies", "0", "--json", "-"]);
+    let still: Value = serde_json::from_str(&still).unwrap();
+    let static_compliance = still["static_compliance_m_per_n"].as_f64().unwrap();
+    let at_rest = still["real_m_per_n"][0].as_f64().unwrap();
+    // With the stiffness times 1 + iη the bat gives way a little less, by η² at most.
+    assert!((at_rest / static_compliance - 1.0).abs() < 4e-4, "{at_rest} {static_compliance}");
+    // A push that lasts, as its own reading says: heavier means further.
+    folder.write("push.csv", "t_ms,force_n\n0,0\n1,100\n2,0\n");
+    folder.write("twice.csv", "t_s,force_kn\n0,0\n0.001,0.2\n0.002,0\n");
+    let ring = |file: &str| -> Vec<f64> {
+        let args = ["ring", "bat.json", "--at", "0.7", "--force", file, "--shape-points", "3"];
+        let json = folder.json(&[&args[..], &["--theory", "rayleigh", "--json", "-"]].concat());
+        json["deflection_m"].as_array().unwrap().iter().flat_map(floats).collect()
+    };
+    for (once, twice) in ring("push.csv").iter().zip(ring("twice.csv")) {
+        assert!((2.0 * once - twice).abs() <= 1e-12 * twice.abs());
+    }
+}
+
 fn read(folder: &Folder, name: &str) -> Value {
     serde_json::from_str(&folder.read(name)).unwrap()
 }

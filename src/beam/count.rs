@@ -188,7 +188,7 @@ impl Form {
         }
         for (b, (point, softness)) in beds.into_iter().enumerate() {
             let reaction = strains + carried + b;
-            let on = statics.body().point_load(k, point);
+            let on = statics.body().point_load(k, statics.rule.at::<N>(point));
             for (i, value) in on.into_iter().enumerate() {
                 form.rows[reaction][place(i)] += value;
                 form.rows[place(i)][reaction] += value;

@@ -397,6 +397,12 @@ pub fn worths(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(us
     sections(bat, e, rule, |i, section| take(i, layup.worth(section)));
 }
 
+/// The sections' loss factors in bending and in shear there.
+pub fn losses(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(usize, [f64; 2])) {
+    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    sections(bat, e, rule, |i, section| take(i, layup.loss(section)));
+}
+
 /// The Legendre series of a formula ends in its round-off below this.
 const RESOLVED: f64 = 1e-13;
 

@@ -21,7 +21,7 @@ use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
 use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
 use crate::fixtures::Held;
-use crate::quadrature::RunningSum;
+use crate::quadrature::{RunningSum, legendre};
 use crate::real::{Over, Real};
 
 /// A bare bat as the running sums see it.
@@ -159,6 +159,20 @@ impl<S: Real> Fixed<S> {
         fixed
     }
 
+    /// Nothing on the bat and nothing that holds it.
+    pub fn nothing() -> Self {
+        let (one, zero) = (S::splat(1.0), S::default());
+        Self {
+            points: vec![],
+            joints: vec![],
+            contacts: vec![],
+            stops: [vec![], vec![]],
+            springs: 0,
+            clamps: vec![],
+            holds: Holds { free: vec![[one, zero], [zero, one]], ..Holds::default() },
+        }
+    }
+
     /// How many conditions the strains must meet.
     pub fn redundant(&self) -> usize {
         self.holds.redundant.len()
@@ -172,6 +186,11 @@ impl<S: Real> Fixed<S> {
     /// How many rigid motions are free.
     pub fn rigid_modes(&self) -> usize {
         self.holds.free.len()
+    }
+
+    /// The free rigid motions: push and turn about the balance point.
+    pub fn free(&self) -> &[[S; 2]] {
+        &self.holds.free
     }
 
     /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
@@ -364,7 +383,7 @@ impl<S: Real> Fixed<S> {
         let contact = &self.contacts[k];
         loads.contacts[k] = S::splat(-1.0);
         if let At::Bed { cell, point } = contact.at {
-            loads.cells[cell] = body.point_load(cell, point);
+            loads.cells[cell] = body.point_load(cell, body.rule.at::<N>(point));
         }
         let mut row = vec![S::default(); body.cells.len() * (W - 2) + self.springs];
         self.inwards(body, &loads, &mut row);
@@ -417,6 +436,33 @@ impl<S: Real> Fixed<S> {
         self.inwards(body, loads, y);
         self.holds.balance(total, y, &mut loads.contacts);
         rigid
+    }
+
+    /// The scaled strains (times the unit of energy) of the held bat under a unit force at the place
+    /// `s` in [0, 1] outwards on a cell, in balance with the inertia of the rigid motions that are
+    /// free.
+    ///
+    /// By Maxwell's theorem their product with any scaled strains is the deflection there, rigid
+    /// motions taken out.
+    pub fn under_force<const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        cell: usize,
+        s: f64,
+    ) -> Vec<S> {
+        let mut loads = self.no_loads::<S, N, W>(body);
+        let values: Vec<f64> = legendre(N, 2.0 * s - 1.0);
+        let values: &[f64; N] = values[..N].try_into().expect("as many as asked for");
+        loads.cells[cell] = body.point_load(cell, values);
+        let mut total = self.take_out(body, Rigid::default(), &mut loads);
+        for _ in 0..2 {
+            let free = self.holds.free_part(body.mass, body.inertia, total);
+            total = self.take_out(body, free, &mut loads);
+        }
+        let mut strains = vec![S::default(); body.cells.len() * (W - 2) + self.springs];
+        self.inwards(body, &loads, &mut strains);
+        self.holds.balance(total, &mut strains, &mut loads.contacts);
+        strains
     }
 
     /// Integrates strains from the root at rest and leaves the loads of their inertia and the
@@ -569,6 +615,11 @@ impl<S: Real> Point<S> {
 }
 
 impl<S: Real> Contact<S> {
+    /// Whether it is a point of an elastic bed.
+    pub fn in_a_bed(&self) -> bool {
+        matches!(self.at, At::Bed { .. })
+    }
+
     /// Force and couple, outwards, that its reaction is for the bat.
     pub fn on_the_bat<R: Over<S>>(&self, reaction: R) -> [R; 2] {
         match (self.at, self.turning) {
@@ -585,10 +636,10 @@ impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
         [0..self.split, self.split..self.cells.len()]
     }
 
-    /// The loads on a cell of a unit force at a point of the rule.
-    pub fn point_load(&self, cell: usize, point: usize) -> Vector<S, W> {
+    /// The loads on a cell of a unit force where Legendre's polynomials have those values.
+    pub fn point_load(&self, cell: usize, values: &[f64; N]) -> Vector<S, W> {
         let cell = &self.cells[cell];
-        let values = self.rule.at::<N>(point).map(S::splat);
+        let values = values.map(S::splat);
         let on: Vector<S, W> = on_strains::<S, N, W>(cell.link.length, &values);
         let mut load = on;
         for i in 0..W - 2 {
@@ -683,7 +734,7 @@ pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
 }
 
 /// The elements in the grip: the place of the cell and the number of the element.
-fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
+pub fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
     let Some(grip) = &bat.fixtures.grip else { return vec![] };
     let held = |e: &usize| {
         let e = &mesh.elements[*e];

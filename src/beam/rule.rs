@@ -150,6 +150,15 @@ impl Rule {
         self.combine(&self.by_term, coefficients, values);
     }
 
+    /// `Σ_i f_i P_k` of numbers at the points, for as many polynomials as there is room for: what
+    /// loads there do on `Σ c_k P_k`.
+    pub fn moments(&self, values: &[f64], moments: &mut [f64]) {
+        let rows = self.by_term.chunks_exact(self.stride());
+        for (moment, row) in moments.iter_mut().zip(rows) {
+            *moment = row.iter().zip(&values[..self.count()]).map(|(p, f)| p * f).sum();
+        }
+    }
+
     /// A function given at the points, twice integrated from the left end.
     #[inline(always)]
     pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {

@@ -59,6 +59,17 @@ impl<S: Real> CellView<'_, S> {
             }
         }
     }
+
+    /// `L⁻¹ f`: scaled strains from what loads are on the strains, in blocks of that size.
+    pub fn scaled_by_loads(&self, loads: &[S], block: usize, q: &mut [S]) {
+        let row = loads.len() + 2;
+        for (i, q) in q.iter_mut().enumerate() {
+            *q = S::default();
+            for j in i / block * block..=i {
+                *q += self.inverse[i * row + j] * loads[j];
+            }
+        }
+    }
 }
 
 impl<const W: usize> Cell<f64, W> {

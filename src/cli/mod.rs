@@ -4,6 +4,7 @@ mod advise;
 mod analyze;
 mod common;
 mod extremes_table;
+mod frf;
 mod hit;
 mod materials;
 mod modes;
@@ -41,6 +42,7 @@ enum Verb {
     Modes(modes::Args),
     Hit(hit::Args),
     Ring(ring::Args),
+    Frf(frf::Args),
     Trade(trade::Args),
     Advise(advise::Args),
     Validate(validate::Args),
@@ -49,7 +51,7 @@ enum Verb {
 
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] =
-    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "frf", "new"];
+    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] =
     &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
@@ -63,6 +65,7 @@ pub fn run() -> Result<Done> {
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
         Verb::Ring(args) => ring::run(&args),
+        Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Validate(args) => validate::run(&args),

@@ -1,10 +1,11 @@
-//! `sweetspot ring BAT`: free motion after a blow or from an initial shape.
+//! `sweetspot ring BAT`: motion after a blow, under a force or from an initial shape.
 
 use std::path::PathBuf;
 
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
+use sweetspot::force_file;
 use sweetspot::report::{file, json};
 use sweetspot::ringing::{Ringing, Start};
 use sweetspot::shape_file;
@@ -14,7 +15,7 @@ use sweetspot::units::Quantity;
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
 
-/// Free motion after a blow or from an initial shape
+/// Motion after a blow, under a force or from an initial shape
 ///
 /// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1 ms,2 ms"
 #[derive(clap::Args)]
@@ -22,15 +23,20 @@ pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
-    /// Where it is struck, from the knob end
-    #[arg(long, value_name = "X", requires = "impulse", allow_hyphen_values = true,
+    /// Where it is struck or pushed, from the knob end
+    #[arg(long, value_name = "X", requires = "load", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     at: Option<f64>,
 
     /// The impulse of the blow
-    #[arg(long, value_name = "J", requires = "at", allow_hyphen_values = true,
+    #[arg(long, value_name = "J", requires = "at", allow_hyphen_values = true, group = "load",
           value_parser = |s: &str| quantity(s, Quantity::Impulse))]
     impulse: Option<f64>,
+
+    /// Push it with the force in this CSV file (columns t_ms,force_n or with other units), straight
+    /// lines between its rows and nothing before and after
+    #[arg(long, value_name = "FILE", requires = "at", group = "load")]
+    force: Option<PathBuf>,
 
     /// Release it from the shape in this CSV file (columns x_m,w_m or with other units)
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
@@ -63,11 +69,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
-    if !bat.fixtures.none_moving() {
-        let found = "a bat with attachments, joints or supports";
-        return Err(Error::value("ring", found, "a bare bat: others are not supported yet"));
-    }
-    let ringing = Ringing::new(&bat, &solution, args.bending_only);
+    let ringing = Ringing::new(&bat, &solution, args.solve.tol, args.bending_only)?;
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
     let times = times(args, &solution)?;
@@ -107,20 +109,24 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
-    match (args.at, args.impulse, &args.initial) {
-        (Some(x), Some(impulse), _) => {
+    match (args.at, &args.initial) {
+        (Some(x), _) => {
             if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
                 let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
                 return Err(Error::value("--at", shown_length(x), expected));
             }
+            if let Some(path) = &args.force {
+                return Ok(ringing.pushed(x.min(bat.length()), force_file::read(path)?));
+            }
+            let impulse = args.impulse.unwrap_or(0.0);
             if impulse.abs() >= 1e6 {
                 return Err(Error::value("--impulse", format!("{impulse:?} N s"), "less than 1e6"));
             }
             Ok(ringing.blow(x, impulse))
         }
-        (_, _, Some(path)) => Ok(ringing.release(bat, &shape_file::read(path, bat.length())?)),
+        (_, Some(path)) => Ok(ringing.release(bat, &shape_file::read(path, bat.length())?)),
         _ => {
-            let expected = "--at X --impulse J, or --initial FILE";
+            let expected = "--at X with --impulse J or --force FILE, or --initial FILE";
             Err(Error::value("ring", "neither a blow nor an initial shape", expected))
         }
     }

@@ -10,7 +10,7 @@ use crate::bat::{Bat, STANDARD_PIVOT, Weighed};
 use crate::collision::hit::{Impact, Model, Outcome, Scene};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::ignored::ignored;
-use crate::modes::Mode;
+use crate::report::damped;
 use crate::report::resolved::resolved;
 use crate::solve::Solution;
 use crate::trade::reference::solver_name;
@@ -27,7 +27,7 @@ pub enum ShapePoints {
 /// The `sweetspot-modes/1` document; `timing` only if wanted.
 pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) -> Value {
     let places = places(bat, solution, points);
-    let modes: Vec<Value> = solution.modes.iter().map(|m| mode(bat, m, &places)).collect();
+    let modes: Vec<Value> = (0..solution.modes.len()).map(|k| mode(solution, k, &places)).collect();
     let mut document = json!({
         "format": "sweetspot-modes/1",
         "generator": generator(),
@@ -48,6 +48,10 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
         "rigid_modes": solution.rigid_modes,
         "modes": modes,
     });
+    let damping = damped::of_model(solution);
+    if !damping.is_null() {
+        document["model"]["damping"] = damping;
+    }
     if timing {
         document["timing"] = json!({
             "plan_s": solution.timing.plan.as_secs_f64(),
@@ -63,13 +67,15 @@ pub fn generator() -> Value {
     json!({ "program": "sweetspot", "version": env!("CARGO_PKG_VERSION") })
 }
 
-fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
+fn mode(solution: &Solution, k: usize, places: &[f64]) -> Value {
+    let mode = &solution.modes[k];
+    let damping_ratio = solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio);
     let along = |f: &dyn Fn(f64) -> f64| places.iter().map(|x| f(*x)).collect::<Vec<f64>>();
-    json!({
+    let mut document = json!({
         "order": mode.order,
         "frequency_hz": mode.frequency(),
         "omega_rad_s": mode.omega,
-        "damping_ratio": 0.5 * bat.material().loss_factor,
+        "damping_ratio": damping_ratio,
         "modal_mass_kg": mode.modal_mass,
         "nodes_m": mode.nodes,
         "error": {
@@ -85,7 +91,12 @@ fn mode(bat: &Bat, mode: &Mode, places: &[f64]) -> Value {
             "deflection": along(&|x| mode.shape.deflection(x)),
             "rotation": along(&|x| mode.shape.rotation(x)),
         },
-    })
+    });
+    let damping = damped::of_mode(solution, k);
+    if !damping.is_null() {
+        document["damping"] = damping;
+    }
+    document
 }
 
 fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {

@@ -3,6 +3,7 @@
 pub mod file;
 pub mod curve;
 pub mod resolved;
+pub mod damped;
 pub mod json;
 pub mod text;
 pub mod u_curve;

@@ -8,6 +8,7 @@ use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::SweetSpot;
 use crate::ignored::ignored;
 use crate::report::curve;
+use crate::report::damped;
 use crate::solve::Solution;
 use crate::theory::Theory;
 use crate::trade::reference::solver_name;
@@ -117,6 +118,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
             1e3 * mode.modal_mass,
         );
     }
+    out += &damped::table(solution);
     if with_nodes > 0 {
         out += "Nodes\n";
     }
@@ -167,6 +169,9 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
         solution.worst()
     );
     out += &wrapped(&plan, 7);
+    if !solution.damping.modes.is_empty() {
+        out += &wrapped(&format!("  damping: {}", solution.damping.kind), 11);
+    }
     for effect in ignored(bat, solution) {
         out += &wrapped(&format!("  left out: {effect}"), 12);
     }

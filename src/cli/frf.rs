@@ -1,0 +1,278 @@
+//! `sweetspot frf BAT`: the answer to a force that swings, over frequency.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use serde_json::json;
+use sweetspot::bat::Bat;
+use sweetspot::error::{Error, Result, nearest};
+use sweetspot::frf::{Frf, Kind, Sample};
+use sweetspot::report::{file, json};
+use sweetspot::solve::{self, Request};
+use sweetspot::units::{Quantity, inches};
+
+use crate::cli::Done;
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
+
+/// Frequency response between two points: receptance, mobility, accelerance
+///
+/// Example: sweetspot frf meshes/r161.json --at "28 in" --to "2 in" --kind mobility --to-hz 2000
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    /// Where the force is, from the knob end
+    #[arg(long, value_name = "X", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    at: f64,
+
+    /// Where the answer is looked at (default: where the force is)
+    #[arg(long, value_name = "X", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    to: Option<f64>,
+
+    /// What is answered: receptance (deflection), mobility (velocity) or accelerance
+    #[arg(long, default_value = "receptance", value_parser = kind)]
+    kind: Kind,
+
+    /// Lowest frequency (default: a tenth of that of mode 1)
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+    from_hz: Option<f64>,
+
+    /// Highest frequency (default: a fifth beyond that of the last mode); as many modes as it needs
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+    to_hz: Option<f64>,
+
+    /// Number of frequencies from the lowest to the highest
+    #[arg(long, value_name = "N", default_value = "61",
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: u32,
+
+    /// Equal steps between them (else equal ratios)
+    #[arg(long)]
+    linear: bool,
+
+    /// These frequencies, separated by commas, in place of a range
+    #[arg(long, value_name = "HZ,HZ,…", value_delimiter = ',', allow_hyphen_values = true,
+          conflicts_with_all = ["from_hz", "to_hz", "points", "linear"],
+          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+    frequencies: Vec<f64>,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.solve.refuse_budget("frf")?;
+    let to_stdout = |path: &Option<PathBuf>| path.as_ref().is_some_and(|p| p.as_os_str() == "-");
+    if to_stdout(&args.csv) && to_stdout(&args.output.json) {
+        return Err(Error::value("--csv", "- beside --json -", "one of them on standard output"));
+    }
+    let (at, to) = (args.at, args.to.unwrap_or(args.at));
+    let bat = args.bat.read(&args.output)?;
+    for (name, x) in [("--at", at), ("--to", to)] {
+        if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value(name, shown_length(x), expected));
+        }
+    }
+    check(args)?;
+    let (bat, request) = args.solve.prepare(bat, args.bat.count().max(1), &args.output)?;
+    let [at, to] = [at, to].map(|x| x.min(bat.length()));
+    let mut frf = reaching(&bat, &request, [at, to], args)?;
+    let frequencies = frequencies(args, &frf)?;
+    let samples = frf.receptances(&frequencies)?;
+    let csv = || csv(args.kind, &samples);
+    let text = match &args.csv {
+        Some(_) if to_stdout(&args.csv) => csv(),
+        Some(path) => {
+            file::write(path, csv().as_bytes())?;
+            table(args.kind, [at, to], &frf, &samples)
+        }
+        None => table(args.kind, [at, to], &frf, &samples),
+    };
+    let document = || {
+        let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
+        let value = |s: &Sample| s.receptance * args.kind.of(s.frequency);
+        let unit = args.kind.unit();
+        let mut document = json!({
+            "format": "sweetspot-frf/1",
+            "generator": json::generator(),
+            "kind": args.kind.name(),
+            "at_m": at,
+            "to_m": to,
+            "theory": frf.solution.theory.name(),
+            "modes": frf.solution.modes.len(),
+            "strains": frf.strains(),
+            "static_compliance_m_per_n": frf.static_compliance(),
+            "rigid_modes": frf.solution.rigid_modes,
+            "frequency_hz": frequencies,
+        });
+        document[format!("real_{unit}")] = json!(of(&|s| value(s).re));
+        document[format!("imaginary_{unit}")] = json!(of(&|s| value(s).im));
+        document[format!("truncation_{unit}")] =
+            json!(of(&|s| s.truncation * args.kind.of(s.frequency).norm()));
+        document["frequencies_within"] = json!(frf.solution.worst());
+        document
+    };
+    let code = match frf.solution.worst() <= args.solve.tol {
+        true => 0,
+        false => args.solve.verdict(&frf.solution, &args.output),
+    };
+    Ok((args.output.deliver(text, document)?, code))
+}
+
+/// Frequencies that can be asked for at all.
+fn check(args: &Args) -> Result<()> {
+    const MOST: f64 = 1e6;
+    let asked = [("--from-hz", args.from_hz), ("--to-hz", args.to_hz)];
+    let listed = args.frequencies.iter().map(|f| ("--frequencies", Some(*f)));
+    for (name, f) in asked.into_iter().chain(listed) {
+        if let Some(f) = f.filter(|f| !(0.0..=MOST).contains(f)) {
+            return Err(Error::value(name, format!("{f:?} Hz"), "0 or more, 1e6 Hz at most"));
+        }
+    }
+    let below = |low: f64, high: f64| low < high || (low == high && args.points == 1);
+    match (args.from_hz, args.to_hz) {
+        (Some(low), Some(high)) if !below(low, high) => {
+            Err(Error::value("--to-hz", format!("{high:?} Hz"), format!("more than {low:?} Hz")))
+        }
+        (Some(0.0), _) if !args.linear => {
+            Err(Error::value("--from-hz", "0 Hz", "more, or --linear: ratios have no 0"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The response with modes up to the highest frequency.
+fn reaching(bat: &Bat, request: &Request, [at, to]: [f64; 2], args: &Args) -> Result<Frf> {
+    const MOST: usize = 200;
+    let listed = args
+        .frequencies
+        .iter()
+        .copied()
+        .fold(None, |most: Option<f64>, f| Some(most.map_or(f, |most| most.max(f))));
+    let mut request = *request;
+    if let Some(highest) = args.to_hz.or(listed).or(args.from_hz) {
+        loop {
+            let rough = Request { tolerance: request.tolerance.max(1e-3), ..request };
+            let last = solve::solve(bat, &rough)?.modes.last().map_or(0.0, |m| m.frequency());
+            if last >= highest {
+                break;
+            }
+            if request.modes >= MOST {
+                let expected = format!("less than {last:.0} Hz, the frequency of mode {MOST}");
+                return Err(Error::value("--to-hz", format!("{highest:?} Hz"), expected));
+            }
+            request.modes = (2 * request.modes).min(MOST);
+        }
+    }
+    Frf::new(bat, &request, at, to)
+}
+
+fn frequencies(args: &Args, frf: &Frf) -> Result<Vec<f64>> {
+    if !args.frequencies.is_empty() {
+        return Ok(args.frequencies.clone());
+    }
+    let modes = &frf.solution.modes;
+    let first = modes.first().map_or(1.0, |mode| mode.frequency());
+    let last = modes.last().map_or(first, |mode| mode.frequency());
+    let low = args.from_hz.unwrap_or_else(|| (0.1 * first).min(0.5 * args.to_hz.unwrap_or(first)));
+    let high = args.to_hz.unwrap_or_else(|| (1.2 * last).max(2.0 * low));
+    let steps = f64::from(args.points - 1).max(1.0);
+    let at = |k: u32| match f64::from(k) / steps {
+        0.0 => low,
+        1.0 => high,
+        s if args.linear => low + (high - low) * s,
+        s => low * (high / low).powf(s),
+    };
+    Ok((0..args.points).map(at).collect())
+}
+
+fn csv(kind: Kind, samples: &[Sample]) -> String {
+    let unit = kind.unit();
+    let mut out = format!(
+        "frequency_hz,real_{unit},imaginary_{unit},magnitude_{unit},phase_deg,truncation_{unit}\n"
+    );
+    for sample in samples {
+        let factor = kind.of(sample.frequency);
+        let value = sample.receptance * factor;
+        let cells = [
+            sample.frequency,
+            value.re,
+            value.im,
+            value.norm(),
+            phase(value.re, value.im),
+            sample.truncation * factor.norm(),
+        ];
+        out += &cells.map(|cell| cell.to_string()).join(",");
+        out.push('\n');
+    }
+    out
+}
+
+fn place(x: f64) -> String {
+    format!("{x:.4} m ({:.2} in)", inches(x))
+}
+
+/// Degrees; 0 of nothing.
+fn phase(re: f64, im: f64) -> f64 {
+    // A zero without a sign: on the negative axis it would turn the phase over.
+    (im + 0.0).atan2(re + 0.0).to_degrees()
+}
+
+fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> String {
+    let unit = match kind {
+        Kind::Receptance => "m/N",
+        Kind::Mobility => "m/(s N)",
+        Kind::Accelerance => "1/kg",
+    };
+    let name = kind.name();
+    let mut out =
+        format!("Frequency response: {name} from a force at {} to {}\n", place(at), place(to));
+    let _ = writeln!(
+        out,
+        "  {:>14} {:>18} {:>14}",
+        "frequency, Hz",
+        format!("size, {unit}"),
+        "phase, deg"
+    );
+    for sample in samples {
+        let value = sample.receptance * kind.of(sample.frequency);
+        let phase = phase(value.re, value.im);
+        let _ =
+            writeln!(out, "  {:>14.3} {:>18.5e} {:>14.2}", sample.frequency, value.norm(), phase);
+    }
+    let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
+    let missing = samples.iter().map(share).fold(0.0, f64::max);
+    let _ = writeln!(
+        out,
+        "  static compliance {:.6e} m/N{}\n  {} strains, {} of them modes; without the others \
+         {missing:.0e} of a value at most\n  the modes' frequencies within {:.0e}",
+        frf.static_compliance(),
+        if frf.solution.rigid_modes > 0 { ", rigid motions left out" } else { "" },
+        frf.strains(),
+        frf.solution.modes.len(),
+        frf.solution.worst()
+    );
+    out
+}
+
+fn kind(text: &str) -> std::result::Result<Kind, String> {
+    let names = Kind::ALL.map(Kind::name);
+    Kind::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
+        let hint = nearest(text, &names);
+        let hint = hint.map_or(String::new(), |name| format!(" (did you mean {name}?)"));
+        format!("expected one of {}{hint}", names.join(", "))
+    })
+}

@@ -1,0 +1,373 @@
+//! Damped bats against values that an independent calculation gives to 16 digits and more.
+//!
+//! The dowel is [`dowel`]; everything varies as `e^{st}`, and with `Q` the shear force the
+//! equations are
+//!
+//! ```text
+//! w′ = θ + Q/κGA,  θ′ = M/EI,  M′ = −Q + s²ρI θ,  Q′ = s²ρA w + (k + s c) w
+//! ```
+//!
+//! (Rayleigh: no Q/κGA; Euler–Bernoulli: no ρI either), free ends, `k` and `c` on the grip only. An
+//! absorber is `Q(x+) = Q(x−) + s² m z`, `z = w (k + s c)/(k + s c + s² m)`, a unit force
+//! `Q(x+) = Q(x−) − 1`. The values were computed with 60-digit arithmetic by matrix exponentials of
+//! the uniform stretches, and again by Taylor series with 80 digits.
+
+// Values are carried with all the digits they were given.
+#![allow(clippy::excessive_precision)]
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+use sweetspot::bat::Weighed;
+use sweetspot::damping::Kind;
+use sweetspot::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support};
+use sweetspot::frf::Frf;
+use sweetspot::layup::Layup;
+use sweetspot::material::Material;
+use sweetspot::profile::{Interpolation, Profile, Stations};
+use sweetspot::theory::Theory;
+use sweetspot::{Bat, Request, solve};
+
+const LENGTH: f64 = 0.8382;
+const RADIUS: f64 = 0.02130679;
+const DENSITY: f64 = 711.3735510522202;
+const MODULUS: f64 = 13927409732.2000899;
+
+fn dowel(fixtures: Fixtures, loss: f64) -> Bat {
+    let stations = Stations {
+        x: vec![0.0, LENGTH],
+        outer: vec![RADIUS; 2],
+        inner: vec![0.0; 2],
+        interpolation: Interpolation::Linear,
+    };
+    let mut material = Material::new(DENSITY, MODULUS).unwrap();
+    material.shear_modulus = Some(0.93e9);
+    material.shear_coefficient = Some(0.9);
+    material.loss_factor = loss;
+    let profile = Profile::new(stations).unwrap();
+    Bat::with_fixtures("dowel", profile, material, fixtures, Weighed::default()).unwrap()
+}
+
+fn gripped() -> Fixtures {
+    let grip = Grip { from: 0.02, to: 0.2, stiffness: 2e5, damping: 80.0 };
+    Fixtures { grip: Some(grip), ..Fixtures::default() }
+}
+
+fn absorbing() -> Fixtures {
+    let stiffness = 0.03 * (TAU * 230.0).powi(2);
+    let absorber = Absorber { x: 0.05, mass: 0.03, stiffness, damping: 6.0 };
+    Fixtures { absorbers: vec![absorber], ..Fixtures::default() }
+}
+
+fn request(modes: usize, theory: Theory) -> Request {
+    Request { modes, tolerance: 1e-12, theory, ..Request::default() }
+}
+
+fn assert_poles(bat: &Bat, theory: Theory, exact: &[[f64; 2]]) {
+    let solution = solve(bat, &request(exact.len(), theory)).unwrap();
+    assert!(matches!(solution.damping.kind, Kind::Complex(_)), "{}", solution.damping.kind);
+    for (damped, [re, im]) in solution.damping.modes.iter().zip(exact) {
+        let exact = c64::new(*re, *im);
+        let s = c64::new(-damped.decay, damped.swinging());
+        let off = (s - exact).norm() / exact.norm();
+        assert!(off < 1e-10, "{exact} {off:e}");
+    }
+}
+
+#[test]
+fn a_grip_of_springs_and_dashpots_has_the_exact_complex_frequencies() {
+    let exact = [
+        [-0.144930298176688742, 27.0028554258844563],
+        [-21.8692561224251603, 332.491527418997405],
+        [-8.67880244529556365, 1514.72870822804727],
+        [-5.67209606255459842, 4141.24316029216599],
+        [-7.70918939792507465, 8114.17049320513348],
+        [-7.97887838657578303, 13410.6931593190127],
+        [-6.48725235364161354, 20031.8662824119406],
+        [-6.23310020900442876, 27977.8329490872032],
+        [-7.5588429399246881, 37248.3634727449853],
+    ];
+    assert_poles(&dowel(gripped(), 0.0), Theory::EulerBernoulli, &exact);
+}
+
+#[test]
+fn a_tuned_absorber_has_the_exact_complex_frequencies() {
+    let exact = [
+        [-33.1249761862658236, 1332.10217097146416],
+        [-84.2861703363346762, 1706.46313909413174],
+        [-5.35601482461447426, 4113.19546244954074],
+        [-1.7803172596398727, 7994.20138271070713],
+        [-0.379219437937404493, 13111.3045795969636],
+        [-0.000750600962465468099, 19410.1608068402826],
+    ];
+    assert_poles(&dowel(absorbing(), 0.0), Theory::Rayleigh, &exact);
+}
+
+#[test]
+fn receptances_are_the_exact_ones() {
+    let free = Fixtures::default;
+    let [plain, shearing] = [Theory::EulerBernoulli, Theory::Timoshenko];
+    let rows = [
+        (gripped(), plain, 50.0, 4.06903295067804408e-6, -2.31443089070965768e-6),
+        (gripped(), plain, 237.0, -8.990452463200138e-6, 2.83536387688559257e-6),
+        (gripped(), plain, 500.0, 3.26966820708991183e-7, 1.95038909138548163e-9),
+        (free(), plain, 100.0, 1.0027034505556098e-7, 0.0),
+        (free(), plain, 400.0, 3.47917354612826755e-7, 0.0),
+        (free(), shearing, 100.0, 8.93351765382645911e-8, 0.0),
+        (free(), shearing, 400.0, 3.70974187439501949e-7, 0.0),
+    ];
+    for (fixtures, theory, frequency, re, im) in rows {
+        // Two modes for the range do; the rest is left to the static strains.
+        for modes in [2, 8] {
+            let bat = dowel(fixtures.clone(), 0.0);
+            let mut frf = Frf::new(&bat, &request(modes, theory), 0.05, 0.6).unwrap();
+            let sample = frf.receptances(&[frequency]).unwrap()[0];
+            let exact = c64::new(re, im);
+            let off = (sample.receptance - exact).norm();
+            assert!(off < 1e-9 * exact.norm(), "{frequency} {modes} {off:e}");
+        }
+    }
+}
+
+/// Everything at once: pin, weight, spring, absorber, joint, hands, lossy regions.
+fn crowded() -> Fixtures {
+    let weight = Attachment {
+        x: 0.8,
+        mass: 0.1,
+        offset: 0.02,
+        rotary_inertia: 1e-4,
+        stiffness: 3e3,
+        rotational_stiffness: 0.0,
+    };
+    let mut lossy = dowel(Fixtures::default(), 0.2).material().clone();
+    lossy.youngs_modulus *= 0.7;
+    Fixtures {
+        regions: vec![Region { from: 0.5, to: 0.7, layup: Layup::of(lossy) }],
+        attachments: vec![weight],
+        joints: vec![Joint { x: 0.4, rotational_stiffness: 5e3 }],
+        supports: vec![Support { x: 0.25, kind: Held::Pinned }],
+        ..Fixtures { grip: gripped().grip, ..absorbing() }
+    }
+}
+
+/// Maxwell and Betti: forced point and watched point may change places.
+#[test]
+fn responses_are_reciprocal() {
+    let [a, b] = [0.61, 0.13];
+    let only_dashpots = Grip { stiffness: 0.0, ..gripped().grip.unwrap() };
+    let hands = Fixtures { grip: Some(only_dashpots), ..absorbing() };
+    for (fixtures, theory) in [
+        (Fixtures::default(), Theory::EulerBernoulli),
+        (crowded(), Theory::Rayleigh),
+        (crowded(), Theory::Timoshenko),
+        (hands, Theory::Timoshenko),
+    ] {
+        let bat = dowel(fixtures, 0.01);
+        let request = Request { tolerance: 1e-9, ..request(4, theory) };
+        let frequencies = [3.0, 120.0, 231.0, 900.0];
+        let there = Frf::new(&bat, &request, a, b).unwrap().receptances(&frequencies).unwrap();
+        let back = Frf::new(&bat, &request, b, a).unwrap().receptances(&frequencies).unwrap();
+        for (there, back) in there.iter().zip(back) {
+            let off = (there.receptance - back.receptance).norm();
+            // Each is as good as what it leaves out, on the points' own scale.
+            assert!(off < 1e-11 * there.receptance.norm().max(1e-6), "{theory:?} {off:e}");
+        }
+    }
+}
+
+/// The deflections of the textbooks: `L³/48EI + L/4κGA` in the middle between two pins, `L³/3EI + L/κGA` at the
+/// tip of a cantilever, and of a free dowel forced at its tip, whose moment is `Lξ²(1 − ξ)` in
+/// balance with its inertia, `L³/105EI` there and `L³/140EI` at the other end.
+#[test]
+fn the_elastic_response_at_0_hz_is_the_static_deflection() {
+    let held = |supports: &[(f64, Held)]| {
+        let supports = supports.iter().map(|(x, kind)| Support { x: *x, kind: *kind }).collect();
+        dowel(Fixtures { supports, ..Fixtures::default() }, 0.0)
+    };
+    let second = std::f64::consts::PI * RADIUS.powi(4) / 4.0;
+    let bending = LENGTH.powi(3) / (MODULUS * second);
+    let shear = LENGTH / (0.9 * 0.93e9 * std::f64::consts::PI * RADIUS.powi(2));
+    let pins = held(&[(0.0, Held::Pinned), (LENGTH, Held::Pinned)]);
+    let clamped = held(&[(0.0, Held::Clamped)]);
+    let free = held(&[]);
+    let [plain, shearing] = [Theory::EulerBernoulli, Theory::Timoshenko];
+    let (middle, tip) = (0.5 * LENGTH, LENGTH);
+    for (bat, theory, [at, to], exact) in [
+        (&pins, plain, [middle, middle], bending / 48.0),
+        (&pins, Theory::Rayleigh, [middle, middle], bending / 48.0),
+        (&pins, shearing, [middle, middle], bending / 48.0 + shear / 4.0),
+        (&clamped, plain, [tip, tip], bending / 3.0),
+        (&clamped, shearing, [tip, tip], bending / 3.0 + shear),
+        (&clamped, plain, [tip, middle], bending * 5.0 / 48.0),
+        (&free, plain, [tip, tip], bending / 105.0),
+        (&free, plain, [tip, 0.0], bending / 140.0),
+    ] {
+        let frf = Frf::new(bat, &request(3, theory), at, to).unwrap();
+        let close = |value: f64| assert!((value / exact - 1.0).abs() < 1e-10, "{theory:?} {value}");
+        close(frf.static_compliance());
+        close(frf.strained(0.0).re);
+        assert_eq!(frf.strained(0.0).im, 0.0);
+        // And the modes' own shares approach it, from below where a point answers itself.
+        let share: f64 = solve(bat, &request(60, theory))
+            .unwrap()
+            .modes
+            .iter()
+            .map(|m| {
+                let w = |x: f64| m.shape.deflection(x);
+                w(at) * w(to) / (m.modal_mass * m.omega * m.omega)
+            })
+            .sum();
+        // The terms fall as n⁻⁴, with shear as n⁻²; beyond 60 that leaves 1/(3 · 60³) and 1/60.
+        let left = if theory.shears() { 2e-2 } else { 2e-5 };
+        assert!((share / exact - 1.0).abs() < left, "{theory:?} {share} {exact}");
+    }
+}
+
+/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL − 1`,
+/// `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of Vibration,
+/// 1960); with losses λ and EI are complex.
+fn at_the_tip(frequency: f64, loss: f64, bed: [f64; 2]) -> c64 {
+    let omega = TAU * frequency;
+    let area = std::f64::consts::PI * RADIUS.powi(2);
+    let stiffness = c64::new(1.0, loss) * (MODULUS * area * RADIUS.powi(2) / 4.0);
+    let line = c64::new(DENSITY * area * omega * omega - bed[0], -omega * bed[1]);
+    let lambda = (line / stiffness).powf(0.25);
+    let x = lambda * LENGTH;
+    let f3 = x.cos() * x.cosh() - 1.0;
+    let f5 = x.cos() * x.sinh() - x.sin() * x.cosh();
+    -f5 / (stiffness * lambda.powu(3) * f3)
+}
+
+#[test]
+fn uniform_losses_answer_as_the_closed_form_does() {
+    let grip = |[stiffness, damping]: [f64; 2]| {
+        let grip = Grip { from: 0.0, to: LENGTH, stiffness, damping };
+        Fixtures {
+            grip: Some(grip).filter(|g| g.stiffness + g.damping > 0.0),
+            ..Fixtures::default()
+        }
+    };
+    let rows = [(0.0, [0.0; 2]), (0.02, [0.0; 2]), (0.5, [0.0; 2]), (0.0, [0.0, 200.0])];
+    for (loss, bed) in rows.into_iter().chain([(0.0, [4e5, 200.0]), (0.1, [4e5, 2e4])]) {
+        let bat = dowel(grip(bed), loss);
+        let request = request(4, Theory::EulerBernoulli);
+        let mut frf = Frf::new(&bat, &request, LENGTH, LENGTH).unwrap();
+        for sample in frf.receptances(&[20.0, 237.0, 240.0, 700.0, 1500.0]).unwrap() {
+            let exact = at_the_tip(sample.frequency, loss, bed);
+            let off = (sample.receptance - exact).norm() / exact.norm();
+            assert!(off < 1e-9, "{loss} {bed:?} {} {off:e}", sample.frequency);
+        }
+    }
+}
+
+/// Hands over the whole dowel damp all motions alike: `2 Re s = −c/ρA`, `|s|² = ω² + k/ρA`, and what
+/// they hold with dashpots alone comes to rest at `c/ρA`; heavy ones let no slow mode swing.
+#[test]
+fn hands_all_over_have_the_closed_form() {
+    let area = std::f64::consts::PI * RADIUS.powi(2);
+    let line = DENSITY * area;
+    let free =
+        solve(&dowel(Fixtures::default(), 0.0), &request(4, Theory::EulerBernoulli)).unwrap();
+    let bending: Vec<f64> = free.modes.iter().map(|mode| mode.omega).collect();
+    for (stiffness, rate) in [(0.0, 30.0), (0.0, 4000.0), (3e5, 30.0), (3e5, 4000.0)] {
+        let grip = Grip { from: 0.0, to: LENGTH, stiffness, damping: rate * line };
+        let bat = dowel(Fixtures { grip: Some(grip), ..Fixtures::default() }, 0.0);
+        let rigid = if stiffness > 0.0 { 2 } else { 0 };
+        let solution = solve(&bat, &request(4 + rigid, Theory::EulerBernoulli)).unwrap();
+        let all = vec![0.0; rigid].into_iter().chain(bending.iter().copied());
+        let mut modes: Vec<_> = solution.damping.modes.iter().collect();
+        assert_eq!(modes.len(), 4 + rigid);
+        for (mode, omega) in modes.drain(..).zip(all) {
+            let natural = (omega * omega + stiffness / line).sqrt();
+            assert!((mode.natural / natural - 1.0).abs() < 1e-10, "{} {natural}", mode.natural);
+            let ratio = 0.5 * rate / natural;
+            assert!((mode.ratio / ratio - 1.0).abs() < 1e-9, "{} {ratio}", mode.ratio);
+            let swing = natural * (1.0 - ratio * ratio).max(0.0).sqrt();
+            assert!((mode.swinging() - swing).abs() < 1e-8 * natural);
+            let slow = match ratio > 1.0 {
+                true => natural * (ratio - (ratio * ratio - 1.0).sqrt()),
+                false => 0.5 * rate,
+            };
+            assert!((mode.decay / slow - 1.0).abs() < 1e-8, "{} {slow}", mode.decay);
+        }
+        assert_eq!(solution.damping.rigid.len(), 2 - rigid);
+        for decay in &solution.damping.rigid {
+            assert!((decay / rate - 1.0).abs() < 1e-9, "{decay}");
+        }
+    }
+}
+
+#[test]
+fn loss_factors_are_weighted_with_strain_energies() {
+    let ratios = |bat: &Bat, theory: Theory| -> Vec<f64> {
+        let solution = solve(bat, &request(5, theory)).unwrap();
+        assert_eq!(solution.damping.kind, Kind::Materials);
+        for (mode, damped) in solution.modes.iter().zip(&solution.damping.modes) {
+            assert!((damped.natural / mode.omega - 1.0).abs() < 1e-12);
+        }
+        solution.damping.modes.iter().map(|mode| mode.ratio).collect()
+    };
+    let all = |ratios: Vec<f64>, exact: f64| {
+        assert_eq!(ratios.len(), 5);
+        ratios.iter().for_each(|ratio| assert!((ratio / exact - 1.0).abs() < 1e-9, "{ratio}"));
+    };
+    // One material: exactly half its loss factor, and springs take their share of it away.
+    assert_eq!(ratios(&dowel(Fixtures::default(), 0.03), Theory::Timoshenko), vec![0.015; 5]);
+    let joint = Joint { x: 0.3, rotational_stiffness: 2e3 };
+    let joined = dowel(Fixtures { joints: vec![joint], ..Fixtures::default() }, 0.03);
+    let held = ratios(&joined, Theory::Timoshenko);
+    assert!(held.iter().all(|ratio| *ratio < 0.015) && held.iter().any(|ratio| *ratio < 0.012));
+    // Half of the dowel loses, with half of every mode's energy.
+    let lossy =
+        Material { loss_factor: 0.08, ..dowel(Fixtures::default(), 0.0).material().clone() };
+    let half = Region { from: 0.0, to: 0.5 * LENGTH, layup: Layup::of(lossy.clone()) };
+    let half = Fixtures { regions: vec![half], ..Fixtures::default() };
+    for theory in Theory::ALL {
+        all(ratios(&dowel(half.clone(), 0.0), theory), 0.02);
+    }
+    // A core that loses: its share of EI, the same of every mode of a beam that does not shear.
+    let stations = Stations {
+        x: vec![0.0, LENGTH],
+        outer: vec![RADIUS; 2],
+        inner: vec![0.5 * RADIUS; 2],
+        interpolation: Interpolation::Linear,
+    };
+    let outer = dowel(Fixtures::default(), 0.0).material().clone();
+    let core = Region {
+        from: 0.0,
+        to: LENGTH,
+        layup: Layup { outer: outer.clone(), core: Some(lossy.clone()) },
+    };
+    let fixtures = Fixtures { regions: vec![core], ..Fixtures::default() };
+    let profile = Profile::new(stations).unwrap();
+    let filled =
+        Bat::with_fixtures("filled", profile, outer, fixtures, Weighed::default()).unwrap();
+    all(ratios(&filled, Theory::EulerBernoulli), 0.04 / 16.0);
+}
+
+/// Where dashpots are too weak to matter the modes stay as they are, and the answer says so.
+#[test]
+fn complex_modes_are_used_where_they_matter() {
+    let kind = |damping: f64, tolerance: f64| {
+        let grip = Grip { damping, ..gripped().grip.unwrap() };
+        let bat = dowel(Fixtures { grip: Some(grip), ..Fixtures::default() }, 0.0);
+        let request = Request { tolerance, ..request(4, Theory::EulerBernoulli) };
+        solve(&bat, &request).unwrap().damping
+    };
+    let (weak, strong) = (kind(1.0, 1e-3), kind(300.0, 1e-3));
+    assert!(matches!(weak.kind, Kind::Modal(change) if change < 1e-3));
+    assert!(matches!(strong.kind, Kind::Complex(change) if change > 1e-3));
+    // Weak dashpots by both ways: the damping ratios differ by the squares only.
+    let fine = kind(1.0, 1e-9);
+    assert!(matches!(fine.kind, Kind::Complex(_)));
+    for (a, b) in weak.modes.iter().zip(&fine.modes) {
+        assert!(
+            (a.ratio / b.ratio - 1.0).abs() < 1e-2 && (a.natural / b.natural - 1.0).abs() < 1e-5
+        );
+    }
+    // Both Qs differ by √(1 − ζ²).
+    for mode in &strong.modes {
+        let both = mode.q_decay().unwrap() / mode.q_half_power().unwrap();
+        assert!((both.powi(2) + mode.ratio.powi(2) - 1.0).abs() < 1e-12);
+    }
+}
