@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use sweetspot::Error;
 
 fn main() -> ExitCode {
-    let (text, code) = match cli::run() {
+    let cli::Done { text, code, warning } = match cli::run() {
         Ok(done) => done,
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
@@ -26,6 +26,12 @@ fn main() -> ExitCode {
             let _ = writeln!(io::stderr(), "error: cannot write to standard output: {error}");
             ExitCode::from(2)
         }
-        _ => ExitCode::from(code),
+        _ => {
+            if let Some(warning) = warning {
+                // A closed standard error is no reason to fail.
+                let _ = writeln!(io::stderr(), "warning: {}", cli::printable(&warning));
+            }
+            ExitCode::from(code)
+        }
     }
 }

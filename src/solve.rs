@@ -459,7 +459,9 @@ impl Task<'_> {
                     }
                     None => pairs.solve(request.modes, residual)?,
                 }
-                let apart = pairs.solve_apart(residual)?;
+                // Bats of far slower modes are stiff parts on soft ones, whose modes may be twins:
+                // these are told apart at the end of the iteration only.
+                let apart = pairs.solve_apart(CONVERGED)?;
                 let lanczos = std::mem::take(&mut pairs.lanczos);
                 let omega = |value: f64| (pairs.statics.energy_unit / value).sqrt();
                 let (steps, beyond) = (lanczos.steps, lanczos.beyond.map(omega));

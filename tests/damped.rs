@@ -336,7 +336,7 @@ fn loss_factors_are_weighted_with_strain_energies() {
     let core = Region {
         from: 0.0,
         to: LENGTH,
-        layup: Layup { outer: outer.clone(), core: Some(lossy.clone()) },
+        layup: Layup { core: Some(lossy.clone()), ..Layup::of(outer.clone()) },
     };
     let fixtures = Fixtures { regions: vec![core], ..Fixtures::default() };
     let profile = Profile::new(stations).unwrap();

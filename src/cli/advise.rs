@@ -36,7 +36,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let advice = advise(&bat, args.count.into(), args.tol)?;
     let code = verdict(args, &advice);
     let table = advice::text(&advice, args.output.units);
-    Ok((args.output.deliver(table, || advice::json(&advice))?, code))
+    Ok(Done::new(args.output.deliver(table, || advice::json(&advice))?, code))
 }
 
 /// The exit code, after a word about frequencies that are less accurate than the tolerance.

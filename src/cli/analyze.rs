@@ -12,7 +12,7 @@ use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, curve_csv};
+use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv};
 use crate::cli::hit::{refuse_held, verdict as hit_verdict};
 
 /// Everything about a bat: modes, proof on the dowel, collision, sweet spot
@@ -48,7 +48,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.output.progress("solving …");
     args.solve.refuse_budget("analyze")?;
-    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
+    let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     refuse_held(&bat)?;
     let modes = args.solve.modes_within(10, bat.profile.pieces.len());
     let request = Request { theory: solution.theory, ..args.solve.request(modes) };
@@ -84,7 +84,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let both = serde_json::json!({ "modes": modes, "hit": hit });
     let code = args.solve.verdict(&solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
-    Ok((args.output.deliver(table, || both)?, code))
+    Ok(Done::new(args.output.deliver(table, || both)?, code).with(warning))
 }
 
 /// What the model needs, in short; nothing for a bat of so many pieces that it would take long, nor

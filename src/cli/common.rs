@@ -44,14 +44,15 @@ impl BatArgs {
     }
 
     /// Reads the bat and finds its modes.
-    pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
-        let (bat, request) = solve.prepare(self.read(output)?, self.count(), output)?;
+    pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
+        let prepared = solve.prepare(self.read(output)?, self.count(), output)?;
+        let Prepared { bat, request, warning } = prepared;
         let solution = match solve.budget {
             Some(budget) => solve::solve_within(&bat, &request, budget)?,
             None => solve::solve(&bat, &request)?,
         };
         solve.say_raised(&solution, output);
-        Ok((bat, solution))
+        Ok(Solved { bat, solution, warning })
     }
 }
 
@@ -95,7 +96,7 @@ impl SolveArgs {
     }
 
     /// The same with the theory chosen for this bat, and the bat as stiff as it was tapped.
-    pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<(Bat, Request)> {
+    pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<Prepared> {
         prepare(bat, self.theory, self.request(modes), output.quiet)
     }
 
@@ -205,6 +206,20 @@ pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
     Ok(bat)
 }
 
+/// A bat to be solved, and what is to be said of it in the end.
+pub struct Prepared {
+    pub bat: Bat,
+    pub request: Request,
+    pub warning: Option<String>,
+}
+
+/// The same solved.
+pub struct Solved {
+    pub bat: Bat,
+    pub solution: Solution,
+    pub warning: Option<String>,
+}
+
 /// A request with the theory chosen for this bat, if none was asked for, and the bat as stiff as it
 /// was tapped.
 pub fn prepare(
@@ -212,14 +227,15 @@ pub fn prepare(
     asked: TheoryChoice,
     mut request: Request,
     quiet: bool,
-) -> Result<(Bat, Request)> {
+) -> Result<Prepared> {
+    let mut warning = None;
     if asked.0.is_none() {
         let choice = choice::theory(&bat, &request)?;
-        choice.warning.iter().for_each(|w| warn(&format!("warning: {w}"), quiet));
+        warning = choice.warning.filter(|_| !quiet);
         request.theory = choice.theory;
     }
     let bat = weighed::tuned(bat, request.theory, request.tolerance)?;
-    Ok((bat, request))
+    Ok(Prepared { bat, request, warning })
 }
 
 fn warn(text: &str, quiet: bool) {

@@ -12,7 +12,7 @@ use sweetspot::solve::{self, Request};
 use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, quantity, shown_length};
 
 /// Frequency response between two points: receptance, mobility, accelerance
 ///
@@ -87,7 +87,8 @@ pub fn run(args: &Args) -> Result<Done> {
         }
     }
     check(args)?;
-    let (bat, request) = args.solve.prepare(bat, args.bat.count().max(1), &args.output)?;
+    let modes = args.bat.count().max(1);
+    let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
     let mut frf = reaching(&bat, &request, [at, to], args)?;
     let frequencies = frequencies(args, &frf)?;
@@ -129,7 +130,7 @@ pub fn run(args: &Args) -> Result<Done> {
         true => 0,
         false => args.solve.verdict(&frf.solution, &args.output),
     };
-    Ok((args.output.deliver(text, document)?, code))
+    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }
 
 /// Frequencies that can be asked for at all.

@@ -6,7 +6,9 @@ use sweetspot::error::{Error, Result};
 use sweetspot::report::{json, text};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, quantity, shown_length};
+use crate::cli::common::{
+    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, quantity, shown_length,
+};
 use crate::cli::{Done, NOT_REACHED};
 
 /// The collision along the barrel: exit speeds, energies, the sweet spot
@@ -87,7 +89,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, model) = (args.scene.scene()?, args.scene.model()?);
     args.solve.refuse_budget("hit")?;
     refuse_held(&bat)?;
-    let (bat, request) = args.solve.prepare(bat, args.bat.count(), &args.output)?;
+    let prepared = args.solve.prepare(bat, args.bat.count(), &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
     let sweep = sweep(&bat, model, &scene, &request, &args.place.places(&bat)?)?;
     args.solve.say_raised(&sweep.solution, &args.output);
     let units = args.output.units;
@@ -101,7 +104,7 @@ pub fn run(args: &Args) -> Result<Done> {
     );
     let document = || json::hit(&bat, model, &scene, &sweep.impacts, &sweep.spot);
     let code = verdict(&args.solve, &sweep, &args.output);
-    Ok((args.output.deliver(table, document)?, code))
+    Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
 }
 
 /// The collision models of this version strike a bat that nothing holds.

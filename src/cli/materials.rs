@@ -25,5 +25,5 @@ pub fn run(_: &Args) -> Result<Done> {
         );
         out += &wrapped(&format!("    {}", material.source), 4);
     }
-    Ok((out, 0))
+    Ok(Done::new(out, 0))
 }

@@ -8,7 +8,7 @@ use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved};
 
 /// Natural frequencies, shapes and nodes
 ///
@@ -38,7 +38,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
+    let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
         if !bat.fixtures.none_moving() {
             let found = "a bat with attachments, joints or supports";
@@ -65,7 +65,7 @@ pub fn run(args: &Args) -> Result<Done> {
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);
-    Ok((args.output.deliver(table, document)?, code))
+    Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
 }
 
 fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {

@@ -13,7 +13,7 @@ use sweetspot::solve::Solution;
 use sweetspot::units::Quantity;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, quantity, shown_length};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, quantity, shown_length};
 
 /// Motion after a blow, under a force or from an initial shape
 ///
@@ -68,7 +68,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let (bat, solution) = args.bat.solve(&args.solve, &args.output)?;
+    let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     let ringing = Ringing::new(&bat, &solution, args.solve.tol, args.bending_only)?;
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
@@ -105,7 +105,7 @@ pub fn run(args: &Args) -> Result<Done> {
         None if args.output.json.is_some() => String::new(),
         _ => table,
     };
-    Ok((args.output.deliver(text, document)?, code))
+    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }
 
 fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {

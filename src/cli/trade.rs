@@ -13,7 +13,7 @@ use sweetspot::trade::reference::Reference;
 use sweetspot::trade::u_curve as curve;
 
 use crate::cli::Done;
-use crate::cli::common::{TheoryChoice, budget, prepare, read, theory};
+use crate::cli::common::{Prepared, TheoryChoice, budget, prepare, read, theory};
 
 /// Speed against accuracy, measured on this bat, here and now
 ///
@@ -69,7 +69,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let theory = args.theory.0.unwrap_or_default();
     let request = Request { modes, theory, ..Request::default() };
     let bat = read(&args.bat, args.quiet)?;
-    let (bat, Request { theory, .. }) = prepare(bat, args.theory, request, args.quiet)?;
+    let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
+    let theory = request.theory;
     let mut progress = Progress::new(args.quiet);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
     let (table, document, rows) = if args.u_curve {
@@ -86,7 +87,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let trade = measure(&bat, modes, theory, time(TRADE), say)?;
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
     };
-    Ok((deliver(args, table, &document, rows)?, 0))
+    Ok(Done::new(deliver(args, table, &document, rows)?, 0).with(warning))
 }
 
 /// Writes the files; what is left for standard output.

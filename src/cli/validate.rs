@@ -40,7 +40,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     if args.extremes {
         let (out, good) = extremes_table::table();
-        return Ok((out, if good { 0 } else { FAILED }));
+        return Ok(Done::new(out, if good { 0 } else { FAILED }));
     }
     if let Some(path) = &args.page {
         return page(path);
@@ -59,7 +59,7 @@ pub fn run(args: &Args) -> Result<Done> {
         out += &promise_table::summary(&rows);
         good &= Summary::of(&rows).holds();
     }
-    Ok((out, if good { 0 } else { FAILED }))
+    Ok(Done::new(out, if good { 0 } else { FAILED }))
 }
 
 /// The name of a case that travels with the program.
@@ -79,10 +79,10 @@ fn page(path: &std::path::Path) -> Result<Done> {
     let text = validation_page::text(&answers)?;
     let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
     if path.as_os_str() == "-" {
-        return Ok((text, code));
+        return Ok(Done::new(text, code));
     }
     file::write(path, text.as_bytes())?;
-    Ok((format!("{}\n", validation_page::verdict(&answers)), code))
+    Ok(Done::new(format!("{}\n", validation_page::verdict(&answers)), code))
 }
 
 /// Every known answer beside ours; whether none is missed.

@@ -95,7 +95,7 @@ pub const EXTREMES: &[Extreme] = &[
     row("chain of nine steps 1:1.5, two degrees", shapes::chain_of_steps),
     row("handle of 1 mm, barrel of 100 mm", || shapes::known("handle_1mm", 10, 1e-11)),
     row("dumbbell, pairs within 5e-5", || shapes::known("dumbbell", 20, 1e-9)),
-    row("dumbbell, beyond its round-off", || shapes::known("dumbbell", 20, 1e-12)),
+    row("dumbbell, to 10^-12", || shapes::known("dumbbell", 20, 1e-12)),
     row("bat turned end for end, mirrored nodes", || shapes::turned("linear_bat", 20, 1e-11)),
     row("cone turned end for end, same mesh", sameness::turned_on_one_mesh),
     row("cylinders split in two", sameness::split_cylinders),
