@@ -269,7 +269,7 @@ pub(crate) fn positive(field: impl Into<String>, value: f64, unit: &str) -> Resu
 }
 
 fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
-    if value >= 0.0 && value < MOST {
+    if (0.0..MOST).contains(&value) {
         return Ok(());
     }
     Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
