@@ -270,8 +270,8 @@ pub(crate) fn percent(share: f64) -> String {
 /// The number with its sign, and none where it rounds to zero.
 pub(crate) fn signed(value: f64, decimals: usize) -> String {
     let size = number(value.abs(), decimals);
-    match size.parse::<f64>() {
-        Ok(size) if size == 0.0 => "0".to_owned(),
+    match size.parse() {
+        Ok(0.0) => "0".to_owned(),
         _ if value < 0.0 => format!("−{size}"),
         _ => format!("+{size}"),
     }
