@@ -62,12 +62,15 @@ impl Damped {
         (self.ratio > 0.0).then(|| 0.5 / self.ratio)
     }
 
-    /// Q as a count of cycles, as a ringing bell or bat is measured: π over the logarithmic decrement, `π f_d/|Re s| = √(1 − ζ²)/(2ζ)`, so
-    /// that the amplitude falls to 1/e in `Q/π` cycles. None without damping, 0 where it does not
-    /// swing. The decrement, the logarithm of the ratio of two peaks a period apart, is
-    /// `δ = 2πζ/√(1 − ζ²)`; both Qs differ by `√(1 − ζ²)`.
-    pub fn q_decay(&self) -> Option<f64> {
-        (self.ratio > 0.0).then(|| 0.5 * self.swinging() / (self.ratio * self.natural))
+    /// Q of the amplitude, as papers on bats count it: `1/ζ`, so that the amplitude falls as
+    /// `e^{−ωt/Q}`. Twice the usual one. None without damping.
+    ///
+    /// # Source
+    ///
+    /// A. M. Nathan, Am. J. Phys. 68 (2000) 979, after L. L. Van Zandt, Am. J. Phys. 60 (1992) 172,
+    /// who takes it for 10.
+    pub fn q_amplitude(&self) -> Option<f64> {
+        (self.ratio > 0.0).then(|| 1.0 / self.ratio)
     }
 }
 

@@ -54,7 +54,7 @@
 //! | `ω = 2πf`, `λ = ω²` | angular frequency, eigenvalue | rad/s, 1/s² |
 //! | `θ = 1/λ` in [`eigen`] | eigenvalue of the compliance, Ritz value | s² |
 //! | `σ` | shift of the eigenvalues for solvers that factor | 1/s² |
-//! | `η` | twice the relative error of a frequency, its defect | 1 |
+//! | `η` | twice the relative error of a frequency, its defect; in [`damping`] the loss factor | 1 |
 //! | `ζ` | damping ratio | 1 |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |
 //! | `a`, `J` | impact point, impulse | m, N s |
@@ -64,8 +64,9 @@
 //!
 //! Sections stay round and plane: hoop modes of hollow barrels, and wood that differs across the
 //! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
-//! solution ([`ignored`]). The collision models are the rigid bat and the WPI report's empirical
-//! energy loss, both of a bat that nothing holds.
+//! solution ([`ignored`]), and [`advise`] measures what each part of a model does. The collision
+//! models are the rigid bat and the WPI report's empirical energy loss, both of a bat that nothing
+//! holds.
 
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]

@@ -2,6 +2,7 @@
 //!
 //! The cases are data, in the folder `validation/`, and travel with the program.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -10,9 +11,11 @@ use serde_json::Value;
 use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::dowel::{Dowel, Ends, UniformMode};
 use crate::error::{Error, Result};
+use crate::frf::Frf;
 use crate::solve::{Request, Solution, solve};
 use crate::theory::Theory;
 use crate::units::ounce_square_inches;
+use crate::weighed::tuned;
 
 /// One bat and what is known about it.
 #[derive(Debug, Deserialize)]
@@ -65,6 +68,10 @@ pub struct Check {
     pub quantity: Known,
     pub mode: Option<usize>,
     pub node: Option<usize>,
+    /// Where a force acts and where its deflection is seen (m), and how fast it swings (Hz).
+    at: Option<f64>,
+    to: Option<f64>,
+    frequency_hz: Option<f64>,
     pub expected: f64,
     relative: Option<f64>,
     absolute: Option<f64>,
@@ -84,6 +91,13 @@ pub enum Known {
     FrequencyRatio,
     NodeM,
     ModalMassKg,
+    /// How fast a damped mode dies out and how fast it swings.
+    #[serde(rename = "decay_1_per_s")]
+    Decay,
+    DampedFrequencyHz,
+    /// Deflection per force at a frequency, with time as `e^{+iωt}`.
+    ReceptanceRealMPerN,
+    ReceptanceImaginaryMPerN,
     MassKg,
     BalancePointM,
     InertiaBalanceKgM2,
@@ -145,6 +159,8 @@ pub const CASES: &[(&str, &str)] = &[
     ("cone_1_2p64_60", include_str!("../validation/cone_1_2p64_60.json")),
     ("cone_complete", include_str!("../validation/cone_complete.json")),
     ("cork", include_str!("../validation/cork.json")),
+    ("damped_absorber", include_str!("../validation/damped_absorber.json")),
+    ("damped_hands", include_str!("../validation/damped_hands.json")),
     ("dowel", include_str!("../validation/dowel.json")),
     ("dumbbell", include_str!("../validation/dumbbell.json")),
     ("end_springs", include_str!("../validation/end_springs.json")),
@@ -167,6 +183,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("interior_clamp_middle", include_str!("../validation/interior_clamp_middle.json")),
     ("joint", include_str!("../validation/joint.json")),
     ("linear_bat", include_str!("../validation/linear_bat.json")),
+    ("lossy_dowel", include_str!("../validation/lossy_dowel.json")),
     ("mid_mass", include_str!("../validation/mid_mass.json")),
     ("nafems_fv2_clamped_pinned", include_str!("../validation/nafems_fv2_clamped_pinned.json")),
     ("nafems_fv2_pinned_pinned", include_str!("../validation/nafems_fv2_pinned_pinned.json")),
@@ -204,15 +221,19 @@ pub const CASES: &[(&str, &str)] = &[
     ("r161_wolfish", include_str!("../validation/r161_wolfish.json")),
     ("rayleigh_cone", include_str!("../validation/rayleigh_cone.json")),
     ("rayleigh_dowel", include_str!("../validation/rayleigh_dowel.json")),
+    ("receptance_dowel", include_str!("../validation/receptance_dowel.json")),
+    ("receptance_timo", include_str!("../validation/receptance_timo.json")),
     ("russell_little_league", include_str!("../validation/russell_little_league.json")),
     ("russell_usual", include_str!("../validation/russell_usual.json")),
     ("sinusoidal", include_str!("../validation/sinusoidal.json")),
+    ("sleeve", include_str!("../validation/sleeve.json")),
     ("soft_springs", include_str!("../validation/soft_springs.json")),
     ("step_1_3", include_str!("../validation/step_1_3.json")),
     ("step_1_3_60", include_str!("../validation/step_1_3_60.json")),
     ("steps_many", include_str!("../validation/steps_many.json")),
     ("stiff_springs", include_str!("../validation/stiff_springs.json")),
     ("tanh_bat", include_str!("../validation/tanh_bat.json")),
+    ("taped_dowel", include_str!("../validation/taped_dowel.json")),
     ("thomson_table", include_str!("../validation/thomson_table.json")),
     ("three_supports", include_str!("../validation/three_supports.json")),
     ("timo_clamped_tip_mass", include_str!("../validation/timo_clamped_tip_mass.json")),
@@ -231,6 +252,7 @@ pub const CASES: &[(&str, &str)] = &[
     ("two_materials", include_str!("../validation/two_materials.json")),
     ("van_zandt_computed", include_str!("../validation/van_zandt_computed.json")),
     ("van_zandt_measured", include_str!("../validation/van_zandt_measured.json")),
+    ("weighed_dowel", include_str!("../validation/weighed_dowel.json")),
 ];
 
 /// The bats that travel with the program: path and text.
@@ -422,20 +444,22 @@ impl Case {
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
     let (case, bat) = read(name, text)?;
-    let solution = solve(&bat, &case.request()?)?;
+    let request = case.request()?;
+    let bat = tuned(bat, request.theory, request.tolerance)?;
+    let solution = solve(&bat, &request)?;
     let mut note = None;
     let mut rows = Vec::new();
     for check in &case.checks {
         note = check.note.clone().or(note);
-        rows.push(Row { note: note.clone(), ..row(name, check, &bat, &solution) });
+        rows.push(Row { note: note.clone(), ..row(name, check, &bat, &solution, &request) });
     }
     Ok((case, rows))
 }
 
 /// A check beside what was found, the note aside.
-fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution) -> Row {
+fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Row {
     // A case that asks for what is not there gets NaN, which passes no test.
-    let found = found(check, bat, solution).unwrap_or(f64::NAN);
+    let found = found(check, bat, solution, request).unwrap_or(f64::NAN);
     // Without a tolerance, places differ by a length and all else by a share.
     let shown = check.information && check.quantity != Known::NodeM;
     let relative = check.relative.is_some() || shown;
@@ -453,7 +477,12 @@ fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution) -> Row {
     }
 }
 
-fn found(check: &Check, bat: &Bat, solution: &Solution) -> Option<f64> {
+fn found(check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Option<f64> {
+    let damped = || solution.damping.modes.get(check.mode?.checked_sub(1)?);
+    let receptance = || {
+        let mut frf = Frf::new(bat, request, check.at?, check.to?).ok()?;
+        Some(frf.receptances(&[check.frequency_hz?]).ok()?.first()?.receptance)
+    };
     let mode = || solution.modes.get(check.mode?.checked_sub(1)?);
     let inertia = bat.inertia();
     match check.quantity {
@@ -461,6 +490,10 @@ fn found(check: &Check, bat: &Bat, solution: &Solution) -> Option<f64> {
         Known::FrequencyRatio => Some(mode()?.frequency() / solution.modes.first()?.frequency()),
         Known::NodeM => mode()?.nodes.get(check.node?.checked_sub(1)?).copied(),
         Known::ModalMassKg => Some(mode()?.modal_mass),
+        Known::Decay => Some(damped()?.decay),
+        Known::DampedFrequencyHz => Some(damped()?.swinging() / TAU),
+        Known::ReceptanceRealMPerN => Some(receptance()?.re),
+        Known::ReceptanceImaginaryMPerN => Some(receptance()?.im),
         Known::MassKg => Some(inertia.mass),
         Known::BalancePointM => Some(inertia.balance_point),
         Known::InertiaBalanceKgM2 => Some(inertia.about_balance),
@@ -477,6 +510,12 @@ fn label(check: &Check) -> String {
         Known::FrequencyRatio => format!("f{mode}/f1"),
         Known::NodeM => format!("mode {mode} node {} m", check.node.unwrap_or(0)),
         Known::ModalMassKg => format!("mode {mode} mass kg"),
+        Known::Decay => format!("mode {mode} decay 1/s"),
+        Known::DampedFrequencyHz => format!("mode {mode} damped Hz"),
+        Known::ReceptanceRealMPerN => format!("Re H m/N, {} Hz", check.frequency_hz.unwrap_or(0.0)),
+        Known::ReceptanceImaginaryMPerN => {
+            format!("Im H m/N, {} Hz", check.frequency_hz.unwrap_or(0.0))
+        }
         Known::MassKg => "mass kg".into(),
         Known::BalancePointM => "balance point m".into(),
         Known::InertiaBalanceKgM2 => "I balance kg m²".into(),

@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::folder::Folder;
+use common::folder::{Folder, but_shear};
 use serde_json::Value;
 
 impl Folder {
@@ -1497,7 +1497,7 @@ fn an_argument_that_is_not_text_is_no_panic() {
 /// Runs that must succeed: exit code 0 and JSON without null frequencies or overflow.
 fn accepted(folder: &Folder, args: &[&str]) -> (Value, String) {
     let output = folder.run(args);
-    let told = String::from_utf8(output.stderr).unwrap();
+    let told = but_shear(&String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(0), "{args:?}: {told}");
     let text = String::from_utf8(output.stdout).unwrap();
     (serde_json::from_str(&text).unwrap_or_else(|e| panic!("{args:?}: {e}\n{text}")), told)
@@ -1674,7 +1674,7 @@ fn unusual_but_right_options_are_taken() {
 /// A run that falls short of what was asked: exit code 3, one line that says why, and an answer.
 fn falls_short(folder: &Folder, args: &[&str], says: &[&str]) -> Value {
     let output = folder.run(&[args, &["--json", "-"]].concat());
-    let told = String::from_utf8(output.stderr).unwrap();
+    let told = but_shear(&String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(3), "{args:?}: {told}");
     assert!(told.lines().count() == 1 && says.iter().all(|words| told.contains(words)), "{told}");
     serde_json::from_slice(&output.stdout).unwrap()
@@ -1701,6 +1701,32 @@ fn an_answer_that_falls_short_is_given_with_the_reason() {
     let many = ["modes", "bat.json", "--modes", "1000", "--shape-points", "0", "--budget", "1 us"];
     let says = ["budget not kept: asked 1µs", "the first digit took", "1µs were allowed"];
     rising(&falls_short(&folder, &many, &says), 1000);
+}
+
+/// By default, where shear would matter and is not known, and only there.
+#[test]
+fn a_missing_shear_modulus_is_told() {
+    let folder = Folder::new("shear");
+    let told = |args: &[&str]| {
+        let output = folder.run(args);
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    folder.write("bat.json", BAT);
+    let says = "warning: shear is left out, because a material has no \"shear_modulus\"";
+    for args in [&["modes", "bat.json"][..], &["hit", "bat.json"], &["analyze", "bat.json"]] {
+        let told = told(args);
+        assert!(told.starts_with(says) && told.lines().count() == 1, "{args:?}: {told}");
+    }
+    for args in [
+        &["modes", "bat.json", "--theory", "euler-bernoulli"][..],
+        &["modes", "bat.json", "--quiet"],
+        &["modes", "bat.json", "--tol", "50%"],
+    ] {
+        assert_eq!(told(args), "", "{args:?}");
+    }
+    folder.write("bat.json", BAT.replace("14e9", "14e9, \"shear_modulus\": 1e9"));
+    assert_eq!(told(&["modes", "bat.json"]), "");
 }
 
 #[test]

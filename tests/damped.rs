@@ -365,9 +365,10 @@ fn complex_modes_are_used_where_they_matter() {
             (a.ratio / b.ratio - 1.0).abs() < 1e-2 && (a.natural / b.natural - 1.0).abs() < 1e-5
         );
     }
-    // Both Qs differ by √(1 − ζ²).
+    // The amplitude falls as e^{−ωt/Q} with the one, and in ωt/2Q with the other.
     for mode in &strong.modes {
-        let both = mode.q_decay().unwrap() / mode.q_half_power().unwrap();
-        assert!((both.powi(2) + mode.ratio.powi(2) - 1.0).abs() < 1e-12);
+        let [amplitude, half] = [mode.q_amplitude().unwrap(), mode.q_half_power().unwrap()];
+        assert!((mode.natural / amplitude / mode.decay - 1.0).abs() < 1e-12);
+        assert!((amplitude / half - 2.0).abs() < 1e-15);
     }
 }

@@ -180,7 +180,7 @@ fn damped_bats_go_from_their_file_to_json() {
         assert_eq!(mode["damping_ratio"], 0.01);
         let damping = &mode["damping"];
         let own = "natural_frequency_hz damped_frequency_hz decay_1_per_s loss_factor \
-                   q_half_power q_decay material_damping_ratio complex error";
+                   q_half_power q_amplitude material_damping_ratio complex error";
         assert_eq!(keys(damping), set(own));
         assert_eq!((&damping["q_half_power"], &damping["complex"]), (&50.0.into(), &false.into()));
         assert_eq!(damping["natural_frequency_hz"], mode["frequency_hz"]);
@@ -528,7 +528,7 @@ fn the_trade_documents_have_their_keys_and_tell_the_truth() {
     assert_eq!((&trade["format"], &trade["modes"]), (&"sweetspot-trade/1".into(), &3.into()));
     let choice = "degree elements solver degrees_of_freedom";
     let reference = &trade["reference"];
-    let own = format!("{choice} frequencies_hz stated_error floor confirmed_by");
+    let own = format!("{choice} theory frequencies_hz stated_error floor confirmed_by");
     assert_eq!(keys(reference), set(&own));
     assert_eq!(keys(&reference["confirmed_by"]), set(&format!("{choice} agreement")));
     assert_eq!(floats(&reference["frequencies_hz"]).len(), 3);

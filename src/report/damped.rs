@@ -15,9 +15,10 @@ pub fn table(solution: &Solution) -> String {
         return String::new();
     }
     let mut out = String::from(
-        "Damping (Q of the half-power width is 1/(2 ratio), Q of the decay pi/decrement)\n",
+        "Damping (Q of the half-power width, 1/(2 ratio); Q of the amplitude as in papers on\n\
+         bats, 1/ratio)\n",
     );
-    out += "  mode  damped frequency      ratio       decay    Q, width    Q, decay\n";
+    out += "  mode  damped frequency      ratio       decay    Q, width  Q, amplit.\n";
     let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| digits(q, 4));
     for (mode, damped) in solution.modes.iter().zip(&damping.modes) {
         let _ = writeln!(
@@ -28,7 +29,7 @@ pub fn table(solution: &Solution) -> String {
             digits(damped.ratio, 3),
             digits(damped.decay, 3),
             q(damped.q_half_power()),
-            q(damped.q_decay())
+            q(damped.q_amplitude())
         );
     }
     if !damping.rigid.is_empty() {
@@ -56,7 +57,7 @@ pub fn of_mode(solution: &Solution, k: usize) -> Value {
         "decay_1_per_s": damped.decay,
         "loss_factor": 2.0 * damped.ratio,
         "q_half_power": damped.q_half_power(),
-        "q_decay": damped.q_decay(),
+        "q_amplitude": damped.q_amplitude(),
         "material_damping_ratio": damped.of_materials,
         "complex": matches!(solution.damping.kind, Kind::Complex(_)),
         "error": damped.error,

@@ -42,10 +42,11 @@ impl Folder {
         self.command(args).output().unwrap()
     }
 
-    /// Standard output of a run that must succeed without a word on standard error.
+    /// Standard output of a run that must succeed without a word on standard error but that shear is
+    /// not known.
     pub fn text(&self, args: &[&str]) -> String {
         let output = self.run(args);
-        let told = String::from_utf8_lossy(&output.stderr);
+        let told = but_shear(&String::from_utf8_lossy(&output.stderr));
         assert!(output.status.code() == Some(0) && told.is_empty(), "{args:?}: {told}");
         String::from_utf8(output.stdout).unwrap()
     }
@@ -53,6 +54,16 @@ impl Folder {
     pub fn json(&self, args: &[&str]) -> Value {
         serde_json::from_str(&self.text(args)).unwrap()
     }
+}
+
+/// What was said on standard error, without the last line if it is that a material's shear modulus is
+/// missing: one test has that.
+pub fn but_shear(told: &str) -> String {
+    let mut lines: Vec<&str> = told.lines().collect();
+    if lines.last().is_some_and(|line| line.starts_with("warning: shear is left out")) {
+        lines.pop();
+    }
+    lines.iter().flat_map(|line| [line, "\n"]).collect()
 }
 
 impl Drop for Folder {
