@@ -1341,7 +1341,10 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
         (&["hit", "bat.json", "--reproducible=1"], &["--reproducible"]),
-        (&["ring", "bat.json"], &["neither a blow nor an initial shape", "--at X --impulse J"]),
+        (
+            &["ring", "bat.json"],
+            &["neither a blow nor an initial shape", "--at X with --impulse J"],
+        ),
         (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>", "--force <FILE>"]),
         (&["ring", "bat.json", "--force", "f.csv"], &["--at <X>"]),
         (

@@ -45,7 +45,17 @@ impl BatArgs {
 
     /// Reads the bat and finds its modes.
     pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<(Bat, Solution)> {
-        let (bat, request) = solve.prepare(self.read(output)?, self.count(), output)?;
+        self.solve_for(self.read(output)?, solve, output)
+    }
+
+    /// Finds the modes of a bat that was read.
+    pub fn solve_for(
+        &self,
+        bat: Bat,
+        solve: &SolveArgs,
+        output: &OutputArgs,
+    ) -> Result<(Bat, Solution)> {
+        let (bat, request) = solve.prepare(bat, self.count(), output)?;
         let solution = match solve.budget {
             Some(budget) => solve::solve_within(&bat, &request, budget)?,
             None => solve::solve(&bat, &request)?,
