@@ -188,10 +188,7 @@ fn damped_bats_go_from_their_file_to_json() {
     assert!(lossy["model"]["damping"]["method"].as_str().unwrap().contains("materials"));
     let rayleigh = ["--theory", "rayleigh"];
     let table = folder.text(&[&["modes", "bat.json", "-n", "3"], &rayleigh[..]].concat());
-    assert!(
-        table.contains("\nDamping (Q")
-            && table.lines().all(|l| l.starts_with("Model") || l.chars().count() <= 80)
-    );
+    assert!(table.contains("\nDamping (Q") && table.lines().all(|l| l.chars().count() <= 80));
     bat(r#", "grip": { "from": 0, "to": 0.2, "stiffness": 1e5, "damping": 300 }"#);
     let held =
         folder.json(&["modes", "bat.json", "-n", "3", "--theory", "rayleigh", "--json", "-"]);
@@ -447,7 +444,7 @@ fn the_most_accurate_answer_within_a_time_is_as_accurate_as_it_says() {
         ("pchip.json".to_owned(), Truth::of_cases(&["pchip_bat"])),
     ] {
         let args = ["modes", &bat, "--budget", "5 s", "--shape-points", "0", "--json", "-"];
-        let document = folder.json(&args);
+        let document = folder.json(&[&args[..], &["--theory", "euler-bernoulli"]].concat());
         assert_eq!(document["model"]["plan"], "the most accurate within 5s");
         assert_eq!(document["model"]["tolerance_met"], true);
         let modes = document["modes"].as_array().unwrap();

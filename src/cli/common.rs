@@ -45,8 +45,12 @@ impl BatArgs {
 
     /// Reads the bat and finds its modes.
     pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
-        let prepared = solve.prepare(self.read(output)?, self.count(), output)?;
-        let Prepared { bat, request, warning } = prepared;
+        self.solve_for(self.read(output)?, solve, output)
+    }
+
+    /// Finds the modes of a bat that was read.
+    pub fn solve_for(&self, bat: Bat, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
+        let Prepared { bat, request, warning } = solve.prepare(bat, self.count(), output)?;
         let solution = match solve.budget {
             Some(budget) => solve::solve_within(&bat, &request, budget)?,
             None => solve::solve(&bat, &request)?,

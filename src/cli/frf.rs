@@ -86,7 +86,7 @@ pub fn run(args: &Args) -> Result<Done> {
             return Err(Error::value(name, shown_length(x), expected));
         }
     }
-    check(args)?;
+    check(args, bat.fixtures.rigid_modes() > 0)?;
     let modes = args.bat.count().max(1);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
@@ -134,7 +134,7 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 /// Frequencies that can be asked for at all.
-fn check(args: &Args) -> Result<()> {
+fn check(args: &Args, free: bool) -> Result<()> {
     const MOST: f64 = 1e6;
     let asked = [("--from-hz", args.from_hz), ("--to-hz", args.to_hz)];
     let listed = args.frequencies.iter().map(|f| ("--frequencies", Some(*f)));
@@ -150,6 +150,9 @@ fn check(args: &Args) -> Result<()> {
         }
         (Some(0.0), _) if !args.linear => {
             Err(Error::value("--from-hz", "0 Hz", "more, or --linear: ratios have no 0"))
+        }
+        _ if free && (args.from_hz == Some(0.0) || args.frequencies.contains(&0.0)) => {
+            Err(Error::value("frequencies", "0 Hz", "above 0 Hz: nothing holds the bat"))
         }
         _ => Ok(()),
     }

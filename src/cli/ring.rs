@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
-use sweetspot::force_file;
+use sweetspot::force_file::{self, ForceHistory};
 use sweetspot::report::{file, json};
-use sweetspot::ringing::{Ringing, Start};
-use sweetspot::shape_file;
+use sweetspot::ringing::Ringing;
+use sweetspot::shape_file::{self, InitialShape};
 use sweetspot::solve::Solution;
 use sweetspot::units::Quantity;
 
@@ -68,12 +68,22 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
+    let bat = args.bat.read(&args.output)?;
+    let cause = cause(args, &bat)?;
+    if let Some(t) = args.times.iter().find(|t| !(0.0..1e6).contains(*t)) {
+        return Err(Error::value("--times", format!("{t:?} s"), "0 or later, before 1e6 s"));
+    }
+    let solved = args.bat.solve_for(bat, &args.solve, &args.output)?;
+    let Solved { bat, solution, warning } = solved;
     let ringing = Ringing::new(&bat, &solution, args.solve.tol, args.bending_only)?;
+    let start = match cause {
+        Cause::Blow(x, impulse) => ringing.blow(x, impulse),
+        Cause::Push(x, history) => ringing.pushed(x, history),
+        Cause::Shape(shape) => ringing.release(&bat, &shape),
+    };
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
-    let times = times(args, &solution)?;
-    let start = start(args, &bat, &ringing)?;
+    let times = times(args, &solution);
     let shapes = ringing.shapes(&x);
     let frames: Vec<Vec<f64>> = times
         .iter()
@@ -108,23 +118,31 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }
 
-fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
+/// What sets the bat in motion.
+enum Cause {
+    Blow(f64, f64),
+    Push(f64, ForceHistory),
+    Shape(InitialShape),
+}
+
+fn cause(args: &Args, bat: &Bat) -> Result<Cause> {
     match (args.at, &args.initial) {
         (Some(x), _) => {
             if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
                 let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
                 return Err(Error::value("--at", shown_length(x), expected));
             }
+            let x = x.min(bat.length());
             if let Some(path) = &args.force {
-                return Ok(ringing.pushed(x.min(bat.length()), force_file::read(path)?));
+                return Ok(Cause::Push(x, force_file::read(path)?));
             }
             let impulse = args.impulse.unwrap_or(0.0);
             if impulse.abs() >= 1e6 {
                 return Err(Error::value("--impulse", format!("{impulse:?} N s"), "less than 1e6"));
             }
-            Ok(ringing.blow(x, impulse))
+            Ok(Cause::Blow(x, impulse))
         }
-        (_, Some(path)) => Ok(ringing.release(bat, &shape_file::read(path, bat.length())?)),
+        (_, Some(path)) => Ok(Cause::Shape(shape_file::read(path, bat.length())?)),
         _ => {
             let expected = "--at X with --impulse J or --force FILE, or --initial FILE";
             Err(Error::value("ring", "neither a blow nor an initial shape", expected))
@@ -132,13 +150,11 @@ fn start(args: &Args, bat: &Bat, ringing: &Ringing) -> Result<Start> {
     }
 }
 
-fn times(args: &Args, solution: &Solution) -> Result<Vec<f64>> {
-    if let Some(t) = args.times.iter().find(|t| !(0.0..1e6).contains(*t)) {
-        return Err(Error::value("--times", format!("{t:?} s"), "0 or later, before 1e6 s"));
-    }
+/// The instants asked for, or nine over a period of mode 1.
+fn times(args: &Args, solution: &Solution) -> Vec<f64> {
     let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
     let nine = || (0..=8).map(|k| period * f64::from(k) / 8.0).collect();
-    Ok(if args.times.is_empty() { nine() } else { args.times.clone() })
+    if args.times.is_empty() { nine() } else { args.times.clone() }
 }
 
 fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {

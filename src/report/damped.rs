@@ -15,8 +15,7 @@ pub fn table(solution: &Solution) -> String {
         return String::new();
     }
     let mut out = String::from(
-        "Damping (Q of the half-power width, 1/(2 ratio); Q of the amplitude as in papers on\n\
-         bats, 1/ratio)\n",
+        "Damping (Q, width: 1/(2 ratio); Q, amplit., as papers on bats have it: 1/ratio)\n",
     );
     out += "  mode  damped frequency      ratio       decay    Q, width  Q, amplit.\n";
     let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| digits(q, 4));

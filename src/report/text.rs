@@ -141,7 +141,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
 
 /// How the modes were found, and what the model left out.
 pub fn model(bat: &Bat, solution: &Solution) -> String {
-    let mut out = format!(
+    let mut model = format!(
         "Model: {}, {} elements of degree {}, solver {}",
         match solution.theory {
             Theory::EulerBernoulli => "Euler-Bernoulli",
@@ -153,9 +153,9 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
         solver_name(solution.solver)
     );
     if solution.steps > 0 {
-        let _ = write!(out, " ({} Lanczos steps)", solution.steps);
+        let _ = write!(model, " ({} Lanczos steps)", solution.steps);
     }
-    out += "\n";
+    let mut out = wrapped(&model, 7);
     let by_nodes = bat.fixtures.none_moving() && !solution.theory.shears();
     let count = match (solution.complete(), by_nodes) {
         (true, true) => "none is missing: mode n has its n + 1 nodes",
