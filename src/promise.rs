@@ -64,6 +64,8 @@ pub const BATS: &[(&str, &[&str])] = &[
     ("L/r = 1e6, shear", &["timo_slender"]),
     ("deep bar, shear", &["nafems_fv5"]),
     ("cork, shear", &["cork"]),
+    ("sleeve", &["sleeve"]),
+    ("tape", &["taped_dowel"]),
     ("wood and metal", &["two_materials"]),
     ("joint, shear", &["joint"]),
     ("pinned, pinned", &["pinned_pinned"]),
