@@ -23,7 +23,7 @@ use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::eigen::lanczos::dot;
 use crate::error::{Error, Result};
-use crate::flexible::Flexible;
+use crate::flexible::{Dashpot, Flexible, RigidMotion};
 use crate::theory::Theory;
 
 /// A bat on a few strains.
@@ -101,7 +101,18 @@ impl Reduced {
     ) -> Result<Self> {
         let mut flexible = Flexible::new(bat, mesh, degree, theory);
         let (omega, strains, _) = flexible.slowest(wanted + (wanted / 2).max(4))?;
-        let coupled = flexible.dashpots.iter().any(|d| d.rigid.iter().any(|w| *w != 0.0));
+        /// Slower than that share of mode 1 no rigid motion is seen to come to rest.
+        const SLOWEST: f64 = 1e-10;
+        let moved = |d: &Dashpot| d.rigid.iter().any(|w| *w != 0.0);
+        let rate = |(k, motion): (usize, &RigidMotion)| {
+            let constants = flexible.dashpots.iter().map(|d| d.constant * d.rigid[k].powi(2));
+            constants.sum::<f64>() / motion.mass
+        };
+        let fastest = flexible.rigid.iter().enumerate().map(rate).fold(0.0, f64::max);
+        let coupled = fastest > SLOWEST * omega.first().copied().unwrap_or(0.0);
+        if !coupled {
+            flexible.dashpots.retain(|dashpot| !moved(dashpot));
+        }
         let mut reduced =
             Self { flexible, omega, members: vec![], mass: vec![], loss: vec![], coupled };
         for strains in strains {
@@ -259,7 +270,8 @@ impl Reduced {
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] if the small eigenproblem has no solution.
+    /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where dashpots
+    /// are so large that round-off leaves none that dies out.
     pub fn free_motions(
         &mut self,
         wanted: usize,
@@ -294,6 +306,8 @@ impl Reduced {
             if self.members.len() == before {
                 let mut rigid = rigid;
                 rigid.iter_mut().for_each(|pole| self.polish(&mass, &damping, pole));
+                let all = groups.iter().flat_map(|group| &group.poles).chain(&rigid);
+                possible(all)?;
                 return Ok((groups, rigid));
             }
             round += 1;
@@ -615,6 +629,20 @@ fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
     }
     groups.sort_by(|a, b| a.natural().total_cmp(&b.natural()));
     (groups, real)
+}
+
+/// Whether all of these motions die out, as they must.
+fn possible<'a>(mut poles: impl Iterator<Item = &'a Pole>) -> Result<()> {
+    const ROUND_OFF: f64 = 1e-9;
+    let lost = |pole: &&Pole| !(pole.s.re <= ROUND_OFF * pole.s.norm() && pole.s.norm() > 0.0);
+    match poles.find(lost) {
+        None => Ok(()),
+        Some(_) => {
+            let found = "dashpots so strong that round-off hides all that they damp";
+            let expected = "a damping that lets the bat move, or a support in its place";
+            Err(Error::value("damping", found, expected))
+        }
+    }
 }
 
 /// The root of `a s² + b s + c` that is nearest to a guess.
