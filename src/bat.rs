@@ -83,9 +83,9 @@ impl Bat {
         Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
     }
 
-    /// The same with other materials along it, and with what is on it and holds it. The weighed mass
-    /// includes what is attached; it sets one factor on all densities. What was tapped is kept for
-    /// [`crate::weighed`].
+    /// The same with other materials along it, and with what is on it and holds it. The weighed
+    /// mass includes what is attached; it sets one factor on all densities. What was tapped is kept
+    /// for [`crate::weighed`].
     ///
     /// # Errors
     ///
@@ -119,7 +119,9 @@ impl Bat {
     }
 
     /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
-    fn lay_out(&mut self) {
+    pub(crate) fn lay_out(&mut self) {
+        self.layups.truncate(1);
+        self.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
         self.fixtures.borders().into_iter().for_each(|x| self.profile.cut(x));
         for region in &self.fixtures.regions {
             self.layups.push(region.layup.clone());
@@ -301,7 +303,8 @@ impl Bat {
     }
 }
 
-/// Usual densities (kg/m³) and Young's moduli (Pa) of what bats are made of, and of what fills them.
+/// Usual densities (kg/m³) and Young's moduli (Pa) of what bats are made of, and of what fills
+/// them.
 const WALL: [[f64; 2]; 2] = [[50.0, 20e3], [1e9, 1e12]];
 const CORE: [[f64; 2]; 2] = [[5.0, 20e3], [1e4, 1e12]];
 

@@ -1,7 +1,8 @@
 //! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
-//! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other proportions, of a formula, with anything on it, of another theory, or whose answer misses the
+//! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other
+//! proportions, of a formula, with anything on it, of another theory, or whose answer misses the
 //! tolerance or a node by its own account is planned and solved on its own; so are all where the
 //! first is such a bat. Once warm nothing is allocated for the others.
 
@@ -100,7 +101,8 @@ fn plain(bat: &Bat) -> bool {
     bat.fixtures.none_moving() && !bat.profile.pieces.iter().any(formula)
 }
 
-/// The same on all cores, each share of the bats with a first one of its own, the results gathered by `read`, in the order of the bats.
+/// The same on all cores, each share of the bats with a first one of its own, the results gathered
+/// by `read`, in the order of the bats.
 pub fn all<T: Send>(
     bats: &[Bat],
     request: &Request,

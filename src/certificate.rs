@@ -83,7 +83,8 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         // A frequency is never farther from a mode's than the residual, however near others are.
         let cost_of = |left: &f64| 0.5 * left * (left / nearest).min(1.0);
         mode.error.discretization += left.get(k).map_or(0.0, cost_of);
-        // Two shapes of one frequency mix in any way: all of a shape, and no more, may be the other's.
+        // Two shapes of one frequency mix in any way: all of a shape, and no more, may be the
+        // other's.
         mixed = mixed.min(1.0);
         mode.error.nodes += mixed * mode.shape.length() / mode.nodes.len().max(1) as f64;
         mode.error.modal_mass += 2.0 * mixed;

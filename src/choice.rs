@@ -2,7 +2,7 @@
 
 use crate::bat::Bat;
 use crate::error::Result;
-use crate::ignored::{shift, with_typical_shear};
+use crate::ignored::{shifts, with_typical_shear};
 use crate::solve::{Request, solve};
 use crate::theory::Theory;
 
@@ -15,7 +15,7 @@ pub struct Choice {
 }
 
 /// The cheapest theory whose estimated shift of every wanted frequency is within the request's
-/// tolerance, by the modes of the plain beam; without shear where a shear modulus is not known.
+/// tolerance; without shear where a shear modulus is not known.
 ///
 /// # Errors
 ///
@@ -23,6 +23,8 @@ pub struct Choice {
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     /// The shifts are to be known to a part of themselves.
     const ROUGH: f64 = 1e-2;
+    /// No shift below that can be told from round-off.
+    const FINEST: f64 = 1e-11;
     // What cannot be asked is refused before any work.
     request.check(1)?;
     let tolerance = request.tolerance.max(ROUGH);
@@ -32,8 +34,8 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     let shearing = with_typical_shear(bat);
     let (mut rotary, mut shear) = (0.0_f64, 0.0_f64);
     let mut first = 0.0;
-    for (k, mode) in solution.modes.iter().enumerate() {
-        let shift = shift(&shearing, mode);
+    let accuracy = (0.1 * request.tolerance).clamp(FINEST, ROUGH);
+    for (k, shift) in shifts(&shearing, &solution.modes, accuracy).iter().enumerate() {
         rotary = rotary.max(shift.rotary_inertia.abs());
         shear = shear.max(shift.shear.unwrap_or(0.0).abs());
         if k == 0 {
@@ -48,10 +50,15 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     let warning = (!known && shear > request.tolerance).then(|| {
         format!(
             "shear is left out, because a material has no \"shear_modulus\"; with the G/E of its \
-             kind it would lower mode 1 by {:.1} % and one of the modes by {:.0} %",
-            -100.0 * first,
-            100.0 * shear
+             kind it would lower mode 1 by {} % and one of the modes by {} %",
+            two_digits(-100.0 * first),
+            two_digits(100.0 * shear)
         )
     });
     Ok(Choice { theory, warning })
+}
+
+/// A percentage in two digits.
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
 }

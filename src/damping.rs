@@ -51,8 +51,8 @@ impl Damped {
         self.natural * ((1.0 - self.ratio) * (1.0 + self.ratio)).max(0.0).sqrt()
     }
 
-    /// Q as the sharpness of a resonance, the frequency over the width between the half-power points
-    /// of light damping: `1/(2ζ)`. None without damping.
+    /// Q as the sharpness of a resonance, the frequency over the width between the half-power
+    /// points of light damping: `1/(2ζ)`. None without damping.
     ///
     /// # Source
     ///

@@ -123,8 +123,8 @@ impl<'a> Node<'a> {
         self.document.error(offset, complaint)
     }
 
-    /// An error about the value at the path in a complaint, from this one, which is the root. What was
-    /// found is shown as it stands in the file too, where that has a unit.
+    /// An error about the value at the path in a complaint, from this one, which is the root. What
+    /// was found is shown as it stands in the file too, where that has a unit.
     pub fn locate(&self, mut complaint: Complaint) -> Error {
         let place = self.nearest(&complaint.field);
         if place.path == complaint.field && place.raw.starts_with('"') {
@@ -133,8 +133,8 @@ impl<'a> Node<'a> {
         place.complain(complaint)
     }
 
-    /// The value at a path from here, such as `attachments[1].x`; where it is not there, the nearest
-    /// one around it.
+    /// The value at a path from here, such as `attachments[1].x`; where it is not there, the
+    /// nearest one around it.
     pub fn nearest(&self, path: &str) -> Self {
         let mut node = self.clone();
         for step in path.split(['.', '[']) {

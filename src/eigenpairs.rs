@@ -174,8 +174,8 @@ where
 }
 
 impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
-    /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat on
-    /// soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
+    /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat
+    /// on soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
     /// round-off would else be in them. Returns how many are apart.
     ///
     /// # Errors
@@ -226,9 +226,9 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     }
 }
 
-/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as some
-/// steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, fitted to a dowel, a
-/// cone and two bats, 1 to 60 modes, right to one step.
+/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as
+/// some steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, fitted to a
+/// dowel, a cone and two bats, 1 to 60 modes, right to one step.
 fn steps_beyond(count: usize, residual: f64) -> usize {
     let (n, digits) = (count as f64, -residual.log10());
     (2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)).ceil().max(2.0) as usize

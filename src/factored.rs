@@ -107,8 +107,8 @@ struct Pairs {
     steps: usize,
 }
 
-/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`; for
-/// the statics, which factors nothing, by shift-invert.
+/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`;
+/// for the statics, which factors nothing, by shift-invert.
 fn of_pencil<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     elements: &[Element<f64, N, W>],

@@ -186,8 +186,8 @@ impl Fixtures {
         self.masses().map(|[mass, ..]| mass).chain(spread).sum()
     }
 
-    /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of everything
-    /// that is attached at a point.
+    /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of
+    /// everything that is attached at a point.
     pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
         let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
         fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))

@@ -1,8 +1,8 @@
 //! A bat without the degree of its elements in its type: what responses are made of.
 //!
 //! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic
-//! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they are
-//! coordinates of their own, to which these strains are orthogonal.
+//! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they
+//! are coordinates of their own, to which these strains are orthogonal.
 
 use std::sync::Arc;
 
@@ -245,8 +245,8 @@ impl Flexible {
         flexible
     }
 
-    /// ω (rad/s, rising) and unit strains of the slowest modes, as many as wanted or as there are, and
-    /// how many of the first are far slower than the others.
+    /// ω (rad/s, rising) and unit strains of the slowest modes, as many as wanted or as there are,
+    /// and how many of the first are far slower than the others.
     ///
     /// # Errors
     ///
@@ -302,8 +302,8 @@ impl Flexible {
         !self.losses.is_empty()
     }
 
-    /// `K″ q`: the strains' stiffness times its loss factors, all layers of a section bending alike;
-    /// springs, joints and beds lose nothing.
+    /// `K″ q`: the strains' stiffness times its loss factors, all layers of a section bending
+    /// alike; springs, joints and beds lose nothing.
     pub fn loss(&self, q: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; q.len()];
         if self.losses.is_empty() {

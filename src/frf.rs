@@ -91,8 +91,8 @@ const MESH: f64 = 1e-8;
 const MISSING: f64 = 1e-12;
 
 impl Frf {
-    /// The bat forced at `at` and watched at `to` (m from the knob end), for frequencies up to about
-    /// that of the last of the requested modes.
+    /// The bat forced at `at` and watched at `to` (m from the knob end), for frequencies up to
+    /// about that of the last of the requested modes.
     ///
     /// # Errors
     ///
@@ -117,8 +117,8 @@ impl Frf {
         Ok(Self { solution, reduced, places, points: [at, to] })
     }
 
-    /// The deflection (m/N) under a constant force: of a held bat; of a free one that of its bending
-    /// alone, in balance with its own inertia.
+    /// The deflection (m/N) under a constant force: of a held bat; of a free one that of its
+    /// bending alone, in balance with its own inertia.
     pub fn static_compliance(&self) -> f64 {
         let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
         dot(&at, &to) / self.reduced.flexible.energy_unit
@@ -152,7 +152,8 @@ impl Frf {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a frequency that is negative, not finite, or 0 of a bat that is not held.
+    /// [`Error::Value`] for a frequency that is negative, not finite, or 0 of a bat that is not
+    /// held.
     pub fn receptances(&mut self, frequencies: &[f64]) -> Result<Vec<Sample>> {
         const MOST_ROUNDS: usize = 20;
         const PROBES: usize = 16;
@@ -212,7 +213,8 @@ impl Frf {
         self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
     }
 
-    /// The mean size of both points' own receptances (m/N), which one between them may be far below.
+    /// The mean size of both points' own receptances (m/N), which one between them may be far
+    /// below.
     fn scale(&self, answers: &[Answer; 2], frequency: f64) -> f64 {
         let omega = (TAU * frequency).powi(2);
         let own = |k: usize| {

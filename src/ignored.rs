@@ -1,12 +1,15 @@
 //! What a beam theory leaves out, and what that costs on this bat.
 //!
-//! Both shifts come from the plain beam's own mode: rotary inertia adds to the kinetic energy of
-//! Rayleigh's quotient, shear to the compliance.
+//! On a bare bat both shifts come from the plain beam's own mode: rotary inertia adds to the
+//! kinetic energy of Rayleigh's quotient, shear to the compliance. With anything on the bat or
+//! under it the shear force has parts that the mode alone does not tell, and the theories are
+//! solved side by side.
 
 use crate::bat::Bat;
 use crate::material::Material;
 use crate::modes::Mode;
-use crate::solve::Solution;
+use crate::solve::{Request, Solution, solve};
+use crate::theory::Theory;
 
 /// Relative change of a mode's frequency by effects that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +27,8 @@ pub struct Shift {
 /// shear:          f/f₀ = (1 + ∫Q²/(κGA) dx / ∫EI φ″² dx)^−½,   Q(x) = ω² ∫₀ˣ ρA φ dx
 /// ```
 ///
-/// with `∫EI φ″² dx = ω² m` for a mode of modal mass m, and the load of what is attached in `Q`.
-/// Midpoint sums over 400 stretches. Right in the first order; on an R161 within a fifth of the
-/// shift of modes 1 to 4.
+/// with `∫EI φ″² dx = ω² m` for a mode of modal mass m of a bare bat. Midpoint sums over 400
+/// stretches. Right in the first order; on an R161 within a fifth of the shift of modes 1 to 4.
 ///
 /// # Source
 ///
@@ -39,11 +41,7 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
     for k in 0..STRETCHES {
         let x = (k as f64 + 0.5) * dx;
         let worth = bat.worth_at(x);
-        let at = |x: f64| mode.shape.deflection(x);
-        let here = (x - 0.5 * dx)..(x + 0.5 * dx);
-        let attached = bat.fixtures.masses().filter(|[_, place, _]| here.contains(place));
-        let attached: f64 = attached.map(|[mass, place, _]| mass * at(place)).sum();
-        let load = dx * worth.mass * at(x) + attached;
+        let load = dx * worth.mass * mode.shape.deflection(x);
         rotary += dx * worth.turning * mode.shape.rotation(x).powi(2);
         let across = mode.omega.powi(2) * (force + 0.5 * load);
         force += load;
@@ -55,6 +53,26 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
         rotary_inertia: lower(rotary / mode.modal_mass),
         shear: bat.knows_shear().then_some(lower(shear / energy)),
     }
+}
+
+/// The same of the lowest modes: of a bare bat by [`shift`], of any other by the theories
+/// themselves, solved to that tolerance.
+pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
+    let all = |theory| {
+        let request = Request { modes: modes.len(), tolerance, theory, ..Request::default() };
+        Some(solve(bat, &request).ok()?.modes)
+    };
+    let solved = || {
+        let [plain, turning] = [all(Theory::EulerBernoulli)?, all(Theory::Rayleigh)?];
+        let shearing = if bat.knows_shear() { Some(all(Theory::Timoshenko)?) } else { None };
+        let shift = |k: usize| Shift {
+            rotary_inertia: turning[k].omega / plain[k].omega - 1.0,
+            shear: shearing.as_ref().map(|s| s[k].omega / turning[k].omega - 1.0),
+        };
+        Some((0..modes.len()).map(shift).collect())
+    };
+    let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
+    if bat.fixtures.none_moving() { by_modes() } else { solved().unwrap_or_else(by_modes) }
 }
 
 /// What a typical material of that kind has for G/E, where it is not known: wood between 0.058 and
@@ -77,14 +95,14 @@ pub fn with_typical_shear(bat: &Bat) -> Bat {
 }
 
 /// By how much effects would change the lowest modes, in words.
-fn percents(modes: &[Mode], change: impl Fn(&Mode) -> f64) -> String {
+fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {
     let digits = |v: f64| match v.abs() {
         size if size >= 0.095 => format!("{v:.1} %"),
         size if size >= 5e-5 => format!("{v:.1e} %"),
         _ => "0 %".to_owned(),
     };
-    let shown: Vec<String> = modes.iter().map(|mode| digits(100.0 * change(mode))).collect();
-    match modes.len() {
+    let shown: Vec<String> = shifts.iter().map(|shift| digits(100.0 * change(shift))).collect();
+    match shifts.len() {
         1 => format!("mode 1 by about {}", shown[0]),
         many => format!("modes 1 to {many} by about {}", shown.join(", ")),
     }
@@ -93,14 +111,17 @@ fn percents(modes: &[Mode], change: impl Fn(&Mode) -> f64) -> String {
 /// What the model leaves out and what it costs, a sentence each.
 pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     let modes = &solution.modes[..solution.modes.len().min(4)];
+    /// Shifts are shown to two digits.
+    const SHOWN: f64 = 1e-6;
+    let typical = with_typical_shear(bat);
+    let shifts = if solution.theory.shears() { vec![] } else { shifts(&typical, modes, SHOWN) };
     let mut ignored = Vec::new();
     if !modes.is_empty() && !solution.theory.turns() {
-        let change = percents(modes, |mode| shift(bat, mode).rotary_inertia);
+        let change = percents(&shifts, |shift| shift.rotary_inertia);
         ignored.push(format!("rotary inertia of the sections: would change {change}"));
     }
     if !modes.is_empty() && !solution.theory.shears() {
-        let typical = with_typical_shear(bat);
-        let change = percents(modes, |mode| shift(&typical, mode).shear.unwrap_or(0.0));
+        let change = percents(&shifts, |shift| shift.shear.unwrap_or(0.0));
         ignored.push(match bat.knows_shear() {
             true => format!("shear: would change {change}"),
             false => format!(
@@ -110,7 +131,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
             ),
         });
     }
-    if !solution.theory.turns() {
+    if !solution.theory.turns() && !bat.fixtures.holding() {
         let inertia = bat.inertia();
         let own = 100.0 * (inertia.about_balance / inertia.line_about_balance - 1.0);
         ignored.push(format!(
@@ -126,7 +147,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         );
     }
     if bat.fixtures.grip.is_none() {
-        ignored.push("hands: they damp the bat and hardly move a frequency".to_owned());
+        ignored.push("hands: nothing of them; a \"grip\" in the bat file puts them on".to_owned());
     }
     ignored.push("hoop modes of hollow barrels: not a beam's, and not modelled".to_owned());
     ignored

@@ -1,4 +1,5 @@
-//! Several numbers side by side, for as many bats or modes at once as a vector of the machine holds.
+//! Several numbers side by side, for as many bats or modes at once as a vector of the machine
+//! holds.
 //!
 //! Plain loops over arrays, which the compiler turns into vector instructions;
 //! [`crate::eigenpairs`] has pulp choose the widest that the machine knows.

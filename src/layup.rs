@@ -58,9 +58,9 @@ impl Layup {
 
     /// All four: those of the layers added, each layer bending about the bat's axis.
     ///
-    /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core is
-    /// as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is no
-    /// core, the solid rod where it is of the same material, an interpolation between.
+    /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core
+    /// is as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is
+    /// no core, the solid rod where it is of the same material, an interpolation between.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
         let turning = self.turning(section);
@@ -90,8 +90,8 @@ impl Layup {
     }
 
     /// The loss factors of the section in bending and in shear: those of the layers, each weighted
-    /// with its share of the stiffness, for all layers have one curvature and one shear strain. They
-    /// share the strain energy likewise.
+    /// with its share of the stiffness, for all layers have one curvature and one shear strain.
+    /// They share the strain energy likewise.
     ///
     /// # Source
     ///

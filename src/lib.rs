@@ -35,8 +35,8 @@
 //!
 //! # Symbols
 //!
-//! SI everywhere inside; units only at the border, in names and strings. A module that uses a letter
-//! otherwise says so at the formula.
+//! SI everywhere inside; units only at the border, in names and strings. A module that uses a
+//! letter otherwise says so at the formula.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -67,10 +67,9 @@ impl Material {
         positive("shear_modulus", self.shear_modulus, "Pa")
     }
 
-    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own, else
-    /// Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means nothing for
-    /// wood):
-    /// `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
+    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own,
+    /// else Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means
+    /// nothing for wood): `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
     ///
     /// # Source
     ///

@@ -71,7 +71,8 @@ impl Mode {
         let track = Track::new(view, motion, lane);
         let mut shape = Shape::in_lane(view, motion, lane, stretches);
         let (largest, change) = shape.largest(&track);
-        // The barrel end is positive; if it is held, the knob end; if both are, the side of the peak.
+        // The barrel end is positive; if it is held, the knob end; if both are, the side of the
+        // peak.
         const AT_REST: f64 = 1e-9;
         let moving = |end: usize| track.ends[end][0].abs() > AT_REST * largest;
         let leading = match (moving(1), moving(0)) {
@@ -87,6 +88,7 @@ impl Mode {
             // Where a clamp holds the bat its deflection has more than a zero.
             let near = STILL.cbrt() * shape.length();
             nodes.retain(|x| fixed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
+            shape.leave_still(&mut nodes, &fixed.clamps, &track, RESTING * largest);
         }
         let node_error = shape.node_error(&nodes, &track);
         shape.coefficients.iter_mut().chain(&mut shape.turns).for_each(|w| *w *= scale);
@@ -100,8 +102,8 @@ impl Mode {
             round_off: 0.0,
             residual: motion.residual.lane(lane),
             nodes: node_error,
-            // The mass goes as the square of the shape; where the parts of its own change cancel, by
-            // luck, the shape's change is the better measure.
+            // The mass goes as the square of the shape; where the parts of its own change cancel,
+            // by luck, the shape's change is the better measure.
             modal_mass: 2.0 * f64::max((motion.work.lane(lane) / kinetic - change).abs(), worst),
             shape: worst,
         };
@@ -142,6 +144,9 @@ impl Track {
 
 /// A deflection below this share of the largest is none where something holds the bat.
 const STILL: f64 = 1e-12;
+/// Clamps part a bat into stretches that know nothing of each other: one that moves less than this
+/// share of another is at rest but for what the iteration left.
+const RESTING: f64 = 1e-3;
 
 /// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob side,
 /// where odd polynomials change sign and, with `sign` −1, a rotation does.
@@ -208,8 +213,8 @@ impl Shape {
         self.derivatives(k, xi)[0]
     }
 
-    /// Rotation θ of the section at `x` (rad per m of largest deflection): the slope `dφ/dx`, less the
-    /// shear strain of a beam that shears.
+    /// Rotation θ of the section at `x` (rad per m of largest deflection): the slope `dφ/dx`, less
+    /// the shear strain of a beam that shears.
     pub fn rotation(&self, x: f64) -> f64 {
         let (k, xi) = self.locate(x);
         match self.turns.is_empty() {
@@ -365,6 +370,19 @@ impl Shape {
             at = -1.0;
         }
         zeros
+    }
+
+    /// Leaves no nodes on stretches between clamps where the deflection is nowhere above `rest`.
+    fn leave_still(&self, nodes: &mut Vec<f64>, clamps: &[f64], track: &Track, rest: f64) {
+        let same = |a: f64, b: f64| clamps.iter().all(|clamp| (a < *clamp) == (b < *clamp));
+        let places = self
+            .stretches
+            .iter()
+            .flat_map(|(middle, length)| track.xi.iter().map(move |xi| middle + 0.5 * length * xi));
+        let ends = [(0.0, track.ends[0][0]), (self.length(), track.ends[1][0])];
+        let samples: Vec<(f64, f64)> =
+            places.zip(track.samples.iter().copied()).chain(ends).collect();
+        nodes.retain(|node| samples.iter().any(|(x, w)| w.abs() > rest && same(*x, *node)));
     }
 
     /// The zero between `left` and `right` on element `k`, where the deflection is of different

@@ -10,16 +10,17 @@
 //!
 //! which for `p = 3` is the known `(kh)⁴/1440`.
 //!
-//! A taper bends the curvature too: under a constant moment it goes as `1/EI ∝ r⁻⁴`, whose series on
-//! an element over which `ln r` changes by `t` gives, with `m = p − 1`,
+//! A taper bends the curvature too: under a constant moment it goes as `1/EI ∝ r⁻⁴`, whose series
+//! on an element over which `ln r` changes by `t` gives, with `m = p − 1`,
 //!
 //! ```text
 //! Δf/f = ½/(2m + 1) [(m+3 choose 3) m! 2^m/(2m − 1)!!]² tanh(t/4)^{2m}
 //! ```
 //!
-//! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to
-//! `t = 1`). Where sections turn or shear, `k` is the greater wave number of that theory. An element may have as much of both as lies on an ellipse. Bores are not looked at: the
-//! outer radius stands for the section, and the check after the solve for the rest.
+//! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to `t
+//! = 1`). Where sections turn or shear, `k` is the greater wave number of that theory. An element
+//! may have as much of both as lies on an ellipse. Bores are not looked at: the outer radius stands
+//! for the section, and the check after the solve for the rest.
 //!
 //! # Source
 //!
@@ -119,8 +120,8 @@ impl Plan {
         degrees: impl IntoIterator<Item = usize>,
     ) -> Self {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
-        // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds to
-        // the order of a motion at most one for each thing held beyond the two rigid motions.
+        // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds
+        // to the order of a motion at most one for each thing held beyond the two rigid motions.
         let held = bat.fixtures.held().saturating_sub(2);
         let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
         let survey = Survey::of(bat, wanted.theory, phase);

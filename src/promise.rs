@@ -230,8 +230,8 @@ fn ratio(off: f64, stated: f64, known_to: f64) -> f64 {
     off / (stated + known_to / ALWAYS)
 }
 
-/// The worst of one mode's nodes; a node too many or too few is infinitely wrong. The known ones are
-/// without those beside a heavy end.
+/// The worst of one mode's nodes; a node too many or too few is infinitely wrong. The known ones
+/// are without those beside a heavy end.
 fn node_ratio(mode: &Mode, exact: &[f64], length: f64) -> f64 {
     if exact.is_empty() {
         return 0.0;

@@ -64,8 +64,8 @@ pub struct Pole {
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
-    /// Share of the strains in the sum of both energies: a half where it swings, more where it creeps
-    /// back, less where a dashpot stops it.
+    /// Share of the strains in the sum of both energies: a half where it swings, more where it
+    /// creeps back, less where a dashpot stops it.
     pub strain_share: f64,
 }
 
@@ -197,8 +197,8 @@ impl Reduced {
         self.loss[k][k]
     }
 
-    /// Damping of mode k by the dashpots, `vᵀC v` (s) for a strain energy of `½ vᵀv = ½`: its damping
-    /// ratio is half of it times ω.
+    /// Damping of mode k by the dashpots, `vᵀC v` (s) for a strain energy of `½ vᵀv = ½`: its
+    /// damping ratio is half of it times ω.
     pub fn mode_damping(&self, k: usize) -> f64 {
         let drawn = self.members[k].drawn.iter().zip(&self.flexible.dashpots);
         drawn.map(|(w, d)| d.constant * w * w).sum::<f64>() / self.flexible.energy_unit
@@ -261,17 +261,17 @@ impl Reduced {
         left
     }
 
-    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, and those of the
-    /// rigid motions that dashpots slow down. The materials' loss is that of viscous dashpots with the
-    /// modes' own damping ratios.
+    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, and those of
+    /// the rigid motions that dashpots slow down. The materials' loss is that of viscous dashpots
+    /// with the modes' own damping ratios.
     ///
     /// Strains are taken in until no s changes by more than `tolerance`, relative to |s|, or no
     /// further ones are there.
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where dashpots
-    /// are so large that round-off leaves none that dies out.
+    /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
+    /// dashpots are so large that round-off leaves none that dies out.
     pub fn free_motions(
         &mut self,
         wanted: usize,
@@ -511,8 +511,8 @@ impl Reduced {
         }
     }
 
-    /// How much of a pole's motion is in the displacement of these rigid motions and modes when it is
-    /// let go at rest: `vᵀ(sM + C)u/norm`.
+    /// How much of a pole's motion is in the displacement of these rigid motions and modes when it
+    /// is let go at rest: `vᵀ(sM + C)u/norm`.
     pub fn share(&self, pole: &Pole, rigid: &[f64], modes: &[f64]) -> c64 {
         let r = self.rigid_unknowns();
         let c = self.damping();

@@ -62,12 +62,13 @@ impl Oscillator {
         [q0 * c + v0 * s, v0 * s_dot - q0 * omega * omega * s]
     }
 
-    /// Displacement and velocity a time `h > 0` after `[q, v]` under a force (N) that goes in a straight
-    /// line from one value to another meanwhile: exact, however long `h` is.
+    /// Displacement and velocity a time `h > 0` after `[q, v]` under a force (N) that goes in a
+    /// straight line from one value to another meanwhile: exact, however long `h` is.
     ///
-    /// Under `f = a + b t` the motion `(a − cb/k + b t)/k`, `k = mω²`, `c = 2ζωm`, obeys the equation,
-    /// and what is left of the start goes on freely. Where `ωh` is small, or 0, that would be a
-    /// difference of large numbers, and Duhamel's integral of the smooth impulse response is taken.
+    /// Under `f = a + b t` the motion `(a − cb/k + b t)/k`, `k = mω²`, `c = 2ζωm`, obeys the
+    /// equation, and what is left of the start goes on freely. Where `ωh` is small, or 0, that
+    /// would be a difference of large numbers, and Duhamel's integral of the smooth impulse
+    /// response is taken.
     ///
     /// # Source
     ///
@@ -95,8 +96,8 @@ impl Oscillator {
     }
 }
 
-/// `∫₀ʰ e^{s(h−τ)} f(τ) dτ` of a force that goes in a straight line from one value to another: what it
-/// adds to a motion as `e^{st}`.
+/// `∫₀ʰ e^{s(h−τ)} f(τ) dτ` of a force that goes in a straight line from one value to another: what
+/// it adds to a motion as `e^{st}`.
 pub fn driven(s: c64, [from, to]: [f64; 2], h: f64) -> c64 {
     const SMALL: f64 = 1.0;
     if s.norm() * h < SMALL {

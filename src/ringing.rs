@@ -2,8 +2,8 @@
 //! shape.
 //!
 //! Without dashpots, or with dashpots that leave the modes as they are, every motion is an
-//! [`Oscillator`] with its own damping ratio. Else the damped bat's own complex motions ring: a blow
-//! J at a makes `Re Σ 2 v(x) v(a) J e^{st}/norm`, one term for each pair.
+//! [`Oscillator`] with its own damping ratio. Else the damped bat's own complex motions ring: a
+//! blow J at a makes `Re Σ 2 v(x) v(a) J e^{st}/norm`, one term for each pair.
 //!
 //! # Source
 //!
@@ -76,8 +76,8 @@ impl Form {
 }
 
 impl Ringing {
-    /// The bat's rigid motions that are free, left out if `bending_only`, and as many bending ones as
-    /// the solution has modes; complex ones are found for that tolerance.
+    /// The bat's rigid motions that are free, left out if `bending_only`, and as many bending ones
+    /// as the solution has modes; complex ones are found for that tolerance.
     ///
     /// # Errors
     ///
@@ -365,8 +365,8 @@ mod tests {
         }
     }
 
-    /// A blow and a push of the same impulse, very short, are the same; a push of half a sine by its
-    /// chords is off by the chords' own deviation from it.
+    /// A blow and a push of the same impulse, very short, are the same; a push of half a sine by
+    /// its chords is off by the chords' own deviation from it.
     #[test]
     fn a_short_push_is_a_blow() {
         let pin = Support { x: 0.3, kind: Held::Pinned };
@@ -394,8 +394,8 @@ mod tests {
         }
     }
 
-    /// A free bat of its own weight and one with everything that is attached keep the momentum and the
-    /// angular momentum of a blow; a pinned one turns about its pin with them.
+    /// A free bat of its own weight and one with everything that is attached keep the momentum and
+    /// the angular momentum of a blow; a pinned one turns about its pin with them.
     #[test]
     fn rigid_motions_carry_what_is_attached() {
         let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };

@@ -55,8 +55,8 @@ impl Request {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, for too many
-    /// modes, and for a mesh that would not fit into memory.
+    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, for too
+    /// many modes, and for a mesh that would not fit into memory.
     pub fn check(&self, bats: usize) -> Result<()> {
         if self.modes > MOST_MODES {
             return Err(Error::value("modes", self.modes, format!("0 to {MOST_MODES}")));
@@ -108,8 +108,8 @@ pub struct Solution {
     /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
     /// missing.
     pub met: bool,
-    /// Whether it is certain that no mode is missing: by the number of nodes where theory demands it,
-    /// else by the number of slower motions. None where that could not be counted.
+    /// Whether it is certain that no mode is missing: by the number of nodes where theory demands
+    /// it, else by the number of slower motions. None where that could not be counted.
     pub none_missing: Option<bool>,
     /// What ended the refinement before the tolerance was met, if something did.
     pub stopped: Option<String>,
@@ -473,8 +473,8 @@ impl Task<'_> {
     }
 }
 
-/// Whether no mode is missing: mode n of a free bat that does not shear has n + 1 nodes; else as many
-/// motions must be slower than a frequency in the last gap of the list that is wide enough.
+/// Whether no mode is missing: mode n of a free bat that does not shear has n + 1 nodes; else as
+/// many motions must be slower than a frequency in the last gap of the list that is wide enough.
 fn none_missing<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     modes: &[Mode],

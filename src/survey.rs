@@ -31,8 +31,8 @@ pub struct Survey {
     pub root_omega: f64,
 }
 
-/// What the wave number at a sample comes from where sections turn or shear: ρA/EI (s²/m⁴), ρI/EI and
-/// ρA/κGA (s²/m²), and how far the sample before is (m).
+/// What the wave number at a sample comes from where sections turn or shear: ρA/EI (s²/m⁴), ρI/EI
+/// and ρA/κGA (s²/m²), and how far the sample before is (m).
 #[derive(Debug, Clone, Copy, Default)]
 struct Ratios {
     slender: f64,

@@ -5,11 +5,11 @@ use crate::error::{Error, Result};
 use crate::solve::{Request, solve};
 use crate::theory::Theory;
 
-/// The bat, as described, with one factor on every E and G, so that its first mode has the frequency
-/// that was tapped; as it is if none was.
+/// The bat, as described, with one factor on every E and G, so that its first mode has the
+/// frequency that was tapped; as it is if none was.
 ///
-/// A free bat's frequencies go as the root of the factor, and one step finds it; springs to ground do
-/// not grow with it, and then the step is repeated.
+/// A free bat's frequencies go as the root of the factor, and one step finds it; springs to ground
+/// do not grow with it, and then the step is repeated.
 ///
 /// # Errors
 ///

@@ -105,6 +105,7 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
         "regions": [region],
         "attachments": [{ "x": 0.8, "mass": 0.1, "offset": 0.01, "rotary_inertia": 1e-5 },
             { "x": 0.3, "stiffness": 1e5 }],
+        "tapes": [{ "from": 0, "to": 0.25, "mass": 0.02 }],
         "absorbers": [{ "x": 0.4, "mass": 0.01, "frequency": 5000 }],
         "joints": [{ "x": 0.35, "rotational_stiffness": 1e4 }],
         "supports": [{ "x": 0, "type": "clamped" }],
@@ -116,6 +117,7 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     let expected = [
         part(Part::Materials),
         part(Part::Weights),
+        part(Part::Tapes),
         part(Part::Springs),
         part(Part::Absorbers),
         part(Part::Joints),
@@ -129,6 +131,7 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     // above the modes is a mass.
     for (part, sign) in [
         (Part::Weights, -1.0),
+        (Part::Tapes, -1.0),
         (Part::Springs, 1.0),
         (Part::Absorbers, -1.0),
         (Part::Joints, -1.0),
@@ -245,8 +248,8 @@ fn the_smallest_model_is_within_the_tolerance_and_no_smaller_one_is() {
     assert_eq!(chosen, [full, turning, plain, plain, full, full, full, plain]);
 }
 
-/// A weight too small to matter goes, one that matters stays; and the tolerance is kept by the model
-/// as a whole, not by each part alone.
+/// A weight too small to matter goes, one that matters stays; and the tolerance is kept by the
+/// model as a whole, not by each part alone.
 #[test]
 fn parts_that_do_not_matter_go_and_those_that_do_stay() {
     let tape = json!({ "attachments": [{ "x": 0.1, "mass": 1e-4 }] });

@@ -175,9 +175,9 @@ fn responses_are_reciprocal() {
     }
 }
 
-/// The deflections of the textbooks: `L³/48EI + L/4κGA` in the middle between two pins, `L³/3EI + L/κGA` at the
-/// tip of a cantilever, and of a free dowel forced at its tip, whose moment is `Lξ²(1 − ξ)` in
-/// balance with its inertia, `L³/105EI` there and `L³/140EI` at the other end.
+/// The deflections of the textbooks: `L³/48EI + L/4κGA` in the middle between two pins, `L³/3EI +
+/// L/κGA` at the tip of a cantilever, and of a free dowel forced at its tip, whose moment is `Lξ²(1
+/// − ξ)` in balance with its inertia, `L³/105EI` there and `L³/140EI` at the other end.
 #[test]
 fn the_elastic_response_at_0_hz_is_the_static_deflection() {
     let held = |supports: &[(f64, Held)]| {
@@ -223,9 +223,9 @@ fn the_elastic_response_at_0_hz_is_the_static_deflection() {
     }
 }
 
-/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL − 1`,
-/// `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of Vibration,
-/// 1960); with losses λ and EI are complex.
+/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL −
+/// 1`, `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of
+/// Vibration, 1960); with losses λ and EI are complex.
 fn at_the_tip(frequency: f64, loss: f64, bed: [f64; 2]) -> c64 {
     let omega = TAU * frequency;
     let area = std::f64::consts::PI * RADIUS.powi(2);
@@ -260,8 +260,8 @@ fn uniform_losses_answer_as_the_closed_form_does() {
     }
 }
 
-/// Hands over the whole dowel damp all motions alike: `2 Re s = −c/ρA`, `|s|² = ω² + k/ρA`, and what
-/// they hold with dashpots alone comes to rest at `c/ρA`; heavy ones let no slow mode swing.
+/// Hands over the whole dowel damp all motions alike: `2 Re s = −c/ρA`, `|s|² = ω² + k/ρA`, and
+/// what they hold with dashpots alone comes to rest at `c/ρA`; heavy ones let no slow mode swing.
 #[test]
 fn hands_all_over_have_the_closed_form() {
     let area = std::f64::consts::PI * RADIUS.powi(2);

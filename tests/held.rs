@@ -54,8 +54,8 @@ fn spectrum(fixtures: Fixtures, theory: Theory) -> Vec<f64> {
     rigid.chain(solution.modes.iter().map(|mode| mode.frequency())).collect()
 }
 
-/// Rayleigh's theorem on one constraint: a spring or a support more moves a frequency up, at most to
-/// the next one; a mass more moves it down, at most to the one before.
+/// Rayleigh's theorem on one constraint: a spring or a support more moves a frequency up, at most
+/// to the next one; a mass more moves it down, at most to the one before.
 #[test]
 fn one_thing_more_moves_a_frequency_at_most_to_its_neighbour() {
     let base = || Fixtures {

@@ -15,8 +15,8 @@ use sweetspot::{Bat, Request, Solution, solve};
 
 const BOTH: [Theory; 2] = [Theory::EulerBernoulli, Theory::Timoshenko];
 
-/// So fine that what is left of an error is round-off: 48 elements of degree 9 at least, whose error
-/// of the first eight modes is far below 1e-16.
+/// So fine that what is left of an error is round-off: 48 elements of degree 9 at least, whose
+/// error of the first eight modes is far below 1e-16.
 fn finest(bat: &Bat, theory: Theory) -> Solution {
     let request =
         Request { modes: 8, elements: Some(48), degree: Some(9), theory, ..Request::default() };
@@ -176,7 +176,8 @@ fn a_bore_filled_with_its_own_wood_is_solid_and_with_nothing_to_speak_of_empty()
         let empty = frequencies(&bored(None), theory);
         assert!(apart(&frequencies(&bored(Some(wood())), theory), &solid) < 1e-13, "{theory:?}");
         assert!(apart(&frequencies(&bored(Some(air.clone())), theory), &empty) < 1e-13);
-        // Cork weighs and hardly holds: by the ratio of the moduli at most can it raise a frequency.
+        // Cork weighs and hardly holds: by the ratio of the moduli at most can it raise a
+        // frequency.
         let corked = frequencies(&bored(Some(cork.clone())), theory);
         let stiffer = 2e7 / MODULUS + 8e6 / 0.9e9;
         assert!(corked.iter().zip(&empty).all(|(c, e)| c / e < 1.0 + stiffer), "{theory:?}");
@@ -323,9 +324,9 @@ fn a_stiff_joint_lowers_a_frequency_by_what_gives_way_in_it() {
     }
 }
 
-/// In the middle of the dowel: the two halves turn against each other at `ω² = 192 k/(M L²)`, bending
-/// modes of even number have no moment there and stay, the next symmetric one has halves as free
-/// bars of half the length, at four times f₁.
+/// In the middle of the dowel: the two halves turn against each other at `ω² = 192 k/(M L²)`,
+/// bending modes of even number have no moment there and stay, the next symmetric one has halves as
+/// free bars of half the length, at four times f₁.
 #[test]
 fn a_joint_that_gives_way_leaves_two_hinged_halves() {
     let mass = DENSITY * PI * RADIUS * RADIUS * LENGTH;

@@ -1,4 +1,5 @@
-//! The three theories beside each other: each the limit of the next, none stiffer than it should be.
+//! The three theories beside each other: each the limit of the next, none stiffer than it should
+//! be.
 
 mod common;
 
@@ -28,8 +29,8 @@ fn solved(bat: &Bat, theory: Theory, modes: usize, tolerance: f64) -> Solution {
     solution
 }
 
-/// Rayleigh's beam is Euler–Bernoulli's with more inertia, Timoshenko's is Rayleigh's with freedom to
-/// shear: by the minimum principle no mode is faster.
+/// Rayleigh's beam is Euler–Bernoulli's with more inertia, Timoshenko's is Rayleigh's with freedom
+/// to shear: by the minimum principle no mode is faster.
 #[test]
 fn every_mode_is_slower_from_theory_to_theory() {
     let cone = sheared(bat(&[0.0, LENGTH], &[0.0125, 0.033], &[0.0; 2], Interpolation::Linear));
@@ -43,8 +44,8 @@ fn every_mode_is_slower_from_theory_to_theory() {
     }
 }
 
-/// To first order shear and rotary inertia take `½ (I/A)(E/κG + 1) ∫w″²…/∫w²…` off a frequency: with
-/// the square of the slenderness, 100 times less for a bat 10 times as slender.
+/// To first order shear and rotary inertia take `½ (I/A)(E/κG + 1) ∫w″²…/∫w²…` off a frequency:
+/// with the square of the slenderness, 100 times less for a bat 10 times as slender.
 #[test]
 fn what_shear_takes_off_falls_with_the_square_of_the_slenderness() {
     let taken = |radius: f64| -> Vec<f64> {

@@ -57,16 +57,16 @@ impl Advice {
 /// Most modes that are advised on.
 pub const MOST_MODES: usize = 100;
 
-/// What each part of a bat's model does to its first modes, and the smallest model whose frequencies
-/// are within `tolerance` of those of everything together.
+/// What each part of a bat's model does to its first modes, and the smallest model whose
+/// frequencies are within `tolerance` of those of everything together.
 ///
-/// Every model is solved to an accuracy far below the tolerance and the effects. The stiffness that a
-/// tapped frequency gives is found once, with everything on, and kept when parts are taken off.
+/// Every model is solved to an accuracy far below the tolerance and the effects. The stiffness that
+/// a tapped frequency gives is found once, with everything on, and kept when parts are taken off.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a number of modes that is not 1 to [`MOST_MODES`] or a tolerance that is not
-/// between 0 and 1; those of [`crate::solve::solve`].
+/// [`Error::Value`] for a number of modes that is not 1 to [`MOST_MODES`] or a tolerance that is
+/// not between 0 and 1; those of [`crate::solve::solve`].
 pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
     if !(1..=MOST_MODES).contains(&modes) {
         return Err(Error::value("modes", modes, format!("1 to {MOST_MODES}")));

@@ -10,6 +10,7 @@ pub enum Part {
     Materials,
     /// Masses of `attachments`, with their offset and rotary inertia.
     Weights,
+    Tapes,
     /// Springs of `attachments` to the ground.
     Springs,
     Absorbers,
@@ -21,9 +22,10 @@ pub enum Part {
 
 impl Part {
     /// All of them, in the order in which they are shown.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Materials,
         Self::Weights,
+        Self::Tapes,
         Self::Springs,
         Self::Absorbers,
         Self::Joints,
@@ -32,14 +34,15 @@ impl Part {
     ];
 
     /// The kinds that are attached to the bat or hold it in a rig.
-    pub const ATTACHED: [Self; 5] =
-        [Self::Weights, Self::Springs, Self::Absorbers, Self::Joints, Self::Supports];
+    pub const ATTACHED: [Self; 6] =
+        [Self::Weights, Self::Tapes, Self::Springs, Self::Absorbers, Self::Joints, Self::Supports];
 
     /// What people and files call it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Materials => "other materials",
             Self::Weights => "weights",
+            Self::Tapes => "tape",
             Self::Springs => "springs to ground",
             Self::Absorbers => "absorbers",
             Self::Joints => "joints",
@@ -54,6 +57,7 @@ impl Part {
         match self {
             Self::Materials => !fixtures.regions.is_empty(),
             Self::Weights => fixtures.attachments.iter().any(weighs),
+            Self::Tapes => fixtures.tapes.iter().any(|tape| tape.mass > 0.0),
             Self::Springs => fixtures.attachments.iter().any(springs),
             Self::Absorbers => !fixtures.absorbers.is_empty(),
             Self::Joints => !fixtures.joints.is_empty(),
@@ -68,8 +72,11 @@ impl Part {
         match self {
             Self::Materials => {
                 fixtures.regions.clear();
-                bat.layups.truncate(1);
-                bat.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
+                bat.lay_out();
+            }
+            Self::Tapes => {
+                fixtures.tapes.clear();
+                bat.lay_out();
             }
             Self::Weights => {
                 for a in &mut fixtures.attachments {
@@ -86,7 +93,7 @@ impl Part {
             Self::Supports => fixtures.supports.clear(),
             Self::Grip => fixtures.grip = None,
         }
-        fixtures.attachments.retain(|a| weighs(a) || springs(a));
+        bat.fixtures.attachments.retain(|a| weighs(a) || springs(a));
     }
 }
 

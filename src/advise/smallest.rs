@@ -16,7 +16,8 @@ pub struct Smallest {
 }
 
 /// The model with the fewest switches on whose every frequency is within `tolerance` of the full
-/// one's, errors included; of several, the nearest. Every candidate is solved, from the smallest on.
+/// one's, errors included; of several, the nearest. Every candidate is solved, from the smallest
+/// on.
 ///
 /// # Errors
 ///

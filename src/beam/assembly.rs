@@ -13,8 +13,8 @@ use crate::theory::Theory;
 /// slope of every node and, after those of its left node, the bubbles of an element of degree
 /// above 3 and, with shear, the shear strains.
 ///
-/// Units: deflections in m, rotations in rad, bubbles (curvatures) in 1/m, shear strains in 1; `K` in N/m to N m³, `M` in
-/// kg to kg m⁴.
+/// Units: deflections in m, rotations in rad, bubbles (curvatures) in 1/m, shear strains in 1; `K`
+/// in N/m to N m³, `M` in kg to kg m⁴.
 #[derive(Debug, Clone)]
 pub struct Pencil {
     pub stiffness: CscMatrix<f64>,

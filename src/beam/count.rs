@@ -4,8 +4,8 @@
 //! inertia). Each side is eliminated inwards from its free end: what lies beyond a border is a
 //! quadratic form in its deflection and rotation, to which a cell adds its own, in its strains, and
 //! hands on what is left when they are eliminated. Strains keep the pivots near 1 and nothing large
-//! is subtracted, whatever the number of elements. A contact enters as its reaction `t`, with
-//! `t (a·u) − ½ δ t²`, so that no stiffness is ever multiplied; every such reaction adds one negative
+//! is subtracted, whatever the number of elements. A contact enters as its reaction `t`, with `t
+//! (a·u) − ½ δ t²`, so that no stiffness is ever multiplied; every such reaction adds one negative
 //! pivot of its own.
 //!
 //! # Source
@@ -23,8 +23,8 @@ struct Form {
     rows: Vec<Vec<f64>>,
 }
 
-/// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a pivot
-/// was too small to tell.
+/// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a
+/// pivot was too small to tell.
 pub fn slower<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     omega: f64,

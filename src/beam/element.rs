@@ -2,15 +2,15 @@
 //!
 //! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the
 //! unknowns are strains: the curvature is `θ′ = Σ c_j P_j` and, of a beam that shears, the shear
-//! strain `w′ − θ = Σ g_j P_j`, `j = 0 … p−2` for both. Rotation and deflection follow by integration
-//! from the left end,
+//! strain `w′ − θ = Σ g_j P_j`, `j = 0 … p−2` for both. Rotation and deflection follow by
+//! integration from the left end,
 //!
 //! ```text
 //! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫(θ + Σ g_j P_j),   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
 //! ```
 //!
-//! Without shear that is the Hermite space of degree p seen from its strains, and it is the limit of
-//! the other for G → ∞: a strain that costs much is small, and nothing else changes, so that a
+//! Without shear that is the Hermite space of degree p seen from its strains, and it is the limit
+//! of the other for G → ∞: a strain that costs much is small, and nothing else changes, so that a
 //! slender beam neither locks nor loses digits. [`Element::hermite`] gives the usual matrices of
 //! `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis of the same blocks.
 //!
@@ -184,8 +184,8 @@ impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
         Self { length, middle, stiffness, mass, beyond }
     }
 
-    /// Writes `L⁻¹`, lower triangular in blocks of curvature and shear, of the stiffness `D = L Lᵀ` in
-    /// that unit of energy.
+    /// Writes `L⁻¹`, lower triangular in blocks of curvature and shear, of the stiffness `D = L Lᵀ`
+    /// in that unit of energy.
     #[inline(always)]
     pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, W>) {
         invert_factor::<R, N, W>(&self.stiffness, unit, inverse, 0);
@@ -458,8 +458,8 @@ pub fn elements<const N: usize, const W: usize>(
 }
 
 impl<const N: usize, const W: usize> Element<f64, N, W> {
-    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature
-    /// `(θ₂ − θ₁)/h`, its slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the
+    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature `(θ₂ −
+    /// θ₁)/h`, its slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the
     /// bubbles, whose amplitude `b_j` is the coefficient of `P_j` in the curvature, and the shear
     /// strains.
     pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, W> {

@@ -5,13 +5,13 @@
 //!
 //! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or
 //! one point of an elastic bed. Its displacement `a·q + a_ρ·ρ` follows from the strains q and the
-//! rigid motion ρ, and it may give way by `√δ s`, `δ = U/k` in the unit of energy `U`, with a strain
-//! `s` of its own; a support has `δ = 0`. Nothing is ever multiplied by a stiffness, so no digits go
-//! with it, however stiff or soft it is. Two contacts tell the rigid motion (the statically
-//! determinate bat), every further one is a condition on the strains alone, and the compliance is
-//! followed by the orthogonal projection on the strains that meet the conditions: the force method.
-//! Where fewer than two hold, the rigid motions that stay free are taken out as they are of a free
-//! bat.
+//! rigid motion ρ, and it may give way by `√δ s`, `δ = U/k` in the unit of energy `U`, with a
+//! strain `s` of its own; a support has `δ = 0`. Nothing is ever multiplied by a stiffness, so no
+//! digits go with it, however stiff or soft it is. Two contacts tell the rigid motion (the
+//! statically determinate bat), every further one is a condition on the strains alone, and the
+//! compliance is followed by the orthogonal projection on the strains that meet the conditions: the
+//! force method. Where fewer than two hold, the rigid motions that stay free are taken out as they
+//! are of a free bat.
 
 use std::ops::Range;
 
@@ -404,8 +404,8 @@ impl<S: Real> Fixed<S> {
         }
     }
 
-    /// `y = A q` of the held bat. Leaves the loads, the rigid motion taken out, and the forces of the
-    /// contacts; returns the rigid motion.
+    /// `y = A q` of the held bat. Leaves the loads, the rigid motion taken out, and the forces of
+    /// the contacts; returns the rigid motion.
     pub fn compliance<R: Over<S>, const N: usize, const W: usize>(
         &self,
         body: &Body<S, N, W>,
@@ -438,9 +438,9 @@ impl<S: Real> Fixed<S> {
         rigid
     }
 
-    /// The scaled strains (times the unit of energy) of the held bat under a unit force at the place
-    /// `s` in [0, 1] outwards on a cell, in balance with the inertia of the rigid motions that are
-    /// free.
+    /// The scaled strains (times the unit of energy) of the held bat under a unit force at the
+    /// place `s` in [0, 1] outwards on a cell, in balance with the inertia of the rigid motions
+    /// that are free.
     ///
     /// By Maxwell's theorem their product with any scaled strains is the deflection there, rigid
     /// motions taken out.
@@ -505,8 +505,8 @@ impl<S: Real> Fixed<S> {
         }
     }
 
-    /// Takes the loads of a rigid motion out of these; force and moment about the balance point that
-    /// are left.
+    /// Takes the loads of a rigid motion out of these; force and moment about the balance point
+    /// that are left.
     fn take_out<R: Over<S>, const N: usize, const W: usize>(
         &self,
         body: &Body<S, N, W>,
@@ -594,7 +594,8 @@ impl<S: Real> Fixed<S> {
         self.holds.rigid_of(|k| of(self.holds.primary[k]))
     }
 
-    /// The free rigid motion of a bat of that mass and inertia that carries force and moment `total`.
+    /// The free rigid motion of a bat of that mass and inertia that carries force and moment
+    /// `total`.
     pub fn free_part<R: Over<S>>(&self, mass: S, inertia: S, total: [R; 2]) -> Rigid<R> {
         self.holds.free_part(mass, inertia, total)
     }

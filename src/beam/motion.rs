@@ -1,19 +1,21 @@
 //! One bending motion of the bat: its shape, its energies, and how far it is from a mode.
 //!
-//! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a
-//! computed mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free
-//! ends (`M′ = −Q − ω²ρI θ` with rotary inertia), and these make the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it
-//! is a polynomial in every element and because the eigensolve stops somewhere, and
+//! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a computed
+//! mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free ends (`M′ =
+//! −Q − ω²ρI θ` with rotary inertia), and these make the curvature `w*″ = M/EI`. The computed
+//! curvature w″ differs, because it is a polynomial in every element and because the eigensolve
+//! stops somewhere, and
 //!
 //! ```text
 //! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
 //! ```
 //!
-//! (and, of a beam that shears, `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` in the numerator, `∫κGA γ² dx` in
-//! the denominator, and likewise for every spring and joint), with `c_j` the share of the exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error
-//! of Rayleigh's quotient is `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1 − λ/λ_j`,
-//! which is 1 for the fast modes that a mesh cannot hold. So `η/2` is the relative error of the
-//! frequency, from the answer itself and no second mesh, thin ends included.
+//! (and, of a beam that shears, `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` in the numerator, `∫κGA γ²
+//! dx` in the denominator, and likewise for every spring and joint), with `c_j` the share of the
+//! exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is
+//! `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1 − λ/λ_j`, which is 1 for the fast modes
+//! that a mesh cannot hold. So `η/2` is the relative error of the frequency, from the answer itself
+//! and no second mesh, thin ends included.
 //!
 //! # Source
 //!
@@ -126,9 +128,9 @@ impl<R: Real> Motion<R> {
     /// if wanted.
     ///
     /// With `value`, the eigenvalue of the compliance that the strains of a bare bat belong to, the
-    /// kinetic energy is taken from it: half the work, no residual (0), and round-off of ε times the
-    /// greatest eigenvalue over this one. Strains in `known`, one motion after the other, are other
-    /// modes, whose round-off is taken out.
+    /// kinetic energy is taken from it: half the work, no residual (0), and round-off of ε times
+    /// the greatest eigenvalue over this one. Strains in `known`, one motion after the other, are
+    /// other modes, whose round-off is taken out.
     #[inline(always)]
     pub fn take<S: Real>(
         &mut self,
@@ -380,8 +382,8 @@ impl<R: Real> Motion<R> {
         count
     }
 
-    /// Raises every element's number, knob to tip, to its part of the defect, in any lane; `split` of
-    /// them are on the knob side.
+    /// Raises every element's number, knob to tip, to its part of the defect, in any lane; `split`
+    /// of them are on the knob side.
     pub fn add_defects(&self, split: usize, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
@@ -399,8 +401,8 @@ impl<R: Real> Motion<R> {
         self.work = R::default();
     }
 
-    /// After [`Self::take`], the strains' differences at the points become `w − w*`, the rigid motions
-    /// taken out.
+    /// After [`Self::take`], the strains' differences at the points become `w − w*`, the rigid
+    /// motions taken out.
     #[inline(always)]
     pub fn take_changes<S: Real>(&mut self, view: &View<S>)
     where

@@ -36,7 +36,8 @@ use crate::theory::Theory;
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
 
-/// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2` strains.
+/// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2`
+/// strains.
 ///
 /// Vectors of strains hold `W − 2` numbers for each element, the knob side first, both sides from
 /// the root outwards, and then those of springs.
@@ -443,8 +444,8 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
     }
 }
 
-/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions is
-/// then compiled once.
+/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions
+/// is then compiled once.
 #[derive(Clone, Copy)]
 pub struct View<'a, S> {
     pub rule: &'static Rule,

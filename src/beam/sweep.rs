@@ -169,8 +169,8 @@ pub struct Inwards<R, const KEEP: bool> {
 }
 
 impl<R: Real, const KEEP: bool> Inwards<R, KEEP> {
-    /// The scaled strains of these cells under their loads, those of the rigid motion taken out: the
-    /// adjoint of [`Outwards::over`].
+    /// The scaled strains of these cells under their loads, those of the rigid motion taken out:
+    /// the adjoint of [`Outwards::over`].
     #[inline(always)]
     pub fn over<S: Real, const W: usize>(
         &mut self,

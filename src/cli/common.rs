@@ -129,8 +129,8 @@ impl SolveArgs {
         }
     }
 
-    /// As many modes as wanted, or as the asked elements can bend in, one at least on every piece of
-    /// the profile.
+    /// As many modes as wanted, or as the asked elements can bend in, one at least on every piece
+    /// of the profile.
     pub fn modes_within(&self, wanted: usize, pieces: usize) -> usize {
         let degree = self.degree.map_or(3, usize::from);
         let ways = |asked: u32| (degree - 1) * pieces.max(asked as usize);
@@ -348,6 +348,11 @@ pub fn curve_csv(impacts: &[Impact]) -> String {
         out.push('\n');
     }
     out
+}
+
+/// A number as JSON writes it: the shortest that reads back to the same bits.
+pub fn number(value: f64) -> String {
+    serde_json::Value::from(value).to_string()
 }
 
 /// A length as it is said in messages, whichever unit it came in.

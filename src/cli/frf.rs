@@ -7,12 +7,15 @@ use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result, nearest};
 use sweetspot::frf::{Frf, Kind, Sample};
+use sweetspot::report::text::wrapped;
 use sweetspot::report::{file, json};
 use sweetspot::solve::{self, Request};
 use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, quantity, shown_length};
+use crate::cli::common::{
+    BatArgs, OutputArgs, Prepared, SolveArgs, number, quantity, shown_length,
+};
 
 /// Frequency response between two points: receptance, mobility, accelerance
 ///
@@ -219,7 +222,7 @@ fn csv(kind: Kind, samples: &[Sample]) -> String {
             phase(value.re, value.im),
             sample.truncation * factor.norm(),
         ];
-        out += &cells.map(|cell| cell.to_string()).join(",");
+        out += &cells.map(number).join(",");
         out.push('\n');
     }
     out
@@ -242,8 +245,9 @@ fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> Strin
         Kind::Accelerance => "1/kg",
     };
     let name = kind.name();
-    let mut out =
-        format!("Frequency response: {name} from a force at {} to {}\n", place(at), place(to));
+    let title =
+        format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
+    let mut out = wrapped(&title, 4);
     let _ = writeln!(
         out,
         "  {:>14} {:>18} {:>14}",
@@ -259,16 +263,16 @@ fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> Strin
     }
     let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
     let missing = samples.iter().map(share).fold(0.0, f64::max);
-    let _ = writeln!(
-        out,
-        "  static compliance {:.6e} m/N{}\n  {} strains, {} of them modes; without the others \
-         {missing:.0e} of a value at most\n  the modes' frequencies within {:.0e}",
-        frf.static_compliance(),
-        if frf.solution.rigid_modes > 0 { ", rigid motions left out" } else { "" },
-        frf.strains(),
-        frf.solution.modes.len(),
+    let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
+    let _ = writeln!(out, "  under a constant force {:.6e} m/N{bending}", frf.static_compliance());
+    let modes = frf.solution.modes.len();
+    let made = format!(
+        "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
+         is missing, and the modes' frequencies are within {:.0e}",
+        frf.strains() - modes.min(frf.strains()),
         frf.solution.worst()
     );
+    out += &wrapped(&made, 2);
     out
 }
 

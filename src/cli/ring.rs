@@ -13,11 +13,12 @@ use sweetspot::solve::Solution;
 use sweetspot::units::Quantity;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, quantity, shown_length};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, number, quantity, shown_length};
 
 /// Motion after a blow, under a force or from an initial shape
 ///
-/// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1 ms,2 ms"
+/// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1
+/// ms,2 ms"
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -99,7 +100,10 @@ pub fn run(args: &Args) -> Result<Done> {
         "format": "sweetspot-ring/1",
         "generator": json::generator(),
         "modes": args.bat.count(),
-        "rigid_motion": !args.bending_only,
+        "theory": solution.theory.name(),
+        "rigid_motion": !args.bending_only && solution.rigid_modes > 0,
+        "at_m": args.at,
+        "impulse_n_s": args.impulse,
         "x_m": x,
         "times_s": times,
         "deflection_m": frames,
@@ -162,8 +166,8 @@ fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {
     times.iter().for_each(|t| out += &format!(",w_m_at_{t}_s"));
     out.push('\n');
     for (k, x) in x.iter().enumerate() {
-        out += &x.to_string();
-        frames.iter().for_each(|frame| out += &format!(",{}", frame[k]));
+        out += &number(*x);
+        frames.iter().for_each(|frame| out += &format!(",{}", number(frame[k])));
         out.push('\n');
     }
     out

@@ -98,8 +98,8 @@ pub struct Hitter<'a> {
 }
 
 impl<'a> Hitter<'a> {
-    /// A free bat in that scene. It recoils as its theory says: without rotary inertia, as a line of
-    /// mass.
+    /// A free bat in that scene. It recoils as its theory says: without rotary inertia, as a line
+    /// of mass.
     pub fn new(model: Model, scene: &'a Scene, bat: &Bat, solution: &'a Solution) -> Self {
         let body = bat.inertia();
         let line = if solution.theory.turns() { body } else { body.as_line() };

@@ -1,13 +1,14 @@
 //! The advice: a table, a few lines, JSON.
 
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
 use crate::advise::advice::Advice;
-use crate::advise::damping::Damping;
 use crate::advise::effect::{Effect, Shift, Switch};
 use crate::advise::model::{Model, Solved};
+use crate::damping::Damped;
 use crate::report::json::generator;
 use crate::report::text::{Units, wrapped};
 use crate::theory::Theory;
@@ -62,7 +63,7 @@ pub fn text(advice: &Advice, units: Units) -> String {
         );
     }
     out += &bodies(advice, units);
-    out += &damping(&advice.damping);
+    out += &damping(advice);
     for line in recommendation(advice) {
         out += &wrapped(&line, 2);
     }
@@ -208,7 +209,8 @@ fn bodies(advice: &Advice, units: Units) -> String {
     }
 }
 
-fn damping(damping: &Damping) -> String {
+fn damping(advice: &Advice) -> String {
+    let Advice { damping, full, .. } = advice;
     let [least, most] = damping.material;
     // f√(1 − ζ²), to the first order.
     let lower = format!("it lowers a frequency by ζ²/2, {:.1e} of it at most", 0.5 * most * most);
@@ -229,9 +231,34 @@ fn damping(damping: &Damping) -> String {
     };
     if !damping.dashpots.is_empty() {
         let dashpots = damping.dashpots.join("; ");
-        out += &wrapped(&format!("  and dashpots ({dashpots}): not in the numbers here"), 4);
+        out += &wrapped(&format!("  with dashpots ({dashpots}), damped and undamped:"), 4);
+    }
+    let damped = &full.solution.damping.modes;
+    if damped.len() < full.solution.modes.len() {
+        return out;
+    }
+    for from in (0..damped.len()).step_by(ABREAST) {
+        let block = from..damped.len().min(from + ABREAST);
+        out += &row("", block.clone().map(|k| format!("mode {}", k + 1)));
+        let ratio = |k: usize| two_digits(damped[k].ratio);
+        out += &row("damping ratio", block.clone().map(ratio));
+        // A mode that only creeps back has no frequency to compare.
+        let moved = |k: usize| match damped[k].swinging() / full.solution.modes[k].omega {
+            0.0 => "creeps".to_owned(),
+            share => two_digits(100.0 * (share - 1.0)),
+        };
+        out += &row("frequency by damping, %", block.map(moved));
     }
     out
+}
+
+/// Two digits, with a power of ten where the plain number would be a row of zeros.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        0.0 | 1e-2..1e4 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
 }
 
 /// A model in words.
@@ -306,6 +333,9 @@ fn percent_of(value: f64) -> String {
 pub fn json(advice: &Advice) -> Value {
     let full = &advice.full;
     let smallest = &advice.smallest;
+    let damped = |of: fn(&Damped) -> f64| -> Vec<f64> {
+        full.solution.damping.modes.iter().map(of).collect()
+    };
     let mut full_model = of_model(full);
     full_model["tolerance_met"] = json!(advice.met());
     let mut own = of_model(&smallest.solved);
@@ -323,6 +353,8 @@ pub fn json(advice: &Advice) -> Value {
         "damping": {
             "material_ratio": advice.damping.material,
             "dashpots": advice.damping.dashpots,
+            "ratio_by_mode": damped(|damped| damped.ratio),
+            "damped_frequency_hz_by_mode": damped(|damped| damped.swinging() / TAU),
         },
         "smallest_model": own,
         "out_of_scope": advice.outside,

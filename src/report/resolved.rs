@@ -39,10 +39,11 @@ fn material(material: &Material) -> Value {
         "youngs_modulus": material.youngs_modulus,
         "loss_factor": material.loss_factor,
     });
-    match (material.poisson_ratio, material.shear_modulus) {
-        (Some(nu), _) => numbers["poisson_ratio"] = json!(nu),
-        (None, Some(g)) => numbers["shear_modulus"] = json!(g),
-        _ => {}
+    if let Some(modulus) = material.shear_modulus {
+        numbers["shear_modulus"] = json!(modulus);
+    }
+    if let Some(nu) = material.poisson_ratio {
+        numbers["poisson_ratio"] = json!(nu);
     }
     if let Some(kappa) = material.shear_coefficient {
         numbers["shear_coefficient"] = json!(kappa);

@@ -96,12 +96,20 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
+/// So many decimals, or a power of ten where that would be all zeros or very long.
+fn fixed(value: f64, decimals: usize) -> String {
+    match value.abs() {
+        0.0 | 1e-2..1e6 => format!("{value:.decimals$}"),
+        _ => format!("{value:.2e}"),
+    }
+}
+
 /// The nodes of so many modes fit a screen or two.
 const MOST_NODES: usize = 20;
 
 /// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
 pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
-    let mut out = format!("Bending modes ({})\n", bat.fixtures.freedom());
+    let mut out = wrapped(&format!("Bending modes ({})", bat.fixtures.freedom()), 2);
     if solution.modes.is_empty() {
         return out;
     }
@@ -110,12 +118,12 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     for mode in &solution.modes {
         let _ = writeln!(
             out,
-            "  {:>4} {:>9.2} Hz {:>7.3}   within {:<8} {:>8.1} g",
+            "  {:>4} {:>9} Hz {:>7}   within {:<8} {:>8} g",
             mode.order,
-            mode.frequency(),
-            mode.omega / first,
+            fixed(mode.frequency(), 2),
+            fixed(mode.omega / first, 3),
             format!("{:.0e}", mode.error.total()),
-            1e3 * mode.modal_mass,
+            fixed(1e3 * mode.modal_mass, 1),
         );
     }
     out += &damped::table(solution);
@@ -125,6 +133,10 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
         let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
         let mut label = format!("mode {}", mode.order);
+        if mode.nodes.is_empty() {
+            let _ = writeln!(out, "  {label:<8} none");
+            continue;
+        }
         for (end, places) in [("from knob", &mode.nodes), ("from tip", &from_tip)] {
             for line in units.positions(places) {
                 let line = format!("  {label:<8} {end:<9}  {line}");

@@ -56,8 +56,9 @@ pub struct Reference {
 const FINEST: f64 = 1e-13;
 
 impl Reference {
-    /// The frequencies of the `modes` lowest bending modes by that theory at a tolerance of 1e-13 or, where that
-    /// cannot be reached, as near as can be; and again with elements of one degree more or less.
+    /// The frequencies of the `modes` lowest bending modes by that theory at a tolerance of 1e-13
+    /// or, where that cannot be reached, as near as can be; and again with elements of one degree
+    /// more or less.
     ///
     /// # Errors
     ///

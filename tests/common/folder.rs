@@ -42,8 +42,8 @@ impl Folder {
         self.command(args).output().unwrap()
     }
 
-    /// Standard output of a run that must succeed without a word on standard error but that shear is
-    /// not known.
+    /// Standard output of a run that must succeed without a word on standard error but that shear
+    /// is not known.
     pub fn text(&self, args: &[&str]) -> String {
         let output = self.run(args);
         let told = but_shear(&String::from_utf8_lossy(&output.stderr));
@@ -56,8 +56,8 @@ impl Folder {
     }
 }
 
-/// What was said on standard error, without the last line if it is that a material's shear modulus is
-/// missing: one test has that.
+/// What was said on standard error, without the last line if it is that a material's shear modulus
+/// is missing: one test has that.
 pub fn but_shear(told: &str) -> String {
     let mut lines: Vec<&str> = told.lines().collect();
     if lines.last().is_some_and(|line| line.starts_with("warning: shear is left out")) {
