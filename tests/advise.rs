@@ -154,7 +154,7 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     // The weights are 0.11 kg with the absorber.
     let body = |switch: Switch| row(&advice, switch).body[0];
     assert!((body(Switch::Part(Part::Weights)) - 0.1).abs() < 1e-14);
-    assert!((body(Switch::Attachments) - 0.11).abs() < 1e-14);
+    assert!((body(Switch::Attachments) - 0.13).abs() < 1e-14);
     assert_eq!(body(Switch::Part(Part::Grip)), 0.0);
 }
 
