@@ -151,7 +151,7 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     let clamp = row(&advice, Switch::Part(Part::Supports));
     assert_eq!(clamp.without.solution.rigid_modes, 0);
     assert!(clamp.shifts.as_ref().unwrap().iter().all(|shift| shift.frequency > 0.0));
-    // The weights are 0.11 kg with the absorber.
+    // The weights are 0.13 kg with the absorber and the tape.
     let body = |switch: Switch| row(&advice, switch).body[0];
     assert!((body(Switch::Part(Part::Weights)) - 0.1).abs() < 1e-14);
     assert!((body(Switch::Attachments) - 0.13).abs() < 1e-14);
