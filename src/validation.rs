@@ -12,6 +12,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::dowel::{Dowel, Ends, UniformMode};
 use crate::error::{Error, Result};
 use crate::frf::Frf;
+use crate::ringing::Ringing;
 use crate::solve::{Request, Solution, solve};
 use crate::theory::Theory;
 use crate::units::ounce_square_inches;
@@ -72,6 +73,8 @@ pub struct Check {
     at: Option<f64>,
     to: Option<f64>,
     frequency_hz: Option<f64>,
+    /// How long after a blow (s).
+    time_s: Option<f64>,
     pub expected: f64,
     relative: Option<f64>,
     absolute: Option<f64>,
@@ -98,6 +101,8 @@ pub enum Known {
     /// Deflection per force at a frequency, with time as `e^{+iωt}`.
     ReceptanceRealMPerN,
     ReceptanceImaginaryMPerN,
+    /// Deflection after an impulse of 1 N s, by the rigid motions and the modes of the case.
+    DeflectionAfterBlowM,
     MassKg,
     BalancePointM,
     InertiaBalanceKgM2,
@@ -232,6 +237,8 @@ pub const CASES: &[(&str, &str)] = &[
     ("step_1_3_60", include_str!("../validation/step_1_3_60.json")),
     ("steps_many", include_str!("../validation/steps_many.json")),
     ("stiff_springs", include_str!("../validation/stiff_springs.json")),
+    ("struck_dowel", include_str!("../validation/struck_dowel.json")),
+    ("struck_lossy_dowel", include_str!("../validation/struck_lossy_dowel.json")),
     ("tanh_bat", include_str!("../validation/tanh_bat.json")),
     ("taped_dowel", include_str!("../validation/taped_dowel.json")),
     ("thomson_table", include_str!("../validation/thomson_table.json")),
@@ -483,6 +490,13 @@ fn found(check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Op
         let mut frf = Frf::new(bat, request, check.at?, check.to?).ok()?;
         Some(frf.receptances(&[check.frequency_hz?]).ok()?.first()?.receptance)
     };
+    let rung = || {
+        let ringing = Ringing::new(bat, solution, request.tolerance, false).ok()?;
+        let start = ringing.blow(check.at?, 1.0);
+        let amplitudes = ringing.amplitudes(&start, check.time_s?);
+        let shapes = ringing.shapes(&[check.to?]);
+        Some(shapes.iter().zip(&amplitudes).map(|(shape, part)| shape[0] * part).sum())
+    };
     let mode = || solution.modes.get(check.mode?.checked_sub(1)?);
     let inertia = bat.inertia();
     match check.quantity {
@@ -494,6 +508,7 @@ fn found(check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Op
         Known::DampedFrequencyHz => Some(damped()?.swinging() / TAU),
         Known::ReceptanceRealMPerN => Some(receptance()?.re),
         Known::ReceptanceImaginaryMPerN => Some(receptance()?.im),
+        Known::DeflectionAfterBlowM => rung(),
         Known::MassKg => Some(inertia.mass),
         Known::BalancePointM => Some(inertia.balance_point),
         Known::InertiaBalanceKgM2 => Some(inertia.about_balance),
@@ -515,6 +530,9 @@ fn label(check: &Check) -> String {
         Known::ReceptanceRealMPerN => format!("Re H m/N, {} Hz", check.frequency_hz.unwrap_or(0.0)),
         Known::ReceptanceImaginaryMPerN => {
             format!("Im H m/N, {} Hz", check.frequency_hz.unwrap_or(0.0))
+        }
+        Known::DeflectionAfterBlowM => {
+            format!("w m, {} s after", check.time_s.unwrap_or(0.0))
         }
         Known::MassKg => "mass kg".into(),
         Known::BalancePointM => "balance point m".into(),
