@@ -14,13 +14,33 @@
 //! (1980), chapters 1 and 3; pivots of order 2: J. R. Bunch, B. N. Parlett, SIAM J. Numer. Anal. 8
 //! (1971) 639.
 
+use std::ops::{Index, IndexMut};
+
 use crate::beam::fixed::{At, Fixed, What};
 use crate::beam::statics::Statics;
 
 /// A symmetric form in unknowns of which the last two are deflection and rotation.
 #[derive(Debug, Clone, Default)]
 struct Form {
-    rows: Vec<Vec<f64>>,
+    size: usize,
+    /// Row after row; what is above the diagonal may be out of date while unknowns are eliminated.
+    values: Vec<f64>,
+    /// The column of a pivot.
+    column: Vec<f64>,
+}
+
+impl Index<(usize, usize)> for Form {
+    type Output = f64;
+
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.values[i * self.size + j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Form {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.values[i * self.size + j]
+    }
 }
 
 /// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a
@@ -34,11 +54,11 @@ pub fn slower<const N: usize, const W: usize>(
     let [knob, tip] = [0, 1].map(|side| inwards(statics, side, tau, &mut count));
     let (mut knob, tip) = (knob?, tip?);
     // Outwards on the knob side a rotation has the other sign.
-    let last = knob.rows.len() - 1;
-    for row in &mut knob.rows {
-        row[last] = -row[last];
+    let last = knob.size - 1;
+    for i in 0..=last {
+        knob[(i, last)] = -knob[(i, last)];
+        knob[(last, i)] = -knob[(last, i)];
     }
-    knob.rows[last].iter_mut().for_each(|v| *v = -*v);
     let mut whole = knob.beside(tip);
     count += whole.eliminate(0)? as isize;
     let reactions = statics.fixed.as_ref().map_or(0, |fixed| fixed.contacts.len()) as isize;
@@ -53,14 +73,15 @@ fn inwards<const N: usize, const W: usize>(
     count: &mut isize,
 ) -> Option<Form> {
     let cells = statics.body().sides()[side].clone();
-    let mut form = Form::new(2);
+    let (mut form, mut next) = (Form::new(2), Form::default());
     let mut stops = statics.stops(side).iter().rev().peekable();
     let fixed = statics.fixed.as_deref();
     for k in cells.clone().rev() {
         while let Some(stop) = stops.next_if(|stop| cells.start + stop.after == k + 1) {
             fixed.iter().for_each(|fixed| form.meet(fixed, stop.what, tau));
         }
-        form = form.behind(statics, k, tau);
+        form.behind(statics, k, tau, &mut next);
+        std::mem::swap(&mut form, &mut next);
         *count += form.eliminate(2)? as isize;
     }
     for stop in stops {
@@ -71,20 +92,34 @@ fn inwards<const N: usize, const W: usize>(
 
 impl Form {
     fn new(size: usize) -> Self {
-        Self { rows: vec![vec![0.0; size]; size] }
+        let mut form = Self::default();
+        form.clear(size);
+        form
+    }
+
+    /// So many unknowns and nothing in them.
+    fn clear(&mut self, size: usize) {
+        self.size = size;
+        self.values.clear();
+        self.values.resize(size * size, 0.0);
     }
 
     /// One unknown more, the first.
     fn extend(&mut self) {
-        self.rows.iter_mut().for_each(|row| row.insert(0, 0.0));
-        self.rows.insert(0, vec![0.0; self.rows.len() + 1]);
+        let mut larger = Self::new(self.size + 1);
+        for i in 0..self.size {
+            for j in 0..self.size {
+                larger[(i + 1, j + 1)] = self[(i, j)];
+            }
+        }
+        *self = larger;
     }
 
     /// Adds `value (a·u)²`.
     fn add_square(&mut self, value: f64, a: &[(usize, f64)]) {
         for (i, p) in a {
             for (j, q) in a {
-                self.rows[*i][*j] += value * p * q;
+                self[(*i, *j)] += value * p * q;
             }
         }
     }
@@ -97,11 +132,11 @@ impl Form {
                 if point.spring.is_some() {
                     self.extend();
                 }
-                let last = self.rows.len() - 1;
+                let last = self.size - 1;
                 let mut moved = vec![(last - 1, 1.0), (last, point.offset)];
                 if let Some(spring) = point.spring {
                     moved.push((0, spring.softness));
-                    self.rows[0][0] += 1.0;
+                    self[(0, 0)] += 1.0;
                 }
                 self.add_square(-tau * point.mass, &moved);
                 self.add_square(-tau * point.inertia, &[(last, 1.0)]);
@@ -110,37 +145,38 @@ impl Form {
                 let softness = fixed.joints[k].softness;
                 self.extend();
                 // The rotation beyond is the one here and that of the joint.
-                let last = self.rows.len() - 1;
-                let turned: Vec<f64> = self.rows[last].clone();
+                let last = self.size - 1;
                 for j in 1..=last {
-                    self.rows[0][j] += softness * turned[j];
-                    self.rows[j][0] += softness * turned[j];
+                    let turned = softness * self[(last, j)];
+                    self[(0, j)] += turned;
+                    self[(j, 0)] += turned;
                 }
-                self.rows[0][0] += 1.0 + softness * softness * turned[last];
+                self[(0, 0)] += 1.0 + softness * softness * self[(last, last)];
             }
             What::Contact(k) => {
                 let contact = &fixed.contacts[k];
                 self.extend();
-                let last = self.rows.len() - 1;
+                let last = self.size - 1;
                 let held = if contact.turning { last } else { last - 1 };
-                self.rows[0][held] += contact.sign;
-                self.rows[held][0] += contact.sign;
-                self.rows[0][0] -= contact.spring.map_or(0.0, |s| s.softness.powi(2));
+                self[(0, held)] += contact.sign;
+                self[(held, 0)] += contact.sign;
+                self[(0, 0)] -= contact.spring.map_or(0.0, |s| s.softness.powi(2));
             }
         }
     }
 
     /// The form at the inner end of a cell, its strains and what was left not yet eliminated: the
-    /// strains, then the unknowns of this form, then deflection and rotation.
+    /// strains, then the unknowns of this form, then deflection and rotation. Below the diagonal.
     fn behind<const N: usize, const W: usize>(
         &self,
         statics: &Statics<f64, N, W>,
         k: usize,
         tau: f64,
-    ) -> Self {
+        form: &mut Self,
+    ) {
         let cell = &statics.cells[k];
         let link = &cell.link;
-        let (strains, carried) = (W - 2, self.rows.len() - 2);
+        let (strains, carried) = (W - 2, self.size - 2);
         let beds = statics.fixed.iter().flat_map(|fixed| &fixed.contacts).filter_map(|contact| {
             let spring = contact.spring?;
             match contact.at {
@@ -152,13 +188,13 @@ impl Form {
         let size = strains + carried + beds.len() + 2;
         let (w, theta) = (size - 2, size - 1);
         let place = |i: usize| if i < strains { i } else { size - W + i };
-        let mut form = Self::new(size);
+        form.clear(size);
         for i in 0..W {
-            for j in 0..W {
-                form.rows[place(i)][place(j)] = -tau * link.mass[i][j];
+            for j in 0..=i {
+                form[(place(i), place(j))] = -tau * link.mass[i][j];
             }
         }
-        (0..strains).for_each(|i| form.rows[i][i] += 1.0);
+        (0..strains).for_each(|i| form[(i, i)] += 1.0);
         // Deflection and rotation at the outer end.
         let mut outer = [[0.0; 2]; W];
         for i in 0..strains {
@@ -168,50 +204,54 @@ impl Form {
         let ends = [carried, carried + 1];
         for i in 0..W {
             let row: [f64; 2] = std::array::from_fn(|e| {
-                outer[i][0] * self.rows[ends[0]][ends[e]]
-                    + outer[i][1] * self.rows[ends[1]][ends[e]]
+                outer[i][0] * self[(ends[0], ends[e])] + outer[i][1] * self[(ends[1], ends[e])]
             });
-            for j in 0..W {
-                form.rows[place(i)][place(j)] += row[0] * outer[j][0] + row[1] * outer[j][1];
+            for j in 0..=i {
+                form[(place(i), place(j))] += row[0] * outer[j][0] + row[1] * outer[j][1];
             }
             for c in 0..carried {
-                let value =
-                    outer[i][0] * self.rows[ends[0]][c] + outer[i][1] * self.rows[ends[1]][c];
-                form.rows[place(i)][strains + c] += value;
-                form.rows[strains + c][place(i)] += value;
+                let value = outer[i][0] * self[(ends[0], c)] + outer[i][1] * self[(ends[1], c)];
+                form[(place(i), strains + c)] += value;
+                form[(strains + c, place(i))] += value;
             }
         }
         for a in 0..carried {
             for b in 0..carried {
-                form.rows[strains + a][strains + b] += self.rows[a][b];
+                form[(strains + a, strains + b)] += self[(a, b)];
             }
         }
         for (b, (point, softness)) in beds.into_iter().enumerate() {
             let reaction = strains + carried + b;
             let on = statics.body().point_load(k, statics.rule.at::<N>(point));
             for (i, value) in on.into_iter().enumerate() {
-                form.rows[reaction][place(i)] += value;
-                form.rows[place(i)][reaction] += value;
+                form[(reaction, place(i))] += value;
+                form[(place(i), reaction)] += value;
             }
-            form.rows[reaction][reaction] -= softness * softness;
+            form[(reaction, reaction)] -= softness * softness;
         }
         debug_assert!(w + 1 == theta);
-        form
     }
 
     /// Two sides' forms in one, with the same deflection and rotation.
     fn beside(self, other: Self) -> Self {
-        let (own, others) = (self.rows.len() - 2, other.rows.len() - 2);
+        let (own, others) = (self.size - 2, other.size - 2);
         let mut form = Self::new(own + others + 2);
-        for (rows, first, count) in [(self.rows, 0, own), (other.rows, own, others)] {
+        for (part, first, count) in [(self, 0, own), (other, own, others)] {
             let place = |i: usize| if i < count { first + i } else { own + others + i - count };
             for i in 0..count + 2 {
                 for j in 0..count + 2 {
-                    form.rows[place(i)][place(j)] += rows[i][j];
+                    form[(place(i), place(j))] += part[(i, j)];
                 }
             }
         }
         form
+    }
+
+    /// What is above the diagonal from what is below, beyond the first unknowns.
+    fn mirror(&mut self, first: usize) {
+        for i in first..self.size {
+            (i + 1..self.size).for_each(|j| self[(i, j)] = self[(j, i)]);
+        }
     }
 
     /// Eliminates all unknowns but the last `kept` and returns how many pivots were negative.
@@ -219,10 +259,11 @@ impl Form {
         // A pivot in its turn that is not small beside its column is good enough.
         const SMALL: f64 = 0.1;
         let (mut negative, mut first) = (0, 0);
-        let end = self.rows.len() - kept;
+        let (size, end) = (self.size, self.size - kept);
         while first < end {
-            let largest = |row: &[f64]| row[first..].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-            if self.rows[first][first].abs() <= SMALL * largest(&self.rows[first]) {
+            let largest = (first..size).fold(0.0, |m: f64, i| m.max(self[(i, first)].abs()));
+            if self[(first, first)].abs() <= SMALL * largest {
+                self.mirror(first);
                 let (i, j) = self.pivot(first, end)?;
                 self.exchange(first, i);
                 if i != j {
@@ -232,19 +273,25 @@ impl Form {
                     continue;
                 }
             }
-            let pivot = self.rows[first][first];
-            negative += usize::from(pivot < 0.0);
-            let row = self.rows[first].clone();
-            for i in first + 1..self.rows.len() {
-                let part = row[i] / pivot;
-                if part != 0.0 {
-                    (first + 1..self.rows.len()).for_each(|j| self.rows[i][j] -= part * row[j]);
-                }
+            let Self { values, column, .. } = self;
+            column.clear();
+            column.extend((first..size).map(|i| values[i * size + first]));
+            negative += usize::from(column[0] < 0.0);
+            for (i, value) in column.iter().enumerate().skip(1) {
+                let part = value / column[0];
+                let row = &mut values[(first + i) * size + first..][..=i];
+                row[1..].iter_mut().zip(&column[1..]).for_each(|(v, c)| *v -= part * c);
             }
             first += 1;
         }
-        self.rows.drain(..end);
-        self.rows.iter_mut().for_each(|row| drop(row.drain(..end)));
+        self.mirror(end);
+        for i in 0..kept {
+            for j in 0..kept {
+                self.values[i * kept + j] = self.values[(end + i) * size + end + j];
+            }
+        }
+        self.size = kept;
+        self.values.truncate(kept * kept);
         Some(negative)
     }
 
@@ -253,7 +300,7 @@ impl Form {
         // Bunch and Parlett's bound.
         const ALPHA: f64 = 0.640_388_203_202_208;
         let all = (first..end).flat_map(|i| (first..=i).map(move |j| (i, j)));
-        let size = |(i, j): &(usize, usize)| self.rows[*i][*j].abs();
+        let size = |place: &(usize, usize)| self[*place].abs();
         let on = all.clone().filter(|(i, j)| i == j).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let off = all.filter(|(i, j)| i != j).max_by(|a, b| size(a).total_cmp(&size(b)));
         match off {
@@ -263,23 +310,29 @@ impl Form {
         }
     }
 
+    /// Exchanges two unknowns of a form that is up to date above the diagonal too.
     fn exchange(&mut self, a: usize, b: usize) {
-        self.rows.swap(a, b);
-        self.rows.iter_mut().for_each(|row| row.swap(a, b));
+        for i in 0..self.size {
+            self.values.swap(a * self.size + i, b * self.size + i);
+        }
+        for i in 0..self.size {
+            self.values.swap(i * self.size + a, i * self.size + b);
+        }
     }
 
     /// Eliminates two unknowns together: one pivot of each sign.
     fn eliminate_two(&mut self, first: usize) -> Option<usize> {
-        let [a, b] = [self.rows[first].clone(), self.rows[first + 1].clone()];
+        let row = |i: usize| self.values[i * self.size..][..self.size].to_vec();
+        let [a, b] = [row(first), row(first + 1)];
         let (p, q, r) = (a[first], a[first + 1], b[first + 1]);
         let det = p * r - q * q;
         if det >= 0.0 {
             return None;
         }
-        for i in first + 2..self.rows.len() {
+        for i in first + 2..self.size {
             let (of_a, of_b) = ((r * a[i] - q * b[i]) / det, (p * b[i] - q * a[i]) / det);
-            for j in first + 2..self.rows.len() {
-                self.rows[i][j] -= of_a * a[j] + of_b * b[j];
+            for j in first + 2..self.size {
+                self[(i, j)] -= of_a * a[j] + of_b * b[j];
             }
         }
         Some(1)
@@ -291,7 +344,7 @@ mod tests {
     use super::*;
 
     fn form(rows: &[&[f64]]) -> Form {
-        Form { rows: rows.iter().map(|row| row.to_vec()).collect() }
+        Form { size: rows.len(), values: rows.concat(), column: vec![] }
     }
 
     #[test]
@@ -309,6 +362,6 @@ mod tests {
         let mut three = form(&[&[2.0, 1.0, 0.0], &[1.0, 3.0, 1.0], &[0.0, 1.0, -4.0]]);
         assert_eq!(three.eliminate(1), Some(0));
         // −4 − 1/(3 − ½).
-        assert!((three.rows[0][0] + 4.4).abs() < 1e-15);
+        assert!((three[(0, 0)] + 4.4).abs() < 1e-15);
     }
 }
