@@ -4,6 +4,7 @@ pub mod mesh;
 pub mod rule;
 pub mod element;
 pub mod sweep;
+pub mod holds;
 pub mod fixed;
 pub mod statics;
 pub mod count;

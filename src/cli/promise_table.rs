@@ -43,7 +43,7 @@ fn line(out: &mut String, bat: &str, modes: &str, summary: &Summary, marks: &str
 pub fn table(rows: &[Row]) -> String {
     let mut out = String::from(
         "                          degree x   worst error     true/stated         within\n\
-         bat                tol    elements   true   stated  freq nodes masses   30    met\n",
+         bat                tol    elements   true   stated  freq nodes masses   30   met\n",
     );
     for (k, row) in rows.iter().enumerate() {
         if k > 0 && k % DIGITS.count() == 0 {
@@ -52,7 +52,7 @@ pub fn table(rows: &[Row]) -> String {
         let plan = format!("{:>2} x {}", row.degree, row.elements);
         let _ = writeln!(
             out,
-            "{:<18} {:>5.0e}  {plan:<8} {:>7.1e} {:>7.1e}  {:>4} {:>4}  {:>4}  {:>2}/{:<2}   {}",
+            "{:<18} {:>5.0e}  {plan:<8} {:>7.1e} {:>7.1e}  {:>4} {:>4}  {:>4}  {:>2}/{:<2}  {}",
             row.bat,
             row.tolerance,
             row.truth,
