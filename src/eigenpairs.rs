@@ -61,7 +61,7 @@ where
     ///
     /// As [`Lanczos::largest`].
     pub fn solve(&mut self, count: usize, residual: f64) -> Result<()> {
-        self.iterate(Wanted { count, residual, earliest: steps_beyond(count, residual) })
+        self.iterate(Wanted { count, residual, earliest: self.steps_beyond(count, residual) })
     }
 
     /// The same from a start of one's own: bending moments as [`Statics::strains_of_moments`] asks
@@ -97,6 +97,20 @@ where
             Arch::new().dispatch(Start { statics, count: wanted.count, next });
         };
         self.run(wanted, &[], start)
+    }
+
+    /// After how many steps beyond `count = n` convergence is likely: looking for it costs as much
+    /// as some steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 +
+    /// 0.65 n + 0.41 √n (d − 4)` where shear brings the frequencies nearer to each other: fitted to
+    /// a dowel, a cone and two bats, 1 to 60 modes, right to one step.
+    fn steps_beyond(&self, count: usize, residual: f64) -> usize {
+        let (n, digits) = (count as f64, -residual.log10());
+        let steps = if self.statics.theory.shears() {
+            2.0 + 0.65 * n + 0.41 * n.sqrt() * (digits - 4.0)
+        } else {
+            2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)
+        };
+        steps.ceil().max(2.0) as usize
     }
 
     fn run(
@@ -193,7 +207,7 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         let mut residuals = self.lanczos.residuals[..apart].to_vec();
         let mut vectors = self.lanczos.vectors[..apart * size].to_vec();
         let steps = self.lanczos.steps;
-        let earliest = steps_beyond(count, residual);
+        let earliest = self.steps_beyond(count, residual);
         self.run(Wanted { count, residual, earliest }, &vectors, &mut |statics, next| {
             statics.start(count, next);
         })?;
@@ -224,14 +238,6 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     ) {
         motion.take_alone(&self.statics, strains, known, depth);
     }
-}
-
-/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as
-/// some steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, fitted to a
-/// dowel, a cone and two bats, 1 to 60 modes, right to one step.
-fn steps_beyond(count: usize, residual: f64) -> usize {
-    let (n, digits) = (count as f64, -residual.log10());
-    (2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)).ceil().max(2.0) as usize
 }
 
 struct Assembly<'a, R, const N: usize, const W: usize> {

@@ -256,12 +256,13 @@ impl Form {
 
     /// Eliminates all unknowns but the last `kept` and returns how many pivots were negative.
     fn eliminate(&mut self, kept: usize) -> Option<usize> {
-        // A pivot in its turn that is not small beside its column is good enough.
+        // A pivot in its turn that is not small beside what it couples it to is good enough; the
+        // kept unknowns have a unit of their own.
         const SMALL: f64 = 0.1;
         let (mut negative, mut first) = (0, 0);
         let (size, end) = (self.size, self.size - kept);
         while first < end {
-            let largest = (first..size).fold(0.0, |m: f64, i| m.max(self[(i, first)].abs()));
+            let largest = (first..end).fold(0.0, |m: f64, i| m.max(self[(i, first)].abs()));
             if self[(first, first)].abs() <= SMALL * largest {
                 self.mirror(first);
                 let (i, j) = self.pivot(first, end)?;
