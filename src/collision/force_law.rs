@@ -1,0 +1,113 @@
+//! How hard a compressed ball pushes back: a nonlinear spring that returns less than it took.
+//!
+//! ```text
+//! F = k x^α                          at a compression x that it has not had before
+//! F = k x_m^α (x/x_m)^β              below the largest compression so far, x_m
+//! β = (1 + α)/e₀² − 1                so that on a rigid wall it returns e₀² of the energy
+//! ```
+//!
+//! Below `x_m` the law is reversible; at `x_m` it is on the first branch again. In every state
+//! what it stores and what it has lost are closed forms.
+//!
+//! # Source
+//!
+//! A. M. Nathan, Am. J. Phys. 68, 979 (2000), "Dynamics of the baseball-bat collision".
+
+/// The law of one ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForceLaw {
+    /// `k` (N/m^α).
+    pub stiffness: f64,
+    /// `α`.
+    pub exponent: f64,
+    /// `β`; infinite for a ball that returns nothing.
+    pub unloading: f64,
+}
+
+/// The largest compression so far (m) and the force there (N), once the ball has given way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Top {
+    pub compression: f64,
+    pub force: f64,
+}
+
+impl ForceLaw {
+    /// `k` (N/m^α), `α` and `e₀`.
+    pub fn new(stiffness: f64, exponent: f64, restitution: f64) -> Self {
+        let unloading = (1.0 + exponent) / (restitution * restitution) - 1.0;
+        Self { stiffness, exponent, unloading }
+    }
+
+    /// Force (N) at that compression (m) and its derivative (N/m), on the way to the largest
+    /// compression, or below `top`.
+    #[inline(always)]
+    pub fn force(&self, x: f64, top: Option<Top>) -> [f64; 2] {
+        if x <= 0.0 {
+            return [0.0; 2];
+        }
+        let (force, exponent) = match top {
+            None => (self.stiffness * x.powf(self.exponent), self.exponent),
+            Some(top) => (top.force * (x / top.compression).powf(self.unloading), self.unloading),
+        };
+        // An infinite exponent has no force and no slope below the top.
+        [force, if force > 0.0 { exponent * force / x } else { 0.0 }]
+    }
+
+    /// Energy stored and energy lost so far (J).
+    #[inline(always)]
+    pub fn energy(&self, x: f64, top: Option<Top>) -> [f64; 2] {
+        let x = x.max(0.0);
+        match top {
+            None => [self.stiffness * x.powf(1.0 + self.exponent) / (1.0 + self.exponent), 0.0],
+            Some(top) => {
+                let whole = top.force * top.compression;
+                let back = 1.0 / (1.0 + self.unloading);
+                let stored = whole * (x / top.compression).powf(1.0 + self.unloading) * back;
+                [stored, whole * (1.0 / (1.0 + self.exponent) - back)]
+            }
+        }
+    }
+
+    /// The compression (m) that takes that energy (J).
+    pub fn compression(&self, energy: f64) -> f64 {
+        let exponent = 1.0 + self.exponent;
+        (exponent * energy / self.stiffness).powf(1.0 / exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: ForceLaw = ForceLaw { stiffness: 2e7, exponent: 1.6, unloading: 8.0 };
+
+    #[test]
+    fn the_force_is_what_the_energy_changes_by() {
+        let top = Some(Top { compression: 0.01, force: LAW.force(0.01, None)[0] });
+        for (x, top) in [(0.004, None), (0.009, top), (0.002, top)] {
+            let h = 1e-7;
+            let change = LAW.energy(x + h, top)[0] - LAW.energy(x - h, top)[0];
+            let [force, slope] = LAW.force(x, top);
+            assert!((change / (2.0 * h) / force - 1.0).abs() < 1e-6);
+            let change = LAW.force(x + h, top)[0] - LAW.force(x - h, top)[0];
+            assert!((change / (2.0 * h) / slope - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_law_returns_its_share() {
+        for restitution in [0.3, 0.5, 1.0] {
+            let law = ForceLaw::new(2e7, 1.6, restitution);
+            let all = law.energy(0.01, None)[0];
+            let top = Some(Top { compression: 0.01, force: law.force(0.01, None)[0] });
+            let [back, lost] = law.energy(0.01, top);
+            assert!((back / all - restitution * restitution).abs() < 1e-14);
+            assert!(((back + lost) / all - 1.0).abs() < 1e-14);
+            assert!((law.compression(all) / 0.01 - 1.0).abs() < 1e-14);
+        }
+        let dead = ForceLaw::new(2e7, 1.6, 0.0);
+        let top = Some(Top { compression: 0.01, force: 100.0 });
+        assert_eq!(dead.force(0.009, top), [0.0; 2]);
+        assert_eq!(dead.energy(0.009, top)[0], 0.0);
+    }
+}
