@@ -189,6 +189,21 @@ impl Bat {
         self.profile.pieces.iter().all(known)
     }
 
+    /// The first material whose shear modulus is not known, as the bat file calls it.
+    pub fn without_shear(&self) -> String {
+        let regions = self.fixtures.regions.iter().enumerate();
+        let parts = regions.flat_map(|(k, region)| {
+            let names = ["material", "core"].map(|part| format!("regions[{k}].{part}"));
+            names.into_iter().zip(region.layup.materials())
+        });
+        let unknown = |material: &Material| material.shear_modulus.is_none();
+        let region = parts.filter(|(_, material)| unknown(material)).map(|(name, _)| name).next();
+        match region {
+            Some(name) if !unknown(self.material()) => name,
+            _ => "material".to_owned(),
+        }
+    }
+
     /// Mass, balance point and moments of inertia with everything attached, exact by quadrature.
     ///
     /// `M = ∫ρA dx`, `x_b = ∫ρA x dx / M`, `I = ∫ρA (x − x_b)² dx + ∫ρI dx`; cubic radii make
@@ -297,6 +312,15 @@ impl Bat {
                 let scale = stiffness / (material.density * widest.area()) / self.length().powi(4);
                 in_range(&name("bending stiffness"), stiffness, "N m²")?;
                 in_range(&name("frequency scale EI/(ρA L⁴)"), scale, "1/s²")?;
+                let softest = 1e-9 * material.youngs_modulus;
+                if let Some(shear) = material.shear_modulus.filter(|shear| *shear < softest) {
+                    let expected = format!("{softest:e} Pa and more, a billionth of E");
+                    return Err(Error::value(
+                        name("shear_modulus"),
+                        format!("{shear:e} Pa"),
+                        expected,
+                    ));
+                }
             }
         }
         Ok(())
@@ -319,7 +343,15 @@ fn strange_material(
     let heavy = strange(&format!("{of}density"), density, "kg/m³", usual[0], hint);
     let hint = " (wood is 8e9 to 20e9: GPa?)";
     let stiff = strange(&format!("{of}youngs_modulus"), youngs_modulus, "Pa", usual[1], hint);
-    heavy.into_iter().chain(stiff)
+    // Along the grain of wood 0.05 to 0.11, of metals 0.38.
+    let shear = material.shear_modulus.map(|shear| shear / youngs_modulus);
+    let shear = shear.and_then(|share| {
+        strange(&format!("{of}shear_modulus"), share, "times youngs_modulus", [0.01, 0.6], "")
+    });
+    let kappa = material
+        .shear_coefficient
+        .and_then(|kappa| strange(&format!("{of}shear_coefficient"), kappa, "", [0.3, 1.2], ""));
+    heavy.into_iter().chain(stiff).chain(shear).chain(kappa)
 }
 
 /// A sentence about a value that is outside the usual range.
@@ -328,7 +360,8 @@ fn strange(what: &str, value: f64, unit: &str, usual: [f64; 2], hint: &str) -> O
         return None;
     }
     let [value, low, high] = [value, usual[0], usual[1]].map(plain);
-    Some(format!("{what} is {value} {unit}; a bat's is {low} to {high}{hint}"))
+    let value = format!("{value} {unit}");
+    Some(format!("{what} is {}; a bat's is {low} to {high}{hint}", value.trim_end()))
 }
 
 /// Far enough inside the range of numbers for products of two such values.

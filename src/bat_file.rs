@@ -87,7 +87,17 @@ fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
         (Some(_), None) => Ok(1.0),
     };
     let node = root.require("material", "a material")?;
-    let material = material_file::read(node, without_density)?;
+    let without_modulus = match (weighed.first_bending, root.get("regions")) {
+        (None, _) => {
+            Err("\"youngs_modulus\", such as \"18.1 GPa\", or \"first_bending_hz\" in \"weighed\"")
+        }
+        (Some(_), Some(_)) => {
+            Err("\"youngs_modulus\": the tapped frequency is one factor for all regions")
+        }
+        // The tap will set it; a wood's is a good beginning.
+        (Some(_), None) => Ok(1e10),
+    };
+    let material = material_file::read(node, without_density, without_modulus)?;
     let profile = profile(root.require("profile", "a profile")?, folder)?;
     let fixtures = fixtures_file::read(&root, &material, profile.length())?;
     let name = root.string("name")?.unwrap_or_else(|| "unnamed bat".to_owned());

@@ -2,7 +2,7 @@
 
 use crate::bat::Bat;
 use crate::error::Result;
-use crate::ignored::{shifts, with_typical_shear};
+use crate::ignored::{Shift, shifts, solved_shifts, with_typical_shear};
 use crate::solve::{Request, solve};
 use crate::theory::Theory;
 
@@ -14,8 +14,8 @@ pub struct Choice {
     pub warning: Option<String>,
 }
 
-/// The cheapest theory whose estimated shift of every wanted frequency is within the request's
-/// tolerance; without shear where a shear modulus is not known.
+/// The cheapest theory with which every wanted frequency is within the request's tolerance of what
+/// all effects together make it; without shear where a shear modulus is not known.
 ///
 /// # Errors
 ///
@@ -32,26 +32,32 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     let solution = solve(bat, &plain)?;
     let known = bat.knows_shear();
     let shearing = with_typical_shear(bat);
-    let (mut rotary, mut shear) = (0.0_f64, 0.0_f64);
-    let mut first = 0.0;
     let accuracy = (0.1 * request.tolerance).clamp(FINEST, ROUGH);
-    for (k, shift) in shifts(&shearing, &solution.modes, accuracy).iter().enumerate() {
-        rotary = rotary.max(shift.rotary_inertia.abs());
-        shear = shear.max(shift.shear.unwrap_or(0.0).abs());
-        if k == 0 {
-            first = shift.shear.unwrap_or(0.0);
-        }
-    }
-    let theory = match (shear > request.tolerance, rotary > request.tolerance) {
-        (true, _) if known => Theory::Timoshenko,
-        (_, true) => Theory::Rayleigh,
-        _ => Theory::EulerBernoulli,
+    let mut found = shifts(&shearing, &solution.modes, accuracy);
+    let most = |found: &[Shift], rotary: bool, shear: bool| {
+        found.iter().map(|shift| shift.cost(rotary, shear).abs()).fold(0.0, f64::max)
     };
+    // An estimate of the first order decides only where it is far from the tolerance.
+    let near = |cost: f64| cost > 0.5 * request.tolerance && cost < 2.0 * request.tolerance;
+    let costs = |found: &[Shift]| [most(found, true, known), most(found, false, true)];
+    if bat.fixtures.none_moving()
+        && costs(&found).into_iter().any(near)
+        && let Some(solved) = solved_shifts(&shearing, request.modes, accuracy)
+    {
+        found = solved;
+    }
+    let [both, shear] = costs(&found);
+    let theory = match (both > request.tolerance, shear > request.tolerance) {
+        (true, true) if known => Theory::Timoshenko,
+        (true, _) => Theory::Rayleigh,
+        (false, _) => Theory::EulerBernoulli,
+    };
+    let first = found.first().map_or(0.0, |shift| shift.cost(false, true));
     let warning = (!known && shear > request.tolerance).then(|| {
         format!(
             "shear is left out, because a material has no \"shear_modulus\"; with the G/E of its \
-             kind it would lower mode 1 by {} % and one of the modes by {} %",
-            two_digits(-100.0 * first),
+             kind mode 1 is {} % too high without it, and one of the modes {} %",
+            two_digits(100.0 * first),
             two_digits(100.0 * shear)
         )
     });

@@ -16,6 +16,7 @@ use std::fmt;
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
+use crate::beam::rule::DEGREES;
 use crate::error::Result;
 use crate::modes::Mode;
 use crate::reduced::{Group, Reduced};
@@ -32,7 +33,8 @@ pub struct Damped {
     pub of_materials: f64,
     /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; the slower one of two real s.
     pub decay: f64,
-    /// How far s may be off for the motion being made of few modes, relative to |s|.
+    /// How far s may be off, relative to |s|: for the mesh, for the motion being made of few
+    /// strains, and for modes being taken one by one where they are.
     pub error: f64,
 }
 
@@ -49,6 +51,12 @@ impl Damped {
     /// `|Im s|` (rad/s): how fast it swings; 0 if it does not.
     pub fn swinging(&self) -> f64 {
         self.natural * ((1.0 - self.ratio) * (1.0 + self.ratio)).max(0.0).sqrt()
+    }
+
+    /// How far another s is from this one, relative to |s|; of two real ones the slower.
+    fn apart(&self, other: &Self) -> f64 {
+        let [a, b] = [self, other].map(|damped| [damped.decay, damped.swinging()]);
+        (a[0] - b[0]).hypot(a[1] - b[1]) / self.natural
     }
 
     /// Q as the sharpness of a resonance, the frequency over the width between the half-power
@@ -107,8 +115,8 @@ impl fmt::Display for Kind {
             }
             Self::Modal(change) => write!(
                 f,
-                "mode by mode: complex modes would change a frequency or a damping ratio by \
-                 {change:.1e} at most, which is within the tolerance"
+                "mode by mode: complex modes would change a frequency by {change:.1e} of itself or \
+                 a damping ratio by as much at most, which is within the tolerance"
             ),
             Self::Complex(change) => write!(
                 f,
@@ -150,24 +158,68 @@ pub fn damping(
         let ratio = of_materials[k] + 0.5 * modes[k].omega * reduced.mode_damping(k);
         Damped::new(modes[k].omega, ratio, of_materials[k])
     };
-    let alone: Vec<Damped> = (0..modes.len()).map(alone).collect();
+    let mut alone: Vec<Damped> = (0..modes.len()).map(alone).collect();
     if !dashpots {
         return Ok(Damping { modes: alone, rigid: vec![], kind: Kind::Materials });
     }
-    let (groups, rigid) = reduced.free_motions(modes.len(), accuracy(tolerance))?;
-    let together: Vec<Damped> =
-        groups.iter().zip(&of_materials).map(|(group, ratio)| of_group(group, *ratio)).collect();
+    let mut together = Together::new(&mut reduced, modes.len(), tolerance, &of_materials)?;
     let change = |(a, b): (&Damped, &Damped)| {
         (a.natural / b.natural - 1.0).abs().max((a.ratio - b.ratio).abs())
     };
-    let largest = together.iter().zip(&alone).map(change).fold(0.0, f64::max);
-    let whole = together.len() == alone.len();
-    let (modes, kind) = match largest > tolerance && whole {
-        true => (together, Kind::Complex(largest)),
-        false => (alone, Kind::Modal(largest)),
-    };
-    let rigid = rigid.iter().map(|pole| -pole.s.re).collect();
-    Ok(Damping { modes, rigid, kind })
+    let changes: Vec<f64> = together.motions.iter().zip(&alone).map(change).collect();
+    let largest = changes.iter().copied().fold(0.0, f64::max);
+    for ((damped, mode), change) in alone.iter_mut().zip(modes).zip(&changes) {
+        damped.error = mode.error.total() + change;
+    }
+    let within = alone.iter().all(|damped| damped.error <= tolerance) || largest == 0.0;
+    if within || changes.len() < alone.len() {
+        let (modes, rigid) = (alone, together.rigid);
+        return Ok(Damping { modes, rigid, kind: Kind::Modal(largest) });
+    }
+    // Where a dashpot is strong the bat moves about it as no mode does, and what the modes say of
+    // the mesh is not enough.
+    let (mut mesh, mut degree) = (mesh.clone(), degree);
+    for _ in 0..MOST_REFINEMENTS {
+        (mesh, degree) = match degree + 2 <= *DEGREES.end() {
+            true => (mesh, degree + 2),
+            false => (mesh.refined(|_| 2), degree),
+        };
+        let mut finer = Reduced::new(bat, &mesh, degree, theory, modes.len())?;
+        let before = together;
+        together = Together::new(&mut finer, modes.len(), tolerance, &of_materials)?;
+        let errors = together.motions.iter_mut().zip(&before.motions);
+        errors.for_each(|(now, before)| now.error = now.error.max(now.apart(before)));
+        if together.motions.iter().all(|damped| damped.error <= tolerance) {
+            break;
+        }
+    }
+    let (modes, rigid) = (together.motions, together.rigid);
+    Ok(Damping { modes, rigid, kind: Kind::Complex(largest) })
+}
+
+/// Meshes on which the damped motions are found again.
+const MOST_REFINEMENTS: usize = 4;
+
+/// The damped bat's own motions on one mesh.
+struct Together {
+    motions: Vec<Damped>,
+    rigid: Vec<f64>,
+}
+
+impl Together {
+    fn new(
+        reduced: &mut Reduced,
+        modes: usize,
+        tolerance: f64,
+        of_materials: &[f64],
+    ) -> Result<Self> {
+        let free = reduced.free_motions(modes, accuracy(tolerance))?;
+        let motions = free.groups.iter().zip(of_materials);
+        Ok(Self {
+            motions: motions.map(|(group, ratio)| of_group(group, *ratio)).collect(),
+            rigid: free.rigid.iter().map(|pole| -pole.s.re).collect(),
+        })
+    }
 }
 
 /// How accurate the damped motions are to be for a tolerance: it costs little.

@@ -218,14 +218,10 @@ impl Fixtures {
         for (k, a) in self.attachments.iter().enumerate() {
             let name = |key: &str| format!("attachments[{k}].{key}");
             on_the_bat(name("x"), a.x, length)?;
-            for (key, value, unit) in [
-                ("mass", a.mass, "kg"),
-                ("rotary_inertia", a.rotary_inertia, "kg m²"),
-                ("stiffness", a.stiffness, "N/m"),
-                ("rotational_stiffness", a.rotational_stiffness, "N m/rad"),
-            ] {
-                not_negative(name(key), value, unit)?;
-            }
+            heavy(name("mass"), a.mass, "kg")?;
+            heavy(name("rotary_inertia"), a.rotary_inertia, "kg m²")?;
+            soft(name("stiffness"), a.stiffness, "N/m")?;
+            soft(name("rotational_stiffness"), a.rotational_stiffness, "N m/rad")?;
             if !a.offset.is_finite() || a.offset.abs() > 10.0 * length {
                 let expected = "a distance of at most ten lengths of the bat";
                 return Err(Error::value(name("offset"), shown(a.offset, "m"), expected));
@@ -234,13 +230,15 @@ impl Fixtures {
         for (k, tape) in self.tapes.iter().enumerate() {
             let name = |key: &str| format!("tapes[{k}].{key}");
             stretch(&name, tape.from, tape.to, length)?;
-            not_negative(name("mass"), tape.mass, "kg")?;
+            heavy(name("mass"), tape.mass, "kg")?;
         }
         for (k, a) in self.absorbers.iter().enumerate() {
             let name = |key: &str| format!("absorbers[{k}].{key}");
             on_the_bat(name("x"), a.x, length)?;
             positive(name("mass"), a.mass, "kg")?;
+            heavy(name("mass"), a.mass, "kg")?;
             positive(name("stiffness"), a.stiffness, "N/m")?;
+            soft(name("stiffness"), a.stiffness, "N/m")?;
             not_negative(name("damping"), a.damping, "N s/m")?;
         }
         for (k, joint) in self.joints.iter().enumerate() {
@@ -251,6 +249,7 @@ impl Fixtures {
                 return Err(Error::value(name("x"), shown(joint.x, "m"), expected));
             }
             positive(name("rotational_stiffness"), stiffness, "N m/rad")?;
+            soft(name("rotational_stiffness"), stiffness, "N m/rad")?;
             if self.joints[..k].iter().any(|before| before.x == joint.x) {
                 let expected = "one joint at one place";
                 return Err(Error::value(name("x"), format!("{} m again", joint.x), expected));
@@ -266,7 +265,7 @@ impl Fixtures {
         }
         if let Some(grip) = &self.grip {
             stretch(&|key: &str| format!("grip.{key}"), grip.from, grip.to, length)?;
-            not_negative("grip.stiffness".to_owned(), grip.stiffness, "N/m²")?;
+            soft("grip.stiffness".to_owned(), grip.stiffness, "N/m²")?;
             not_negative("grip.damping".to_owned(), grip.damping, "N s/m²")?;
         }
         Ok(())
@@ -312,6 +311,28 @@ fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
         return Ok(());
     }
     Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
+}
+
+/// No spring, or one whose motion can be told from a rigid one.
+fn soft(field: String, value: f64, unit: &str) -> Result<()> {
+    const SOFTEST: f64 = 1e-12;
+    not_negative(field.clone(), value, unit)?;
+    if value == 0.0 || value >= SOFTEST {
+        return Ok(());
+    }
+    let expected = format!("0, or {SOFTEST:e} {unit} and more: a softer spring holds nothing");
+    Err(Error::value(field, shown(value, unit), expected))
+}
+
+/// A mass that a bat can be told from.
+fn heavy(field: String, value: f64, unit: &str) -> Result<()> {
+    const HEAVIEST: f64 = 1e8;
+    not_negative(field.clone(), value, unit)?;
+    if value <= HEAVIEST {
+        return Ok(());
+    }
+    let expected = format!("{HEAVIEST:e} {unit} at most: more is a support");
+    Err(Error::value(field, shown(value, unit), expected))
 }
 
 /// A value without a row of zeros.

@@ -44,7 +44,9 @@ fn region(node: &Node, own: &Material, length: f64) -> Result<Region> {
     let object = node.object(&["from", "to", "material", "core"])?;
     object.require_some(&["material", "core"])?;
     let material = |key: &str| {
-        let read = |node| material_file::read(node, Err("\"density\", such as \"0.6 g/cm^3\""));
+        let density = Err("\"density\", such as \"0.6 g/cm^3\"");
+        let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
+        let read = |node| material_file::read(node, density, modulus);
         object.get(key).map(read).transpose()
     };
     let outer = material("material")?.unwrap_or_else(|| own.clone());

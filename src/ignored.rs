@@ -20,6 +20,15 @@ pub struct Shift {
     pub shear: Option<f64>,
 }
 
+impl Shift {
+    /// How much too high a frequency is without them, relative to the one with all that count.
+    pub fn cost(&self, rotary_inertia: bool, shear: bool) -> f64 {
+        let left_out = |effect: f64, counts: bool| if counts { 1.0 + effect } else { 1.0 };
+        let shear = left_out(self.shear.unwrap_or(0.0), shear);
+        1.0 / (left_out(self.rotary_inertia, rotary_inertia) * shear) - 1.0
+    }
+}
+
 /// What rotary inertia and shear would do to a mode's frequency.
 ///
 /// ```text
@@ -58,21 +67,26 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
 /// The same of the lowest modes: of a bare bat by [`shift`], of any other by the theories
 /// themselves, solved to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
+    let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
+    match bat.fixtures.none_moving() {
+        true => by_modes(),
+        false => solved_shifts(bat, modes.len(), tolerance).unwrap_or_else(by_modes),
+    }
+}
+
+/// The same by the theories themselves, solved to that tolerance; None where one has no solution.
+pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shift>> {
     let all = |theory| {
-        let request = Request { modes: modes.len(), tolerance, theory, ..Request::default() };
+        let request = Request { modes, tolerance, theory, ..Request::default() };
         Some(solve(bat, &request).ok()?.modes)
     };
-    let solved = || {
-        let [plain, turning] = [all(Theory::EulerBernoulli)?, all(Theory::Rayleigh)?];
-        let shearing = if bat.knows_shear() { Some(all(Theory::Timoshenko)?) } else { None };
-        let shift = |k: usize| Shift {
-            rotary_inertia: turning[k].omega / plain[k].omega - 1.0,
-            shear: shearing.as_ref().map(|s| s[k].omega / turning[k].omega - 1.0),
-        };
-        Some((0..modes.len()).map(shift).collect())
+    let [plain, turning] = [all(Theory::EulerBernoulli)?, all(Theory::Rayleigh)?];
+    let shearing = if bat.knows_shear() { Some(all(Theory::Timoshenko)?) } else { None };
+    let shift = |k: usize| Shift {
+        rotary_inertia: turning[k].omega / plain[k].omega - 1.0,
+        shear: shearing.as_ref().map(|s| s[k].omega / turning[k].omega - 1.0),
     };
-    let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
-    if bat.fixtures.none_moving() { by_modes() } else { solved().unwrap_or_else(by_modes) }
+    Some((0..modes).map(shift).collect())
 }
 
 /// What a typical material of that kind has for G/E, where it is not known: wood between 0.058 and

@@ -5,12 +5,11 @@ use crate::error::{Error, Result};
 use crate::material::{BUILT_IN, Material};
 use crate::units::Quantity;
 
-/// A material by name or by numbers; where it has no density, that one or the words for what is
-/// expected.
-pub(crate) fn read(
-    node: &Node,
-    without_density: std::result::Result<f64, &str>,
-) -> Result<Material> {
+/// A value to take where there is none in the file, or the words for what is expected.
+pub(crate) type Without<'a> = std::result::Result<f64, &'a str>;
+
+/// A material by name or by numbers, and what it is without a density or without a modulus.
+pub(crate) fn read(node: &Node, density: Without, modulus: Without) -> Result<Material> {
     if !node.is_object() {
         let named: Vec<(&str, &str)> = BUILT_IN.iter().map(|m| (m.name, m.name)).collect();
         let name = node.word(&named)?;
@@ -24,12 +23,18 @@ pub(crate) fn read(
         "shear_coefficient",
         "loss_factor",
     ])?;
-    let density = match (object.quantity("density", Quantity::Density)?, without_density) {
-        (Some(density), _) | (None, Ok(density)) => density,
-        (None, Err(expected)) => return Err(object.node.error("no \"density\"", expected)),
+    let or =
+        |key: &str, quantity, without: Without| match (object.quantity(key, quantity)?, without) {
+            (Some(value), _) | (None, Ok(value)) => Ok(value),
+            (None, Err(expected)) => Err(object.node.error(format!("no \"{key}\""), expected)),
+        };
+    let density = or("density", Quantity::Density, density)?;
+    // A shear modulus would grow with one that is only a beginning.
+    let modulus = match object.get("shear_modulus") {
+        Some(_) => Err("\"youngs_modulus\" beside \"shear_modulus\", such as \"18.1 GPa\""),
+        None => modulus,
     };
-    let modulus = object.require("youngs_modulus", "\"youngs_modulus\", such as \"18.1 GPa\"")?;
-    let youngs_modulus = modulus.quantity(Quantity::Pressure)?;
+    let youngs_modulus = or("youngs_modulus", Quantity::Pressure, modulus)?;
     let poisson_ratio = object.number("poisson_ratio")?;
     let material = Material {
         name: None,

@@ -69,6 +69,17 @@ pub struct Pole {
     pub strain_share: f64,
 }
 
+/// How a damped bat goes on by itself.
+#[derive(Debug, Clone)]
+pub struct FreeMotions {
+    /// Of rising |s|.
+    pub groups: Vec<Group>,
+    /// Those of the rigid motions that dashpots slow down.
+    pub rigid: Vec<Pole>,
+    /// What else the reduced bat does.
+    pub others: Vec<Pole>,
+}
+
 /// Strains under a force as `e^{iωt}`.
 pub struct Answer {
     pub rigid: Vec<c64>,
@@ -261,8 +272,9 @@ impl Reduced {
         left
     }
 
-    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, and those of
-    /// the rigid motions that dashpots slow down. The materials' loss is that of viscous dashpots
+    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, those of the
+    /// rigid motions that dashpots slow down, and all others of the reduced bat, which are not its
+    /// own but make a blow's response begin at zero. The materials' loss is that of viscous dashpots
     /// with the modes' own damping ratios.
     ///
     /// Strains are taken in until no s changes by more than `tolerance`, relative to |s|, or no
@@ -272,17 +284,15 @@ impl Reduced {
     ///
     /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
     /// dashpots are so large that round-off leaves none that dies out.
-    pub fn free_motions(
-        &mut self,
-        wanted: usize,
-        tolerance: f64,
-    ) -> Result<(Vec<Group>, Vec<Pole>)> {
+    pub fn free_motions(&mut self, wanted: usize, tolerance: f64) -> Result<FreeMotions> {
         const MOST_ROUNDS: usize = 12;
         const MOST_MEMBERS: usize = 400;
         let mut round = 0;
         loop {
-            let (mut groups, rigid) = grouped(self.poles()?, self.rigid_unknowns());
-            groups.truncate(wanted);
+            let FreeMotions { mut groups, rigid, mut others } =
+                grouped(self.poles()?, self.rigid_unknowns());
+            let beyond = groups.split_off(wanted.min(groups.len()));
+            others.extend(beyond.into_iter().flat_map(|group| group.poles));
             let [mass, damping] = self.viscous();
             let poles = groups.iter_mut().flat_map(|group| &mut group.poles);
             let mut missing = vec![];
@@ -305,10 +315,11 @@ impl Reduced {
             }
             if self.members.len() == before {
                 let mut rigid = rigid;
-                rigid.iter_mut().for_each(|pole| self.polish(&mass, &damping, pole));
+                let rest = rigid.iter_mut().chain(&mut others);
+                rest.for_each(|pole| self.polish(&mass, &damping, pole));
                 let all = groups.iter().flat_map(|group| &group.poles).chain(&rigid);
                 possible(all)?;
-                return Ok((groups, rigid));
+                return Ok(FreeMotions { groups, rigid, others });
             }
             round += 1;
         }
@@ -605,7 +616,7 @@ impl Group {
 
 /// Complex pairs and pairs of real eigenvalues, by rising |s|; those that belong to `rigid` coupled
 /// rigid motions apart.
-fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
+fn grouped(poles: Vec<Pole>, rigid: usize) -> FreeMotions {
     let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
     real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
     let strained = real.split_off(rigid.min(real.len()));
@@ -624,11 +635,15 @@ fn grouped(poles: Vec<Pole>, rigid: usize) -> (Vec<Group>, Vec<Pole>) {
     while let Some(one) = slow.pop() {
         let order =
             |i: &usize, j: &usize| alike(&one, &fast[*i]).total_cmp(&alike(&one, &fast[*j]));
-        let Some(partner) = (0..fast.len()).max_by(order) else { break };
+        let Some(partner) = (0..fast.len()).max_by(order) else {
+            slow.push(one);
+            break;
+        };
         groups.push(Group { poles: vec![one, fast.remove(partner)] });
     }
     groups.sort_by(|a, b| a.natural().total_cmp(&b.natural()));
-    (groups, real)
+    slow.append(&mut fast);
+    FreeMotions { groups, rigid: real, others: slow }
 }
 
 /// Whether all of these motions die out, as they must.

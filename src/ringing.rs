@@ -96,10 +96,11 @@ impl Ringing {
             }
         }
         if matches!(solution.damping.kind, Kind::Complex(_)) || reduced.coupled {
-            let (groups, rigid) = reduced.free_motions(wanted, accuracy(tolerance))?;
-            let mut poles: Vec<Pole> = groups.into_iter().flat_map(|group| group.poles).collect();
+            let free = reduced.free_motions(wanted, accuracy(tolerance))?;
+            let groups = free.groups.into_iter().flat_map(|group| group.poles);
+            let mut poles: Vec<Pole> = groups.chain(free.others).collect();
             if !bending_only {
-                poles.extend(rigid);
+                poles.extend(free.rigid);
                 poles.extend(reduced.resting());
             }
             motions.extend(poles.into_iter().map(|pole| swinging(&reduced, pole, bending_only)));
@@ -361,6 +362,30 @@ mod tests {
                 let now = energy(&ringing, &mass, &state(&ringing, &start, 1e-4 * f64::from(k)));
                 assert!(now < before, "{k} {now} {before}");
                 before = now;
+            }
+        }
+    }
+
+    /// A blow moves nothing at once, whatever the dashpots do to the motions.
+    #[test]
+    fn a_blow_begins_at_zero() {
+        for (stiffness, damping) in [(0.0, 300.0), (3e4, 300.0), (3e4, 3e4), (0.0, 3e4)] {
+            let bat = bat(hands(stiffness, damping));
+            let solution = solved(&bat, 3, Theory::EulerBernoulli);
+            let ringing = Ringing::new(&bat, &solution, 1e-9, false).unwrap();
+            let start = ringing.blow(0.6, 1.0);
+            let shapes = ringing.shapes(&[0.05, 0.4, 0.6, 0.8]);
+            let at = |t: f64, i: usize| -> f64 {
+                let parts = ringing.amplitudes(&start, t);
+                shapes.iter().zip(parts).map(|(shape, part)| shape[i] * part).sum()
+            };
+            for i in 0..4 {
+                let later = at(1e-3, i).abs().max(1e-3);
+                assert!(
+                    at(0.0, i).abs() < 1e-8 * later,
+                    "{stiffness} {damping} {i} {}",
+                    at(0.0, i)
+                );
             }
         }
     }

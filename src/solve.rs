@@ -190,8 +190,8 @@ const MOST_ROUNDS: usize = 12;
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     request.check(1)?;
     if request.theory.shears() && !bat.knows_shear() {
-        let found = "timoshenko, of a bat whose shear modulus is not known";
-        let expected = "\"shear_modulus\" in every material, or a theory without shear";
+        let found = format!("timoshenko, but {} has no shear modulus", bat.without_shear());
+        let expected = "\"shear_modulus\" or \"poisson_ratio\" there, or a theory without shear";
         return Err(Error::value("theory", found, expected));
     }
     let started = Instant::now();
@@ -262,6 +262,11 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let mut best = best.expect("there was a round");
     let body = (&best.mesh, best.degree, best.theory);
     best.damping = damping(bat, body, &best.modes, request.tolerance)?;
+    let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
+    if best.met && damped > request.tolerance {
+        best.met = false;
+        best.stopped = Some(format!("the damped motions are known to {damped:.1e} only"));
+    }
     Ok(best)
 }
 

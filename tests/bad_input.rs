@@ -933,6 +933,16 @@ fn a_wrong_weight_or_spring_is_refused() {
             ),
             (
                 "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "mass": 1e10 }]"#,
+                &["attachments[0].mass: found 1e10 kg", "1e8 kg at most: more is a support"],
+            ),
+            (
+                "\"dowel\"",
+                r#""", "attachments": [{ "x": 0.1, "stiffness": 1e-100 }]"#,
+                &["attachments[0].stiffness: found 1e-100 N/m", "0, or 1e-12 N/m and more"],
+            ),
+            (
+                "\"dowel\"",
                 r#""", "attachments": [{ "x": 0.1, "mass": 0.1, "offset": 9 }]"#,
                 &["attachments[0].offset: found 9 m", "ten lengths of the bat"],
             ),
@@ -1275,7 +1285,7 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--solver", "static"], &["'static'", "did you mean statics?"]),
         (
             &["modes", "bat.json", "--theory", "timoshenko"],
-            &["theory: found timoshenko", "not known", "\"shear_modulus\" in every material"],
+            &["theory: found timoshenko, but material has no", "\"shear_modulus\" or \"poisson_"],
         ),
         (&["advise"], &["required arguments", "<BAT>"]),
         (&["advise", "missing.json"], &["cannot read missing.json"]),

@@ -2,8 +2,10 @@
 
 mod common;
 
+use sweetspot::choice;
 use sweetspot::ignored::shift;
 use sweetspot::material::Material;
+use sweetspot::theory::Theory;
 use sweetspot::{Bat, Request, solve};
 
 /// Exact ratios of Timoshenko's to Euler–Bernoulli's frequency of the WPI report's dowel with
@@ -24,5 +26,28 @@ fn the_first_order_shift_of_a_slender_mode_is_the_exact_one() {
         // The exact ratios are given to three digits; the second order is below 1e-3 here.
         assert!((total - exact).abs() < 1.5e-3, "{ratio}: {total} {exact}");
         assert!(shift.rotary_inertia < 0.0 && shift.shear.unwrap() < 0.0);
+    }
+}
+
+/// Whatever the tolerance, the theory that is chosen misses what Timoshenko's beam says by no more.
+#[test]
+fn the_chosen_theory_is_as_accurate_as_asked() {
+    for file in ["meshes/r161.json", "meshes/torpedo.json", "meshes/house.json"] {
+        let bat = sweetspot::validation::bundled_bat(file).unwrap();
+        for modes in [1, 3] {
+            let solved = |theory| {
+                let request = Request { modes, tolerance: 1e-9, theory, ..Request::default() };
+                solve(&bat, &request).unwrap().modes
+            };
+            let all = solved(Theory::Timoshenko);
+            for tolerance in [0.3, 0.15, 0.1, 0.05, 0.02, 0.0137, 0.013, 0.01, 0.006, 1e-3] {
+                let request = Request { modes, tolerance, ..Request::default() };
+                let chosen = choice::theory(&bat, &request).unwrap().theory;
+                let pairs = solved(chosen).into_iter().zip(&all);
+                let missed = pairs.map(|(a, b)| (a.omega / b.omega - 1.0).abs());
+                let worst = missed.fold(0.0, f64::max);
+                assert!(worst <= tolerance, "{file} {modes} {tolerance}: {chosen:?} {worst}");
+            }
+        }
     }
 }

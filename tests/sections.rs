@@ -396,6 +396,36 @@ fn what_a_scale_says_sets_the_density_and_what_a_tap_says_the_stiffness() {
     }
 }
 
+/// The tap finds the stiffness that a bat has, whatever is on it and under it, without one to begin
+/// with; hands and soft springs leave slow motions that are no bending.
+#[test]
+fn a_tap_finds_the_stiffness_of_a_held_bat() {
+    let grip = json!({ "grip": { "from": 0, "to": 0.15, "stiffness": 3e4 } });
+    let spring = json!({ "attachments": [{ "x": 0, "stiffness": 100 }] });
+    let clamp = json!({ "supports": [{ "x": 0, "type": "clamped" }] });
+    let joint = json!({ "joints": [{ "x": 0.4, "rotational_stiffness": 5000 }] });
+    let absorber = json!({ "absorbers": [{ "x": 0.02, "mass": 0.03, "frequency": 60 }] });
+    for (what, bending) in [(grip, 3), (spring, 3), (clamp, 1), (joint, 1), (absorber, 2)] {
+        // A spring leaves one motion rigid, and it has no frequency.
+        let rigid = usize::from(what.get("attachments").is_some());
+        let place = bending - rigid;
+        for tolerance in [1e-4, 1e-11] {
+            let theory = Theory::EulerBernoulli;
+            let request = Request { modes: place, tolerance: 1e-12, theory, ..Request::default() };
+            let mut more = what.clone();
+            more["material"] = json!({ "density": 700, "youngs_modulus": 1.6e10 });
+            let known = solve(&of(shaped(none()), more.clone()), &request).unwrap();
+            let tapped = known.modes[place - 1].frequency();
+            more["material"] = json!({ "density": 700 });
+            more["weighed"] = json!({ "first_bending_hz": tapped });
+            let bat = tuned(of(shaped(none()), more), theory, tolerance).unwrap();
+            let found = bat.material().youngs_modulus;
+            // Where a joint takes half of the bending the stiffness is twice as sensitive and more.
+            assert!((found / 1.6e10 - 1.0).abs() < 8.0 * tolerance, "{what} {found:e}");
+        }
+    }
+}
+
 #[test]
 fn the_disagreement_of_a_weighed_balance_point_is_a_number_in_table_and_json() {
     let folder = Folder::new("balance");
