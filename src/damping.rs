@@ -188,7 +188,9 @@ pub fn damping(
         let before = together;
         together = Together::new(&mut finer, modes.len(), tolerance, &of_materials)?;
         let errors = together.motions.iter_mut().zip(&before.motions);
-        errors.for_each(|(now, before)| now.error = now.error.max(now.apart(before)));
+        errors.for_each(|(now, before)| {
+            now.error = now.error.max(now.apart(before)).max(ROUND_OFF);
+        });
         if together.motions.iter().all(|damped| damped.error <= tolerance) {
             break;
         }
@@ -197,6 +199,8 @@ pub fn damping(
     Ok(Damping { modes, rigid, kind: Kind::Complex(largest) })
 }
 
+/// Relative round-off of the small eigenproblem after its vectors are polished.
+const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
 /// Meshes on which the damped motions are found again.
 const MOST_REFINEMENTS: usize = 4;
 

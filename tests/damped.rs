@@ -372,3 +372,34 @@ fn complex_modes_are_used_where_they_matter() {
         assert!((amplitude / half - 2.0).abs() < 1e-15);
     }
 }
+
+/// Hands from weak to immovable: what a coarse answer says of its own errors holds against a fine
+/// one, and it is as accurate as asked.
+#[test]
+fn damped_motions_are_as_accurate_as_they_say() {
+    for damping in [30.0, 300.0, 3e3, 3e4, 1e6, 1e7] {
+        let grip = Grip { from: 0.0, to: 0.15, stiffness: 3e4, damping };
+        let bat = dowel(Fixtures { grip: Some(grip), ..Fixtures::default() }, 0.0);
+        for theory in [Theory::EulerBernoulli, Theory::Timoshenko] {
+            let solved = |tolerance: f64| {
+                let request = Request { modes: 5, tolerance, theory, ..Request::default() };
+                solve(&bat, &request).unwrap()
+            };
+            let fine = solved(1e-9);
+            for tolerance in [1e-2, 1e-4, 1e-6] {
+                let coarse = solved(tolerance);
+                // Hands that hold like a vice are given as well as may be, and it is said.
+                let met = coarse.damping.modes.iter().all(|damped| damped.error <= tolerance);
+                assert_eq!(coarse.met, met, "{damping} {theory:?} {tolerance}");
+                assert!(met || damping > 1e5, "{damping} {theory:?} {:?}", coarse.stopped);
+                for (a, b) in coarse.damping.modes.iter().zip(&fine.damping.modes) {
+                    let s = |d: &sweetspot::damping::Damped| c64::new(-d.decay, d.swinging());
+                    let missed = (s(a) - s(b)).norm() / b.natural;
+                    // Of two real ones the slower is compared, whose part in |s| is small.
+                    let stated = 3.0 * (a.error + b.error);
+                    assert!(missed <= stated, "{damping} {theory:?} {tolerance}: {a:?} {b:?}");
+                }
+            }
+        }
+    }
+}

@@ -256,6 +256,14 @@ enum Event {
     Gone,
 }
 
+/// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
+#[derive(Debug, Clone, Copy)]
+struct Stop {
+    event: Event,
+    top: Option<Top>,
+    most: f64,
+}
+
 /// A step whose force is known at the points.
 #[derive(Debug, Clone, Copy, Default)]
 struct Step {
@@ -323,7 +331,8 @@ impl Touch<'_> {
                     faint |= low;
                 }
                 Some(event) => {
-                    met.corrected += self.stop(event, &now, &step, top, most, &mut next);
+                    let stop = Stop { event, top, most };
+                    met.corrected += self.stop(stop, &now, &step, &mut next);
                     last = None;
                     match event {
                         Event::Turned => {
@@ -579,15 +588,8 @@ impl Touch<'_> {
 
     /// The state at the event; the energy it was off by, relative.
     #[inline(always)]
-    fn stop(
-        &self,
-        event: Event,
-        now: &State,
-        step: &Step,
-        top: Option<Top>,
-        most: f64,
-        next: &mut State,
-    ) -> f64 {
+    fn stop(&self, stop: Stop, now: &State, step: &Step, next: &mut State) -> f64 {
+        let Stop { event, top, .. } = stop;
         // The end of the step, or the first point beyond the event.
         let goal = |x: f64| match (event, top) {
             (Event::Gone, _) => x <= 0.0,
@@ -603,7 +605,7 @@ impl Touch<'_> {
         let mut time = end * crossing(from[0], from[1] * end, to[0], to[1] * end);
         self.within(now, step, time, next);
         self.approach(event, step, top, &mut time, next);
-        let mut corrected = self.round_off(event, now, step, top, most, &mut time, next);
+        let mut corrected = self.round_off(stop, now, step, &mut time, next);
         let off = |next: &State| (self.whole_energy(next, top) - self.energy).abs() / self.energy;
         if event == Event::Gone && off(next) > 1e-13 {
             // The force's last bit ends within the step: a step of that length has it whole.
@@ -619,7 +621,7 @@ impl Touch<'_> {
                 }
                 end += by;
             }
-            corrected += self.round_off(event, now, &last, top, most, &mut end, next);
+            corrected += self.round_off(stop, now, &last, &mut end, next);
         }
         self.settle(next, top);
         corrected
@@ -629,11 +631,9 @@ impl Touch<'_> {
     #[inline(always)]
     fn round_off(
         &self,
-        event: Event,
+        Stop { event, top, most }: Stop,
         now: &State,
         step: &Step,
-        top: Option<Top>,
-        most: f64,
         time: &mut f64,
         next: &mut State,
     ) -> f64 {
@@ -674,7 +674,7 @@ impl Touch<'_> {
         for _ in 0..4 {
             let [left, rate] = self.distance(event, next, top);
             let by = -left / rate;
-            if !(by.abs() <= 0.1 * step.length) {
+            if by.is_nan() || by.abs() > 0.1 * step.length {
                 break;
             }
             *time += by;
@@ -740,7 +740,7 @@ impl Touch<'_> {
             }
             let size = -defect / (slope + next.force * moved);
             // Where the compression does not change no force does work.
-            if !(size.abs() <= 2.0 * most) {
+            if size.is_nan() || size.abs() > 2.0 * most {
                 break;
             }
             next.speed += size * speed;
