@@ -46,7 +46,9 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         if nearest == 0.0 || ratio.ln().abs() < (tapped / nearest).ln().abs() {
             nearest = found;
         }
-        if (ratio - 1.0).abs() <= (2.0 * tolerance).max(here.modes[bending].error.total()) {
+        // Where arithmetic knows a frequency less well, as well as it does, and half of --tol.
+        let known = here.modes[bending].error.total().min(50.0 * tolerance);
+        if (ratio - 1.0).abs() <= known.max(2.0 * tolerance) {
             return Ok(bat);
         }
         // Newton's step in logarithms, never beyond what is known to be too soft or too stiff.

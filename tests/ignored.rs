@@ -29,7 +29,8 @@ fn the_first_order_shift_of_a_slender_mode_is_the_exact_one() {
     }
 }
 
-/// Whatever the tolerance, the theory that is chosen misses what Timoshenko's beam says by no more.
+/// Whatever the tolerance, the theory that is chosen misses what Timoshenko's beam says by no more,
+/// and none that is cheaper does as well.
 #[test]
 fn the_chosen_theory_is_as_accurate_as_asked() {
     for file in ["meshes/r161.json", "meshes/torpedo.json", "meshes/house.json"] {
@@ -39,14 +40,20 @@ fn the_chosen_theory_is_as_accurate_as_asked() {
                 let request = Request { modes, tolerance: 1e-9, theory, ..Request::default() };
                 solve(&bat, &request).unwrap().modes
             };
-            let all = solved(Theory::Timoshenko);
+            let ladder = [Theory::EulerBernoulli, Theory::Rayleigh, Theory::Timoshenko];
+            let all = ladder.map(solved);
+            let missed = |k: usize| {
+                let pairs = all[k].iter().zip(&all[2]);
+                pairs.map(|(a, b)| (a.omega / b.omega - 1.0).abs()).fold(0.0, f64::max)
+            };
             for tolerance in [0.3, 0.15, 0.1, 0.05, 0.02, 0.0137, 0.013, 0.01, 0.006, 1e-3] {
                 let request = Request { modes, tolerance, ..Request::default() };
                 let chosen = choice::theory(&bat, &request).unwrap().theory;
-                let pairs = solved(chosen).into_iter().zip(&all);
-                let missed = pairs.map(|(a, b)| (a.omega / b.omega - 1.0).abs());
-                let worst = missed.fold(0.0, f64::max);
-                assert!(worst <= tolerance, "{file} {modes} {tolerance}: {chosen:?} {worst}");
+                let k = ladder.iter().position(|theory| *theory == chosen).unwrap();
+                let told = format!("{file} {modes} {tolerance}: {chosen:?}");
+                assert!(missed(k) <= tolerance, "{told} {}", missed(k));
+                // Nor would a cheaper one do; shifts are solved to a tenth of the tolerance.
+                assert!(k == 0 || missed(k - 1) > 0.8 * tolerance, "{told} {}", missed(k - 1));
             }
         }
     }
