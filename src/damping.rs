@@ -87,9 +87,19 @@ impl Damped {
 pub struct Damping {
     /// One for each mode of the solution; empty without any damping.
     pub modes: Vec<Damped>,
+    /// ζ of each undamped mode taken by itself.
+    pub alone: Vec<f64>,
     /// Decay rates (1/s) of the rigid motions that only dashpots hold.
     pub rigid: Vec<f64>,
     pub kind: Kind,
+}
+
+impl Damping {
+    /// Each mode by itself.
+    fn by_modes(modes: Vec<Damped>, rigid: Vec<f64>, kind: Kind) -> Self {
+        let alone = modes.iter().map(|damped| damped.ratio).collect();
+        Self { modes, alone, rigid, kind }
+    }
 }
 
 /// How it was found.
@@ -150,7 +160,7 @@ pub fn damping(
     if alike && bat.fixtures.none_moving() && !dashpots {
         let damped = |mode: &Mode| Damped::new(mode.omega, 0.5 * own, 0.5 * own);
         let modes = modes.iter().map(damped).collect();
-        return Ok(Damping { modes, rigid: vec![], kind: Kind::Materials });
+        return Ok(Damping::by_modes(modes, vec![], Kind::Materials));
     }
     let mut reduced = Reduced::new(bat, mesh, degree, theory, modes.len())?;
     let of_materials: Vec<f64> = (0..modes.len()).map(|k| 0.5 * reduced.mode_loss(k)).collect();
@@ -160,7 +170,7 @@ pub fn damping(
     };
     let mut alone: Vec<Damped> = (0..modes.len()).map(alone).collect();
     if !dashpots {
-        return Ok(Damping { modes: alone, rigid: vec![], kind: Kind::Materials });
+        return Ok(Damping::by_modes(alone, vec![], Kind::Materials));
     }
     let mut together = Together::new(&mut reduced, modes.len(), tolerance, &of_materials)?;
     let change = |(a, b): (&Damped, &Damped)| {
@@ -173,8 +183,7 @@ pub fn damping(
     }
     let within = alone.iter().all(|damped| damped.error <= tolerance) || largest == 0.0;
     if within || changes.len() < alone.len() {
-        let (modes, rigid) = (alone, together.rigid);
-        return Ok(Damping { modes, rigid, kind: Kind::Modal(largest) });
+        return Ok(Damping::by_modes(alone, together.rigid, Kind::Modal(largest)));
     }
     // Where a dashpot is strong the bat moves about it as no mode does, and what the modes say of
     // the mesh is not enough.
@@ -196,7 +205,8 @@ pub fn damping(
         }
     }
     let (modes, rigid) = (together.motions, together.rigid);
-    Ok(Damping { modes, rigid, kind: Kind::Complex(largest) })
+    let alone = alone.iter().map(|damped| damped.ratio).collect();
+    Ok(Damping { modes, alone, rigid, kind: Kind::Complex(largest) })
 }
 
 /// Relative round-off of the small eigenproblem after its vectors are polished.

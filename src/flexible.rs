@@ -4,7 +4,7 @@
 //! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they
 //! are coordinates of their own, to which these strains are orthogonal.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use crate::bat::Bat;
 use crate::beam::element::{MOST_STRAINS, losses};
@@ -17,7 +17,9 @@ use crate::beam::sweep::Loads;
 use crate::eigen::lanczos::dot;
 use crate::eigenpairs::Eigenpairs;
 use crate::error::Result;
+use crate::layup::Worth;
 use crate::modes::Shape;
+use crate::quadrature::{gauss, legendre};
 use crate::theory::Theory;
 
 /// A bat's strains on a mesh, and what forces and motions do with them.
@@ -94,7 +96,7 @@ impl Drawn {
 }
 
 /// Eigenpairs of any degree and theory.
-trait Pairs {
+trait Pairs: Send + Sync {
     fn assemble(&mut self, bat: &Bat, mesh: &Mesh);
     /// ω (rad/s) and unit strains of the slowest modes, and how many of them are apart from the
     /// others.
@@ -287,6 +289,50 @@ impl Flexible {
             true => self.pairs.row(split - 1 - e, 1.0 - s),
             false => self.pairs.row(e, s),
         }
+    }
+
+    /// What a unit force at `x` deflects beyond what the element's polynomials show (m/N): its
+    /// bending moment has a kink there, and its shear force a step.
+    ///
+    /// With `f = (ξ − x)₊` and `P` the polynomials of the curvature, `∫f²/EI dξ` less the same of
+    /// its projection, over the element; and likewise `∫1/κGA dξ` of the step. Moments beyond
+    /// those of the kink are smooth, and the mesh has them.
+    pub fn unresolved(&self, x: f64, worth: impl Fn(f64) -> Worth) -> f64 {
+        static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss(10));
+        let elements = &self.mesh.elements;
+        let k = elements.partition_point(|e| e.start <= x).max(1) - 1;
+        let (e, split) = (&elements[k], self.pairs.place().split);
+        let knob_side = k < split;
+        let along = ((x - e.start) / e.length).clamp(0.0, 1.0);
+        // Outwards, as the cell is seen.
+        let (cell, at) = if knob_side { (split - 1 - k, 1.0 - along) } else { (k, along) };
+        let mut missing = 0.0;
+        self.pairs.see(&mut |view| {
+            let (block, strains) = (view.terms - 2, view.strains);
+            let mut loads = [0.0; MOST_STRAINS];
+            let mut whole = 0.0;
+            for &(s, weight) in RULE.iter() {
+                let s = at + (1.0 - at) * s;
+                let share = weight * (1.0 - at) * e.length;
+                let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
+                let (here, arm) = (worth(place), (s - at) * e.length);
+                whole += share * arm * arm / here.bending;
+                let polynomials = legendre(block, 2.0 * s - 1.0);
+                for (j, p) in polynomials[..block].iter().enumerate() {
+                    loads[j] += share * arm * p;
+                    if strains > block {
+                        loads[block + j] += share * p;
+                    }
+                }
+                if strains > block {
+                    whole += share / here.shear;
+                }
+            }
+            let mut scaled = [0.0; MOST_STRAINS];
+            (view.cell)(cell).scaled_by_loads(&loads[..strains], block, &mut scaled[..strains]);
+            missing = whole - dot(&scaled[..strains], &scaled[..strains]) / view.energy_unit;
+        });
+        missing.max(0.0)
     }
 
     /// The deflections along the bat of these strains, the free rigid motions left out.

@@ -13,8 +13,8 @@
 //! declared above it.
 //!
 //! ```
-//! use sweetspot::collision::{ball::Ball, energy_loss::EnergyLoss};
-//! use sweetspot::collision::hit::{Hitter, Model, Scene};
+//! use sweetspot::collision::hit::{Effort, Model, Scene};
+//! use sweetspot::collision::hitter::Hitter;
 //! use sweetspot::{Bat, Request, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
@@ -24,11 +24,11 @@
 //!     println!("{:7.1} Hz, relative error {:.0e}", mode.frequency(), mode.error.total());
 //! }
 //!
-//! let ball = Ball::baseball();
-//! let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, cor: ball.cor, ball };
-//! let hitter = Hitter::new(Model::EnergyLoss(EnergyLoss::default()), &scene, &bat, &solution);
-//! let exit_speed = hitter.exit_speed(0.70).expect("the ball is hit");
-//! println!("a ball met 0.70 m from the knob leaves at {exit_speed:.1} m/s");
+//! let scene = Scene { swing: 50.0, ball_speed: 40.0, ..Scene::default() };
+//! let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default())?;
+//! let hit = hitter.strike(0.70).outcome.expect("the ball is hit");
+//! println!("a ball met 0.70 m from the knob leaves at {:.1} m/s", hit.exit_speed);
+//! println!("and {:.1} J of {:.0} stay in vibration", hit.energy.vibration(), hit.energy.initial);
 //! # Ok(())
 //! # }
 //! ```
@@ -120,8 +120,10 @@ pub mod ringing;
 pub mod frf;
 pub mod collision;
 pub mod report;
+pub mod known_hits;
 pub mod validation;
 pub mod published;
+pub mod hit_figure;
 pub mod validation_page;
 pub mod promise;
 pub mod extremes;

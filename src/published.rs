@@ -61,7 +61,7 @@ pub fn bats(answers: &[Answer]) -> Vec<&str> {
     bats.into_iter().map(|(_, bat)| bat).collect()
 }
 
-/// How far the furthest frequency and the furthest node are off, as the end of a sentence.
+/// How far the furthest frequency, node, exit speed and time are off, as the end of a sentence.
 pub fn furthest(rows: &[&Row]) -> String {
     let largest = |relative: bool, unit: &str| {
         let rows =
@@ -70,6 +70,7 @@ pub fn furthest(rows: &[&Row]) -> String {
     };
     let (share, ratio) = (largest(true, " Hz"), largest(true, "/f1"));
     let (hertz, node) = (largest(false, " Hz"), largest(false, " m"));
+    let (speed, time) = (largest(false, " m/s"), largest(true, " ms"));
     let mut words = Vec::new();
     if !share.is_nan() {
         words.push(format!("frequencies within {:.1} %", 100.0 * share));
@@ -84,6 +85,13 @@ pub fn furthest(rows: &[&Row]) -> String {
     if !node.is_nan() {
         words.push(format!("nodes within {:.1} cm", 100.0 * node));
     }
+    if !speed.is_nan() {
+        let decimals = if speed < 0.1 { 3 } else { 1 };
+        words.push(format!("exit speeds within {speed:.decimals$} m/s"));
+    }
+    if !time.is_nan() {
+        words.push(format!("times within {:.1} %", 100.0 * time));
+    }
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
 
@@ -97,13 +105,17 @@ struct Line<'a> {
 }
 
 /// The cases of one bat as one table, a line for each mode: measured, computed by others, ours
-/// with and without shear, nodes. A column that nobody fills is left out.
+/// with and without shear, nodes. A column that nobody fills is left out; without modes there is no
+/// table.
 ///
 /// # Errors
 ///
 /// What the bats and their solutions raise.
 pub fn side_by_side(answers: &[&Answer]) -> Result<String> {
     let lines = lines(answers);
+    if lines.is_empty() {
+        return Ok(String::new());
+    }
     let mut cells = Vec::new();
     for line in &lines {
         cells.push(line_of_cells(answers, line)?);

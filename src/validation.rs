@@ -12,6 +12,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::dowel::{Dowel, Ends, UniformMode};
 use crate::error::{Error, Result};
 use crate::frf::Frf;
+use crate::known_hits::{Seen, Throw};
 use crate::ringing::Ringing;
 use crate::solve::{Request, Solution, solve};
 use crate::theory::Theory;
@@ -28,8 +29,13 @@ pub struct Case {
     pub source: String,
     /// Whose numbers they are; a case without it has an exact answer.
     pub published: Option<Published>,
+    /// None where a wall is hit.
+    #[serde(default)]
     bat: Value,
+    #[serde(default)]
     solve: Solve,
+    /// What is thrown at the bat, or at the wall, where all checks are of hits.
+    pub hit: Option<Throw>,
     pub checks: Vec<Check>,
 }
 
@@ -52,7 +58,7 @@ pub enum Kind {
     Computed,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Solve {
     modes: usize,
@@ -69,12 +75,15 @@ pub struct Check {
     pub quantity: Known,
     pub mode: Option<usize>,
     pub node: Option<usize>,
-    /// Where a force acts and where its deflection is seen (m), and how fast it swings (Hz).
-    at: Option<f64>,
+    /// Where a ball hits, or a force acts and its deflection is seen (m), and how fast it swings
+    /// (Hz).
+    pub at: Option<f64>,
     to: Option<f64>,
     frequency_hz: Option<f64>,
     /// How long after a blow (s).
     time_s: Option<f64>,
+    /// How fast the ball flies at a wall (m/s).
+    speed_m_per_s: Option<f64>,
     pub expected: f64,
     relative: Option<f64>,
     absolute: Option<f64>,
@@ -110,6 +119,8 @@ pub enum Known {
     InertiaPivotKgM2,
     CenterOfPercussionM,
     InertiaPivotOzIn2,
+    #[serde(untagged)]
+    Hit(Seen),
 }
 
 /// A known number beside ours.
@@ -219,6 +230,10 @@ pub const CASES: &[(&str, &str)] = &[
     ("pchip_bat", include_str!("../validation/pchip_bat.json")),
     ("pin_inside", include_str!("../validation/pin_inside.json")),
     ("pinned_pinned", include_str!("../validation/pinned_pinned.json")),
+    ("r161_hit_cross", include_str!("../validation/r161_hit_cross.json")),
+    ("r161_hit_fast", include_str!("../validation/r161_hit_fast.json")),
+    ("r161_hit_nathan", include_str!("../validation/r161_hit_nathan.json")),
+    ("r161_hit_slow", include_str!("../validation/r161_hit_slow.json")),
     ("r161_nathan", include_str!("../validation/r161_nathan.json")),
     ("r161_nathan_timoshenko", include_str!("../validation/r161_nathan_timoshenko.json")),
     ("r161_reference", include_str!("../validation/r161_reference.json")),
@@ -259,6 +274,8 @@ pub const CASES: &[(&str, &str)] = &[
     ("two_materials", include_str!("../validation/two_materials.json")),
     ("van_zandt_computed", include_str!("../validation/van_zandt_computed.json")),
     ("van_zandt_measured", include_str!("../validation/van_zandt_measured.json")),
+    ("wall_nathan", include_str!("../validation/wall_nathan.json")),
+    ("wall_times", include_str!("../validation/wall_times.json")),
     ("weighed_dowel", include_str!("../validation/weighed_dowel.json")),
 ];
 
@@ -311,7 +328,8 @@ impl Truth {
     pub fn of_cases(names: &[&str]) -> Result<Self> {
         let mut truth: Option<Self> = None;
         for name in names {
-            let (case, bat) = read(name, text(name)?)?;
+            let case = bundled_case(name)?;
+            let bat = case.bat()?;
             let theory = case.request()?.theory;
             let (frequencies, nodes, modal_masses) = (vec![], vec![], vec![]);
             let empty = Self { bat, theory, frequencies, nodes, modal_masses };
@@ -383,6 +401,15 @@ pub fn dowel_proof(request: &Request) -> Result<[f64; 2]> {
     Ok([errors.fold(0.0, f64::max), solution.worst()])
 }
 
+/// One of the cases that travel with the program.
+///
+/// # Errors
+///
+/// [`Error::Value`] if there is none of that name.
+pub fn bundled_case(name: &str) -> Result<Case> {
+    read(name, text(name)?)
+}
+
 /// The text of the case of that name.
 fn text(name: &str) -> Result<&'static str> {
     let found = CASES.iter().find(|(case, _)| *case == name);
@@ -391,15 +418,14 @@ fn text(name: &str) -> Result<&'static str> {
         .ok_or_else(|| Error::value("case", name, "a case that travels with the program"))
 }
 
-/// A case and its bat.
-fn read(name: &str, text: &str) -> Result<(Case, Bat)> {
+/// A case.
+fn read(name: &str, text: &str) -> Result<Case> {
     let case: Case = serde_json::from_str(text)
         .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))?;
     if case.format != "sweetspot-validation/1" {
         return Err(Error::value(name, &case.format, "\"sweetspot-validation/1\""));
     }
-    let bat = case.bat()?;
-    Ok((case, bat))
+    Ok(case)
 }
 
 impl Case {
@@ -411,6 +437,7 @@ impl Case {
     pub fn bat(&self) -> Result<Bat> {
         match &self.bat {
             Value::String(path) => bundled_bat(path),
+            Value::Null => Err(Error::value(&self.name, "no bat", "a bat")),
             inline => Bat::from_text(&self.name, &inline.to_string(), Path::new("")),
         }
     }
@@ -419,6 +446,7 @@ impl Case {
     pub fn bat_source(&self) -> String {
         match &self.bat {
             Value::String(path) => format!("`{path}`."),
+            Value::Null => "none, the ball meets a rigid wall.".to_owned(),
             inline => format!("{}.", inline["source"].as_str().unwrap_or("of the case")),
         }
     }
@@ -442,6 +470,34 @@ impl Case {
             ..Request::default()
         })
     }
+
+    /// What is found of every check, NaN where nothing is: it passes no test.
+    fn found(&self) -> Result<Vec<f64>> {
+        let seen = |check: &Check| match check.quantity {
+            Known::Hit(seen) => Some(seen),
+            _ => None,
+        };
+        if let (Some(throw), Value::Null) = (&self.hit, &self.bat) {
+            let on_wall = |check| Some(throw.on_wall(seen(check)?, check.speed_m_per_s?));
+            return Ok(self
+                .checks
+                .iter()
+                .map(|check| on_wall(check).unwrap_or(f64::NAN))
+                .collect());
+        }
+        let request = self.request()?;
+        let bat = tuned(self.bat()?, request.theory, request.tolerance)?;
+        let solution = solve(&bat, &request)?;
+        if let Some(throw) = &self.hit {
+            let wanted = |check: &Check| Some((seen(check)?, check.at.unwrap_or(f64::NAN)));
+            let wanted: Option<Vec<(Seen, f64)>> = self.checks.iter().map(wanted).collect();
+            let expected = "checks of hits only, where something is thrown";
+            let wanted = wanted.ok_or_else(|| Error::value(&self.name, "others", expected))?;
+            return throw.on_bat(&bat, &solution, &wanted);
+        }
+        let found = |check| found(check, &bat, &solution, &request).unwrap_or(f64::NAN);
+        Ok(self.checks.iter().map(found).collect())
+    }
 }
 
 /// Runs one case: a row for every known number.
@@ -450,25 +506,21 @@ impl Case {
 ///
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
-    let (case, bat) = read(name, text)?;
-    let request = case.request()?;
-    let bat = tuned(bat, request.theory, request.tolerance)?;
-    let solution = solve(&bat, &request)?;
+    let case = read(name, text)?;
     let mut note = None;
     let mut rows = Vec::new();
-    for check in &case.checks {
+    for (check, found) in case.checks.iter().zip(case.found()?) {
         note = check.note.clone().or(note);
-        rows.push(Row { note: note.clone(), ..row(name, check, &bat, &solution, &request) });
+        rows.push(Row { note: note.clone(), ..row(name, check, found) });
     }
     Ok((case, rows))
 }
 
 /// A check beside what was found, the note aside.
-fn row(case: &str, check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Row {
-    // A case that asks for what is not there gets NaN, which passes no test.
-    let found = found(check, bat, solution, request).unwrap_or(f64::NAN);
-    // Without a tolerance, places differ by a length and all else by a share.
-    let shown = check.information && check.quantity != Known::NodeM;
+fn row(case: &str, check: &Check, found: f64) -> Row {
+    // Without a tolerance, places and hits differ by their unit and all else by a share.
+    let absolute = matches!(check.quantity, Known::NodeM | Known::Hit(_));
+    let shown = check.information && !absolute;
     let relative = check.relative.is_some() || shown;
     let scale = if relative { check.expected.abs() } else { 1.0 };
     Row {
@@ -515,6 +567,8 @@ fn found(check: &Check, bat: &Bat, solution: &Solution, request: &Request) -> Op
         Known::InertiaPivotKgM2 => Some(inertia.about(STANDARD_PIVOT)),
         Known::InertiaPivotOzIn2 => Some(ounce_square_inches(inertia.about(STANDARD_PIVOT))),
         Known::CenterOfPercussionM => inertia.center_of_percussion(STANDARD_PIVOT),
+        // Only of a case with a throw.
+        Known::Hit(_) => None,
     }
 }
 
@@ -540,6 +594,7 @@ fn label(check: &Check) -> String {
         Known::InertiaPivotKgM2 => "I 6 in kg m²".into(),
         Known::InertiaPivotOzIn2 => "I 6 in oz in²".into(),
         Known::CenterOfPercussionM => "percussion m".into(),
+        Known::Hit(seen) => seen.label(check.at.unwrap_or(0.0), check.speed_m_per_s.unwrap_or(0.0)),
     }
 }
 
@@ -569,7 +624,7 @@ mod tests {
     #[test]
     fn every_check_has_a_tolerance_and_a_reason_or_is_for_information() {
         for (name, text) in CASES {
-            let (case, _) = read(name, text).unwrap();
+            let case = read(name, text).unwrap();
             assert!(!case.source.is_empty(), "{name}");
             let reason = case.checks.first().and_then(|check| check.note.as_ref());
             assert!(reason.is_some(), "{name}: the first check has no note");

@@ -1226,6 +1226,21 @@ fn a_wrong_ball_is_refused() {
         ("0.5", "0.5, \"stiffness\": -1", &["ball.json:5:28: stiffness: found -1", "above 0"]),
         ("0.5", "0.5, \"exponent\": 0", &["ball.json:5:27: exponent: found 0", "above 0"]),
         ("0.5", "0.5, \"cor\": 0.5", &["ball.json:5:22: cor", "a second time"]),
+        ("0.5", "0.5, \"cor_by_speed\": []", &["ball.json:5:31: cor_by_speed", "one pair"]),
+        ("0.5", "0.5, \"cor_by_speed\": [[1]]", &["ball.json:5:32", "a speed and the rest"]),
+        ("0.5", "0.5, \"cor_by_speed\": [[1, 2]]", &["ball.json:5:36", "0 to 1"]),
+        (
+            "0.5",
+            "0.5, \"cor_by_speed\": [[2, 0.5], [1, 0.6]]",
+            &["ball.json:5:43", "each above the last"],
+        ),
+        ("0.5", "0.5, \"damping_ratio\": 0.2", &["ball.json", "damping_ratio", "cor"]),
+        ("\"cor\": 0.5", "\"damping_ratio\": 1", &["ball.json:5:20", "0 to below 1"]),
+        (
+            "\"cor\": 0.5",
+            "\"exponent\": 1.5, \"damping_ratio\": 0.2",
+            &["ball.json:5:37", "an exponent of 1"],
+        ),
     ];
     let folder = Folder::new("balls");
     folder.write("bat.json", BAT);
@@ -1312,18 +1327,23 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--budget", "5 ms", "--tol", "1e-3"], &["cannot be used with"]),
         (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
         (&["analyze", "bat.json", "--plots", "p"], &["--plots is not supported yet"]),
-        (&["analyze", "bat.json", "--model", "contact"], &["contact", "not supported yet"]),
         (&["analyze", "bat.json", "--at", "0.6"], &["unexpected argument '--at'"]),
         (&["analyze", "missing.json", "--out", "folder"], &["cannot read missing.json"]),
         (&["analyze"], &["required arguments", "<BAT>"]),
-        (&["hit", "bat.json", "--model", "pulse"], &["'pulse'", "not supported yet"]),
-        (&["hit", "bat.json", "--model", "contact"], &["'contact'", "not supported yet"]),
+        (&["hit", "bat.json", "--ball", "softball"], &["ball: found softball", "\"stiffness\""]),
         (&["hit", "bat.json", "--model", "ridgid"], &["'ridgid'", "did you mean rigid?"]),
         (
             &["hit", "bat.json", "--pulse-duration", "1 ms"],
-            &["--pulse-duration is not supported yet"],
+            &["--pulse-duration, --loss-share: found them with --model contact", "--model pulse"],
         ),
-        (&["hit", "bat.json", "--loss-share", "1"], &["--loss-share is not supported yet"]),
+        (
+            &["hit", "bat.json", "--model", "pulse", "--loss-share", "2"],
+            &["--loss-share", "0 to 1"],
+        ),
+        (
+            &["hit", "bat.json", "--model", "pulse", "--pulse-duration", "0 s"],
+            &["--pulse-duration: found 0 s", "from 1 ns to 1 s"],
+        ),
         (&["hit", "bat.json", "--model", "rigid", "--gamma", "1"], &["--gamma", "energy-loss"]),
         (&["hit", "bat.json", "--gamma", "-1"], &["'-1'", "0 to 100"]),
         (&["hit", "bat.json", "--decay", "nan"], &["'nan'", "0 to 100"]),
@@ -1356,6 +1376,37 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
         (&["hit", "bat.json", "--reproducible=1"], &["--reproducible"]),
+        (&["hit", "bat.json", "--hands", "-1 in"], &["--hands: found -0.0254 m", "0 to 0.8 m"]),
+        (&["hit", "bat.json", "--wall-stiffness", "0"], &["--wall-stiffness", "1 to 1e15 N/m"]),
+        (&["hit", "bat.json", "--wall-mass", "50 g"], &["--wall-stiffness <K>"]),
+        (
+            &["hit", "bat.json", "--wall-stiffness", "4e6", "--model", "rigid"],
+            &["--wall-stiffness: found it with --model rigid", "--model contact"],
+        ),
+        (
+            &["hit", "bat.json", "--wall-stiffness", "4e6", "--wall-mass", "-1"],
+            &["--wall-mass", "0, or 1e-9 to 1e6 kg"],
+        ),
+        (&["hit", "bat.json", "--swing-exponent", "0.5"], &["--reference-inertia <I>"]),
+        (&["hit", "bat.json", "--reference-inertia", "0"], &["--reference-inertia", "above 0"]),
+        (
+            &["hit", "bat.json", "--reference-inertia", "0.2", "--swing-exponent", "3"],
+            &["--swing-exponent: found 3", "0 to 2"],
+        ),
+        (&["ring", "bat.json", "--hit", "0.9"], &["--hit: found 0.9 m", "0 to 0.8 m"]),
+        (&["ring", "bat.json", "--hit", "0.6", "--watch", "0.9"], &["--watch: found 0.9 m"]),
+        (&["ring", "bat.json", "--hit", "0.6", "--until", "1e9"], &["--until", "below 1000 s"]),
+        (&["ring", "bat.json", "--hit", "0.6", "--until", "-1 ms"], &["--until", "above 0"]),
+        (&["ring", "bat.json", "--hit", "0.6", "--model", "rigid"], &["--model", "contact"]),
+        (&["ring", "bat.json", "--hit", "0.6", "--at", "0.5"], &["cannot be used with"]),
+        (
+            &["ring", "bat.json", "--hit", "0.6", "--pitch", "0", "--swing-speed", "0"],
+            &["--hit: found no contact at 0.6 m", "where ball and bat meet"],
+        ),
+        (
+            &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--pitch", "90 mph"],
+            &["--pitch sets the scene of a hit", "--hit X"],
+        ),
         (
             &["ring", "bat.json"],
             &["neither a blow nor an initial shape", "--at X with --impulse J"],
@@ -1681,7 +1732,7 @@ fn unusual_but_right_options_are_taken() {
     assert_eq!(hit(&["--at", "0"])["impacts"][0]["x_m"], 0.0);
     assert_eq!(hit(&["--at", "0.8"])["impacts"][0]["from_tip_m"], 0.0);
     folder.write("ball.json", "\u{feff}{ \"format\": \"sweetspot-ball/1\", \"mass\": 0.145,\r\n\"radius\": 0.0366, \"cor\": 0 }");
-    assert_eq!(hit(&["--ball", "ball.json"])["scene"]["ball"]["cor"], 0.0);
+    assert_eq!(hit(&["--ball", "ball.json", "--model", "rigid"])["scene"]["ball"]["cor"], 0.0);
 }
 
 /// A run that falls short of what was asked: exit code 3, one line that says why, and an answer.

@@ -4,7 +4,8 @@ mod common;
 
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::hit::{Hitter, Model, Scene};
+use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
@@ -18,7 +19,7 @@ fn solved(path: &str) -> (Bat, Solution) {
 /// The report's swing and pitch: a 5 oz ball at 90 mph, 2.5 in beyond the knob.
 fn scene(swing: f64) -> Scene {
     let ball = Ball { mass: 5.0 * 0.028_349_523_125, ..Ball::baseball() };
-    Scene { pivot: 0.0635, swing, ball, ball_speed: 40.2336, cor: 0.5 }
+    Scene { pivot: 0.0635, swing, ball, ball_speed: 40.2336, cor: 0.5, ..Scene::default() }
 }
 
 /// Peaks of the report's rigid and empirical curves, recomputed from its script
@@ -35,7 +36,7 @@ fn the_elements_reproduce_the_peaks_of_the_wpi_report() {
         let scene = scene(swing);
         let cases = [(Model::Rigid, rigid), (Model::EnergyLoss(EnergyLoss::default()), lossy)];
         for (model, (place, speed)) in cases {
-            let hitter = Hitter::new(model, &scene, &bat, &solution);
+            let hitter = Hitter::new(model, &scene, &bat, &solution, Effort::default()).unwrap();
             let peak = SweetSpot::find(&bat, &scene, &solution, &hitter).exit_speed_max.unwrap();
             assert!((peak.x / bat.length() - place).abs() < 1e-4, "{swing} {}", peak.x);
             let ratio = peak.value / scene.ball_speed;
@@ -49,7 +50,7 @@ fn a_rigid_hit_balances_its_energy_and_returns_the_coefficient_of_restitution() 
     let (bat, solution) = solved("meshes/r161.json");
     for cor in [0.0, 0.5, 1.0] {
         let scene = Scene { cor, ..scene(50.0) };
-        let hitter = Hitter::new(Model::Rigid, &scene, &bat, &solution);
+        let hitter = Hitter::new(Model::Rigid, &scene, &bat, &solution, Effort::default()).unwrap();
         for x in [0.0, 0.2, 0.5, 0.7, 0.84] {
             let outcome = hitter.strike(x).outcome.unwrap();
             let energy = &outcome.energy;
@@ -67,7 +68,7 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
     let (bat, solution) = solved("meshes/r161.json");
     let scene = scene(50.0);
     let none = Model::EnergyLoss(EnergyLoss { gamma: 0.0, decay: 2.0 });
-    let hitter = Hitter::new(none, &scene, &bat, &solution);
+    let hitter = Hitter::new(none, &scene, &bat, &solution, Effort::default()).unwrap();
     for x in [0.3, 0.6, 0.84] {
         let impact = hitter.strike(x);
         let (flexible, rigid) = (impact.outcome.unwrap().exit_speed, impact.rigid_exit_speed);
@@ -77,9 +78,16 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
     let request = Request { modes: 1, tolerance: 1e-8, ..Request::default() };
     let one = solve(&bat, &request).unwrap();
     let node = one.modes[0].nodes[1];
-    let hitter = Hitter::new(Model::EnergyLoss(EnergyLoss::default()), &scene, &bat, &one);
-    assert!(hitter.vibration(node).unwrap() < 1e-12);
-    assert!(hitter.vibration(node + 0.05).unwrap() > 1.0);
+    let hitter = Hitter::new(
+        Model::EnergyLoss(EnergyLoss::default()),
+        &scene,
+        &bat,
+        &one,
+        Effort::default(),
+    )
+    .unwrap();
+    assert!(hitter.glance(node).unwrap().vibration.unwrap() < 1e-12);
+    assert!(hitter.glance(node + 0.05).unwrap().vibration.unwrap() > 1.0);
 }
 
 /// The mode in the report's scaling has `(1/M) ∫ρA W² dx = α²`: on the uniform dowel the raw
@@ -88,7 +96,14 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
 fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
     let (bat, solution) = solved("meshes/dowel.json");
     let scene = scene(50.0);
-    let hitter = Hitter::new(Model::EnergyLoss(EnergyLoss::default()), &scene, &bat, &solution);
+    let hitter = Hitter::new(
+        Model::EnergyLoss(EnergyLoss::default()),
+        &scene,
+        &bat,
+        &solution,
+        Effort::default(),
+    )
+    .unwrap();
     for fraction in [0.55, 0.7, 0.95] {
         let outcome = hitter.strike(fraction * bat.length()).outcome.unwrap();
         for (n, energy) in (1..).zip(&outcome.energy.vibration_by_mode) {
@@ -104,7 +119,7 @@ fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
 fn a_ball_that_is_not_met_has_no_outcome() {
     let (bat, solution) = solved("meshes/dowel.json");
     let still = Scene { ball_speed: 0.0, ..scene(0.0) };
-    let hitter = Hitter::new(Model::Rigid, &still, &bat, &solution);
+    let hitter = Hitter::new(Model::Rigid, &still, &bat, &solution, Effort::default()).unwrap();
     let impact = hitter.strike(0.6);
     assert!(impact.outcome.is_none() && impact.rigid_exit_speed.is_none());
     assert_eq!(impact.flags, ["no_contact"]);
@@ -116,15 +131,22 @@ fn a_ball_that_is_not_met_has_no_outcome() {
 fn the_sweet_spot_is_a_maximum_and_its_zone_ends_one_per_cent_below() {
     let (bat, solution) = solved("meshes/torpedo.json");
     let scene = scene(45.0);
-    let hitter = Hitter::new(Model::EnergyLoss(EnergyLoss::default()), &scene, &bat, &solution);
+    let hitter = Hitter::new(
+        Model::EnergyLoss(EnergyLoss::default()),
+        &scene,
+        &bat,
+        &solution,
+        Effort::default(),
+    )
+    .unwrap();
     let spot = SweetSpot::find(&bat, &scene, &solution, &hitter);
     let peak = spot.exit_speed_max.unwrap();
-    let speed = |x: f64| hitter.exit_speed(x).unwrap();
+    let speed = |x: f64| hitter.glance(x).unwrap().exit_speed;
     assert!(speed(peak.x - 1e-4) < peak.value && speed(peak.x + 1e-4) < peak.value);
     for end in spot.zone.unwrap() {
         assert!((speed(end) / peak.value - 0.99).abs() < 1e-6, "{end}");
     }
     let still = spot.vibration_min.unwrap();
-    let energy = |x: f64| hitter.vibration(x).unwrap();
+    let energy = |x: f64| hitter.glance(x).unwrap().vibration.unwrap();
     assert!(energy(still.x - 1e-4) >= still.value && energy(still.x + 1e-4) >= still.value);
 }

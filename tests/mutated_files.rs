@@ -7,11 +7,12 @@ use std::path::Path;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sweetspot::bat::Bat;
-use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::hit::{Hitter, Model, Scene};
+use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::error::Error;
+use sweetspot::report::hit_json;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::solve::{self, Request, Solution};
 use sweetspot::theory::Theory;
@@ -231,13 +232,14 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
         return Ok(());
     }
     hit(bat, &solution, Model::Rigid)?;
-    hit(bat, &solution, Model::EnergyLoss(EnergyLoss::default()))
+    hit(bat, &solution, Model::EnergyLoss(EnergyLoss::default()))?;
+    hit(bat, &solution, Model::Contact)
 }
 
 fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
-    let ball = Ball::baseball();
-    let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, cor: ball.cor, ball };
-    let hitter = Hitter::new(model, &scene, bat, solution);
+    let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, ..Scene::default() };
+    let hitter =
+        Hitter::new(model, &scene, bat, solution, Effort::default()).map_err(|e| e.to_string())?;
     let spot = SweetSpot::find(bat, &scene, solution, &hitter);
     let mut impacts = Vec::new();
     for share in [0.0, 0.5, 0.75, 1.0] {
@@ -252,7 +254,7 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
         impacts.push(impact);
     }
     let peak = spot.exit_speed_max.map_or(0.0, |peak| peak.value);
-    let text = json::hit(bat, model, &scene, &impacts, &spot).to_string();
+    let text = hit_json::hit(bat, model, &scene, &impacts, &spot).to_string();
     if peak.is_finite() && !text.is_empty() { Ok(()) } else { Err(format!("{spot:?}")) }
 }
 

@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::Path;
 
+use sweetspot::hit_figure;
 use sweetspot::published::Answer;
 use sweetspot::validation_page;
 
@@ -28,6 +29,26 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
     let stale = first_difference(&committed, &validation_page::text(&answers).unwrap());
     let again = "run: sweetspot validate --page docs/validation.md";
     assert_eq!(stale, None, "docs/validation.md is stale; {again}");
+}
+
+/// The committed picture is today's, but for a pixel where a number was just about to round.
+#[test]
+fn the_picture_of_the_page_is_todays() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(hit_figure::FILE);
+    let committed = fs::read_to_string(path).unwrap();
+    let now = hit_figure::svg().unwrap();
+    let words = |text: &str| -> Vec<String> {
+        text.split([' ', ',', '"', '(', ')', '\n', '\r']).map(str::to_owned).collect()
+    };
+    let (committed, now) = (words(&committed), words(&now));
+    assert_eq!(committed.len(), now.len(), "docs/r161_hit.svg is stale");
+    for (old, new) in committed.iter().zip(&now) {
+        let near = match (old.parse::<f64>(), new.parse::<f64>()) {
+            (Ok(old), Ok(new)) => (old - new).abs() < 0.15,
+            _ => old == new,
+        };
+        assert!(near, "docs/r161_hit.svg is stale: {old} {new}");
+    }
 }
 
 /// The first line that says something else. What a page says of published bats is rounded far above

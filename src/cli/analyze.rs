@@ -4,16 +4,17 @@ use std::path::PathBuf;
 
 use sweetspot::Bat;
 use sweetspot::advise::advice::advise;
+use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{advice, file, text};
+use sweetspot::report::{advice, file, hit_json, hit_text, text};
 use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv};
-use crate::cli::hit::{refuse_held, verdict as hit_verdict};
+use crate::cli::hit::verdict as hit_verdict;
 
 /// Everything about a bat: modes, proof on the dowel, collision, sweet spot
 ///
@@ -45,35 +46,39 @@ pub struct Args {
 const POINTS: usize = 101;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let (scene, model) = (args.scene.scene()?, args.scene.model()?);
+    let model = args.scene.model()?;
     args.output.progress("solving …");
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
-    refuse_held(&bat)?;
+    let (scene, law) = args.scene.scene(&bat)?;
     let modes = args.solve.modes_within(10, bat.profile.pieces.len());
     let request = Request { theory: solution.theory, ..args.solve.request(modes) };
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let hits = sweep(&bat, model, &scene, &request, &places)?;
+    let hits = sweep(&bat, model, &scene, &request, false, &places)?;
+    let figures = Figures::new(&bat, (model, hits.effort), (&scene, law), &hits.solution)?;
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
-        "{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}",
+        "{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
         text::summary(&bat, units),
         text::modes(&bat, &solution, 3, units),
         text::model(&bat, &solution),
         proof(args, &solution)?,
         advice(args, &bat),
-        text::scene(&scene, json::model_name(model), units),
-        text::empirical(model),
-        text::impacts(&bat, &few, units),
-        text::curve(&hits.impacts, units),
-        text::sweet_spot(&bat, &hits.spot, units),
-        text::why(&hits, units)
+        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        hit_text::meaning(model),
+        hit_text::impacts(&bat, &few, units),
+        hit_text::curve(&hits.impacts, units),
+        hit_text::sweet_spot(&bat, &figures.spot, units),
+        hit_text::why(&figures, units),
+        hit_text::beyond(&hits, &scene, units),
+        hit_text::figures(&figures, units)
     );
     let modes = json::modes(&bat, &solution, ShapePoints::Even(101), !args.reproducible);
-    let hit = json::hit(&bat, model, &scene, &hits.impacts, &hits.spot);
+    let mut hit = hit_json::hit(&bat, model, &scene, &hits.impacts, &figures.spot);
+    hit["figures"] = hit_json::figures(&figures);
     if let Some(folder) = &args.out {
         let failed = |source| Error::Write { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;

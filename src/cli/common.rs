@@ -9,7 +9,9 @@ use sweetspot::bat::Bat;
 use sweetspot::choice;
 use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::hit::{Impact, Model, Scene};
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
+use sweetspot::collision::pulse::Pulse;
 use sweetspot::error::{Error, Result, nearest};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
@@ -26,16 +28,21 @@ pub struct BatArgs {
     /// Bat file (JSON)
     bat: PathBuf,
 
-    /// Number of bending modes
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "10",
+    /// Number of bending modes [default: 10; in a hit as many as it needs]
+    #[arg(short = 'n', long = "modes", value_name = "N",
           value_parser = clap::value_parser!(u16).range(0..=1000))]
-    count: u16,
+    count: Option<u16>,
 }
 
 impl BatArgs {
     /// Number of bending modes.
     pub fn count(&self) -> usize {
-        self.count.into()
+        self.count.unwrap_or(10).into()
+    }
+
+    /// Whether that number was asked for.
+    pub fn asked(&self) -> bool {
+        self.count.is_some()
     }
 
     /// Reads the bat and passes its warnings on.
@@ -252,8 +259,9 @@ fn warn(text: &str, quiet: bool) {
 /// The swing, the pitch and the ball.
 #[derive(clap::Args)]
 pub struct SceneArgs {
-    /// Collision model: rigid or energy-loss (the default; the WPI report's empirical one)
-    #[arg(long, default_value = "energy-loss", value_parser = model)]
+    /// Collision model: contact (the default), pulse, energy-loss (the WPI report's empirical one)
+    /// or rigid
+    #[arg(long, default_value = "contact", value_parser = model)]
     model: String,
 
     /// Angular speed of the swing
@@ -279,6 +287,32 @@ pub struct SceneArgs {
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
     cor: Option<f64>,
 
+    /// Where the hands feel the hit, from the knob end
+    #[arg(long, value_name = "X", default_value = "6 in", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    hands: f64,
+
+    /// Stiffness of the barrel's wall under the ball (contact; default: it does not give way)
+    #[arg(long, value_name = "K", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+    wall_stiffness: Option<f64>,
+
+    /// Mass of that wall's own vibration (contact) [default: none, a spring in series]
+    #[arg(long, value_name = "M", requires = "wall_stiffness",
+          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Mass))]
+    wall_mass: Option<f64>,
+
+    /// The swing speed is that of a bat with this inertia about a point 6 in from the knob
+    #[arg(long, value_name = "I", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Inertia))]
+    reference_inertia: Option<f64>,
+
+    /// A bat of another inertia I is swung at (I_ref/I)^N times that speed: 0 for the same angular
+    /// speed, 0.5 for the same energy of rotation [default: 0]
+    #[arg(long, value_name = "N", requires = "reference_inertia",
+          allow_hyphen_values = true, value_parser = |s: &str| not_negative(s, "exponent"))]
+    swing_exponent: Option<f64>,
+
     /// Size of the empirical loss (energy-loss)
     #[arg(long, value_name = "G", allow_hyphen_values = true,
           value_parser = |s: &str| not_negative(s, "gamma"))]
@@ -288,11 +322,22 @@ pub struct SceneArgs {
     #[arg(long, value_name = "P", allow_hyphen_values = true,
           value_parser = |s: &str| not_negative(s, "decay"))]
     decay: Option<f64>,
+
+    /// Duration of the force (pulse) [default: 0.75 ms]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Time))]
+    pulse_duration: Option<f64>,
+
+    /// How much of the vibration's energy the ball need not lose, 0 to 1 (pulse) [default: 0.6]
+    #[arg(long, value_name = "KAPPA", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "loss share"))]
+    loss_share: Option<f64>,
 }
 
 impl SceneArgs {
-    pub fn scene(&self) -> Result<Scene> {
-        let ball = match self.ball.as_str() {
+    /// The scene on that bat, and where its swing is from.
+    pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
+        let mut ball = match self.ball.as_str() {
             "baseball" => Ball::baseball(),
             "softball" => Ball::softball(),
             path => Ball::from_file(path)?,
@@ -310,23 +355,91 @@ impl SceneArgs {
             let expected = "0 or more: it is the speed towards the bat";
             return Err(Error::value("--pitch", format!("{} m/s", self.pitch), expected));
         }
-        let (pivot, swing, ball_speed) = (self.pivot, self.swing_speed, self.pitch);
-        Ok(Scene { pivot, swing, ball, ball_speed, cor })
+        if self.cor.is_some() {
+            ball.cor_by_speed.clear();
+        }
+        if !(0.0..=bat.length()).contains(&self.hands) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("--hands", shown_length(self.hands), expected));
+        }
+        let law = self.swing_law()?;
+        let (pivot, ball_speed) = (self.pivot, self.pitch);
+        let swing = law.map_or(self.swing_speed, |law| law.swing(bat));
+        let (hands, wall) = (self.hands, self.wall()?);
+        Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+    }
+
+    fn swing_law(&self) -> Result<Option<SwingLaw>> {
+        let Some(reference) = self.reference_inertia else { return Ok(None) };
+        let exponent = self.swing_exponent.unwrap_or(0.0);
+        if !(reference > 1e-9 && reference < 1e9) {
+            let found = format!("{reference:?} kg m2");
+            return Err(Error::value("--reference-inertia", found, "a bat's inertia, above 0"));
+        }
+        if exponent > 2.0 {
+            return Err(Error::value("--swing-exponent", exponent, "0 to 2"));
+        }
+        Ok(Some(SwingLaw { exponent, reference, of_reference: self.swing_speed }))
+    }
+
+    fn wall(&self) -> Result<Option<Wall>> {
+        let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
+        if self.model != "contact" {
+            let found = format!("it with --model {}", self.model);
+            let expected = "--model contact: only there a wall gives way";
+            return Err(Error::value("--wall-stiffness", found, expected));
+        }
+        let mass = self.wall_mass.unwrap_or(0.0);
+        if !(stiffness > 1.0 && stiffness < 1e15) {
+            let found = format!("{stiffness:?} N/m");
+            return Err(Error::value("--wall-stiffness", found, "1 to 1e15 N/m"));
+        }
+        if !(mass == 0.0 || (1e-9..1e6).contains(&mass)) {
+            let found = format!("{mass:?} kg");
+            return Err(Error::value("--wall-mass", found, "0, or 1e-9 to 1e6 kg"));
+        }
+        Ok(Some(Wall { stiffness, mass }))
     }
 
     pub fn model(&self) -> Result<Model> {
-        if self.model == "rigid" {
-            if self.gamma.is_some() || self.decay.is_some() {
-                let expected = "--model energy-loss, or neither of them";
-                return Err(Error::value("--gamma, --decay", "them with --model rigid", expected));
+        let empirical = self.gamma.is_some() || self.decay.is_some();
+        let pulsed = self.pulse_duration.is_some() || self.loss_share.is_some();
+        for (given, options, model) in [
+            (empirical, "--gamma, --decay", "energy-loss"),
+            (pulsed, "--pulse-duration, --loss-share", "pulse"),
+        ] {
+            if given && self.model != model {
+                let found = format!("them with --model {}", self.model);
+                let expected = format!("--model {model}, or neither of them");
+                return Err(Error::value(options, found, expected));
             }
-            return Ok(Model::Rigid);
         }
-        let default = EnergyLoss::default();
-        Ok(Model::EnergyLoss(EnergyLoss {
-            gamma: self.gamma.unwrap_or(default.gamma),
-            decay: self.decay.unwrap_or(default.decay),
-        }))
+        Ok(match self.model.as_str() {
+            "rigid" => Model::Rigid,
+            "energy-loss" => {
+                let default = EnergyLoss::default();
+                Model::EnergyLoss(EnergyLoss {
+                    gamma: self.gamma.unwrap_or(default.gamma),
+                    decay: self.decay.unwrap_or(default.decay),
+                })
+            }
+            "pulse" => Model::Pulse(self.pulse()?),
+            _ => Model::Contact,
+        })
+    }
+
+    fn pulse(&self) -> Result<Pulse> {
+        let default = Pulse::default();
+        let duration = self.pulse_duration.unwrap_or(default.duration);
+        let loss_share = self.loss_share.unwrap_or(default.loss_share);
+        if !(duration > 1e-9 && duration < 1.0) {
+            let expected = "a time from 1 ns to 1 s, such as \"0.75 ms\"";
+            return Err(Error::value("--pulse-duration", format!("{duration} s"), expected));
+        }
+        if loss_share > 1.0 {
+            return Err(Error::value("--loss-share", loss_share, "0 to 1"));
+        }
+        Ok(Pulse { duration, loss_share })
     }
 }
 
@@ -435,7 +548,7 @@ fn solver(text: &str) -> std::result::Result<Solver, String> {
 }
 
 fn model(text: &str) -> std::result::Result<String, String> {
-    one_of(text, &["energy-loss", "rigid"], &["pulse", "contact"])
+    one_of(text, &["contact", "pulse", "energy-loss", "rigid"], &[])
 }
 
 fn unit_system(text: &str) -> std::result::Result<Units, String> {

@@ -1,9 +1,10 @@
 //! `sweetspot hit BAT`: the collision along the barrel.
 
 use sweetspot::bat::Bat;
+use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::error::{Error, Result};
-use sweetspot::report::{json, text};
+use sweetspot::report::{hit_json, hit_text};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{
@@ -86,38 +87,34 @@ impl PlaceArgs {
 
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;
-    let (scene, model) = (args.scene.scene()?, args.scene.model()?);
+    let model = args.scene.model()?;
     args.solve.refuse_budget("hit")?;
-    refuse_held(&bat)?;
     let prepared = args.solve.prepare(bat, args.bat.count(), &args.output)?;
     let Prepared { bat, request, warning } = prepared;
-    let sweep = sweep(&bat, model, &scene, &request, &args.place.places(&bat)?)?;
+    let (scene, law) = args.scene.scene(&bat)?;
+    let places = args.place.places(&bat)?;
+    let sweep = sweep(&bat, model, &scene, &request, args.bat.asked(), &places)?;
     args.solve.say_raised(&sweep.solution, &args.output);
+    let figures = Figures::new(&bat, (model, sweep.effort), (&scene, law), &sweep.solution)?;
     let units = args.output.units;
     let table = format!(
-        "{}{}\n{}\n{}{}",
-        text::scene(&scene, json::model_name(model), units),
-        text::empirical(model),
-        text::impacts(&bat, &sweep.impacts, units),
-        text::sweet_spot(&bat, &sweep.spot, units),
-        text::why(&sweep, units)
+        "{}{}\n{}\n{}{}{}\n{}\n{}",
+        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        hit_text::meaning(model),
+        hit_text::impacts(&bat, &sweep.impacts, units),
+        hit_text::sweet_spot(&bat, &figures.spot, units),
+        hit_text::why(&figures, units),
+        hit_text::beyond(&sweep, &scene, units),
+        hit_text::figures(&figures, units),
+        hit_text::moves(&figures, units),
     );
-    let document = || json::hit(&bat, model, &scene, &sweep.impacts, &sweep.spot);
+    let document = || {
+        let mut hit = hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot);
+        hit["figures"] = hit_json::figures(&figures);
+        hit
+    };
     let code = verdict(&args.solve, &sweep, &args.output);
     Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
-}
-
-/// The collision models of this version strike a bat that nothing holds.
-///
-/// # Errors
-///
-/// [`Error::Value`] for a bat with supports, springs to ground or hands.
-pub fn refuse_held(bat: &Bat) -> Result<()> {
-    if !bat.fixtures.holding() {
-        return Ok(());
-    }
-    let expected = "a free bat: hits on a held one are not supported yet";
-    Err(Error::value("hit", "a bat with supports, springs to ground or hands", expected))
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

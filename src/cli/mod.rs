@@ -13,7 +13,9 @@ mod ring;
 mod trade;
 mod validate;
 
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use sweetspot::error::{Error, Result};
 
 /// What is left to do when a verb is done.
@@ -70,14 +72,13 @@ enum Verb {
 const LATER_VERBS: &[&str] =
     &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] =
-    &["--up-to", "--report", "--plots", "--pulse-duration", "--loss-share"];
+const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {
     let args = std::env::args_os().skip(1);
     refuse_later(&args.map(|arg| arg.to_string_lossy().into_owned()).collect::<Vec<_>>())?;
-    match Cli::parse().verb {
+    match parse().verb {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
@@ -88,6 +89,26 @@ pub fn run() -> Result<Done> {
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
     }
+}
+
+/// The command line. What sets the scene of a hit is for `ring --hit` alone in that verb.
+fn parse() -> Cli {
+    let scene = common::SceneArgs::augment_args(clap::Command::new("scene"));
+    let matches = Cli::command().get_matches();
+    if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
+        let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
+        if let Some(name) = stray.and_then(clap::Arg::get_long) {
+            let text = format!("--{name} sets the scene of a hit: add --hit X, or leave it out");
+            Cli::command().error(ErrorKind::MissingRequiredArgument, text).exit();
+        }
+    }
+    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+}
+
+/// Whether an option stands on the command line.
+fn given(matches: &clap::ArgMatches, name: &str) -> bool {
+    matches!(matches.try_contains_id(name), Ok(true))
+        && matches.value_source(name) == Some(ValueSource::CommandLine)
 }
 
 /// One line that does nothing to a terminal, whatever a file is called or holds.

@@ -1,21 +1,29 @@
-//! `sweetspot ring BAT`: motion after a blow, under a force or from an initial shape.
+//! `sweetspot ring BAT`: motion after a hit or a blow, under a force or from an initial shape.
 
 use std::path::PathBuf;
 
 use serde_json::json;
 use sweetspot::bat::Bat;
+use sweetspot::collision::aftermath::{Aftermath, Instant};
+use sweetspot::collision::hit::{Effort, Model};
+use sweetspot::collision::hitter::Hitter;
 use sweetspot::error::{Error, Result};
 use sweetspot::force_file::{self, ForceHistory};
-use sweetspot::report::{file, json};
+use sweetspot::report::aftermath::{self, AfterHit};
+use sweetspot::report::{file, hit_json, hit_text, json};
 use sweetspot::ringing::Ringing;
 use sweetspot::shape_file::{self, InitialShape};
-use sweetspot::solve::Solution;
+use sweetspot::solve::{Solution, solve};
 use sweetspot::units::Quantity;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, number, quantity, shown_length};
+use crate::cli::common::{
+    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, Solved, number, quantity, shown_length,
+};
 
-/// Motion after a blow, under a force or from an initial shape
+/// Motion after a hit or a blow, under a force or from an initial shape
+///
+/// Example: sweetspot ring meshes/r161.json --hit "65 cm" --watch "5 in" --history hands.csv
 ///
 /// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1
 /// ms,2 ms"
@@ -23,6 +31,28 @@ use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, number, quantit
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
+
+    /// Hit a ball there (contact), from the knob end: what the hands feel, how the bat is strained
+    #[arg(long, value_name = "X", conflicts_with_all = ["at", "initial", "bending_only"],
+          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
+    hit: Option<f64>,
+
+    /// Places to watch after a hit, separated by commas [default: the hands]
+    #[arg(long, value_name = "X,X,…", requires = "hit", value_delimiter = ',',
+          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
+    watch: Vec<f64>,
+
+    /// How long to watch after a hit [default: three periods of mode 1]
+    #[arg(long, value_name = "T", requires = "hit", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Time))]
+    until: Option<f64>,
+
+    /// Write force, motion and strain at the watched places in time to this CSV file
+    #[arg(long, value_name = "FILE", requires = "hit")]
+    history: Option<PathBuf>,
+
+    #[command(flatten)]
+    scene: SceneArgs,
 
     /// Where it is struck or pushed, from the knob end
     #[arg(long, value_name = "X", requires = "load", allow_hyphen_values = true,
@@ -70,6 +100,9 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;
+    if let Some(x) = args.hit {
+        return after_hit(args, bat, x);
+    }
     let cause = cause(args, &bat)?;
     if let Some(t) = args.times.iter().find(|t| !(0.0..1e6).contains(*t)) {
         return Err(Error::value("--times", format!("{t:?} s"), "0 or later, before 1e6 s"));
@@ -132,11 +165,7 @@ enum Cause {
 fn cause(args: &Args, bat: &Bat) -> Result<Cause> {
     match (args.at, &args.initial) {
         (Some(x), _) => {
-            if !(0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
-                let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
-                return Err(Error::value("--at", shown_length(x), expected));
-            }
-            let x = x.min(bat.length());
+            let x = on_the_bat(bat, "--at", x)?;
             if let Some(path) = &args.force {
                 return Ok(Cause::Push(x, force_file::read(path)?));
             }
@@ -148,10 +177,83 @@ fn cause(args: &Args, bat: &Bat) -> Result<Cause> {
         }
         (_, Some(path)) => Ok(Cause::Shape(shape_file::read(path, bat.length())?)),
         _ => {
-            let expected = "--at X with --impulse J or --force FILE, or --initial FILE";
+            let expected = "--hit X, --at X with --impulse J or --force FILE, or --initial FILE";
             Err(Error::value("ring", "neither a blow nor an initial shape", expected))
         }
     }
+}
+
+/// A hit, and what comes of it.
+fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
+    /// Modes whose sum is a bat's strain to a few per cent.
+    const ENOUGH: usize = 40;
+    let x = on_the_bat(&bat, "--hit", x)?;
+    let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
+    let count = args.solve.modes_within(count, bat.profile.pieces.len());
+    if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
+        on_the_bat(&bat, "--watch", *place)?;
+    }
+    args.solve.refuse_budget("ring --hit")?;
+    let Prepared { bat, request, warning } = args.solve.prepare(bat, count, &args.output)?;
+    let model = args.scene.model()?;
+    if model != Model::Contact {
+        let expected = "contact, the model with a force in time";
+        return Err(Error::value("--model", hit_json::model_name(model), expected));
+    }
+    let (scene, _) = args.scene.scene(&bat)?;
+    let solution = solve(&bat, &request)?;
+    args.solve.say_raised(&solution, &args.output);
+    let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };
+    let hitter = Hitter::new(model, &scene, &bat, &solution, effort)?;
+    let impact = hitter.strike(x);
+    let Some(force) = hitter.force(x) else {
+        let found = format!("no contact at {} ({})", shown_length(x), impact.flags.join(", "));
+        return Err(Error::value("--hit", found, "a place where ball and bat meet"));
+    };
+    let after = Aftermath::new(&bat, &solution, x, force);
+    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
+    let until = args.until.unwrap_or(3.0 * period);
+    if !(until > 0.0 && until < 1e3) {
+        return Err(Error::value("--until", format!("{until:?} s"), "above 0 and below 1000 s"));
+    }
+    let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
+    let report = AfterHit::new(&bat, &after, &watched, until);
+    let units = args.output.units;
+    let text = format!(
+        "{}{}{}",
+        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        aftermath::impact(&impact, units),
+        aftermath::text(&report, units)
+    );
+    if let Some(path) = &args.history {
+        file::write(path, aftermath::history(&after, &report).as_bytes())?;
+    }
+    if let Some(path) = args.csv.as_ref().filter(|path| path.as_os_str() != "-") {
+        let last = f64::from(args.shape_points - 1);
+        let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
+        let places: Vec<f64> = places.collect();
+        let mut times = times(args, &solution);
+        times.sort_by(f64::total_cmp);
+        let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();
+        let frames: Vec<Vec<f64>> = after.at(&times).iter().map(deflections).collect();
+        file::write(path, csv(&places, &times, &frames).as_bytes())?;
+    }
+    let code = args.solve.verdict(&solution, &args.output);
+    let document = || {
+        let mut document = aftermath::json(&after, &report);
+        document["impact"] = hit_json::impact(&bat, &impact);
+        document
+    };
+    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// A place on that bat (m); a tip given in inches may be a rounding beyond it.
+fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
+    if (0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+        return Ok(x.min(bat.length()));
+    }
+    let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+    Err(Error::value(name, shown_length(x), expected))
 }
 
 /// The instants asked for, or nine over a period of mode 1.

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use sweetspot::error::{Error, Result, nearest};
+use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
 use sweetspot::report::file;
@@ -24,7 +25,7 @@ pub struct Args {
     cases: Vec<String>,
 
     /// Write the page docs/validation.md to this file (- = standard output): published bats side by
-    /// side and the exact answers in one table
+    /// side and the exact answers in one table; and its picture r161_hit.svg beside it
     #[arg(long, value_name = "FILE", conflicts_with_all = ["summary", "cases"])]
     page: Option<PathBuf>,
 
@@ -82,6 +83,7 @@ fn page(path: &std::path::Path) -> Result<Done> {
         return Ok(Done::new(text, code));
     }
     file::write(path, text.as_bytes())?;
+    file::write(&path.with_file_name(hit_figure::FILE), hit_figure::svg()?.as_bytes())?;
     Ok(Done::new(format!("{}\n", validation_page::verdict(&answers)), code))
 }
 

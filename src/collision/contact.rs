@@ -24,24 +24,15 @@
 //! Modal coupling: A. M. Nathan, Am. J. Phys. 68, 979 (2000), who leaves time to a Runge-Kutta
 //! method. Exact motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich,
 //! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
-
 use std::sync::OnceLock;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::collision::collocation::{Lobatto, POINTS, Pair, moments, polynomial, times};
+use crate::collision::collocation::{Lobatto, POINTS, Pair};
+use crate::collision::events::{Event, Stop};
 use crate::collision::force_law::{ForceLaw, Top};
-
-/// The bat as the ball feels it at one place.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Felt {
-    /// `1/μ` (1/kg): the ball's own mass and the rigid bat's.
-    pub inverse_mass: f64,
-    /// `c_n = φ_n(a)²/m_n` (1/kg).
-    pub gains: Vec<f64>,
-    /// Flexibility of the modes left out (m/N).
-    pub rest: f64,
-}
+use crate::collision::step::{Piece, Step, Table};
+use crate::collision::touch::{Felt, State, Touch};
 
 /// What a meeting of ball and bat left behind.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -70,80 +61,6 @@ pub struct Encounter {
     pub endless: bool,
 }
 
-/// One moment.
-#[derive(Debug, Clone, Default)]
-struct State {
-    time: f64,
-    /// `z` (m) and `z′` (m/s).
-    closing: f64,
-    speed: f64,
-    /// `v`, real and imaginary parts (N s).
-    real: Vec<f64>,
-    imaginary: Vec<f64>,
-    compression: f64,
-    force: f64,
-    impulse: f64,
-    /// Energy the bat's damping has taken (J).
-    lost: f64,
-}
-
-/// What a step of one length does to every mode; numbers of the modes side by side.
-#[derive(Debug, Clone)]
-struct Table {
-    length: f64,
-    modes: usize,
-    /// `e^{sh s_i}`, `[i][part][mode]`.
-    turns: Vec<f64>,
-    /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, `[i][j][part][mode]`.
-    kernels: Vec<f64>,
-    /// The same of the bump `s(1 − s)` over the whole step, `[part][mode]`.
-    bump: Vec<f64>,
-}
-
-impl Table {
-    fn new(rule: &Lobatto, poles: &[Pair], length: f64) -> Self {
-        let modes = poles.len();
-        let mut table = Self {
-            length,
-            modes,
-            turns: vec![0.0; POINTS * 2 * modes],
-            kernels: vec![0.0; POINTS * POINTS * 2 * modes],
-            bump: vec![0.0; 2 * modes],
-        };
-        for (n, s) in poles.iter().enumerate() {
-            for i in 1..POINTS {
-                let at = length * rule.at[i];
-                let (whole, all) = moments::<POINTS>([s[0] * at, s[1] * at]);
-                for part in 0..2 {
-                    table.turns[(2 * i + part) * modes + n] = whole[part];
-                    for j in 0..POINTS {
-                        let (mut sum, mut power) = (0.0, at);
-                        for k in 0..POINTS {
-                            sum += rule.powers[j][k] * power * all[k][part];
-                            power *= rule.at[i];
-                        }
-                        table.kernels[((i * POINTS + j) * 2 + part) * modes + n] = sum;
-                    }
-                    if i == POINTS - 1 {
-                        table.bump[part * modes + n] = length * (all[1][part] - all[2][part]);
-                    }
-                }
-            }
-        }
-        table
-    }
-
-    #[inline(always)]
-    fn turn(&self, i: usize, part: usize, count: usize) -> &[f64] {
-        &self.turns[(2 * i + part) * self.modes..][..count]
-    }
-
-    #[inline(always)]
-    fn kernel(&self, i: usize, j: usize, part: usize, count: usize) -> &[f64] {
-        &self.kernels[((i * POINTS + j) * 2 + part) * self.modes..][..count]
-    }
-}
-
 /// A bat's modes in time, for any impact point: the tables are shared.
 #[derive(Debug, Clone)]
 pub struct Collider {
@@ -157,8 +74,10 @@ pub struct Collider {
 
 /// Halvings of the longest step.
 const LEVELS: usize = 40;
+/// A bump may change the impulse by this share of the accuracy, relative.
+const SLIGHT: f64 = 0.05;
 /// More steps are no contact.
-const MOST_STEPS: usize = 100_000;
+const MOST_STEPS: usize = 5000;
 /// Below this share of its peak the force has almost gone: steps stay short enough there to see the
 /// surface pass by the ball.
 const FAINT: f64 = 0.02;
@@ -183,7 +102,22 @@ impl Collider {
     /// The meeting at that place, ball and bat nearing at `speed` (m/s), with as many modes as there
     /// are gains, in steps whose force is off by about `accuracy`, relative.
     pub fn meet(&self, felt: &Felt, law: &ForceLaw, speed: f64, accuracy: f64) -> Encounter {
-        Arch::new().dispatch(Meeting { collider: self, felt, law, speed, accuracy })
+        let history = None;
+        Arch::new().dispatch(Meeting { collider: self, felt, law, speed, accuracy, history })
+    }
+
+    /// The same, and the force in time, piece by piece.
+    pub fn meet_recorded(
+        &self,
+        felt: &Felt,
+        law: &ForceLaw,
+        speed: f64,
+        accuracy: f64,
+    ) -> (Encounter, Vec<Piece>) {
+        let mut pieces = Vec::new();
+        let history = Some(&mut pieces);
+        let meeting = Meeting { collider: self, felt, law, speed, accuracy, history };
+        (Arch::new().dispatch(meeting), pieces)
     }
 }
 
@@ -193,6 +127,25 @@ struct Meeting<'a> {
     law: &'a ForceLaw,
     speed: f64,
     accuracy: f64,
+    history: Option<&'a mut Vec<Piece>>,
+}
+
+impl Meeting<'_> {
+    /// The compression (m) at which ball and flexibility together have that energy (J).
+    fn deepest(&self, energy: f64) -> f64 {
+        let mut x = self.law.compression(energy);
+        // From above, and convex: Newton's method comes down to it.
+        for _ in 0..60 {
+            let [force, slope] = self.law.force(x, None);
+            let more = self.law.energy(x, None)[0] + 0.5 * self.felt.rest * force * force - energy;
+            let by = more / (force + self.felt.rest * force * slope);
+            if by <= 1e-3 * x || by.is_nan() {
+                break;
+            }
+            x -= by;
+        }
+        x
+    }
 }
 
 impl WithSimd for Meeting<'_> {
@@ -204,6 +157,7 @@ impl WithSimd for Meeting<'_> {
         let (all, count) = (poles.as_slice(), self.felt.gains.len());
         let poles = &all[..count];
         let energy = 0.5 * self.speed * self.speed / self.felt.inverse_mass;
+        let deepest = self.deepest(energy);
         let weights = poles.iter().zip(&self.felt.gains).map(|(s, gain)| gain / s[1]);
         let touch = Touch {
             rule,
@@ -214,71 +168,23 @@ impl WithSimd for Meeting<'_> {
             law: *self.law,
             speed: self.speed,
             energy,
-            deepest: self.law.compression(energy),
+            deepest,
+            way: deepest + self.felt.rest * self.law.force(deepest, None)[0],
             accuracy: self.accuracy,
         };
-        touch.go(all, tables, *longest)
+        touch.go(all, tables, *longest, self.history)
     }
 }
-
-impl State {
-    fn at_first(modes: usize, speed: f64) -> Self {
-        let none = || vec![0.0; modes];
-        Self { speed, real: none(), imaginary: none(), ..Self::default() }
-    }
-}
-
-/// One place, one ball, one speed.
-struct Touch<'a> {
-    rule: &'a Lobatto,
-    poles: &'a [Pair],
-    felt: &'a Felt,
-    /// `c/ω_d` of every mode (s/kg).
-    weights: Vec<f64>,
-    damped: bool,
-    law: ForceLaw,
-    /// At the first touch (m/s), and the energy that goes with it, `μ u²/2` (J).
-    speed: f64,
-    energy: f64,
-    /// What a rigid bat would compress the ball by (m).
-    deepest: f64,
-    accuracy: f64,
-}
-
-/// Why a step ends early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Event {
-    /// The compression is at its largest.
-    Turned,
-    /// It is as large as its largest again.
-    Again,
-    /// It is gone.
-    Gone,
-}
-
-/// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
-#[derive(Debug, Clone, Copy)]
-struct Stop {
-    event: Event,
-    top: Option<Top>,
-    most: f64,
-}
-
-/// A step whose force is known at the points.
-#[derive(Debug, Clone, Copy, Default)]
-struct Step {
-    length: f64,
-    compression: [f64; POINTS],
-    force: [f64; POINTS],
-    /// The same as a polynomial of the time over the length.
-    powers: [f64; POINTS],
-}
-
-type Coupling = [[f64; POINTS]; POINTS];
 
 impl Touch<'_> {
     #[inline(always)]
-    fn go(&self, all: &[Pair], tables: &[OnceLock<Table>], longest: f64) -> Encounter {
+    fn go(
+        &self,
+        all: &[Pair],
+        tables: &[OnceLock<Table>],
+        longest: f64,
+        mut history: Option<&mut Vec<Piece>>,
+    ) -> Encounter {
         let mut met = Encounter::default();
         let [mut now, mut next] = [0, 1].map(|_| State::at_first(self.poles.len(), self.speed));
         let mut top: Option<Top> = None;
@@ -286,18 +192,19 @@ impl Touch<'_> {
         let mut last: Option<Step> = None;
         let mut faint = false;
         // The force begins as a power of the time.
-        let first = (3.0 * self.accuracy).powf(1.0 / (1.0 + self.law.exponent)) * self.deepest;
+        let first = (3.0 * self.accuracy).powf(1.0 / (1.0 + self.law.exponent)) * self.way;
         let mut level = (longest * self.speed / first).log2().ceil().max(0.0) as usize;
         level = level.min(LEVELS - 1);
         for taken in 0.. {
-            if taken == MOST_STEPS {
+            // Steps that put in as much energy as there was are no solution.
+            if taken == MOST_STEPS || met.corrected > 1.0 {
                 met.endless = true;
                 break;
             }
             let length = longest * 0.5_f64.powi(level as i32);
             let table = tables[level].get_or_init(|| Table::new(self.rule, all, length));
             let coupling = couplings[level].get_or_insert_with(|| self.coupling(table));
-            let (step, converged) = self.solve(table, coupling, &now, top, last.as_ref());
+            let (mut step, converged) = self.solve(table, coupling, &now, top, last.as_ref());
             let finest = level + 1 == LEVELS;
             let error = self.error_of(&step);
             if !finest && (!converged || error > 10.0 * self.accuracy) {
@@ -317,10 +224,20 @@ impl Touch<'_> {
                 continue;
             }
             let most = step.force.iter().fold(0.0, |most: f64, f| most.max(*f));
+            let mut record = |step: &Step, next: &State| {
+                history.iter_mut().for_each(|history| history.push(step.until(&now, next)));
+            };
             match event {
                 None => {
                     let bump = |n: usize| [table.bump[n], table.bump[table.modes + n]];
-                    met.corrected += self.correct(&mut next, length, bump, most, top);
+                    let slight = if finest { f64::INFINITY } else { SLIGHT * self.accuracy };
+                    let Some(off) = self.correct(&mut next, length, bump, [most, slight], top)
+                    else {
+                        level += 1;
+                        continue;
+                    };
+                    met.corrected += off;
+                    record(&step, &next);
                     last = Some(step);
                     let low = top.is_some_and(|t| next.force < FAINT * t.force);
                     let grown = error * 2.0_f64.powi(POINTS as i32);
@@ -332,7 +249,8 @@ impl Touch<'_> {
                 }
                 Some(event) => {
                     let stop = Stop { event, top, most };
-                    met.corrected += self.stop(stop, &now, &step, &mut next);
+                    met.corrected += self.stop(stop, &now, &mut step, &mut next);
+                    record(&step, &next);
                     last = None;
                     match event {
                         Event::Turned => {
@@ -363,542 +281,23 @@ impl Touch<'_> {
         met.lost_in_ball = self.law.energy(now.compression, top)[1];
         met.lost_in_bat = now.lost;
         met.in_modes = (0..self.poles.len()).map(|n| self.in_mode(&now, n)).collect();
+        if self.law.unloading.is_infinite() {
+            // The force is gone at once, and what it bent beside the modes swings with the last.
+            let left = 0.5 * self.felt.rest * now.force * now.force;
+            match met.in_modes.last_mut() {
+                Some(last) => *last += left,
+                None => met.lost_in_ball += left,
+            }
+        }
         met.second = !met.endless && self.caught_again(&now);
         met
     }
-
-    /// What the force at each point does to the compression at each.
-    #[inline(always)]
-    fn coupling(&self, table: &Table) -> Coupling {
-        let square = table.length * table.length * self.felt.inverse_mass;
-        let mut coupling = [[0.0; POINTS]; POINTS];
-        for i in 1..POINTS {
-            for j in 0..POINTS {
-                let kernel = table.kernel(i, j, 1, self.poles.len());
-                let modes: f64 = kernel.iter().zip(&self.weights).map(|(k, w)| k * w).sum();
-                coupling[i][j] = square * self.rule.twice[i][j] + modes;
-            }
-        }
-        coupling
-    }
-
-    /// The forces of a step by Newton's method, and whether they are found.
-    #[inline(always)]
-    fn solve(
-        &self,
-        table: &Table,
-        coupling: &Coupling,
-        now: &State,
-        top: Option<Top>,
-        last: Option<&Step>,
-    ) -> (Step, bool) {
-        const ROUNDS: usize = 8;
-        let (length, count, rest) = (table.length, self.poles.len(), self.felt.rest);
-        let [mut free, mut x, mut f, mut slope] = [[0.0; POINTS]; 4];
-        (x[0], f[0]) = (now.compression, now.force);
-        for i in 1..POINTS {
-            let (re, im) = (table.turn(i, 0, count), table.turn(i, 1, count));
-            let mut modes = 0.0;
-            for n in 0..count {
-                modes += self.weights[n] * (re[n] * now.imaginary[n] + im[n] * now.real[n]);
-            }
-            let rigid = now.closing + now.speed * length * self.rule.at[i];
-            free[i] = rigid - modes - coupling[i][0] * f[0];
-            // The last step's force goes on as it was.
-            f[i] = last.map_or(0.0, |last| {
-                polynomial(&last.powers, 1.0 + length / last.length * self.rule.at[i]).max(0.0)
-            });
-        }
-        for i in 1..POINTS {
-            x[i] = free[i] - rest * f[i] - (1..POINTS).map(|j| coupling[i][j] * f[j]).sum::<f64>();
-        }
-        let mut converged = false;
-        for _ in 0..ROUNDS {
-            for i in 1..POINTS {
-                [f[i], slope[i]] = self.law.force(x[i], top);
-            }
-            let (mut matrix, mut left) = ([[0.0; POINTS]; POINTS], [0.0; POINTS]);
-            for i in 1..POINTS {
-                left[i] = free[i] - x[i] - rest * f[i];
-                for j in 1..POINTS {
-                    left[i] -= coupling[i][j] * f[j];
-                    matrix[i][j] = coupling[i][j] * slope[j];
-                }
-                matrix[i][i] += 1.0 + rest * slope[i];
-            }
-            let moved = eliminate(&mut matrix, left);
-            let mut largest = 0.0_f64;
-            for i in 1..POINTS {
-                x[i] += moved[i];
-                f[i] = (f[i] + slope[i] * moved[i]).max(0.0);
-                largest = largest.max(moved[i].abs());
-            }
-            // What is left is the square of this.
-            if largest <= 1e-3 * self.accuracy.sqrt() * self.deepest {
-                converged = true;
-                break;
-            }
-        }
-        for i in 1..POINTS {
-            [f[i], _] = self.law.force(x[i], top);
-        }
-        let powers = self.rule.through(&f);
-        (Step { length, compression: x, force: f, powers }, converged)
-    }
-
-    /// How far the force is from a polynomial: the impulse of its last term, relative.
-    #[inline(always)]
-    fn error_of(&self, step: &Step) -> f64 {
-        let last: f64 = step.force.iter().zip(&self.rule.last).map(|(f, l)| f * l).sum();
-        last.abs() * step.length * self.felt.inverse_mass / self.speed
-    }
-
-    /// The state at the end of a step, but for compression and force.
-    #[inline(always)]
-    fn advance(&self, table: &Table, now: &State, step: &Step, next: &mut State) {
-        let (h, count, end) = (table.length, self.poles.len(), POINTS - 1);
-        let push = dot(&self.rule.weights, &step.force);
-        next.time = now.time + h;
-        next.impulse = now.impulse + h * push;
-        next.speed = now.speed - h * self.felt.inverse_mass * push;
-        let back = h * h * self.felt.inverse_mass * dot(&self.rule.twice[end], &step.force);
-        next.closing = now.closing + h * now.speed - back;
-        self.memories(table, now, step, end, next);
-        (next.compression, next.force) = (step.compression[end], step.force[end]);
-        next.lost = now.lost;
-        if self.damped {
-            let mut rate = self.rule.weights[0] * self.loss(now);
-            rate += self.rule.weights[end] * self.loss(next);
-            let mut between = State::at_first(count, 0.0);
-            for i in 1..end {
-                self.memories(table, now, step, i, &mut between);
-                rate += self.rule.weights[i] * self.loss(&between);
-            }
-            next.lost += h * rate;
-        }
-    }
-
-    /// The modes' memories at point i of a step.
-    #[inline(always)]
-    fn memories(&self, table: &Table, now: &State, step: &Step, i: usize, next: &mut State) {
-        let count = self.poles.len();
-        let (re, im) = (table.turn(i, 0, count), table.turn(i, 1, count));
-        for n in 0..count {
-            next.real[n] = re[n] * now.real[n] - im[n] * now.imaginary[n];
-            next.imaginary[n] = re[n] * now.imaginary[n] + im[n] * now.real[n];
-        }
-        for j in 0..POINTS {
-            let (re, im) = (table.kernel(i, j, 0, count), table.kernel(i, j, 1, count));
-            for n in 0..count {
-                next.real[n] += re[n] * step.force[j];
-                next.imaginary[n] += im[n] * step.force[j];
-            }
-        }
-    }
-
-    /// The state at a time within a step, without compression.
-    #[inline(always)]
-    fn within(&self, now: &State, step: &Step, time: f64, next: &mut State) {
-        let mut part = [0.0; POINTS];
-        let mut scale = 1.0;
-        for (part, power) in part.iter_mut().zip(&step.powers) {
-            *part = power * scale;
-            scale *= time / step.length;
-        }
-        next.time = now.time + time;
-        (next.impulse, next.speed) = (now.impulse, now.speed);
-        (next.closing, next.force) = (now.closing + time * now.speed, 0.0);
-        next.lost = now.lost;
-        for (k, part) in part.iter().enumerate() {
-            let k = k as f64;
-            let (once, twice) =
-                (time * part / (k + 1.0), time * time * part / ((k + 1.0) * (k + 2.0)));
-            next.force += part;
-            next.impulse += once;
-            next.speed -= self.felt.inverse_mass * once;
-            next.closing -= self.felt.inverse_mass * twice;
-        }
-        for (n, s) in self.poles.iter().enumerate() {
-            let (whole, all) = moments::<POINTS>([s[0] * time, s[1] * time]);
-            let mut memory = times(whole, [now.real[n], now.imaginary[n]]);
-            for (part, moment) in part.iter().zip(&all) {
-                memory[0] += time * part * moment[0];
-                memory[1] += time * part * moment[1];
-            }
-            [next.real[n], next.imaginary[n]] = memory;
-        }
-    }
-
-    /// Moves a state within a step by a very short time to `time`.
-    #[inline(always)]
-    fn nudge(&self, state: &mut State, step: &Step, time: f64, by: f64) {
-        let force = polynomial(&step.powers, (time - 0.5 * by) / step.length);
-        state.closing += by * (state.speed - 0.5 * by * self.felt.inverse_mass * force);
-        state.speed -= by * self.felt.inverse_mass * force;
-        state.impulse += by * force;
-        state.time += by;
-        state.force = polynomial(&step.powers, time / step.length);
-        for (n, s) in self.poles.iter().enumerate() {
-            let z = [s[0] * by, s[1] * by];
-            // (e^z − 1)/z to the fifth order.
-            let mut over = [1.0, 0.0];
-            for k in [5.0, 4.0, 3.0, 2.0] {
-                let part = times(z, over);
-                over = [1.0 + part[0] / k, part[1] / k];
-            }
-            let memory = [state.real[n], state.imaginary[n]];
-            let gained = times(times(z, over), memory);
-            state.real[n] += gained[0] + by * force * over[0];
-            state.imaginary[n] += gained[1] + by * force * over[1];
-        }
-    }
-
-    /// What happens in a step.
-    #[inline(always)]
-    fn event(&self, step: &Step, next: &State, top: Option<Top>) -> Option<Event> {
-        match top {
-            None => (self.rate(next) < 0.0).then_some(Event::Turned),
-            Some(_) if step.compression[1..].iter().any(|x| *x <= 0.0) => Some(Event::Gone),
-            Some(top) => {
-                let beyond = step.compression[1..].iter().any(|x| *x > top.compression);
-                beyond.then_some(Event::Again)
-            }
-        }
-    }
-
-    /// What is zero at the event, and its rate.
-    #[inline(always)]
-    fn distance(&self, event: Event, state: &State, top: Option<Top>) -> [f64; 2] {
-        if event == Event::Turned {
-            let mut rate = -state.force * self.felt.inverse_mass;
-            for n in 0..self.poles.len() {
-                let [a, b] = self.poles[n];
-                let (w, v) = (self.weights[n], [state.real[n], state.imaginary[n]]);
-                // Im s(sv + F).
-                let turned =
-                    times([a, b], [a * v[0] - b * v[1] + state.force, a * v[1] + b * v[0]]);
-                rate -= w * turned[1];
-            }
-            return [self.rate(state), rate];
-        }
-        let x = self.reach(state) - self.felt.rest * state.force;
-        let goal = top.filter(|_| event == Event::Again).map_or(0.0, |top| top.compression);
-        [x - goal, self.rate(state)]
-    }
-
-    /// The state at the event; the energy it was off by, relative.
-    #[inline(always)]
-    fn stop(&self, stop: Stop, now: &State, step: &Step, next: &mut State) -> f64 {
-        let Stop { event, top, .. } = stop;
-        // The end of the step, or the first point beyond the event.
-        let goal = |x: f64| match (event, top) {
-            (Event::Gone, _) => x <= 0.0,
-            (Event::Again, Some(top)) => x > top.compression,
-            _ => false,
-        };
-        let beyond = (1..POINTS).find(|i| goal(step.compression[*i])).unwrap_or(POINTS - 1);
-        let end = step.length * self.rule.at[beyond];
-        if beyond < POINTS - 1 {
-            self.within(now, step, end, next);
-        }
-        let (from, to) = (self.distance(event, now, top), self.distance(event, next, top));
-        let mut time = end * crossing(from[0], from[1] * end, to[0], to[1] * end);
-        self.within(now, step, time, next);
-        self.approach(event, step, top, &mut time, next);
-        let mut corrected = self.round_off(stop, now, step, &mut time, next);
-        let off = |next: &State| (self.whole_energy(next, top) - self.energy).abs() / self.energy;
-        if event == Event::Gone && off(next) > 1e-13 {
-            // The force's last bit ends within the step: a step of that length has it whole.
-            let (mut last, mut end) = (*step, time);
-            for _ in 0..4 {
-                let table = Table::new(self.rule, self.poles, end);
-                (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(step));
-                self.advance(&table, now, &last, next);
-                let [x, rate] = self.distance(event, next, top);
-                let by = -x / rate;
-                if !(by.abs() > 1e-6 * end && by.abs() < 0.5 * end) {
-                    break;
-                }
-                end += by;
-            }
-            corrected += self.round_off(stop, now, &last, &mut end, next);
-        }
-        self.settle(next, top);
-        corrected
-    }
-
-    /// Puts the energy of a state at an event right, and the event again.
-    #[inline(always)]
-    fn round_off(
-        &self,
-        Stop { event, top, most }: Stop,
-        now: &State,
-        step: &Step,
-        time: &mut f64,
-        next: &mut State,
-    ) -> f64 {
-        let mut corrected = 0.0;
-        if self.damped {
-            next.lost = now.lost + self.loss_within(now, step, *time);
-        }
-        for _ in 0..4 {
-            let length = *time;
-            let bump = |n: usize| {
-                let s = self.poles[n];
-                let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
-                [length * (all[1][0] - all[2][0]), length * (all[1][1] - all[2][1])]
-            };
-            corrected += self.correct(next, length, bump, most, top);
-            let [x, rate] = self.distance(event, next, top);
-            let by = -x / rate;
-            let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;
-            if event != Event::Gone || there || !by.is_finite() {
-                break;
-            }
-            *time += by;
-            self.nudge(next, step, *time, by);
-        }
-        corrected
-    }
-
-    /// Newton's method from a state near the event.
-    #[inline(always)]
-    fn approach(
-        &self,
-        event: Event,
-        step: &Step,
-        top: Option<Top>,
-        time: &mut f64,
-        next: &mut State,
-    ) {
-        for _ in 0..4 {
-            let [left, rate] = self.distance(event, next, top);
-            let by = -left / rate;
-            if by.is_nan() || by.abs() > 0.1 * step.length {
-                break;
-            }
-            *time += by;
-            self.nudge(next, step, *time, by);
-            if by.abs() <= 1e-8 * step.length {
-                break;
-            }
-        }
-    }
-
-    /// Compression and force from the motions: `x + C F(x) = z + Σ y`.
-    #[inline(always)]
-    fn settle(&self, state: &mut State, top: Option<Top>) {
-        let (whole, rest) = (self.reach(state), self.felt.rest);
-        let mut x = whole - rest * state.force;
-        for _ in 0..6 {
-            if rest == 0.0 {
-                break;
-            }
-            let [force, slope] = self.law.force(x, top);
-            let by = (whole - x - rest * force) / (1.0 + rest * slope);
-            x += by;
-            if by.abs() <= 1e-15 * self.deepest {
-                break;
-            }
-        }
-        state.compression = x;
-        state.force = self.law.force(x, top)[0];
-    }
-
-    /// Adds a bump to the force of a step of that length, so that the energy is right again;
-    /// returns by how much it was not, relative.
-    #[inline(always)]
-    fn correct(
-        &self,
-        next: &mut State,
-        length: f64,
-        bump: impl Fn(usize) -> Pair,
-        most: f64,
-        top: Option<Top>,
-    ) -> f64 {
-        let mut off = 0.0;
-        for round in 0..4 {
-            self.settle(next, top);
-            let defect = self.whole_energy(next, top) - self.energy;
-            if round == 0 {
-                off = defect.abs() / self.energy;
-            }
-            if defect.abs() <= 1e-14 * self.energy {
-                break;
-            }
-            // `s(1 − s)` has the area 1/6, half of it to each side of the middle.
-            let speed = -length * self.felt.inverse_mass / 6.0;
-            let closing = 0.5 * length * speed;
-            let mut slope = next.speed * speed / self.felt.inverse_mass;
-            let mut moved = closing;
-            for (n, s) in self.poles.iter().enumerate() {
-                let (b, w, square) = (bump(n), self.weights[n], s[0] * s[0] + s[1] * s[1]);
-                moved -= w * b[1];
-                let rates =
-                    (s[0] * next.imaginary[n] + s[1] * next.real[n], s[0] * b[1] + s[1] * b[0]);
-                slope += w / s[1] * (rates.0 * rates.1 + square * next.imaginary[n] * b[1]);
-            }
-            let size = -defect / (slope + next.force * moved);
-            // Where the compression does not change no force does work.
-            if size.is_nan() || size.abs() > 2.0 * most {
-                break;
-            }
-            next.speed += size * speed;
-            next.closing += size * closing;
-            next.impulse += size * length / 6.0;
-            for n in 0..self.poles.len() {
-                let b = bump(n);
-                next.real[n] += size * b[0];
-                next.imaginary[n] += size * b[1];
-            }
-        }
-        off
-    }
-
-    /// `z + Σ y` (m).
-    #[inline(always)]
-    fn reach(&self, state: &State) -> f64 {
-        state.closing - dot(&self.weights, &state.imaginary)
-    }
-
-    /// Its rate (m/s).
-    #[inline(always)]
-    fn rate(&self, state: &State) -> f64 {
-        let mut sum = state.speed;
-        for (n, s) in self.poles.iter().enumerate() {
-            sum -= self.weights[n] * (s[0] * state.imaginary[n] + s[1] * state.real[n]);
-        }
-        sum
-    }
-
-    /// `m_n (q′² + ω² q²)/2` (J).
-    #[inline(always)]
-    fn in_mode(&self, state: &State, n: usize) -> f64 {
-        let s = self.poles[n];
-        let rate = s[0] * state.imaginary[n] + s[1] * state.real[n];
-        let square = s[0] * s[0] + s[1] * s[1];
-        let q = state.imaginary[n];
-        0.5 * self.weights[n] / s[1] * (rate * rate + square * q * q)
-    }
-
-    /// `Σ 2ζω m_n q′²` (W).
-    #[inline(always)]
-    fn loss(&self, state: &State) -> f64 {
-        let mut sum = 0.0;
-        for (n, s) in self.poles.iter().enumerate() {
-            let rate = s[0] * state.imaginary[n] + s[1] * state.real[n];
-            sum -= 2.0 * s[0] * self.weights[n] / s[1] * rate * rate;
-        }
-        sum
-    }
-
-    /// What damping takes from the beginning of a step to a time in it (J).
-    fn loss_within(&self, now: &State, step: &Step, time: f64) -> f64 {
-        let mut state = State::at_first(self.poles.len(), 0.0);
-        let mut sum = 0.0;
-        for (at, weight) in self.rule.at.iter().zip(&self.rule.weights) {
-            self.within(now, step, at * time, &mut state);
-            sum += weight * self.loss(&state);
-        }
-        time * sum
-    }
-
-    /// Of ball and bat, relative to their common motion, with what is lost (J).
-    #[inline(always)]
-    fn whole_energy(&self, state: &State, top: Option<Top>) -> f64 {
-        let [stored, lost] = self.law.energy(state.compression, top);
-        let rigid = 0.5 * state.speed * state.speed / self.felt.inverse_mass;
-        let modes: f64 = (0..self.poles.len()).map(|n| self.in_mode(state, n)).sum();
-        rigid + modes + stored + lost + state.lost + 0.5 * self.felt.rest * state.force.powi(2)
-    }
-
-    /// Whether the ringing surface reaches the ball after it left.
-    fn caught_again(&self, end: &State) -> bool {
-        let count = self.poles.len();
-        let amplitude = |n: usize| self.weights[n] * end.real[n].hypot(end.imaginary[n]);
-        let farthest: f64 = (0..count).map(amplitude).sum();
-        // Beyond that the ball is out of reach.
-        let last = (farthest - end.closing) / -end.speed;
-        let fastest = self.poles.iter().map(|s| s[1]).fold(0.0, f64::max);
-        if !(last > 0.0 && end.speed < 0.0) || count == 0 {
-            return end.speed >= 0.0;
-        }
-        // The fast modes' own motion is small: eight looks in a turn of the middle ones.
-        let looks = (0.5 * last * fastest).clamp(16.0, 4000.0).ceil();
-        let at = |k: f64| {
-            let t = last * k / looks;
-            let mut reach = end.closing + end.speed * t;
-            for (n, s) in self.poles.iter().enumerate() {
-                let (sin, cos) = (s[1] * t).sin_cos();
-                let size = if s[0] == 0.0 { 1.0 } else { (s[0] * t).exp() };
-                reach -= self.weights[n] * size * (cos * end.imaginary[n] + sin * end.real[n]);
-            }
-            reach
-        };
-        // It begins at zero, going down.
-        let slack = 1e-9 * self.deepest;
-        (1..=looks as usize).any(|k| at(k as f64) > slack)
-    }
-}
-
-/// Solves for the points beyond the first.
-#[inline(always)]
-fn eliminate(matrix: &mut Coupling, mut left: [f64; POINTS]) -> [f64; POINTS] {
-    for c in 1..POINTS {
-        let inverse = 1.0 / matrix[c][c];
-        for i in c + 1..POINTS {
-            let factor = matrix[i][c] * inverse;
-            for j in c..POINTS {
-                matrix[i][j] -= factor * matrix[c][j];
-            }
-            left[i] -= factor * left[c];
-        }
-    }
-    for c in (1..POINTS).rev() {
-        for j in c + 1..POINTS {
-            left[c] -= matrix[c][j] * left[j];
-        }
-        left[c] /= matrix[c][c];
-    }
-    left
-}
-
-/// Where in [0, 1] the cubic with those values and slopes at both ends is zero.
-#[inline(always)]
-fn crossing(from: f64, from_slope: f64, to: f64, to_slope: f64) -> f64 {
-    let rise = to - from;
-    let (square, cube) =
-        (3.0 * rise - 2.0 * from_slope - to_slope, from_slope + to_slope - 2.0 * rise);
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut s = (from / (from - to)).clamp(0.0, 1.0);
-    for _ in 0..20 {
-        let value = ((cube * s + square) * s + from_slope) * s + from;
-        let slope = (3.0 * cube * s + 2.0 * square) * s + from_slope;
-        if (value > 0.0) == (from > 0.0) {
-            low = s
-        } else {
-            high = s
-        }
-        let newton = s - value / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        let done = (next - s).abs() < 1e-10;
-        s = next;
-        if done {
-            break;
-        }
-    }
-    s
-}
-
-/// `Σ a_k b_k`.
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::collision::collocation::polynomial;
     use crate::dowel;
     use crate::dowel::Ends;
 
@@ -991,6 +390,40 @@ mod tests {
                 parts.iter().map(|[w, a]| stiffness * a * (1.0 - (w * low).cos()) / w).sum();
             assert!((met.time / low - 1.0).abs() < 1e-11, "{at} {} {low}", met.time);
             assert!((met.impulse / impulse - 1.0).abs() < 1e-11, "{at} {} {impulse}", met.impulse);
+        }
+    }
+
+    /// What was recorded has the meeting's impulse, ends with it and leaves its energy in a mode.
+    #[test]
+    fn the_recorded_force_is_the_force() {
+        for (at, restitution, accuracy) in
+            [(0.5, 0.5, 1e-3), (0.7, 0.5, 1e-6), (0.775_842, 0.9, 1e-3), (0.99, 0.3, 1e-3)]
+        {
+            let (modes, felt) = dowel(6, at, BALL);
+            let law = ForceLaw::new(6.53e7, 1.84, restitution);
+            let collider = Collider::new(&modes, 8e-5);
+            let (met, pieces) = collider.meet_recorded(&felt, &law, 60.0, accuracy);
+            assert_eq!(met, collider.meet(&felt, &law, 60.0, accuracy));
+            let end = pieces.last().map(|piece| piece.start + piece.length).unwrap();
+            assert!((end / met.time - 1.0).abs() < 1e-14);
+            let (mut impulse, mut memory, omega) = (0.0, [0.0; 2], modes[2][0]);
+            let mut start = 0.0;
+            for piece in &pieces {
+                assert!((piece.start - start).abs() < 1e-14);
+                start = piece.start + piece.length;
+                for (s, w) in crate::quadrature::gauss(12) {
+                    let force = polynomial(&piece.powers, s);
+                    assert!(force > -1e-6 * met.peak_force);
+                    let part = w * piece.length * force;
+                    impulse += part;
+                    let (sin, cos) = (omega * (end - piece.start - s * piece.length)).sin_cos();
+                    memory = [memory[0] + cos * part, memory[1] + sin * part];
+                }
+            }
+            assert!((impulse / met.impulse - 1.0).abs() < 1e-12, "{at}");
+            let energy = 0.5 * felt.gains[2] * (memory[0].powi(2) + memory[1].powi(2));
+            let whole = 0.5 * 60.0 * 60.0 / felt.inverse_mass;
+            assert!((energy - met.in_modes[2]).abs() < 1e-12 * whole, "{at}");
         }
     }
 

@@ -68,6 +68,38 @@ impl ForceLaw {
         }
     }
 
+    /// The compression (m) at that force (N), where there is one.
+    #[inline(always)]
+    fn at(&self, force: f64, top: Option<Top>) -> f64 {
+        match top {
+            None => (force / self.stiffness).powf(1.0 / self.exponent),
+            Some(top) => top.compression * (force / top.force).powf(1.0 / self.unloading),
+        }
+    }
+
+    /// The ball's part (m) of `x + C F(x) = whole` with a spring of that flexibility C (m/N), and the
+    /// force (N), from a guess of x; anything that is no guess is none.
+    #[inline(always)]
+    pub fn share(&self, whole: f64, flexibility: f64, top: Option<Top>, guess: f64) -> [f64; 2] {
+        if flexibility == 0.0 || whole <= 0.0 || self.unloading.is_infinite() && top.is_some() {
+            return [whole, self.force(whole, top)[0]];
+        }
+        // The function is convex: from here, above, Newton's method comes down.
+        let above = || whole.min(self.at(whole / flexibility, top));
+        let mut x = if guess > 0.0 && guess < whole { guess } else { above() };
+        for _ in 0..30 {
+            let [force, slope] = self.force(x, top);
+            let by = (whole - x - flexibility * force) / (1.0 + flexibility * slope);
+            // What is left is the square of this.
+            if by.abs() <= 1e-10 * x {
+                return [x + by, force + slope * by];
+            }
+            // Up a long way is a guess that was none.
+            x = if by > 0.1 * x { above() } else { x + by };
+        }
+        [x, self.force(x, top)[0]]
+    }
+
     /// The compression (m) that takes that energy (J).
     pub fn compression(&self, energy: f64) -> f64 {
         let exponent = 1.0 + self.exponent;

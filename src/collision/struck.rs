@@ -1,28 +1,30 @@
 //! A bat as a ball feels it, anywhere along its length.
 
 use crate::bat::Bat;
-use crate::collision::contact::Felt;
+use crate::collision::touch::Felt;
 use crate::eigen::lanczos::dot;
-use crate::flexible::Flexible;
+use crate::flexible::{Flexible, RigidMotion};
+use crate::modes::Mode;
 use crate::solve::Solution;
 
 /// A bat's rigid motions, its modes and the flexibility of all others.
 pub struct Struck<'a> {
+    bat: &'a Bat,
     solution: &'a Solution,
     flexible: Flexible,
 }
 
 impl<'a> Struck<'a> {
     /// The bat on the solution's mesh.
-    pub fn new(bat: &Bat, solution: &'a Solution) -> Self {
+    pub fn new(bat: &'a Bat, solution: &'a Solution) -> Self {
         let flexible = Flexible::new(bat, &solution.mesh, solution.degree, solution.theory);
-        Self { solution, flexible }
+        Self { bat, solution, flexible }
     }
 
-    /// ω (rad/s) and damping ratio of every mode.
+    /// ω (rad/s) and damping ratio of every mode, each by itself: dashpots couple them slowly beside
+    /// a hit.
     pub fn modes(&self) -> Vec<[f64; 2]> {
-        let ratio =
-            |k: usize| self.solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio);
+        let ratio = |k: usize| self.solution.damping.alone.get(k).copied().unwrap_or(0.0);
         let modes = self.solution.modes.iter().enumerate();
         modes.map(|(k, mode)| [mode.omega, ratio(k)]).collect()
     }
@@ -32,9 +34,20 @@ impl<'a> Struck<'a> {
         self.flexible.rigid.iter().map(|motion| motion.deflection(x).powi(2) / motion.mass).sum()
     }
 
+    /// The rigid motions that nothing holds.
+    pub fn rigid(&self) -> &[RigidMotion] {
+        &self.flexible.rigid
+    }
+
+    /// The velocity (m/s) at another place after 1 N s at `x`, without bending.
+    pub fn recoil_between(&self, x: f64, there: f64) -> f64 {
+        let rigid = self.flexible.rigid.iter();
+        rigid.map(|motion| motion.deflection(x) * motion.deflection(there) / motion.mass).sum()
+    }
+
     /// `φ_n²/m_n` (1/kg) at `x` of every mode.
     pub fn gains(&self, x: f64) -> Vec<f64> {
-        let gain = |mode: &crate::modes::Mode| mode.shape.deflection(x).powi(2) / mode.modal_mass;
+        let gain = |mode: &Mode| mode.shape.deflection(x).powi(2) / mode.modal_mass;
         self.solution.modes.iter().map(gain).collect()
     }
 
@@ -44,7 +57,8 @@ impl<'a> Struck<'a> {
     pub fn flexibility(&self, x: f64) -> [f64; 2] {
         let row = self.flexible.row(x);
         let unit = self.flexible.energy_unit;
-        [dot(&row, &row) / unit, dot(&row, &self.flexible.inertia(&row)) / unit]
+        let kink = self.flexible.unresolved(x, |x| self.bat.worth_at(x));
+        [dot(&row, &row) / unit + kink, dot(&row, &self.flexible.inertia(&row)) / unit]
     }
 
     /// All of that for a ball of that mass (kg) at `x`, with `count` modes and nothing else.
@@ -60,24 +74,51 @@ impl<'a> Struck<'a> {
     /// A mode beyond follows a slow force as `y = −c/ω² (F − F″/ω² + …)`. With `C = Σ c/ω²` and `D =
     /// Σ c/ω⁴` of all that are not taken, the gain `D ω⁴` at the first one's own ω and the
     /// flexibility `C − D ω²`, which is never negative, have the same first two terms.
+    ///
+    /// In hands or on springs a bat has slow modes, whose C and D are so much greater than those of
+    /// the fast ones that these are lost in their errors: what is not known then is left out.
     pub fn felt(&self, x: f64, ball: f64, count: usize) -> Felt {
-        self.completed(self.with_modes(x, ball, count), self.flexibility(x))
+        self.completed(x, self.with_modes(x, ball, count), self.flexibility(x))
     }
 
-    fn completed(&self, felt: Felt, [soft, slow]: [f64; 2]) -> Felt {
-        let mut felt = felt;
+    /// The same from [`Self::with_modes`] and [`Self::flexibility`].
+    pub fn completed(&self, x: f64, mut felt: Felt, [soft, slow]: [f64; 2]) -> Felt {
+        /// What is left is known if it is so many times its error.
+        const KNOWN: f64 = 10.0;
         let Some((last, taken)) = felt.gains.split_last_mut() else {
             return Felt { rest: soft, ..felt };
         };
-        let squares = self.solution.modes.iter().map(|mode| mode.omega.powi(2));
-        let (mut rest, mut left) = (soft, slow);
-        for (gain, square) in taken.iter().zip(squares) {
-            rest -= gain / square;
-            left -= gain / (square * square);
-        }
+        let [here, there] = self.taken(taken);
+        let (rest, left) = (soft - here, slow - there);
         let square = self.solution.modes[taken.len()].omega.powi(2);
-        *last = last.max(left * square * square);
-        felt.rest = (rest - *last / square).max(0.0);
+        let held = self.flexible.rigid.len() < 2;
+        let [unsure, unsure_slow] =
+            if held { self.taken(&self.doubt(x)[..taken.len()]) } else { [0.0; 2] };
+        if left > KNOWN * unsure_slow {
+            *last = last.max(left * square * square);
+        }
+        if rest > KNOWN * unsure {
+            felt.rest = (rest - *last / square).max(0.0);
+        }
         felt
+    }
+
+    /// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of the modes with those gains.
+    pub fn taken(&self, gains: &[f64]) -> [f64; 2] {
+        let squares = self.solution.modes.iter().map(|mode| mode.omega.powi(2));
+        gains.iter().zip(squares).fold([0.0; 2], |[soft, slow], (gain, square)| {
+            [soft + gain / square, slow + gain / (square * square)]
+        })
+    }
+
+    /// How far every gain (1/kg) may be off at `x` for the mesh, that of the frequency with it.
+    pub fn doubt(&self, x: f64) -> Vec<f64> {
+        let doubt = |mode: &Mode| {
+            let deflection = mode.shape.deflection(x).abs();
+            let relative = mode.error.modal_mass + 2.0 * mode.error.total();
+            let off = 2.0 * mode.error.shape + deflection * relative;
+            deflection * off / mode.modal_mass
+        };
+        self.solution.modes.iter().map(doubt).collect()
     }
 }

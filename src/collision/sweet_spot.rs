@@ -1,10 +1,13 @@
 //! Where is the sweet spot, by each of its definitions.
 
+use rayon::prelude::*;
+
 use crate::bat::Bat;
-use crate::collision::hit::{Hitter, Scene};
+use crate::collision::hit::Scene;
+use crate::collision::hitter::{Glance, Hitter};
 use crate::solve::Solution;
 
-/// A place and the value there (m/s or J).
+/// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     pub x: f64,
@@ -23,28 +26,49 @@ pub struct SweetSpot {
     pub node_mode_2: Option<f64>,
     /// The centre of percussion for the swing's own pivot (m).
     pub center_of_percussion: Option<f64>,
+    /// Where the hands feel the least velocity (m/s) and the least acceleration (m/s²), as
+    /// [`Glance::hands`] counts them.
+    pub hands_velocity_min: Option<Peak>,
+    pub hands_acceleration_min: Option<Peak>,
     /// Where the exit speed is within 1 % of its maximum (m).
     pub zone: Option<[f64; 2]>,
+    /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip.
+    pub inch_off: Option<[Option<f64>; 2]>,
 }
 
 /// Points of the first look along the outer half.
-const GRID: usize = 400;
+const GRID: usize = 128;
 /// A place is located to this share of the outer half.
-const WIDTH: f64 = 1e-9;
+const WIDTH: f64 = 1e-6;
+const INCH: f64 = 0.0254;
 
 impl SweetSpot {
     /// Searched from the middle of the bat to its tip.
     pub fn find(bat: &Bat, scene: &Scene, solution: &Solution, hitter: &Hitter) -> Self {
         let outer = [0.5 * bat.length(), bat.length()];
-        let speed = |x: f64| hitter.exit_speed(x);
-        let exit_speed_max = greatest(outer, &speed);
-        let still = |x: f64| hitter.vibration(x).map(|energy| -energy);
+        let looked = Looked::new(outer, hitter);
+        let exit_speed_max = looked.greatest(|glance| Some(glance.exit_speed));
+        let least = |of: fn(&Glance) -> Option<f64>| {
+            let greatest = looked.greatest(|glance| of(glance).map(|value| -value))?;
+            Some(Peak { x: greatest.x, value: -greatest.value })
+        };
         let last_node = |k: usize| solution.modes.get(k).and_then(|m| m.nodes.last().copied());
+        let off = |peak: Peak, by: f64| {
+            let x = peak.x + by;
+            (x <= bat.length()).then(|| hitter.glance(x).map(|glance| glance.exit_speed)).flatten()
+        };
+        // Hands on a pin feel nothing, and without modes nothing shakes them.
+        let feels = |k: usize| {
+            let felt = looked.seen.iter().flatten().map(|glance| glance.hands[k]);
+            felt.fold(0.0, f64::max) > [1e-9, 1e-5][k]
+        };
         Self {
-            zone: exit_speed_max.map(|peak| zone(outer, peak, &speed)),
+            zone: exit_speed_max.map(|peak| looked.zone(peak)),
+            inch_off: exit_speed_max.map(|peak| [off(peak, -INCH), off(peak, INCH)]),
             exit_speed_max,
-            vibration_min: greatest(outer, &still)
-                .map(|peak| Peak { x: peak.x, value: -peak.value }),
+            vibration_min: least(|glance| glance.vibration),
+            hands_velocity_min: least(|g| Some(g.hands[0])).filter(|_| feels(0)),
+            hands_acceleration_min: least(|g| Some(g.hands[1])).filter(|_| feels(1)),
             node_mode_1: last_node(0),
             node_mode_2: last_node(1),
             center_of_percussion: bat.inertia().as_line().center_of_percussion(-scene.pivot),
@@ -52,40 +76,86 @@ impl SweetSpot {
     }
 }
 
-/// The greatest value of `f` on an interval: the best of a grid, then golden-section search.
-fn greatest([from, to]: [f64; 2], f: &dyn Fn(f64) -> Option<f64>) -> Option<Peak> {
-    let at = |k: usize| from + (to - from) * k as f64 / GRID as f64;
-    let value = |x: f64| f(x).unwrap_or(f64::NEG_INFINITY);
-    let best = (0..=GRID).max_by(|&a, &b| value(at(a)).total_cmp(&value(at(b))))?;
-    f(at(best))?;
-    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(GRID)));
-    let shrink = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let inside = |low: f64, high: f64| (high - shrink * (high - low), low + shrink * (high - low));
-    while high - low > WIDTH * (to - from) {
-        let (left, right) = inside(low, high);
-        if value(left) > value(right) { high = right } else { low = left }
-    }
-    // The ends of the interval may be the best, where the search only comes near.
-    let candidates = [0.5 * (low + high), at(best), from, to];
-    let x = candidates.into_iter().max_by(|&a, &b| value(a).total_cmp(&value(b)))?;
-    Some(Peak { x, value: value(x) })
+/// A stretch of a bat after a first look along it.
+pub struct Looked<'a> {
+    ends: [f64; 2],
+    hitter: &'a Hitter<'a>,
+    seen: Vec<Option<Glance>>,
 }
 
-/// How far from the peak the value stays within 1 %, bisected on both sides.
-fn zone([from, to]: [f64; 2], peak: Peak, f: &dyn Fn(f64) -> Option<f64>) -> [f64; 2] {
-    let floor = peak.value - 0.01 * peak.value.abs();
-    let good = |x: f64| f(x).is_some_and(|v| v >= floor);
-    let edge = |end: f64| {
-        // Walk outwards to the first place that is not good, then bisect back.
-        let step = (end - peak.x) / GRID as f64;
-        let bad = (1..=GRID).map(|k| peak.x + step * k as f64).find(|x| !good(*x));
-        let Some(mut bad) = bad else { return end };
-        let mut inside = bad - step;
-        while (bad - inside).abs() > WIDTH * (to - from) {
-            let middle = 0.5 * (bad + inside);
-            if good(middle) { inside = middle } else { bad = middle }
+impl<'a> Looked<'a> {
+    /// Looks along that stretch (m).
+    pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
+        let seen = (0..=GRID).into_par_iter().map(|k| hitter.glance(place(ends, k))).collect();
+        Self { ends, hitter, seen }
+    }
+
+    /// The place of the greatest value: the best of the first look, then golden-section search.
+    pub fn greatest(&self, value: impl Fn(&Glance) -> Option<f64>) -> Option<Peak> {
+        let of =
+            |glance: &Option<Glance>| glance.as_ref().and_then(&value).unwrap_or(f64::NEG_INFINITY);
+        let best = (0..=GRID).max_by(|&a, &b| of(&self.seen[a]).total_cmp(&of(&self.seen[b])))?;
+        let seen = of(&self.seen[best]);
+        if seen == f64::NEG_INFINITY {
+            return None;
         }
-        inside
-    };
-    [edge(from), edge(to)]
+        let at = |x: f64| of(&self.hitter.glance(x));
+        let low = place(self.ends, best.saturating_sub(1));
+        let high = place(self.ends, (best + 1).min(GRID));
+        let width = WIDTH * (self.ends[1] - self.ends[0]);
+        let found = golden([low, high], width, at);
+        // The ends of the interval may be the best, where the search only comes near.
+        let here = Peak { x: place(self.ends, best), value: seen };
+        Some(if found.value > here.value { found } else { here })
+    }
+
+    /// How far from the peak the exit speed stays within 1 %, bisected on both sides.
+    fn zone(&self, peak: Peak) -> [f64; 2] {
+        let floor = peak.value - 0.01 * peak.value.abs();
+        let enough = |glance: &Option<Glance>| glance.is_some_and(|g| g.exit_speed >= floor);
+        let [from, to] = self.ends;
+        let edge = |end: f64, bad: Option<usize>| {
+            let Some(bad) = bad else { return end };
+            let mut bad = place(self.ends, bad);
+            let mut inside = peak.x;
+            while (bad - inside).abs() > WIDTH * (to - from) {
+                let middle = 0.5 * (bad + inside);
+                if enough(&self.hitter.glance(middle)) { inside = middle } else { bad = middle }
+            }
+            inside
+        };
+        let poor = |k: &usize| !enough(&self.seen[*k]);
+        let below = (0..=GRID).rev().filter(|k| place(self.ends, *k) < peak.x).find(poor);
+        let above = (0..=GRID).filter(|k| place(self.ends, *k) > peak.x).find(poor);
+        [edge(from, below), edge(to, above)]
+    }
+}
+
+/// The k-th place of a first look.
+fn place([from, to]: [f64; 2], k: usize) -> f64 {
+    from + (to - from) * k as f64 / GRID as f64
+}
+
+/// The greatest value on an interval that has one maximum, located to that width.
+fn golden([mut low, mut high]: [f64; 2], width: f64, value: impl Fn(f64) -> f64) -> Peak {
+    let shrink = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut left = high - shrink * (high - low);
+    let mut right = low + shrink * (high - low);
+    let (mut at_left, mut at_right) = (value(left), value(right));
+    while high - low > width {
+        if at_left > at_right {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - shrink * (high - low);
+            at_left = value(left);
+        } else {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + shrink * (high - low);
+            at_right = value(right);
+        }
+    }
+    if at_left > at_right {
+        Peak { x: left, value: at_left }
+    } else {
+        Peak { x: right, value: at_right }
+    }
 }

@@ -3,12 +3,9 @@
 //! Numbers are written in the shortest form that reads back to the same bits; there is never a
 //! NaN or an infinity. What does not exist is null.
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::bat::{Bat, STANDARD_PIVOT, Weighed};
-use crate::collision::hit::{Impact, Model, Outcome, Scene};
-use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::ignored::ignored;
 use crate::report::damped;
 use crate::report::resolved::resolved;
@@ -130,94 +127,4 @@ fn summary(bat: &Bat) -> Value {
         summary["weighed"]["balance_point_difference_m"] = json!(inertia.balance_point - weighed);
     }
     summary
-}
-
-/// The `sweetspot-hit/1` document.
-pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &SweetSpot) -> Value {
-    let ball = &scene.ball;
-    json!({
-        "format": "sweetspot-hit/1",
-        "generator": generator(),
-        "model": model_name(model),
-        "scene": {
-            "bat_pivot_m": scene.pivot,
-            "swing_rad_s": scene.swing,
-            "ball": {
-                "name": ball.name,
-                "source": ball.source,
-                "mass_kg": ball.mass,
-                "radius_m": ball.radius,
-                "stiffness": ball.stiffness,
-                "exponent": ball.exponent,
-                "cor": ball.cor,
-            },
-            "ball_speed_m_s": scene.ball_speed,
-            "cor": scene.cor,
-        },
-        "impacts": impacts.iter().map(|i| impact(bat, i)).collect::<Vec<_>>(),
-        "sweet_spot": {
-            "exit_speed_max": spot.exit_speed_max.map(peak),
-            "vibration_min": spot.vibration_min.map(peak),
-            "node_mode_1_m": spot.node_mode_1,
-            "node_mode_2_m": spot.node_mode_2,
-            "center_of_percussion_m": spot.center_of_percussion,
-            "zone_m": spot.zone,
-        },
-    })
-}
-
-/// The name that the command line and the files use.
-pub fn model_name(model: Model) -> &'static str {
-    match model {
-        Model::Rigid => "rigid",
-        Model::EnergyLoss(_) => "energy-loss",
-    }
-}
-
-fn peak(peak: Peak) -> Value {
-    json!({ "x_m": peak.x, "value": peak.value })
-}
-
-fn impact(bat: &Bat, impact: &Impact) -> Value {
-    let outcome = impact.outcome.as_ref();
-    let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
-    let energy = outcome.map(|o| EnergyJson {
-        initial: o.energy.initial,
-        ball: o.energy.ball,
-        bat_rigid: o.energy.bat_rigid,
-        vibration: o.energy.vibration(),
-        vibration_by_mode: &o.energy.vibration_by_mode,
-        dissipated_ball: o.energy.dissipated_ball,
-        dissipated_damping: 0.0,
-        imbalance: o.energy.imbalance(),
-    });
-    json!({
-        "x_m": impact.x,
-        "from_tip_m": bat.length() - impact.x,
-        "bat_speed_m_s": impact.bat_speed,
-        "exit_speed_m_s": number(&|o| o.exit_speed),
-        "rigid_exit_speed_m_s": impact.rigid_exit_speed,
-        "impulse_n_s": number(&|o| o.impulse),
-        "contact_time_s": null,
-        "peak_force_n": null,
-        "collision_efficiency": number(&|o| o.collision_efficiency),
-        "bbcor": number(&|o| o.bbcor),
-        "bbcor_pivoted": number(&|o| o.bbcor_pivoted),
-        "modes_used": outcome.map(|o| o.energy.vibration_by_mode.len()),
-        "flags": impact.flags,
-        "energy_j": energy,
-        "error": { "exit_speed": number(&|o| o.error) },
-    })
-}
-
-#[derive(Serialize)]
-struct EnergyJson<'a> {
-    initial: f64,
-    ball: f64,
-    bat_rigid: f64,
-    vibration: f64,
-    vibration_by_mode: &'a [f64],
-    dissipated_ball: f64,
-    dissipated_damping: f64,
-    imbalance: f64,
 }

@@ -3,11 +3,7 @@
 use std::fmt::Write;
 
 use crate::bat::{Bat, STANDARD_PIVOT};
-use crate::collision::hit::{Impact, Model, Scene};
-use crate::collision::sweep::Sweep;
-use crate::collision::sweet_spot::SweetSpot;
 use crate::ignored::ignored;
-use crate::report::curve;
 use crate::report::damped;
 use crate::solve::Solution;
 use crate::theory::Theory;
@@ -24,7 +20,7 @@ pub enum Units {
 
 impl Units {
     /// A value in SI, in US units, or in both.
-    fn show(self, si: String, us: String) -> String {
+    pub fn show(self, si: String, us: String) -> String {
         match self {
             Self::Si => si,
             Self::Us => us,
@@ -32,25 +28,25 @@ impl Units {
         }
     }
 
-    fn length(self, metres: f64) -> String {
+    pub fn length(self, metres: f64) -> String {
         self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
     }
 
-    fn mass(self, kilograms: f64) -> String {
+    pub fn mass(self, kilograms: f64) -> String {
         self.show(format!("{kilograms:.4} kg"), format!("{:.2} oz", ounces(kilograms)))
     }
 
-    fn inertia(self, value: f64) -> String {
+    pub fn inertia(self, value: f64) -> String {
         let us = format!("{:.0} oz in²", ounce_square_inches(value));
         self.show(format!("{value:.5} kg m²"), us)
     }
 
-    fn speed(self, value: f64) -> String {
+    pub fn speed(self, value: f64) -> String {
         self.show(format!("{value:.2} m/s"), format!("{:.1} mph", miles_per_hour(value)))
     }
 
     /// The same in running text: `0.0635 m (2.50 in)`.
-    fn inline(self, value: String) -> String {
+    pub fn inline(self, value: String) -> String {
         match (self, value.split_once("   ")) {
             (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),
             _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -58,7 +54,7 @@ impl Units {
     }
 
     /// A list of positions (m), a line per system of units.
-    fn positions(self, places: &[f64]) -> Vec<String> {
+    pub fn positions(self, places: &[f64]) -> Vec<String> {
         let list = |scale: f64, unit: &str| {
             let shown: Vec<String> = places.iter().map(|x| format!("{:.2}", x * scale)).collect();
             format!("{} {unit}", shown.join("  "))
@@ -201,152 +197,4 @@ pub fn wrapped(text: &str, indent: usize) -> String {
     }
     let _ = writeln!(out, "{:lead$}{rest}", "");
     out
-}
-
-/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration.
-pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
-    let mut out =
-        row(["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-"].map(str::to_owned));
-    out += &row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion"].map(str::to_owned));
-    let (near, far) = if units == Units::Us { ("in", "mph") } else { ("cm", "m/s") };
-    let (tip, second) = match units {
-        Units::Si => ("cm", ""),
-        Units::Us => ("in", ""),
-        Units::Both => ("in", "mph"),
-    };
-    out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
-    let length = |x: f64, unit: &str| {
-        let value = if unit == "in" { inches(x) } else { 100.0 * x };
-        // A rounding of nothing is no length.
-        format!("{:.2}", value + 0.0)
-    };
-    let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
-    for impact in impacts {
-        let from_tip = (bat.length() - impact.x).max(0.0);
-        let mut cells = [const { String::new() }; 8];
-        cells[0] = length(impact.x, near);
-        cells[1] = length(from_tip, tip);
-        cells[2] = format!("{:.2}", fast(impact.bat_speed));
-        cells[5] = impact.rigid_exit_speed.map_or(String::new(), |v| format!("{:.2}", fast(v)));
-        if let Some(outcome) = &impact.outcome {
-            cells[3] = format!("{:.2}", fast(outcome.exit_speed));
-            if units == Units::Both {
-                cells[4] = format!("{:.1}", miles_per_hour(outcome.exit_speed));
-            }
-            cells[6] = format!("{:.3}", outcome.collision_efficiency);
-            cells[7] = format!("{:.2}", outcome.energy.vibration());
-        } else {
-            cells[3] = "no value".to_owned();
-        }
-        out += &row(cells);
-    }
-    out
-}
-
-/// Eight right-aligned cells, 76 columns.
-fn row(cells: [String; 8]) -> String {
-    let line: String = cells
-        .iter()
-        .zip([10, 9, 10, 10, 9, 10, 9, 9])
-        .fold(String::new(), |line, (cell, width)| format!("{line}{cell:>width$}"));
-    format!("{}\n", line.trim_end())
-}
-
-/// Exit speed along the barrel, drawn.
-pub fn curve(impacts: &[Impact], units: Units) -> String {
-    let us = units == Units::Us;
-    let fast = |v: f64| if us { miles_per_hour(v) } else { v };
-    let places: Vec<f64> =
-        impacts.iter().map(|i| if us { inches(i.x) } else { 100.0 * i.x }).collect();
-    let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast(o.exit_speed));
-    let ours: Vec<_> = impacts.iter().map(exit).collect();
-    let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(fast)).collect();
-    let labels = if us {
-        ["exit speed, mph (* this bat, . if it did not bend)", "in from the knob"]
-    } else {
-        ["exit speed, m/s (* this bat, . if it did not bend)", "cm from the knob"]
-    };
-    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels, [66, 15])
-}
-
-/// One sentence: why the ball leaves fastest where it does.
-pub fn why(sweep: &Sweep, units: Units) -> String {
-    let place = |x: f64| {
-        let (si, us) = (format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x)));
-        units.inline(units.show(si, us))
-    };
-    let (Some(peak), Some(rigid)) = (sweep.spot.exit_speed_max, sweep.rigid_best) else {
-        return String::new();
-    };
-    let Some([there, here]) = sweep.vibration_at_bests else {
-        let text = "Why there: further out the bat recoils more than its speed makes up for.";
-        return wrapped(text, 0);
-    };
-    let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
-    let text = format!(
-        "Why there: a bat that does not bend would be best at {}; bending takes {there:.2} J there \
-         and {here:.2} J at the sweet spot, {} {way}.",
-        place(rigid.x),
-        place((peak.x - rigid.x).abs())
-    );
-    wrapped(&text, 0)
-}
-
-/// The label that an empirical model carries wherever it is printed.
-pub fn empirical(model: Model) -> &'static str {
-    match model {
-        Model::Rigid => "     the bat does not bend in this model\n",
-        Model::EnergyLoss(_) => {
-            "     empirical: the loss to vibration is the WPI report's fit, not derived, and\n     \
-             energy is not conserved (energy_j.imbalance in the JSON)\n"
-        }
-    }
-}
-
-/// The sweet spot by each definition, from knob and tip.
-pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
-    let mut out =
-        String::from("Sweet spot                             from knob            from tip\n");
-    let mut line = |what: &str, x: Option<f64>, value: String| {
-        let Some(x) = x else { return };
-        let place = |x: f64| match units {
-            Units::Si => format!("{:.2} cm", 100.0 * x),
-            Units::Us => format!("{:.2} in", inches(x)),
-            Units::Both => format!("{:.2} cm, {:.2} in", 100.0 * x, inches(x)),
-        };
-        let what = if value.is_empty() { what.to_owned() } else { format!("{what}, {value}") };
-        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
-        let _ = writeln!(out, "{text}");
-    };
-    let peak = spot.exit_speed_max;
-    line(
-        "fastest ball",
-        peak.map(|p| p.x),
-        peak.map_or(String::new(), |p| units.inline(units.speed(p.value))),
-    );
-    let still = spot.vibration_min;
-    let energy = still.map_or(String::new(), |p| format!("{:.2} J", p.value));
-    line("least vibration", still.map(|p| p.x), energy);
-    line("node of mode 1", spot.node_mode_1, String::new());
-    line("node of mode 2", spot.node_mode_2, String::new());
-    line("centre of percussion (swing)", spot.center_of_percussion, String::new());
-    if let Some([from, to]) = spot.zone {
-        line("within 1 % of the best: from", Some(from), String::new());
-        line("                        to", Some(to), String::new());
-    }
-    out
-}
-
-/// The scene in words.
-pub fn scene(scene: &Scene, model: &str, units: Units) -> String {
-    let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
-    format!(
-        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end\n     \
-         {} at {}, cor {}\n",
-        scene.swing,
-        units.inline(units.length(scene.pivot.abs())),
-        scene.ball.name,
-        units.inline(units.speed(scene.ball_speed)),
-        scene.cor
-    )
 }

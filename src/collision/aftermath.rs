@@ -1,0 +1,278 @@
+//! What the bat does under the ball and after it: motion, strain and stress anywhere, at any time.
+//!
+//! Every motion of the bat is driven by the recorded force, whose pieces are polynomials, so that it
+//! is exact at any instant. Deflections are against the swing and positive the way the bat moves:
+//! the ball drives it back, into −.
+//!
+//! ```text
+//! v(t) = ∫ e^{s(t−τ)} F dτ,  s = −ζω + iω_d       w = −Σ φ(x) φ(a)/(m ω_d) Im v
+//! ε = r θ′,  σ = E ε                              at the outermost fibre
+//! ```
+//!
+//! Dashpots are counted mode by mode; the hands' own mass is not in the bat.
+
+use crate::bat::Bat;
+use crate::collision::collocation::{POINTS, Pair, moments, times};
+use crate::collision::step::Piece;
+use crate::collision::struck::Struck;
+use crate::flexible::RigidMotion;
+use crate::modes::Mode;
+use crate::solve::Solution;
+
+/// A bat driven by a recorded force.
+pub struct Aftermath<'a> {
+    bat: &'a Bat,
+    /// Where the force acts (m).
+    pub place: f64,
+    pieces: Vec<Piece>,
+    rigid: Vec<Pushed>,
+    modes: Vec<Rung<'a>>,
+}
+
+struct Pushed {
+    motion: RigidMotion,
+    /// `φ(a)/m`.
+    gain: f64,
+}
+
+struct Rung<'a> {
+    mode: &'a Mode,
+    s: Pair,
+    /// `φ(a)/(m ω_d)`.
+    gain: f64,
+}
+
+/// One instant: displacement, velocity and acceleration of every rigid motion and of every mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instant {
+    /// Since the first touch (s).
+    pub time: f64,
+    /// What the ball pushes with (N).
+    pub force: f64,
+    rigid: Vec<[f64; 3]>,
+    modes: Vec<[f64; 3]>,
+}
+
+/// The largest strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strained {
+    /// Where (m) and when (s).
+    pub x: f64,
+    pub time: f64,
+    /// At the outermost fibre, its size without sign, and the stress there (Pa).
+    pub strain: f64,
+    pub stress: f64,
+}
+
+/// How one mode rings where it is looked at, just after the ball has left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Hz, of the undamped mode.
+    pub frequency: f64,
+    /// Amplitudes of displacement (m), velocity (m/s) and acceleration (m/s²).
+    pub amplitude: [f64; 3],
+}
+
+/// What a place feels in a span of time.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sting {
+    /// Largest displacement (m), velocity (m/s) and acceleration (m/s²), without sign, and when each
+    /// is (s).
+    pub peak: [f64; 3],
+    pub when: [f64; 3],
+    /// When the velocity first is a twentieth of its largest (s).
+    pub begins: f64,
+}
+
+/// Of the values in a step of time; the state at its end.
+fn driven(s: Pair, memory: Pair, piece: &Piece, length: f64) -> Pair {
+    let (whole, all) = moments::<POINTS>([s[0] * length, s[1] * length]);
+    let mut sum = times(whole, memory);
+    let mut scale = length;
+    for (power, moment) in piece.powers.iter().zip(&all) {
+        sum = [sum[0] + scale * power * moment[0], sum[1] + scale * power * moment[1]];
+        scale *= length / piece.length;
+    }
+    sum
+}
+
+impl<'a> Aftermath<'a> {
+    /// The bat of that solution under that force at `place` (m). Every mode must swing.
+    pub fn new(bat: &'a Bat, solution: &'a Solution, place: f64, pieces: Vec<Piece>) -> Self {
+        let struck = Struck::new(bat, solution);
+        let rigid = struck
+            .rigid()
+            .iter()
+            .map(|motion| Pushed { motion: *motion, gain: motion.deflection(place) / motion.mass });
+        let modes = solution.modes.iter().zip(struck.modes()).map(|(mode, [omega, ratio])| {
+            let swings = omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt();
+            let gain = mode.shape.deflection(place) / (mode.modal_mass * swings);
+            Rung { mode, s: [-ratio * omega, swings], gain }
+        });
+        Self { bat, place, rigid: rigid.collect(), modes: modes.collect(), pieces }
+    }
+
+    /// When the ball leaves (s).
+    pub fn end(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |last| last.start + last.length)
+    }
+
+    /// The bat at those times (s), which rise.
+    pub fn at(&self, when: &[f64]) -> Vec<Instant> {
+        let mut instants: Vec<Instant> = when.iter().map(|t| self.still(*t)).collect();
+        for (k, pushed) in self.rigid.iter().enumerate() {
+            let (mut moved, mut speed, mut next) = (0.0, 0.0, 0);
+            for instant in &mut instants {
+                while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= instant.time) {
+                    let [by, faster] = pushes(piece, piece.length);
+                    moved += speed * piece.length + by;
+                    speed += faster;
+                    next += 1;
+                }
+                let rest = instant.time - self.start_of(next);
+                let [by, faster] = match self.pieces.get(next) {
+                    Some(piece) if rest > 0.0 => pushes(piece, rest),
+                    _ => [0.0; 2],
+                };
+                let now = [moved + speed * rest + by, speed + faster, instant.force];
+                instant.rigid[k] = now.map(|value| -pushed.gain * value);
+            }
+        }
+        for (k, rung) in self.modes.iter().enumerate() {
+            let (mut memory, mut next, s) = ([0.0; 2], 0, rung.s);
+            for instant in &mut instants {
+                while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= instant.time) {
+                    memory = driven(s, memory, piece, piece.length);
+                    next += 1;
+                }
+                let rest = instant.time - self.start_of(next);
+                let v = match self.pieces.get(next) {
+                    Some(piece) => driven(s, memory, piece, rest.max(0.0)),
+                    None => {
+                        let size = (s[0] * rest).exp();
+                        let (sin, cos) = (s[1] * rest).sin_cos();
+                        times([size * cos, size * sin], memory)
+                    }
+                };
+                let rate = times(s, v);
+                let turned = times(s, [rate[0] + instant.force, rate[1]]);
+                instant.modes[k] = [v[1], rate[1], turned[1]].map(|value| -rung.gain * value);
+            }
+        }
+        instants
+    }
+
+    /// Displacement (m), velocity (m/s) and acceleration (m/s²) at `x` (m).
+    pub fn motion(&self, x: f64, now: &Instant) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        let rigid = self.rigid.iter().map(|pushed| pushed.motion.deflection(x)).zip(&now.rigid);
+        let modes = self.modes.iter().map(|rung| rung.mode.shape.deflection(x)).zip(&now.modes);
+        for (shape, part) in rigid.chain(modes) {
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += shape * part);
+        }
+        sum
+    }
+
+    /// What `x` (m) feels at those instants.
+    pub fn sting(&self, x: f64, instants: &[Instant]) -> Sting {
+        let motions: Vec<[f64; 3]> = instants.iter().map(|now| self.motion(x, now)).collect();
+        let mut sting = Sting::default();
+        for (motion, now) in motions.iter().zip(instants) {
+            for (k, value) in motion.iter().enumerate() {
+                if value.abs() > sting.peak[k] {
+                    (sting.peak[k], sting.when[k]) = (value.abs(), now.time);
+                }
+            }
+        }
+        let first = motions.iter().position(|motion| motion[1].abs() >= 0.05 * sting.peak[1]);
+        sting.begins = first.map_or(0.0, |k| instants[k].time);
+        sting
+    }
+
+    /// The strain at the outermost fibre of every place (m) at an instant, with its sign: positive
+    /// where the side that the ball hits is stretched.
+    pub fn strains(&self, places: &[f64], now: &Instant, count: usize) -> Vec<f64> {
+        let bent = |x: &f64| {
+            let modes = self.modes.iter().zip(&now.modes).take(count);
+            let sum: f64 = modes.map(|(rung, part)| rung.mode.shape.curvature(*x) * part[0]).sum();
+            -self.bat.profile.at(*x).outer * sum
+        };
+        places.iter().map(bent).collect()
+    }
+
+    /// The largest strain at those places (m) and instants, with so many modes.
+    pub fn worst(&self, places: &[f64], instants: &[Instant], count: usize) -> Option<Strained> {
+        let curvatures: Vec<Vec<f64>> = places
+            .iter()
+            .map(|x| self.modes.iter().take(count).map(|r| r.mode.shape.curvature(*x)).collect())
+            .collect();
+        let mut worst: Option<Strained> = None;
+        for now in instants {
+            for (x, curvature) in places.iter().zip(&curvatures) {
+                let sum: f64 = curvature.iter().zip(&now.modes).map(|(c, part)| c * part[0]).sum();
+                let strain = (self.bat.profile.at(*x).outer * sum).abs();
+                if worst.is_none_or(|worst| strain > worst.strain) {
+                    let stress = self.modulus(*x) * strain;
+                    worst = Some(Strained { x: *x, time: now.time, strain, stress });
+                }
+            }
+        }
+        worst
+    }
+
+    /// Young's modulus (Pa) of the outer material at `x` (m).
+    pub fn modulus(&self, x: f64) -> f64 {
+        self.bat.layup(self.bat.profile.piece_at(x)).outer.youngs_modulus
+    }
+
+    /// Number of modes.
+    pub fn count(&self) -> usize {
+        self.modes.len()
+    }
+
+    /// How every mode rings at `x` (m) when the ball leaves.
+    pub fn lines(&self, x: f64) -> Vec<Line> {
+        let Some(now) = self.at(&[self.end()]).pop() else { return vec![] };
+        let line = |(rung, part): (&Rung, &[f64; 3])| {
+            let omega = rung.mode.omega;
+            let amplitude = rung.mode.shape.deflection(x).abs() * part[0].hypot(part[1] / omega);
+            Line {
+                frequency: rung.mode.frequency(),
+                amplitude: [amplitude, omega * amplitude, omega * omega * amplitude],
+            }
+        };
+        self.modes.iter().zip(&now.modes).map(line).collect()
+    }
+
+    /// Nothing has moved yet.
+    fn still(&self, time: f64) -> Instant {
+        let piece = self.pieces.iter().find(|piece| ends(piece) > time && piece.start <= time);
+        let force = piece.map_or(0.0, |piece| {
+            let at = (time - piece.start) / piece.length;
+            piece.powers.iter().rev().fold(0.0, |sum, power| sum * at + power)
+        });
+        let (rigid, modes) = (vec![[0.0; 3]; self.rigid.len()], vec![[0.0; 3]; self.modes.len()]);
+        Instant { time, force, rigid, modes }
+    }
+
+    /// When a piece begins; the end of the last one where there are no more.
+    fn start_of(&self, k: usize) -> f64 {
+        self.pieces.get(k).map_or(self.end(), |piece| piece.start)
+    }
+}
+
+fn ends(piece: &Piece) -> f64 {
+    piece.start + piece.length
+}
+
+/// What a piece's force moves a unit mass by after that time (s), and how fast it then is.
+fn pushes(piece: &Piece, time: f64) -> [f64; 2] {
+    let (mut by, mut speed, mut scale) = (0.0, 0.0, time);
+    for (k, power) in piece.powers.iter().enumerate() {
+        let k = k as f64;
+        speed += scale * power / (k + 1.0);
+        by += time * scale * power / ((k + 1.0) * (k + 2.0));
+        scale *= time / piece.length;
+    }
+    [by, speed]
+}

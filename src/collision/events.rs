@@ -1,0 +1,225 @@
+//! Where a step ends early: the largest compression, the return to it, the end of the contact.
+
+use crate::collision::collocation::{POINTS, Pair, moments, times};
+use crate::collision::force_law::Top;
+use crate::collision::step::{Step, Table};
+use crate::collision::touch::{State, Touch};
+
+/// Why a step ends early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// The compression is at its largest.
+    Turned,
+    /// It is as large as its largest again.
+    Again,
+    /// It is gone.
+    Gone,
+}
+
+/// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    pub event: Event,
+    pub top: Option<Top>,
+    pub most: f64,
+}
+
+impl Touch<'_> {
+    /// What happens in a step.
+    #[inline(always)]
+    pub fn event(&self, step: &Step, next: &State, top: Option<Top>) -> Option<Event> {
+        match top {
+            None => (self.rate(next) < 0.0).then_some(Event::Turned),
+            Some(_) if step.compression[1..].iter().any(|x| *x <= 0.0) => Some(Event::Gone),
+            Some(top) => {
+                let beyond = step.compression[1..].iter().any(|x| *x > top.compression);
+                beyond.then_some(Event::Again)
+            }
+        }
+    }
+
+    /// What is zero at the event, and its rate.
+    #[inline(always)]
+    pub fn distance(&self, event: Event, state: &State, top: Option<Top>) -> [f64; 2] {
+        if event == Event::Turned {
+            let mut rate = -state.force * self.felt.inverse_mass;
+            for n in 0..self.poles.len() {
+                let [a, b] = self.poles[n];
+                let (w, v) = (self.weights[n], [state.real[n], state.imaginary[n]]);
+                // Im s(sv + F).
+                let turned =
+                    times([a, b], [a * v[0] - b * v[1] + state.force, a * v[1] + b * v[0]]);
+                rate -= w * turned[1];
+            }
+            return [self.rate(state), rate];
+        }
+        let x = self.reach(state) - self.felt.rest * state.force;
+        let goal = top.filter(|_| event == Event::Again).map_or(0.0, |top| top.compression);
+        [x - goal, self.rate(state)]
+    }
+
+    /// The state at the event; the energy it was off by, relative.
+    #[inline(always)]
+    pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> f64 {
+        let Stop { event, top, .. } = stop;
+        // The end of the step, or the first point beyond the event.
+        let goal = |x: f64| match (event, top) {
+            (Event::Gone, _) => x <= 0.0,
+            (Event::Again, Some(top)) => x > top.compression,
+            _ => false,
+        };
+        let beyond = (1..POINTS).find(|i| goal(step.compression[*i])).unwrap_or(POINTS - 1);
+        let end = step.length * self.rule.at[beyond];
+        if beyond < POINTS - 1 {
+            self.within(now, step, end, next);
+        }
+        let (from, to) = (self.distance(event, now, top), self.distance(event, next, top));
+        let mut time = end * crossing(from[0], from[1] * end, to[0], to[1] * end);
+        self.within(now, step, time, next);
+        self.approach(event, step, top, &mut time, next);
+        let mut corrected = self.round_off(stop, now, step, &mut time, next);
+        let lost = if self.damped { self.loss(now, step, time) } else { 0.0 };
+        let off =
+            |next: &State| (self.whole_energy(next, top) + lost - self.energy).abs() / self.energy;
+        if event == Event::Gone && off(next) > 1e-13 {
+            // The force's last bit ends within the step: a step of that length has it whole.
+            let (mut last, mut end) = (*step, time);
+            for _ in 0..4 {
+                let table = Table::new(self.rule, self.poles, end);
+                (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(step));
+                self.advance(&table, now, &last, next);
+                let [x, rate] = self.distance(event, next, top);
+                let by = -x / rate;
+                if !(by.abs() > 1e-6 * end && by.abs() < 0.5 * end) {
+                    break;
+                }
+                end += by;
+            }
+            // What the shorter step replaces was off in vain.
+            corrected = self.round_off(stop, now, &last, &mut end, next);
+            *step = last;
+        }
+        self.settle(next, top);
+        corrected
+    }
+
+    /// Puts the energy of a state at an event right, and the event again.
+    #[inline(always)]
+    pub fn round_off(
+        &self,
+        Stop { event, top, most }: Stop,
+        now: &State,
+        step: &Step,
+        time: &mut f64,
+        next: &mut State,
+    ) -> f64 {
+        let mut corrected = 0.0;
+        if self.damped {
+            next.lost = now.lost + self.loss(now, step, *time);
+        }
+        for _ in 0..4 {
+            let length = *time;
+            let bump = |n: usize| {
+                let s = self.poles[n];
+                let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
+                [length * (all[1][0] - all[2][0]), length * (all[1][1] - all[2][1])]
+            };
+            let free = [most, f64::INFINITY];
+            corrected += self.correct(next, length, bump, free, top).unwrap_or(0.0);
+            let [x, rate] = self.distance(event, next, top);
+            let by = -x / rate;
+            let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;
+            if event != Event::Gone || there || !by.is_finite() {
+                break;
+            }
+            *time += by;
+            self.nudge(next, step, *time, by);
+        }
+        corrected
+    }
+
+    /// Newton's method from a state near the event.
+    #[inline(always)]
+    pub fn approach(
+        &self,
+        event: Event,
+        step: &Step,
+        top: Option<Top>,
+        time: &mut f64,
+        next: &mut State,
+    ) {
+        for _ in 0..4 {
+            let [left, rate] = self.distance(event, next, top);
+            let by = -left / rate;
+            if by.is_nan() || by.abs() > 0.1 * step.length {
+                break;
+            }
+            *time += by;
+            self.nudge(next, step, *time, by);
+            if by.abs() <= 1e-8 * step.length {
+                break;
+            }
+        }
+    }
+
+    /// Whether the ringing surface reaches the ball after it left.
+    pub fn caught_again(&self, end: &State) -> bool {
+        let count = self.poles.len();
+        let amplitude = |n: usize| self.weights[n] * end.real[n].hypot(end.imaginary[n]);
+        let farthest: f64 = (0..count).map(amplitude).sum();
+        // Beyond that the ball is out of reach.
+        let last = (farthest - end.closing) / -end.speed;
+        let fastest = self.poles.iter().map(|s| s[1]).fold(0.0, f64::max);
+        if !(last > 0.0 && end.speed < 0.0) || count == 0 {
+            return end.speed >= 0.0;
+        }
+        // The fast modes' own motion is small: eight looks in a turn of the middle ones.
+        let looks = (0.5 * last * fastest).clamp(16.0, 4000.0).ceil();
+        let step = last / looks;
+        let turn = |s: &Pair| {
+            let (sin, cos) = (s[1] * step).sin_cos();
+            let size = if s[0] == 0.0 { 1.0 } else { (s[0] * step).exp() };
+            [size * cos, size * sin]
+        };
+        let turns: Vec<Pair> = self.poles.iter().map(turn).collect();
+        let mut memories: Vec<Pair> =
+            end.real.iter().zip(&end.imaginary).map(|(re, im)| [*re, *im]).collect();
+        // It begins at zero, going down.
+        let slack = 1e-9 * self.deepest;
+        (1..=looks as usize).any(|k| {
+            let mut reach = end.closing + end.speed * step * k as f64;
+            for ((memory, turn), weight) in memories.iter_mut().zip(&turns).zip(&self.weights) {
+                *memory = times(*memory, *turn);
+                reach -= weight * memory[1];
+            }
+            reach > slack
+        })
+    }
+}
+
+/// Where in [0, 1] the cubic with those values and slopes at both ends is zero.
+#[inline(always)]
+fn crossing(from: f64, from_slope: f64, to: f64, to_slope: f64) -> f64 {
+    let rise = to - from;
+    let (square, cube) =
+        (3.0 * rise - 2.0 * from_slope - to_slope, from_slope + to_slope - 2.0 * rise);
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut s = (from / (from - to)).clamp(0.0, 1.0);
+    for _ in 0..20 {
+        let value = ((cube * s + square) * s + from_slope) * s + from;
+        let slope = (3.0 * cube * s + 2.0 * square) * s + from_slope;
+        if (value > 0.0) == (from > 0.0) {
+            low = s
+        } else {
+            high = s
+        }
+        let newton = s - value / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let done = (next - s).abs() < 1e-10;
+        s = next;
+        if done {
+            break;
+        }
+    }
+    s
+}

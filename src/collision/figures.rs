@@ -1,0 +1,144 @@
+//! The figures by which bats are compared, and how a sweet spot moves with the scene.
+//!
+//! They are computed, from this project's models; nothing here is a certificate of any standard.
+
+use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::collision::hit::{Effort, Impact, Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
+use crate::error::Result;
+use crate::solve::Solution;
+
+/// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
+/// (I_ref/I)^n`, I about the standard pivot.
+///
+/// `n = 0` is a fixed angular speed, `n = ½` a fixed energy of rotation about that pivot; what is
+/// measured of batters lies between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SwingLaw {
+    /// n.
+    pub exponent: f64,
+    /// I_ref (kg m²).
+    pub reference: f64,
+    /// Ω₀, the swing of the reference bat (rad/s).
+    pub of_reference: f64,
+}
+
+impl SwingLaw {
+    /// The swing of this bat (rad/s).
+    pub fn swing(&self, bat: &Bat) -> f64 {
+        let ratio = self.reference / bat.inertia().about(STANDARD_PIVOT);
+        self.of_reference * ratio.powf(self.exponent)
+    }
+}
+
+/// A swing and the fastest ball it gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swung {
+    pub exponent: f64,
+    /// rad/s
+    pub swing: f64,
+    /// Place (m) and exit speed (m/s).
+    pub best: Option<Peak>,
+}
+
+/// What tests and catalogues state of a bat, and where and why it is best.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figures {
+    pub spot: SweetSpot,
+    /// The hit at the sweet spot: its `e_A`, its bat-ball speed.
+    pub best: Option<Impact>,
+    /// Where the same bat would be best if it did not bend, and how much it would lose to vibration
+    /// there (J) as it is.
+    pub rigid_best: Option<Peak>,
+    pub vibration_at_rigid_best: Option<f64>,
+    /// The largest BBCOR of the outer half, as of a free bat and as of one held at the standard
+    /// pivot.
+    pub bbcor_max: Option<Peak>,
+    pub bbcor_pivoted_max: Option<Peak>,
+    /// The same batter with this bat, by several laws; empty where no reference bat was given.
+    pub swings: Vec<Swung>,
+    /// The sweet spot of other scenes, each with what is different.
+    pub moves: Vec<(String, SweetSpot)>,
+}
+
+impl Figures {
+    /// All of them. The scene's swing is that of this bat; `law` tells where it is from.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub fn new(
+        bat: &Bat,
+        (model, effort): (Model, Effort),
+        (scene, law): (&Scene, Option<SwingLaw>),
+        solution: &Solution,
+    ) -> Result<Self> {
+        let find = |scene: &Scene| -> Result<SweetSpot> {
+            let hitter = Hitter::new(model, scene, bat, solution, effort)?;
+            Ok(SweetSpot::find(bat, scene, solution, &hitter))
+        };
+        let outer = [0.5 * bat.length(), bat.length()];
+        let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
+        let rigid_best = Looked::new(outer, &rigid).greatest(|seen| Some(seen.exit_speed));
+        let hitter = Hitter::new(model, scene, bat, solution, effort)?;
+        let looked = Looked::new(outer, &hitter);
+        let bbcor = |k: usize| match hitter.modes_used() {
+            // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
+            0 => None,
+            _ => looked.greatest(|seen| Some(hitter.figures(seen.x, seen.exit_speed)[k])),
+        };
+        let mut swings = vec![];
+        if let Some(law) = law {
+            let mut exponents = vec![0.0, law.exponent, 0.5];
+            exponents.sort_by(f64::total_cmp);
+            exponents.dedup();
+            for exponent in exponents {
+                let swing = SwingLaw { exponent, ..law }.swing(bat);
+                let best = find(&Scene { swing, ..scene.clone() })?.exit_speed_max;
+                swings.push(Swung { exponent, swing, best });
+            }
+        }
+        let spot = SweetSpot::find(bat, scene, solution, &hitter);
+        let moves = changes(scene).into_iter().map(|(what, scene)| Ok((what, find(&scene)?)));
+        Ok(Self {
+            best: spot.exit_speed_max.map(|peak| hitter.strike(peak.x)),
+            vibration_at_rigid_best: rigid_best.and_then(|peak| hitter.glance(peak.x)?.vibration),
+            rigid_best,
+            bbcor_max: bbcor(1),
+            bbcor_pivoted_max: bbcor(2),
+            swings,
+            moves: moves.collect::<Result<_>>()?,
+            spot,
+        })
+    }
+}
+
+/// Scenes that differ in one thing each.
+fn changes(scene: &Scene) -> Vec<(String, Scene)> {
+    let ball = &scene.ball;
+    let mut all = vec![];
+    if scene.swing != 0.0 {
+        let faster = Scene { swing: 1.1 * scene.swing, ..scene.clone() };
+        all.push(("swing 10 % faster".to_owned(), faster));
+        let further = Scene { pivot: scene.pivot + 0.0254, ..scene.clone() };
+        all.push(("pivot 1 in further out".to_owned(), further));
+    }
+    if scene.ball_speed != 0.0 {
+        let faster = Scene { ball_speed: 1.1 * scene.ball_speed, ..scene.clone() };
+        all.push(("pitch 10 % faster".to_owned(), faster));
+    }
+    if ball.cor_by_speed.is_empty() && scene.cor <= 0.95 {
+        let livelier = Scene { cor: scene.cor + 0.05, ..scene.clone() };
+        all.push(("ball livelier by 0.05".to_owned(), livelier));
+    }
+    if let Some(stiffness) = ball.stiffness {
+        let mut harder = scene.clone();
+        harder.ball.stiffness = Some(1.1 * stiffness);
+        all.push(("ball 10 % harder".to_owned(), harder));
+    }
+    let mut heavier = scene.clone();
+    heavier.ball.mass *= 1.05;
+    all.push(("ball 5 % heavier".to_owned(), heavier));
+    all
+}

@@ -1,0 +1,498 @@
+//! A bat that is hit, at any place, by one of the models.
+//!
+//! A free bat moves as it was swung; a hit on it is told as the ground sees it. A held one (a test
+//! rig's pin, hands) is told as its hands see it: the bat at rest, the ball at the closing speed. The
+//! impulse is the same for both.
+
+use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::collision::contact::{Collider, Encounter};
+use crate::collision::energy_loss::EnergyLoss;
+use crate::collision::force_law::ForceLaw;
+use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene};
+use crate::collision::pulse::Pulse;
+use crate::collision::rigid::{Motion, RigidBat};
+use crate::collision::step::Piece;
+use crate::collision::struck::Struck;
+use crate::collision::touch::Felt;
+use crate::dowel::wpi_alpha;
+use crate::error::{Error, Result};
+use crate::modes::Mode;
+use crate::profile::Profile;
+use crate::solve::Solution;
+
+/// A bat about to be hit: all that is the same for every impact point.
+pub struct Hitter<'a> {
+    model: Model,
+    scene: &'a Scene,
+    solution: &'a Solution,
+    profile: &'a Profile,
+    bat: RigidBat,
+    motion: Motion,
+    held: bool,
+    /// The body's inertia about the standard pivot, for the pivoted BBCOR (kg m²).
+    pivot_inertia: f64,
+    struck: Struck<'a>,
+    effort: Effort,
+    /// ω (rad/s) and damping ratio of every mode.
+    modes: Vec<[f64; 2]>,
+    collider: Option<Collider>,
+}
+
+/// What a model says.
+struct Answer {
+    /// `J` (N s).
+    impulse: f64,
+    cor: f64,
+    in_modes: Vec<f64>,
+    lost_in_ball: f64,
+    lost_in_bat: f64,
+    in_wall: f64,
+    contact_time: Option<f64>,
+    peak_force: Option<f64>,
+    flags: Vec<&'static str>,
+    error: f64,
+    truncation: f64,
+    steps: f64,
+}
+
+impl Answer {
+    /// Of a model without modes and times.
+    fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
+        // The models' own formulas are exact to a few roundings.
+        let error = 8.0 * f64::EPSILON;
+        Self {
+            impulse,
+            cor,
+            in_modes: vec![],
+            lost_in_ball,
+            lost_in_bat: 0.0,
+            in_wall: 0.0,
+            contact_time: None,
+            peak_force: None,
+            flags: vec![],
+            error,
+            truncation: 0.0,
+            steps: 0.0,
+        }
+    }
+}
+
+/// A hit without its ledger and its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glance {
+    /// From the knob end (m).
+    pub x: f64,
+    /// m/s
+    pub exit_speed: f64,
+    /// Energy left in vibration (J); None for a model without.
+    pub vibration: Option<f64>,
+    /// What the hands feel once the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat
+    /// there against the swing's, in the mean square over a long undamped ringing.
+    pub hands: [f64; 2],
+}
+
+/// Accuracy of the steps where a place is sought: exit speeds then differ smoothly.
+const SMOOTH: f64 = 1e-6;
+
+impl<'a> Hitter<'a> {
+    /// A bat in that scene. A free one recoils as its theory says: without rotary inertia, as a line
+    /// of mass.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a contact with a ball whose force law is not known, a held bat by the
+    /// WPI report's model, and a contact with a mode that dashpots keep from swinging.
+    pub fn new(
+        model: Model,
+        scene: &'a Scene,
+        bat: &'a Bat,
+        solution: &'a Solution,
+        effort: Effort,
+    ) -> Result<Self> {
+        let held = bat.fixtures.holding();
+        if held && matches!(model, Model::EnergyLoss(_)) {
+            let expected = "a free bat, which the report's fit is for, or another model";
+            return Err(Error::value("--model energy-loss", "a bat that is held", expected));
+        }
+        let body = bat.inertia();
+        let line = if solution.theory.turns() { body } else { body.as_line() };
+        let rigid = RigidBat {
+            mass: line.mass,
+            balance_point: line.balance_point,
+            inertia: line.about_balance,
+        };
+        let motion = rigid.swung(scene.swing, scene.pivot);
+        let struck = Struck::new(bat, solution);
+        let modes = struck.modes();
+        let collider = match model {
+            Model::Contact => {
+                let law = scene.force_law(scene.cor)?;
+                if let Some(k) = modes.iter().position(|[_, ratio]| *ratio >= 1.0) {
+                    let found =
+                        format!("mode {} with a damping ratio of {:.2}", k + 1, modes[k][1]);
+                    let expected = "dashpots that let every mode swing (a ratio below 1), or none: \
+                                    a hit is over before the hands have felt it";
+                    return Err(Error::value("hit", found, expected));
+                }
+                let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
+                let mass = 1.0 / (1.0 / scene.ball.mass + 1.0 / rigid.mass);
+                let touching = law.compression(0.5 * mass * speed * speed) / speed;
+                // A quarter of the way to the deepest compression, more or less.
+                let longest = if touching.is_finite() { 0.28 * touching } else { 1.0 };
+                let wall = scene.wall.filter(|wall| wall.mass > 0.0);
+                let wall = wall.map(|wall| [(wall.stiffness / wall.mass).sqrt(), 0.0]);
+                let all: Vec<[f64; 2]> = wall.into_iter().chain(modes.iter().copied()).collect();
+                Some(Collider::new(&all, longest))
+            }
+            _ => None,
+        };
+        Ok(Self {
+            model,
+            scene,
+            solution,
+            profile: &bat.profile,
+            bat: rigid,
+            motion,
+            held,
+            pivot_inertia: body.about(STANDARD_PIVOT),
+            struck,
+            effort,
+            modes,
+            collider,
+        })
+    }
+
+    /// Number of bending modes that the model counts.
+    pub fn modes_used(&self) -> usize {
+        match self.model {
+            Model::Rigid => 0,
+            _ => self.solution.modes.len(),
+        }
+    }
+
+    /// The hit at `x` as a search for places sees it. None where there is none, and None too where
+    /// ball and bat meet again late without having parted: far from a sweet spot a slow ball may
+    /// hover there until the ringing bat comes back. Nor is there one where the bat ends in a
+    /// point: there a ball is met by ever less of it.
+    pub fn glance(&self, x: f64) -> Option<Glance> {
+        /// Of the largest radius.
+        const POINTED: f64 = 0.25;
+        let outer = &self.profile.stations.outer;
+        let largest = outer.iter().fold(0.0_f64, |largest, r| largest.max(*r));
+        let touches = matches!(self.model, Model::Pulse(_) | Model::Contact);
+        if touches && self.profile.at(x).outer < POINTED * largest {
+            return None;
+        }
+        let (impulse, in_modes) = match self.model {
+            Model::Contact => {
+                let closing = self.closing(x)?;
+                let met = self.meet(&self.felt(x), closing, SMOOTH)?;
+                if met.late {
+                    return None;
+                }
+                (met.impulse, met.in_modes)
+            }
+            _ => {
+                let answer = self.answer(x, None)?;
+                (answer.impulse, answer.in_modes)
+            }
+        };
+        let in_modes = &in_modes[in_modes.len() - self.modes_used()..];
+        let mut velocity = (impulse * self.recoil_between(x, self.scene.hands)).powi(2);
+        let mut acceleration = 0.0;
+        for ((energy, [omega, _]), gain) in
+            in_modes.iter().zip(&self.modes).zip(self.struck.gains(self.scene.hands))
+        {
+            // Half of the amplitude's square, which is 2 E φ²/m.
+            velocity += energy * gain;
+            acceleration += energy * gain * omega * omega;
+        }
+        Some(Glance {
+            x,
+            exit_speed: impulse / self.scene.ball.mass - self.scene.ball_speed,
+            vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
+            hands: [velocity.sqrt(), acceleration.sqrt()],
+        })
+    }
+
+    /// `e_A` of a ball that leaves from `x` with that speed (m/s), and from it the BBCOR of the free
+    /// bat and of the bat held at the standard pivot.
+    pub fn figures(&self, x: f64, exit_speed: f64) -> [f64; 3] {
+        let bat_speed = self.bat.speed_at(x, self.motion);
+        let efficiency = (exit_speed - bat_speed) / (bat_speed + self.scene.ball_speed);
+        let bbcor = |r: f64| efficiency * (1.0 + r) + r;
+        let ball = self.scene.ball.mass;
+        let pivoted = ball * (x - STANDARD_PIVOT).powi(2) / self.pivot_inertia;
+        [efficiency, bbcor(ball / self.bat.recoil_mass(x)), bbcor(pivoted)]
+    }
+
+    /// The hit at `x` (m from the knob end).
+    pub fn strike(&self, x: f64) -> Impact {
+        self.strike_knowing(x, None)
+    }
+
+    /// The same where the truncation's error is known, of a contact: it is not looked for.
+    pub fn strike_knowing(&self, x: f64, truncation: Option<f64>) -> Impact {
+        let bat_speed = self.bat.speed_at(x, self.motion);
+        let rigid_exit_speed = self.rigid_exit(x);
+        let answer = self.answer(x, truncation);
+        let flags = match (rigid_exit_speed, &answer) {
+            (None, _) => vec!["no_contact"],
+            _ if !self.has_section(x) => vec!["no_section"],
+            (_, None) => vec!["no_real_solution"],
+            (_, Some(answer)) => answer.flags.clone(),
+        };
+        let outcome = answer.map(|answer| self.outcome(x, bat_speed, answer));
+        Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
+    }
+
+    /// The force at `x` (m) in time, of a contact; None where there is none.
+    pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
+        let (felt, closing) = (self.felt(x), self.closing(x)?);
+        self.meet(&felt, closing, SMOOTH)?;
+        let law = self.law_at(&felt, closing)?;
+        Some(self.collider.as_ref()?.meet_recorded(&felt, &law, closing, SMOOTH).1)
+    }
+
+    /// `1/M_eff` (1/kg): how the bat gives way at `x` without bending.
+    fn recoil(&self, x: f64) -> f64 {
+        if self.held { self.struck.recoil(x) } else { 1.0 / self.bat.recoil_mass(x) }
+    }
+
+    /// The velocity (m/s) that an impulse of 1 N s at `x` gives a stiff bat at another place.
+    fn recoil_between(&self, x: f64, there: f64) -> f64 {
+        if self.held {
+            return self.struck.recoil_between(x, there);
+        }
+        let [x, there] = [x, there].map(|x| x - self.bat.balance_point);
+        1.0 / self.bat.mass + x * there / self.bat.inertia
+    }
+
+    /// The closing speed (m/s); None where the bat runs away from the ball.
+    fn closing(&self, x: f64) -> Option<f64> {
+        let closing = self.bat.speed_at(x, self.motion) + self.scene.ball_speed;
+        (closing > 0.0).then_some(closing)
+    }
+
+    /// μ (kg) and e₀ of a hit at `x` with that closing speed (m/s).
+    fn blow(&self, x: f64, closing: f64) -> [f64; 2] {
+        let mass = 1.0 / (1.0 / self.scene.ball.mass + self.recoil(x));
+        [mass, self.scene.restitution(0.5 * mass * closing * closing)]
+    }
+
+    /// The exit speed (m/s) of a stiff bat; None where the bat runs away from the ball.
+    fn rigid_exit(&self, x: f64) -> Option<f64> {
+        let closing = self.closing(x)?;
+        let [mass, cor] = self.blow(x, closing);
+        Some(mass * (1.0 + cor) * closing / self.scene.ball.mass - self.scene.ball_speed)
+    }
+
+    /// Whether there is something to hit at `x`: a point gives way without end.
+    fn has_section(&self, x: f64) -> bool {
+        matches!(self.model, Model::Rigid | Model::EnergyLoss(_)) || self.profile.at(x).outer > 0.0
+    }
+
+    /// What the model says of a hit at `x`, if it says anything.
+    fn answer(&self, x: f64, truncation: Option<f64>) -> Option<Answer> {
+        let closing = self.closing(x).filter(|_| self.has_section(x))?;
+        let [mass, cor] = self.blow(x, closing);
+        let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
+        let rigid = Answer::new(mass * (1.0 + cor) * closing, cor, lost);
+        match self.model {
+            Model::Rigid => Some(rigid),
+            Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
+            Model::Pulse(pulse) => self.pulsed(pulse, x, closing, cor),
+            Model::Contact => self.touched(x, closing, cor, truncation),
+        }
+    }
+
+    fn empirical(&self, loss: EnergyLoss, x: f64, closing: f64, rigid: Answer) -> Option<Answer> {
+        let (incoming, ball) = (-self.scene.ball_speed, self.scene.ball.mass);
+        let stiff = rigid.impulse / ball + incoming;
+        let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
+        let of = |vibration| EnergyLoss::exit_velocity(incoming, stiff, vibration);
+        let exit = of(loss.vibration(&shapes))?;
+        let impulse = ball * (exit - incoming);
+        let mut answer = Answer { impulse, ..rigid };
+        answer.in_modes = loss.energies(&shapes, impulse, ball);
+        let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
+        // No bound on the shapes is no bound on the loss.
+        let other = of(loss.vibration(&largest)).filter(|v| v.is_finite());
+        answer.error += other.map_or(1.0, |v| (v - exit).abs() / closing);
+        Some(answer)
+    }
+
+    fn pulsed(&self, pulse: Pulse, x: f64, closing: f64, restitution: f64) -> Option<Answer> {
+        let ball = self.scene.ball.mass;
+        let felt = self.struck.with_modes(x, ball, self.modes_used());
+        let mu = 1.0 / felt.inverse_mass;
+        let shares = pulse.shares(&self.modes, &felt.gains);
+        let share: f64 = shares.iter().sum();
+        let e = pulse.restitution(restitution, mu * share)?;
+        let impulse = mu * (1.0 + e) * closing;
+        let in_modes: Vec<f64> = shares.iter().map(|s| 0.5 * impulse * impulse * s).collect();
+        let left =
+            0.5 * mu * closing * closing - pulse.loss_share * 0.5 * impulse * impulse * share;
+        let lost = (1.0 - restitution * restitution) * left;
+        let mut answer = Answer::new(impulse, restitution, lost);
+        answer.in_modes = in_modes;
+        // All modes beyond, and the mesh.
+        let slow = self.struck.flexibility(x)[1] - self.struck.taken(&felt.gains)[1];
+        let last = self.modes.last().map_or(0.0, |mode| mode[0]);
+        let error = |more: f64| {
+            let other = pulse.restitution(restitution, mu * (share + more));
+            other.map_or(1.0, |other| mu / ball * (other - e).abs())
+        };
+        if self.effort.completed {
+            answer.truncation = error(pulse.beyond(last, slow));
+        }
+        answer.error += answer.truncation + error(self.struck.doubt(x).iter().sum());
+        Some(answer)
+    }
+
+    fn touched(&self, x: f64, closing: f64, cor: f64, truncation: Option<f64>) -> Option<Answer> {
+        let (ball, count) = (self.scene.ball.mass, self.modes_used());
+        let Effort { accuracy, completed } = self.effort;
+        let beyond = completed.then(|| self.struck.flexibility(x));
+        let felt = self.felt_with(x, count, beyond);
+        let met = self.meet(&felt, closing, accuracy)?;
+        // The same with fewer modes and rougher steps is farther from the truth; one such answer may
+        // agree by chance.
+        let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
+        let rough = match (truncation, completed) {
+            (Some(known), _) => {
+                answer.truncation = known;
+                vec![]
+            }
+            (None, true) => fewer(count).to_vec(),
+            (None, false) => vec![count],
+        };
+        for fewer in rough {
+            let felt = self.felt_with(x, fewer, beyond);
+            let other = self.meet(&felt, closing, ROUGHER * accuracy)?;
+            answer.truncation += (other.impulse - met.impulse).abs() / (ball * closing);
+        }
+        answer.steps = met.corrected;
+        answer.error += answer.truncation + answer.steps;
+        let mass = 1.0 / felt.inverse_mass;
+        for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
+            // A mode takes the force's changes that are slower than itself hardly at all.
+            let turns = omega * met.time / std::f64::consts::PI;
+            answer.error += doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
+        }
+        let flags =
+            [(met.reloaded, "reload"), (met.late, "late_contact"), (met.second, "second_contact")];
+        answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
+        answer.contact_time = Some(met.time);
+        answer.peak_force = Some(met.peak_force);
+        let walls = met.in_modes.len() - count;
+        answer.in_wall = met.in_modes[..walls].iter().sum();
+        answer.in_modes = met.in_modes[walls..].to_vec();
+        answer.lost_in_bat = met.lost_in_bat;
+        Some(answer)
+    }
+
+    fn outcome(&self, x: f64, bat_speed: f64, answer: Answer) -> Outcome {
+        let Scene { ball, ball_speed, .. } = self.scene;
+        let impulse = answer.impulse;
+        let (closing, exit_speed) = (bat_speed + ball_speed, impulse / ball.mass - ball_speed);
+        let kinetic = |speed: f64| 0.5 * ball.mass * speed * speed;
+        let [collision_efficiency, bbcor, bbcor_pivoted] = self.figures(x, exit_speed);
+        let after = self.bat.kinetic_energy(self.bat.after(self.motion, impulse, x));
+        let [initial, gone, bat_rigid] = match self.held {
+            true => [
+                kinetic(closing),
+                kinetic(exit_speed - bat_speed),
+                0.5 * impulse * impulse * self.recoil(x),
+            ],
+            false => [
+                kinetic(*ball_speed) + self.bat.kinetic_energy(self.motion),
+                kinetic(exit_speed),
+                after,
+            ],
+        };
+        Outcome {
+            exit_speed,
+            cor: answer.cor,
+            impulse,
+            collision_efficiency,
+            contact_time: answer.contact_time,
+            peak_force: answer.peak_force,
+            bbcor,
+            bbcor_pivoted,
+            energy: Energy {
+                initial,
+                ball: gone,
+                bat_rigid,
+                vibration_by_mode: answer.in_modes,
+                dissipated_ball: answer.lost_in_ball,
+                dissipated_damping: answer.lost_in_bat,
+                wall: answer.in_wall,
+            },
+            error: answer.error,
+            truncation: answer.truncation,
+            steps: answer.steps,
+        }
+    }
+
+    /// The bat at `x` as the effort has it.
+    fn felt(&self, x: f64) -> Felt {
+        let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
+        self.felt_with(x, self.modes_used(), beyond)
+    }
+
+    /// The same with so many modes, and the others if wanted.
+    fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
+        let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
+        let mut felt = match beyond {
+            None => modes,
+            Some(beyond) => self.struck.completed(x, modes, beyond),
+        };
+        match self.scene.wall {
+            Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
+            Some(wall) => felt.rest += 1.0 / wall.stiffness,
+            None => {}
+        }
+        felt
+    }
+
+    fn law_at(&self, felt: &Felt, closing: f64) -> Option<ForceLaw> {
+        let cor = self.scene.restitution(0.5 * closing * closing / felt.inverse_mass);
+        self.scene.force_law(cor).ok()
+    }
+
+    fn meet(&self, felt: &Felt, closing: f64, accuracy: f64) -> Option<Encounter> {
+        let law = self.law_at(felt, closing)?;
+        let met = self.collider.as_ref()?.meet(felt, &law, closing, accuracy);
+        (met.impulse.is_finite() && !met.endless).then_some(met)
+    }
+}
+
+/// How much rougher the steps are of the answer that another is compared with.
+const ROUGHER: f64 = 10.0;
+
+/// Numbers of modes that are few beside `count`: two, three and a quarter less. The sum of the
+/// differences to their answers was never below 0.7 times the true error in 1300 random hits on two
+/// dowels and two bats, and eight times it or more in half of them.
+fn fewer(count: usize) -> [usize; 3] {
+    [2, 3, count / 4].map(|less| count - less.max(2).min(count))
+}
+
+/// Deflections at `x` in the WPI report's scaling, `(1/M) ∫ρA W_n² dx = α_n²`, which on its dowel
+/// is exactly the report's raw shape.
+fn report_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
+    let scaled = |mode: &Mode| {
+        mode.shape.deflection(x) * wpi_alpha(mode.order) * (mass / mode.modal_mass).sqrt()
+    };
+    modes.iter().map(scaled).collect()
+}
+
+/// The same, each as large as the errors of its mode allow.
+fn largest_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
+    let with_error = |mode: &Mode| {
+        let deflection = mode.shape.deflection(x).abs() + mode.error.shape;
+        let lightest = mode.modal_mass * (1.0 - mode.error.modal_mass).max(0.0);
+        deflection * wpi_alpha(mode.order) * (mass / lightest).sqrt()
+    };
+    modes.iter().map(with_error).collect()
+}

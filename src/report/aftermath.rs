@@ -1,0 +1,212 @@
+//! What comes of a hit: hands, strain and stress, spectrum; as text, CSV and JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::bat::Bat;
+use crate::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
+use crate::collision::hit::Impact;
+use crate::report::json::generator;
+use crate::report::text::Units;
+use crate::units::{inches, miles_per_hour};
+
+/// All that is told of a hit's aftermath.
+pub struct AfterHit {
+    pub until: f64,
+    /// Watched places (m), what each feels, and the modes as they ring there.
+    pub watched: Vec<(f64, Sting, Vec<Line>)>,
+    /// The largest strain while the ball is there, and of the whole time.
+    pub during: Option<Strained>,
+    pub after: Option<Strained>,
+    /// How far the largest strain changes where a quarter of the modes is left out, relative.
+    pub strain_error: f64,
+    instants: Vec<Instant>,
+}
+
+/// Points along the bat at which strain is looked for.
+const PLACES: usize = 200;
+
+impl AfterHit {
+    /// Looks from the first touch until that time (s).
+    pub fn new(bat: &Bat, after: &Aftermath, watched: &[f64], until: f64) -> Self {
+        const WITHIN: usize = 200;
+        const BEYOND: usize = 2000;
+        let end = after.end();
+        let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
+        let beyond = (1..=BEYOND).map(|k| end + (until - end) * k as f64 / BEYOND as f64);
+        let times: Vec<f64> =
+            if until > end { within.chain(beyond).collect() } else { within.collect() };
+        let instants = after.at(&times);
+        let places: Vec<f64> =
+            (0..=PLACES).map(|k| bat.length() * k as f64 / PLACES as f64).collect();
+        let all = after.count();
+        let during = after.worst(&places, &instants[..=WITHIN], all);
+        let whole = after.worst(&places, &instants, all);
+        let fewer = after.worst(&places, &instants, all - all / 4);
+        let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
+        let seen = |x: &f64| (*x, after.sting(*x, &instants), after.lines(*x));
+        Self {
+            until,
+            watched: watched.iter().map(seen).collect(),
+            during,
+            after: whole,
+            strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
+            instants,
+        }
+    }
+}
+
+/// One line of the hit itself.
+pub fn impact(impact: &Impact, units: Units) -> String {
+    let Some(outcome) = &impact.outcome else { return String::new() };
+    format!(
+        "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
+        place(impact.x, units),
+        units.inline(units.speed(outcome.exit_speed)),
+        1e3 * outcome.contact_time.unwrap_or(0.0),
+        1e-3 * outcome.peak_force.unwrap_or(0.0)
+    )
+}
+
+fn place(x: f64, units: Units) -> String {
+    units.inline(units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x))))
+}
+
+/// The tables for the terminal.
+pub fn text(report: &AfterHit, units: Units) -> String {
+    let mut out = format!(
+        "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
+        1e3 * report.until
+    );
+    for (x, sting, _) in &report.watched {
+        let [moved, speed, acceleration] = sting.peak;
+        let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
+        let speed = units.inline(
+            units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed))),
+        );
+        let _ = writeln!(
+            out,
+            "  at {}, which begins to move after {:.2} ms",
+            place(*x, units),
+            1e3 * sting.begins
+        );
+        let moved = units.inline(
+            units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved))),
+        );
+        let _ = writeln!(out, "    {:<36} {moved} {a}", "largest displacement");
+        let _ = writeln!(out, "    {:<36} {speed} {b}", "largest velocity");
+        let shaken = format!("{:.0} m/s² ({:.0} g)", acceleration, acceleration / 9.806_65);
+        let _ = writeln!(out, "    {:<36} {shaken} {c}", "largest acceleration");
+    }
+    if let (Some(during), Some(after)) = (report.during, report.after) {
+        let _ = writeln!(
+            out,
+            "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)",
+            (100.0 * report.strain_error).max(1.0)
+        );
+        for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
+            let _ = writeln!(
+                out,
+                "  {what:<24} {:.3} %, {:.1} MPa at {}, {:.2} ms",
+                100.0 * worst.strain,
+                1e-6 * worst.stress,
+                place(worst.x, units),
+                1e3 * worst.time
+            );
+        }
+    }
+    let Some((x, _, lines)) = report.watched.first() else { return out };
+    let _ = writeln!(
+        out,
+        "\nSpectrum at {} when the ball has left: amplitude of every mode\n       Hz        mm       \
+         m/s         g",
+        place(*x, units)
+    );
+    let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
+    for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
+        let [moved, speed, acceleration] = line.amplitude;
+        let _ = writeln!(
+            out,
+            "{:>9.1} {:>9.3} {speed:>9.3} {:>9.0}",
+            line.frequency,
+            1e3 * moved,
+            acceleration / 9.806_65
+        );
+    }
+    out
+}
+
+/// Force, and motion and strain at the watched places, in time.
+pub fn history(after: &Aftermath, report: &AfterHit) -> String {
+    let mut out = String::from("t_s,force_n");
+    for (x, ..) in &report.watched {
+        for what in ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"] {
+            let _ = write!(out, ",{what}_at_{x}_m");
+        }
+    }
+    out.push('\n');
+    let places: Vec<f64> = report.watched.iter().map(|(x, ..)| *x).collect();
+    for now in &report.instants {
+        let _ = write!(out, "{},{}", now.time, now.force);
+        let strains = after.strains(&places, now, after.count());
+        for (x, strain) in places.iter().zip(strains) {
+            let [moved, speed, acceleration] = after.motion(*x, now);
+            let _ = write!(out, ",{moved},{speed},{acceleration},{strain}");
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// The `sweetspot-ring/1` document of a hit.
+pub fn json(after: &Aftermath, report: &AfterHit) -> Value {
+    let worst = |worst: Option<Strained>| {
+        worst.map(
+            |w| json!({ "x_m": w.x, "time_s": w.time, "strain": w.strain, "stress_pa": w.stress }),
+        )
+    };
+    let watched = report.watched.iter().map(|(x, sting, lines)| {
+        let motions: Vec<[f64; 3]> =
+            report.instants.iter().map(|now| after.motion(*x, now)).collect();
+        let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
+        let strains = report.instants.iter().map(|now| after.strains(&[*x], now, after.count())[0]);
+        let lines = lines.iter().map(|line| {
+            json!({
+                "frequency_hz": line.frequency,
+                "displacement_m": line.amplitude[0],
+                "velocity_m_s": line.amplitude[1],
+                "acceleration_m_s2": line.amplitude[2],
+            })
+        });
+        json!({
+            "x_m": x,
+            "begins_s": sting.begins,
+            "peak": {
+                "displacement_m": sting.peak[0],
+                "velocity_m_s": sting.peak[1],
+                "acceleration_m_s2": sting.peak[2],
+            },
+            "spectrum": lines.collect::<Vec<_>>(),
+            "displacement_m": column(0),
+            "velocity_m_s": column(1),
+            "acceleration_m_s2": column(2),
+            "strain": strains.collect::<Vec<_>>(),
+        })
+    });
+    let times: Vec<f64> = report.instants.iter().map(|now| now.time).collect();
+    let forces: Vec<f64> = report.instants.iter().map(|now| now.force).collect();
+    json!({
+        "format": "sweetspot-ring/1",
+        "generator": generator(),
+        "modes": after.count(),
+        "at_m": after.place,
+        "contact_s": after.end(),
+        "times_s": times,
+        "force_n": forces,
+        "watched": watched.collect::<Vec<_>>(),
+        "strain_max_in_contact": worst(report.during),
+        "strain_max": worst(report.after),
+        "strain_error": report.strain_error,
+    })
+}

@@ -1,0 +1,308 @@
+//! The contact on whole bats: what must hold at every impact point, limits, and other people's
+//! numbers.
+
+mod common;
+
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::hit::{Effort, Impact, Model, Outcome, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::pulse::Pulse;
+use sweetspot::collision::struck::Struck;
+use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::material::Material;
+use sweetspot::profile::{Interpolation, Profile, Stations};
+use sweetspot::theory::Theory;
+use sweetspot::validation::bundled_bat;
+use sweetspot::{Bat, Request, Solution, solve};
+
+/// Swing and pitch of the WPI report, a ball of 5 oz with k = 1e7 N/m^1.5.
+fn scene(swing: f64, cor: f64) -> Scene {
+    let ball = Ball {
+        mass: 5.0 * 0.028_349_523_125,
+        stiffness: Some(1e7),
+        exponent: Some(1.5),
+        ..Ball::baseball()
+    };
+    Scene { pivot: 0.0635, swing, ball, ball_speed: 40.2336, cor, ..Scene::default() }
+}
+
+fn solved(bat: &Bat, modes: usize, theory: Theory) -> Solution {
+    let request = Request { modes, tolerance: 1e-10, theory, ..Request::default() };
+    solve(bat, &request).unwrap()
+}
+
+/// The bats of the independent calculations below: the WPI report's dowel and a solid cone.
+fn known_bat(name: &str) -> Bat {
+    if name == "dowel" {
+        return bundled_bat("meshes/dowel.json").unwrap();
+    }
+    let stations = Stations {
+        x: vec![0.0, 0.8382],
+        outer: vec![0.0125, 0.033],
+        inner: vec![0.0; 2],
+        interpolation: Interpolation::Linear,
+    };
+    let material = Material::new(711.0, 13.9e9).unwrap();
+    Bat::new(name, Profile::new(stations).unwrap(), material, None).unwrap()
+}
+
+fn spot(sweep: &Sweep, model: Model, bat: &Bat, scene: &Scene) -> SweetSpot {
+    let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort).unwrap();
+    SweetSpot::find(bat, scene, &sweep.solution, &hitter)
+}
+
+fn outcome(impact: Impact) -> Outcome {
+    impact.outcome.unwrap()
+}
+
+/// Impact points from end to end, nodes and sweet spot among them.
+fn places(bat: &Bat, solution: &Solution) -> Vec<f64> {
+    let mut places: Vec<f64> = (0..=40).map(|k| bat.length() * f64::from(k) / 40.0).collect();
+    places.extend(solution.modes.iter().take(3).flat_map(|mode| mode.nodes.clone()));
+    places
+}
+
+#[test]
+fn energy_and_both_momenta_are_kept_everywhere() {
+    for (file, theory) in [
+        ("meshes/dowel.json", Theory::EulerBernoulli),
+        ("meshes/cone.json", Theory::Rayleigh),
+        ("meshes/r161.json", Theory::Timoshenko),
+    ] {
+        let bat = bundled_bat(file).unwrap();
+        let solution = solved(&bat, 12, theory);
+        let body = bat.inertia();
+        let inertia = if theory.turns() { body.about_balance } else { body.line_about_balance };
+        for cor in [0.0, 0.3, 0.5, 0.9, 1.0] {
+            for accuracy in [1e-2, 1e-3, 1e-6] {
+                let scene = scene(50.0, cor);
+                let effort = Effort { accuracy, completed: true };
+                let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+                for x in places(&bat, &solution) {
+                    let impact = hitter.strike(x);
+                    let (bat_speed, outcome) = (impact.bat_speed, outcome(impact));
+                    let energy = &outcome.energy;
+                    let closing = bat_speed + scene.ball_speed;
+                    let arm = x - body.balance_point;
+                    let inverse = 1.0 / scene.ball.mass + 1.0 / body.mass + arm * arm / inertia;
+                    let available = 0.5 * closing * closing / inverse;
+                    assert!(energy.imbalance().abs() < 1e-10 * available, "{file} {cor} {x}");
+                    // The bat's own motion from its energy: both momenta of the ball are the
+                    // impulse and its moment.
+                    let [v, w] = [50.0 * (0.0635 + body.balance_point), 50.0];
+                    let j = outcome.impulse;
+                    let after = [v - j / body.mass, w - j * arm / inertia];
+                    let rigid = 0.5 * (body.mass * after[0].powi(2) + inertia * after[1].powi(2));
+                    assert!((energy.bat_rigid - rigid).abs() < 1e-12 * rigid.max(1.0));
+                    let change = scene.ball.mass * (outcome.exit_speed + scene.ball_speed);
+                    assert!((change - j).abs() < 1e-12 * j);
+                    if cor == 1.0 {
+                        assert!(energy.dissipated_ball.abs() < 1e-12 * available);
+                    }
+                    assert!(outcome.error.is_finite() && outcome.peak_force.unwrap() > 0.0);
+                }
+            }
+        }
+    }
+}
+
+/// Without modes the ball leaves as from a stiff bat; on one that is a million times as stiff it
+/// does too, but for the bending that is left.
+#[test]
+fn stiff_bats_are_rigid() {
+    let bat = bundled_bat("meshes/cone.json").unwrap();
+    let none = solved(&bat, 0, Theory::EulerBernoulli);
+    let stiff =
+        Material { youngs_modulus: 1e12 * bat.material().youngs_modulus, ..bat.material().clone() };
+    let stiff = Bat::new("stiff", bat.profile.clone(), stiff, None).unwrap();
+    let bending = solved(&stiff, 8, Theory::EulerBernoulli);
+    for cor in [0.3, 0.5, 1.0] {
+        let scene = scene(50.0, cor);
+        let alone = Effort { completed: false, ..Effort::default() };
+        for (bat, solution, effort, near) in
+            [(&bat, &none, alone, 1e-11), (&stiff, &bending, Effort::default(), 1e-9)]
+        {
+            let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort).unwrap();
+            for x in [0.0, 0.2, 0.42, 0.6, 0.75, 0.8382] {
+                let impact = hitter.strike(x);
+                let rigid = impact.rigid_exit_speed.unwrap();
+                let exit = outcome(impact).exit_speed;
+                assert!((exit - rigid).abs() < near * 100.0, "{cor} {x} {exit} {rigid}");
+            }
+        }
+    }
+}
+
+/// Who looks at it from a train sees the same blow, and a turn of the swing about another point
+/// with the same speed there too.
+#[test]
+fn only_the_closing_speed_counts() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let solution = solved(&bat, 10, Theory::Timoshenko);
+    let x = 0.7;
+    let impulse = |scene: &Scene| {
+        let effort = Effort { accuracy: 1e-9, completed: true };
+        let hitter = Hitter::new(Model::Contact, scene, &bat, &solution, effort).unwrap();
+        outcome(hitter.strike(x)).impulse
+    };
+    let seen = impulse(&scene(50.0, 0.5));
+    // All of the closing speed in the ball, or in the bat.
+    let closing = 50.0 * (0.0635 + x) + 40.2336;
+    let thrown = Scene { ball_speed: closing, ..scene(0.0, 0.5) };
+    let swung = Scene { ball_speed: 0.0, ..scene(closing / (0.0635 + x), 0.5) };
+    for other in [impulse(&thrown), impulse(&swung)] {
+        assert!((other / seen - 1.0).abs() < 1e-9, "{other} {seen}");
+    }
+}
+
+/// Exit speeds of a coupled model with 15 modes, computed with an eighth-order Runge-Kutta method
+/// and a Ritz basis: place of the peak over the length, and speed there (m/s).
+#[test]
+fn the_sweet_spots_are_those_of_an_independent_calculation() {
+    for (file, known) in [
+        ("dowel", [(40.0, 0.8176, 33.499), (50.0, 0.8213, 41.199), (60.0, 0.8243, 48.903)]),
+        ("cone", [(40.0, 0.8319, 46.807), (50.0, 0.8359, 56.141), (60.0, 0.8392, 65.492)]),
+    ] {
+        let bat = known_bat(file);
+        for (swing, place, speed) in known {
+            let request = Request { modes: 15, tolerance: 1e-6, ..Request::default() };
+            let scene = scene(swing, 0.5);
+            let sweep = sweep(&bat, Model::Contact, &scene, &request, true, &[0.6]).unwrap();
+            let spot = spot(&sweep, Model::Contact, &bat, &scene);
+            let peak = spot.exit_speed_max.unwrap();
+            assert!((peak.x / bat.length() - place).abs() < 1e-4, "{file} {swing} {}", peak.x);
+            assert!((peak.value - speed).abs() < 1e-3, "{file} {swing} {}", peak.value);
+            // Between the barrel-side nodes of the first two modes.
+            let [first, second] = [spot.node_mode_1, spot.node_mode_2];
+            assert!(peak.x > first.unwrap() && peak.x < second.unwrap());
+        }
+    }
+}
+
+/// The pulse of 0.75 ms with κ = 0.6 on the same bats.
+#[test]
+fn the_pulse_has_its_known_sweet_spots() {
+    for (file, known) in [
+        ("dowel", [(40.0, 0.8216, 32.673), (50.0, 0.8241, 40.477), (60.0, 0.8260, 48.291)]),
+        ("cone", [(40.0, 0.8351, 46.272), (50.0, 0.8386, 55.614), (60.0, 0.8414, 64.973)]),
+    ] {
+        let bat = known_bat(file);
+        for (swing, place, speed) in known {
+            let request = Request { tolerance: 1e-6, ..Request::default() };
+            let (model, scene) = (Model::Pulse(Pulse::default()), scene(swing, 0.5));
+            let sweep = sweep(&bat, model, &scene, &request, false, &[0.6, 0.7]).unwrap();
+            assert!(sweep.met);
+            let peak = spot(&sweep, model, &bat, &scene).exit_speed_max.unwrap();
+            assert!((peak.x / bat.length() - place).abs() < 1e-4, "{file} {swing} {}", peak.x);
+            assert!((peak.value - speed).abs() < 1e-3, "{file} {swing} {}", peak.value);
+            for impact in sweep.impacts {
+                let energy = outcome(impact).energy;
+                assert!(energy.imbalance().abs() < 1e-12 * energy.initial);
+            }
+        }
+    }
+}
+
+/// A mode that is at rest where the ball hits takes nothing, however many times it is there.
+#[test]
+fn a_mode_at_its_node_adds_nothing() {
+    let bat = bundled_bat("meshes/dowel.json").unwrap();
+    let scene = scene(50.0, 0.5);
+    let alone = Effort { accuracy: 1e-9, completed: false };
+    let two = solved(&bat, 2, Theory::EulerBernoulli);
+    let impulse = |modes: usize, x: f64| {
+        let mut solution = two.clone();
+        solution.modes.truncate(modes);
+        let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, alone).unwrap();
+        outcome(hitter.strike(x)).impulse
+    };
+    let node = two.modes[1].nodes[2];
+    assert!((impulse(2, node) / impulse(1, node) - 1.0).abs() < 1e-9);
+    assert!((impulse(2, node + 0.03) / impulse(1, node + 0.03) - 1.0).abs() > 1e-4);
+}
+
+/// Steps and modes as many as the tolerance asks for: what is stated holds against 60 modes and
+/// steps a thousand times as good, three times over.
+#[test]
+fn exit_speeds_are_as_accurate_as_they_say() {
+    for (file, theory) in [
+        ("meshes/dowel.json", Theory::EulerBernoulli),
+        ("meshes/r161.json", Theory::Timoshenko),
+        ("meshes/torpedo.json", Theory::Timoshenko),
+    ] {
+        let bat = bundled_bat(file).unwrap();
+        // A pointed tip gives way without end.
+        let far: Vec<f64> = (0..30).map(|k| bat.length() * (0.4 + 0.02 * f64::from(k))).collect();
+        let close: Vec<f64> =
+            (0..100).map(|k| bat.length() * (0.4 + 0.0058 * f64::from(k))).collect();
+        for (swing, places) in [(0.0, &far), (30.0, &close), (50.0, &far)] {
+            let scene = Scene { ball: Ball::baseball(), ..scene(swing, 0.5) };
+            let fine = Request { modes: 80, tolerance: 1e-9, theory, ..Request::default() };
+            let finest = solve(&bat, &fine).unwrap();
+            let effort = Effort { accuracy: 1e-9, completed: true };
+            let truth = Hitter::new(Model::Contact, &scene, &bat, &finest, effort).unwrap();
+            for tolerance in [1e-3, 1e-4, 1e-5] {
+                let request = Request { tolerance, theory, ..Request::default() };
+                let found = sweep(&bat, Model::Contact, &scene, &request, false, places).unwrap();
+                assert!(found.met, "{file} {swing} {tolerance}");
+                for impact in found.impacts {
+                    let x = impact.x;
+                    let closing = impact.bat_speed + scene.ball_speed;
+                    let flagged = !impact.flags.is_empty();
+                    let outcome = outcome(impact);
+                    let exact = truth.strike(x).outcome.unwrap();
+                    let missed = (outcome.exit_speed - exact.exit_speed).abs() / closing;
+                    assert!(
+                        missed <= 3.0 * outcome.error || flagged,
+                        "{file} {swing} {tolerance} {x}: {missed:e} {:e}",
+                        outcome.error
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// The static deflection under a unit force that the inertia of the whole bat balances, from bending
+/// moments and shear forces by quadrature: `∫M²/EI dx + ∫Q²/κGA dx`.
+#[test]
+fn the_flexibility_under_the_ball_is_that_of_statics() {
+    for (file, theory) in [
+        ("meshes/dowel.json", Theory::EulerBernoulli),
+        ("meshes/r161.json", Theory::EulerBernoulli),
+        ("meshes/r161.json", Theory::Timoshenko),
+    ] {
+        let bat = bundled_bat(file).unwrap();
+        let request = Request { modes: 10, tolerance: 1e-5, theory, ..Request::default() };
+        let solution = solve(&bat, &request).unwrap();
+        let struck = Struck::new(&bat, &solution);
+        let body = bat.inertia();
+        let inertia = if theory.turns() { body.about_balance } else { body.line_about_balance };
+        for a in [0.0, 0.31, 0.555, 0.7, 0.79, bat.length()] {
+            // A push of 1 N and the accelerations it makes, from the knob end on.
+            let arm = a - body.balance_point;
+            let (mut force, mut moment, mut energy) = (0.0, 0.0, 0.0);
+            let steps = 200_000;
+            let h = bat.length() / f64::from(steps);
+            for k in 0..steps {
+                let x = (f64::from(k) + 0.5) * h;
+                let worth = bat.worth_at(x);
+                let lever = x - body.balance_point;
+                let load = worth.mass * (1.0 / body.mass + arm / inertia * lever) * h;
+                let couple = if theory.turns() { -worth.turning * arm / inertia * h } else { 0.0 };
+                let pushed = if x > a { 1.0 } else { 0.0 };
+                let across = force + 0.5 * load - pushed;
+                let lifted = moment + 0.5 * (across * h + couple);
+                energy += lifted * lifted / worth.bending * h;
+                if theory.shears() {
+                    energy += across * across / worth.shear * h;
+                }
+                moment += across * h + couple;
+                force += load;
+            }
+            let found = struck.flexibility(a)[0];
+            assert!((found / energy - 1.0).abs() < 2e-4, "{file} {theory:?} {a} {found} {energy}");
+        }
+    }
+}
