@@ -222,6 +222,32 @@ fn a_mode_at_its_node_adds_nothing() {
     assert!((impulse(2, node + 0.03) / impulse(1, node + 0.03) - 1.0).abs() > 1e-4);
 }
 
+/// How large a mode is drawn is nobody's business.
+#[test]
+fn a_mode_s_scale_changes_nothing() {
+    use sweetspot::modes::Shape;
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let solution = solved(&bat, 8, Theory::Timoshenko);
+    let mut scaled = solution.clone();
+    for (k, mode) in scaled.modes.iter_mut().enumerate() {
+        let scale = [-3.0, 0.25, 17.0][k % 3];
+        mode.shape = Shape::sum(&[(scale, &mode.shape)]);
+        mode.modal_mass *= scale * scale;
+    }
+    let scene = scene(50.0, 0.5);
+    for effort in [Effort::default(), Effort { accuracy: 1e-6, completed: false }] {
+        let [known, found] = [&solution, &scaled].map(|solution| {
+            let hitter = Hitter::new(Model::Contact, &scene, &bat, solution, effort).unwrap();
+            outcome(hitter.strike(0.62))
+        });
+        assert!((found.exit_speed / known.exit_speed - 1.0).abs() < 1e-9);
+        let energies = |o: &Outcome| o.energy.vibration_by_mode.clone();
+        for (a, b) in energies(&known).iter().zip(energies(&found)) {
+            assert!((a - b).abs() < 1e-7);
+        }
+    }
+}
+
 /// Steps and modes as many as the tolerance asks for: what is stated holds against 60 modes and
 /// steps a thousand times as good, three times over.
 #[test]
