@@ -96,9 +96,9 @@ pub fn sweep(
     }
 }
 
-/// The hits at all places. Where they lie close, one in a few is compared with rougher ones, and those
-/// between two take the larger error of both.
-fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
+/// The hits at all places (m). Where they lie close, one in a few is compared with rougher ones, and
+/// those between two take the larger error of both.
+pub fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
     const FEW: usize = 4;
     /// Of the length: modes that matter change along more.
     const CLOSE: f64 = 0.025;
