@@ -22,6 +22,11 @@ fn scene(swing: f64) -> Scene {
     Scene { pivot: 0.0635, swing, ball, ball_speed: 40.2336, cor: 0.5, ..Scene::default() }
 }
 
+fn empirical<'a>(scene: &'a Scene, bat: &'a Bat, solution: &'a Solution) -> Hitter<'a> {
+    let model = Model::EnergyLoss(EnergyLoss::default());
+    Hitter::new(model, scene, bat, solution, Effort::default()).unwrap()
+}
+
 /// Peaks of the report's rigid and empirical curves, recomputed from its script
 /// (`validation/wpi/fig18_summary.csv`): X, v/v_in at 40, 50, 60 rad/s. The script sets the bat to
 /// exactly six balls where the dowel weighs 5.9995, hence the tolerance.
@@ -78,14 +83,7 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
     let request = Request { modes: 1, tolerance: 1e-8, ..Request::default() };
     let one = solve(&bat, &request).unwrap();
     let node = one.modes[0].nodes[1];
-    let hitter = Hitter::new(
-        Model::EnergyLoss(EnergyLoss::default()),
-        &scene,
-        &bat,
-        &one,
-        Effort::default(),
-    )
-    .unwrap();
+    let hitter = empirical(&scene, &bat, &one);
     assert!(hitter.glance(node).unwrap().vibration.unwrap() < 1e-12);
     assert!(hitter.glance(node + 0.05).unwrap().vibration.unwrap() > 1.0);
 }
@@ -96,14 +94,7 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
 fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
     let (bat, solution) = solved("meshes/dowel.json");
     let scene = scene(50.0);
-    let hitter = Hitter::new(
-        Model::EnergyLoss(EnergyLoss::default()),
-        &scene,
-        &bat,
-        &solution,
-        Effort::default(),
-    )
-    .unwrap();
+    let hitter = empirical(&scene, &bat, &solution);
     for fraction in [0.55, 0.7, 0.95] {
         let outcome = hitter.strike(fraction * bat.length()).outcome.unwrap();
         for (n, energy) in (1..).zip(&outcome.energy.vibration_by_mode) {
@@ -131,14 +122,7 @@ fn a_ball_that_is_not_met_has_no_outcome() {
 fn the_sweet_spot_is_a_maximum_and_its_zone_ends_one_per_cent_below() {
     let (bat, solution) = solved("meshes/torpedo.json");
     let scene = scene(45.0);
-    let hitter = Hitter::new(
-        Model::EnergyLoss(EnergyLoss::default()),
-        &scene,
-        &bat,
-        &solution,
-        Effort::default(),
-    )
-    .unwrap();
+    let hitter = empirical(&scene, &bat, &solution);
     let spot = SweetSpot::find(&bat, &scene, &solution, &hitter);
     let peak = spot.exit_speed_max.unwrap();
     let speed = |x: f64| hitter.glance(x).unwrap().exit_speed;

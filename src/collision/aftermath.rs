@@ -195,7 +195,8 @@ impl<'a> Aftermath<'a> {
         let bent = |x: &f64| {
             let modes = self.modes.iter().zip(&now.modes).take(count);
             let sum: f64 = modes.map(|(rung, part)| rung.mode.shape.curvature(*x) * part[0]).sum();
-            -self.bat.profile.at(*x).outer * sum
+            // So that rest is not −0.
+            0.0 - self.bat.profile.at(*x).outer * sum
         };
         places.iter().map(bent).collect()
     }

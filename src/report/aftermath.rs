@@ -28,11 +28,12 @@ pub struct AfterHit {
 const PLACES: usize = 200;
 
 impl AfterHit {
-    /// Looks from the first touch until that time (s).
+    /// Looks from the first touch until that time (s), or until the ball leaves if that is later.
     pub fn new(bat: &Bat, after: &Aftermath, watched: &[f64], until: f64) -> Self {
         const WITHIN: usize = 200;
         const BEYOND: usize = 2000;
         let end = after.end();
+        let until = until.max(end);
         let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
         let beyond = (1..=BEYOND).map(|k| end + (until - end) * k as f64 / BEYOND as f64);
         let times: Vec<f64> =

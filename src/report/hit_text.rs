@@ -85,7 +85,7 @@ pub fn why(figures: &Figures, units: Units) -> String {
     };
     let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
-        let text = "Why there: further out the bat recoils more than its speed makes up for.";
+        let text = "Why there: further out the bat gives way more than its speed makes up for.";
         return wrapped(text, 0);
     };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
@@ -224,6 +224,9 @@ pub fn figures(figures: &Figures, units: Units) -> String {
 
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
 pub fn moves(figures: &Figures, units: Units) -> String {
+    if figures.spot.exit_speed_max.is_none() {
+        return String::new();
+    }
     let mut out = String::from(
         "How it moves, mm to the tip fastest   least  least hand  least hand   best\n\
          \u{20}                              ball  vibr.    velocity     shaking  speed\n",
@@ -231,7 +234,10 @@ pub fn moves(figures: &Figures, units: Units) -> String {
     let spot = &figures.spot;
     for (what, moved) in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            (Some(before), Some(after)) => format!("{:+.1}", 1e3 * (after.x - before.x)),
+            // Rounded first, so that nothing is not −0.0.
+            (Some(before), Some(after)) => {
+                format!("{:+.1}", (1e4 * (after.x - before.x)).round() / 10.0 + 0.0)
+            }
             _ => String::new(),
         };
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
