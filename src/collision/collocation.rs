@@ -62,6 +62,33 @@ impl Lobatto {
     }
 }
 
+/// Numbers taken side by side.
+pub const LANES: usize = 4;
+
+/// Numbers by lanes.
+#[inline(always)]
+pub fn lanes(all: &[f64]) -> &[[f64; LANES]] {
+    all.as_chunks().0
+}
+
+/// The sum over all lanes of so many chunks.
+#[inline(always)]
+pub fn total(chunks: usize, part: impl Fn(usize, usize) -> f64) -> f64 {
+    let mut sums = [0.0; LANES];
+    for k in 0..chunks {
+        for (l, sum) in sums.iter_mut().enumerate() {
+            *sum += part(k, l);
+        }
+    }
+    sum(sums)
+}
+
+/// The sum of a chunk.
+#[inline(always)]
+pub fn sum(lanes: [f64; LANES]) -> f64 {
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+}
+
 /// The value of a polynomial with those coefficients.
 #[inline(always)]
 pub fn polynomial(coefficients: &[f64; POINTS], s: f64) -> f64 {
@@ -105,6 +132,9 @@ pub fn moments<const COUNT: usize>(z: Pair) -> (Pair, [Pair; COUNT]) {
             let scale = 1.0 / (COUNT + j) as f64;
             term = times(term, [z[0] * scale, z[1] * scale]);
             sum = [sum[0] + term[0], sum[1] + term[1]];
+            if term[0].abs() + term[1].abs() < 1e-18 {
+                break;
+            }
         }
         all[COUNT - 1] = sum;
         for k in (1..COUNT).rev() {

@@ -1,8 +1,9 @@
 //! Where a step ends early: the largest compression, the return to it, the end of the contact.
 
-use crate::collision::collocation::{POINTS, Pair, moments, times};
+use crate::collision::collocation::{POINTS, Pair, lanes, moments, times, total};
+use crate::collision::contact::CLOSED;
 use crate::collision::force_law::Top;
-use crate::collision::step::{Step, Table};
+use crate::collision::step::{Course, Step, Table};
 use crate::collision::touch::{State, Touch};
 
 /// Why a step ends early.
@@ -36,6 +37,22 @@ impl Touch<'_> {
                 beyond.then_some(Event::Again)
             }
         }
+    }
+
+    /// Whether the ringing surface may leave the ball and return between two points of a step: it does
+    /// not where the compression there is more than `max|x″| g²/8`, g the way between two points.
+    #[inline(always)]
+    pub fn may_pass(&self, now: &State, step: &Step, next: &State) -> bool {
+        let least = step.compression[1..].iter().fold(now.compression, |least, x| least.min(*x));
+        let [w, square] = [&self.weights, self.square].map(lanes);
+        let [a, b] = [&now.real, &now.imaginary].map(|v| lanes(v));
+        let [p, q] = [&next.real, &next.imaginary].map(|v| lanes(v));
+        let bend = total(self.chunks(), |k, l| {
+            let amplitudes = [a[k][l].abs() + b[k][l].abs(), p[k][l].abs() + q[k][l].abs()];
+            w[k][l] * square[k][l] * amplitudes[0].max(amplitudes[1])
+        });
+        let way = step.length * (self.rule.at[2] - self.rule.at[1]);
+        least < 0.125 * bend * way * way
     }
 
     /// What is zero at the event, and its rate.
@@ -78,15 +95,14 @@ impl Touch<'_> {
         self.within(now, step, time, next);
         self.approach(event, step, top, &mut time, next);
         let mut corrected = self.round_off(stop, now, step, &mut time, next);
-        let lost = if self.damped { self.loss(now, step, time) } else { 0.0 };
-        let off =
-            |next: &State| (self.whole_energy(next, top) + lost - self.energy).abs() / self.energy;
-        if event == Event::Gone && off(next) > 1e-13 {
+        self.settle(next, top);
+        if event == Event::Gone && self.open(next, top) > CLOSED {
             // The force's last bit ends within the step: a step of that length has it whole.
             let (mut last, mut end) = (*step, time);
             for _ in 0..4 {
                 let table = Table::new(self.rule, self.poles, end);
-                (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(step));
+                let course = Course { from: 0.0, ..self.course(step) };
+                (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(&course));
                 self.advance(&table, now, &last, next);
                 let [x, rate] = self.distance(event, next, top);
                 let by = -x / rate;
@@ -103,6 +119,12 @@ impl Touch<'_> {
         corrected
     }
 
+    /// The share of the energy that is not accounted for.
+    #[inline(always)]
+    pub fn open(&self, state: &State, top: Option<Top>) -> f64 {
+        (self.whole_energy(state, top) - self.energy).abs() / self.energy
+    }
+
     /// Puts the energy of a state at an event right, and the event again.
     #[inline(always)]
     pub fn round_off(
@@ -117,14 +139,19 @@ impl Touch<'_> {
         if self.damped {
             next.lost = now.lost + self.loss(now, step, *time);
         }
+        let (mut known, mut bump) = (f64::NAN, [0, 1].map(|_| vec![0.0; self.poles.len()]));
         for _ in 0..4 {
             let length = *time;
-            let bump = |n: usize| {
-                let s = self.poles[n];
-                let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
-                [length * (all[1][0] - all[2][0]), length * (all[1][1] - all[2][1])]
-            };
-            let free = [most, f64::INFINITY];
+            // A bump is small: one that ends a little beside does as well.
+            if !((length - known).abs() <= 1e-6 * length) {
+                known = length;
+                for (n, s) in self.modes() {
+                    let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
+                    bump[0][n] = length * (all[1][0] - all[2][0]);
+                    bump[1][n] = length * (all[1][1] - all[2][1]);
+                }
+            }
+            let (bump, free) = ([&bump[0][..], &bump[1][..]], [most, f64::INFINITY]);
             corrected += self.correct(next, length, bump, free, top).unwrap_or(0.0);
             let [x, rate] = self.distance(event, next, top);
             let by = -x / rate;
@@ -163,9 +190,18 @@ impl Touch<'_> {
     }
 
     /// Whether the ringing surface reaches the ball after it left.
+    #[inline(always)]
     pub fn caught_again(&self, end: &State) -> bool {
-        let count = self.poles.len();
-        let amplitude = |n: usize| self.weights[n] * end.real[n].hypot(end.imaginary[n]);
+        let count = self.felt.gains.len();
+        let amplitude = |n: usize| {
+            let square = end.real[n] * end.real[n] + end.imaginary[n] * end.imaginary[n];
+            self.weights[n] * square.sqrt()
+        };
+        // A surface that is never faster than the ball leaves it alone.
+        let fastest: f64 = (0..count).map(|n| amplitude(n) * self.square[n].sqrt()).sum();
+        if fastest < -end.speed {
+            return false;
+        }
         let farthest: f64 = (0..count).map(amplitude).sum();
         // Beyond that the ball is out of reach.
         let last = (farthest - end.closing) / -end.speed;

@@ -53,17 +53,65 @@ impl ForceLaw {
         [force, if force > 0.0 { exponent * force / x } else { 0.0 }]
     }
 
+    /// The derivative (N/m) at a compression with that force (N).
+    #[inline(always)]
+    pub fn slope(&self, x: f64, force: f64, top: Option<Top>) -> f64 {
+        let exponent = top.map_or(self.exponent, |_| self.unloading);
+        // An infinite exponent has no force and no slope below the top.
+        if force > 0.0 { exponent * force / x } else { 0.0 }
+    }
+
+    /// The forces (N) a little way from compressions x > 0 where they are known: `F (1 + δ)^β` by its
+    /// binomial series, `δ = by/x`. None where one is not near.
+    #[inline(always)]
+    pub fn near<const N: usize>(
+        &self,
+        x: [f64; N],
+        force: [f64; N],
+        by: [f64; N],
+        top: Option<Top>,
+    ) -> Option<[f64; N]> {
+        /// `βδ` whose powers beyond the terms are below ε.
+        const NEAR: f64 = 0.05;
+        const TERMS: [f64; 8] = [8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
+        let exponent = top.map_or(self.exponent, |_| self.unloading);
+        let most = NEAR / exponent.max(1.0);
+        let (mut share, mut near) = ([0.0; N], true);
+        for i in 0..N {
+            share[i] = by[i] / x[i];
+            near &= share[i].abs() <= most && x[i] > 0.0;
+        }
+        if !near {
+            return None;
+        }
+        let mut sum = [1.0; N];
+        for k in TERMS {
+            let factor = (exponent + 1.0 - k) * (1.0 / k);
+            for i in 0..N {
+                sum[i] = 1.0 + factor * share[i] * sum[i];
+            }
+        }
+        for i in 0..N {
+            sum[i] *= force[i];
+        }
+        Some(sum)
+    }
+
     /// Energy stored and energy lost so far (J).
     #[inline(always)]
     pub fn energy(&self, x: f64, top: Option<Top>) -> [f64; 2] {
-        let x = x.max(0.0);
+        self.energy_of(x, self.force(x, top)[0], top)
+    }
+
+    /// The same where the force (N) is known.
+    #[inline(always)]
+    pub fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2] {
+        let (loading, unloading) = (1.0 / (1.0 + self.exponent), 1.0 / (1.0 + self.unloading));
         match top {
-            None => [self.stiffness * x.powf(1.0 + self.exponent) / (1.0 + self.exponent), 0.0],
+            None => [force * x.max(0.0) * loading, 0.0],
             Some(top) => {
-                let whole = top.force * top.compression;
-                let back = 1.0 / (1.0 + self.unloading);
-                let stored = whole * (x / top.compression).powf(1.0 + self.unloading) * back;
-                [stored, whole * (1.0 / (1.0 + self.exponent) - back)]
+                let lost = top.force * top.compression * (loading - unloading);
+                [force * x.max(0.0) * unloading, lost]
             }
         }
     }

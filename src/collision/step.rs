@@ -1,7 +1,9 @@
 //! A step of a contact: the force at its points by Newton's method, the motions under that force, and
 //! the bump on it that puts the energy right.
 
-use crate::collision::collocation::{Lobatto, POINTS, Pair, moments, polynomial, times};
+use crate::collision::collocation::{
+    LANES, Lobatto, POINTS, Pair, lanes, moments, polynomial, sum, times, total,
+};
 use crate::collision::force_law::Top;
 use crate::collision::touch::{State, Touch, dot};
 
@@ -62,13 +64,19 @@ impl Table {
     }
 
     #[inline(always)]
-    pub fn turn(&self, i: usize, part: usize, count: usize) -> &[f64] {
-        &self.turns[(2 * i + part) * self.modes..][..count]
+    pub fn turn(&self, i: usize, part: usize) -> &[[f64; LANES]] {
+        lanes(&self.turns[(2 * i + part) * self.modes..][..self.modes])
     }
 
     #[inline(always)]
-    pub fn kernel(&self, i: usize, j: usize, part: usize, count: usize) -> &[f64] {
-        &self.kernels[((i * POINTS + j) * 2 + part) * self.modes..][..count]
+    pub fn kernel(&self, i: usize, j: usize, part: usize) -> &[[f64; LANES]] {
+        lanes(&self.kernels[((i * POINTS + j) * 2 + part) * self.modes..][..self.modes])
+    }
+
+    /// What the bump does to every mode, real and imaginary parts.
+    #[inline(always)]
+    pub fn bumps(&self) -> [&[f64]; 2] {
+        self.bump.split_at(self.modes).into()
     }
 }
 
@@ -78,9 +86,16 @@ pub struct Step {
     pub length: f64,
     pub compression: [f64; POINTS],
     pub force: [f64; POINTS],
-    /// Both as polynomials of the time over the length.
+    /// The force as a polynomial of the time over the length.
     pub powers: [f64; POINTS],
-    pub course: [f64; POINTS],
+}
+
+/// A step's compression as a polynomial of the time over the length, and where the next step begins.
+#[derive(Debug, Clone, Copy)]
+pub struct Course {
+    pub length: f64,
+    pub from: f64,
+    pub powers: [f64; POINTS],
 }
 
 impl Step {
@@ -98,24 +113,30 @@ impl Step {
     }
 }
 
-pub type Coupling = [[f64; POINTS]; POINTS];
+/// Points of a step that lie ahead.
+const AHEAD: usize = POINTS - 1;
+
+/// What the force at each point does to the compression at each one ahead (m/N).
+pub type Coupling = [[f64; POINTS]; AHEAD];
 
 /// A bump may change the impulse by so many times the energy that it puts right, both relative.
 const ILL: f64 = 3.0;
+/// An energy, relative, that one bump puts right.
+const SMALL: f64 = 1e-8;
 /// Energies, relative, that shorter steps do not make better.
 const ROUND_OFF: f64 = 1e-12;
 
 impl Touch<'_> {
-    /// What the force at each point does to the compression at each.
+    /// The coupling by a step of that table.
     #[inline(always)]
     pub fn coupling(&self, table: &Table) -> Coupling {
         let square = table.length * table.length * self.felt.inverse_mass;
-        let mut coupling = [[0.0; POINTS]; POINTS];
-        for i in 1..POINTS {
+        let mut coupling = [[0.0; POINTS]; AHEAD];
+        for i in 0..AHEAD {
             for j in 0..POINTS {
-                let kernel = table.kernel(i, j, 1, self.poles.len());
-                let modes: f64 = kernel.iter().zip(&self.weights).map(|(k, w)| k * w).sum();
-                coupling[i][j] = square * self.rule.twice[i][j] + modes;
+                let (kernel, w) = (table.kernel(i + 1, j, 1), lanes(&self.weights));
+                let modes = total(self.chunks(), |k, l| kernel[k][l] * w[k][l]);
+                coupling[i][j] = square * self.rule.twice[i + 1][j] + modes;
             }
         }
         coupling
@@ -129,57 +150,79 @@ impl Touch<'_> {
         coupling: &Coupling,
         now: &State,
         top: Option<Top>,
-        last: Option<&Step>,
+        last: Option<&Course>,
     ) -> (Step, bool) {
         const ROUNDS: usize = 8;
-        let (length, count, rest) = (table.length, self.poles.len(), self.felt.rest);
-        let [mut free, mut x, mut f, mut slope] = [[0.0; POINTS]; 4];
-        (x[0], f[0]) = (now.compression, now.force);
-        for i in 1..POINTS {
-            let (re, im) = (table.turn(i, 0, count), table.turn(i, 1, count));
-            let mut modes = 0.0;
-            for n in 0..count {
-                modes += self.weights[n] * (re[n] * now.imaginary[n] + im[n] * now.real[n]);
-            }
-            let rigid = now.closing + now.speed * length * self.rule.at[i];
-            free[i] = rigid - modes - coupling[i][0] * f[0];
-            // The last step's compression goes on as it did.
+        let (length, rest) = (table.length, self.felt.rest);
+        let [w, a, b] = [&self.weights, &now.real, &now.imaginary].map(|v| lanes(v));
+        let [mut free, mut x, mut f, mut slope] = [[0.0; AHEAD]; 4];
+        for i in 0..AHEAD {
+            let (re, im) = (table.turn(i + 1, 0), table.turn(i + 1, 1));
+            let part = |k: usize, l: usize| w[k][l] * (re[k][l] * b[k][l] + im[k][l] * a[k][l]);
+            let modes = total(self.chunks(), part);
+            let rigid = now.closing + now.speed * length * self.rule.at[i + 1];
+            free[i] = rigid - modes - coupling[i][0] * now.force;
+            // The last step's compression goes on as it did, if that is less than without force.
             x[i] = match last {
                 Some(last) => {
-                    polynomial(&last.course, 1.0 + length / last.length * self.rule.at[i])
+                    let at = last.from + length / last.length * self.rule.at[i + 1];
+                    polynomial(&last.powers, at).min(free[i])
                 }
                 None => self.law.share(free[i], rest, top, 0.0)[0],
             };
         }
-        let mut converged = false;
+        let mut by = [f64::NAN; AHEAD];
+        let (mut converged, mut found) = (false, false);
         for _ in 0..ROUNDS {
-            for i in 1..POINTS {
-                [f[i], slope[i]] = self.law.force(x[i], top);
+            // A little way from the last ones by their series.
+            let mut before = x;
+            for i in 0..AHEAD {
+                before[i] -= by[i];
             }
-            let (mut matrix, mut left) = ([[0.0; POINTS]; POINTS], [0.0; POINTS]);
-            for i in 1..POINTS {
+            match self.law.near(before, f, by, top) {
+                Some(near) => f = near,
+                None => {
+                    for i in 0..AHEAD {
+                        f[i] = self.law.force(x[i], top)[0];
+                    }
+                }
+            }
+            if converged {
+                found = true;
+                break;
+            }
+            let (mut matrix, mut left) = ([[0.0; AHEAD]; AHEAD], [0.0; AHEAD]);
+            for i in 0..AHEAD {
+                slope[i] = self.law.slope(x[i], f[i], top);
+            }
+            for i in 0..AHEAD {
                 left[i] = free[i] - x[i] - rest * f[i];
-                for j in 1..POINTS {
-                    left[i] -= coupling[i][j] * f[j];
-                    matrix[i][j] = coupling[i][j] * slope[j];
+                for j in 0..AHEAD {
+                    left[i] -= coupling[i][j + 1] * f[j];
+                    matrix[i][j] = coupling[i][j + 1] * slope[j];
                 }
                 matrix[i][i] += 1.0 + rest * slope[i];
             }
-            let moved = eliminate(&mut matrix, left);
-            let mut largest = 0.0_f64;
-            for i in 1..POINTS {
-                x[i] += moved[i];
-                f[i] = (f[i] + slope[i] * moved[i]).max(0.0);
-                largest = largest.max(moved[i].abs());
-            }
+            by = eliminate(&mut matrix, left);
             // What is left is the square of this.
-            if largest <= 1e-2 * self.accuracy.sqrt() * self.deepest {
-                converged = true;
-                break;
+            let enough = 1e-2 * self.accuracy.sqrt() * self.deepest;
+            converged = true;
+            for i in 0..AHEAD {
+                x[i] += by[i];
+                converged &= by[i].abs() <= enough;
             }
         }
-        let [powers, course] = [f, x].map(|values| self.rule.through(&values));
-        (Step { length, compression: x, force: f, powers, course }, converged)
+        let [a, b, c, d] = f;
+        let force = [now.force, a, b, c, d];
+        let [a, b, c, d] = x;
+        let compression = [now.compression, a, b, c, d];
+        (Step { length, compression, force, powers: self.rule.through(&force) }, found)
+    }
+
+    /// The compression of a step, to go on from its end.
+    #[inline(always)]
+    pub fn course(&self, step: &Step) -> Course {
+        Course { length: step.length, from: 1.0, powers: self.rule.through(&step.compression) }
     }
 
     /// How far the force is from a polynomial: the impulse of its last term, relative.
@@ -210,18 +253,29 @@ impl Touch<'_> {
     /// The modes' memories at point i of a step.
     #[inline(always)]
     pub fn memories(&self, table: &Table, now: &State, step: &Step, i: usize, next: &mut State) {
-        let count = self.poles.len();
-        let (re, im) = (table.turn(i, 0, count), table.turn(i, 1, count));
-        for n in 0..count {
-            next.real[n] = re[n] * now.real[n] - im[n] * now.imaginary[n];
-            next.imaginary[n] = re[n] * now.imaginary[n] + im[n] * now.real[n];
+        let turn = [table.turn(i, 0), table.turn(i, 1)];
+        let mut kernels = [turn; POINTS];
+        for (j, kernel) in kernels.iter_mut().enumerate() {
+            *kernel = [table.kernel(i, j, 0), table.kernel(i, j, 1)];
         }
-        for j in 0..POINTS {
-            let (re, im) = (table.kernel(i, j, 0, count), table.kernel(i, j, 1, count));
-            for n in 0..count {
-                next.real[n] += re[n] * step.force[j];
-                next.imaginary[n] += im[n] * step.force[j];
+        let [a, b] = [&now.real, &now.imaginary].map(|v| lanes(v));
+        let (real, imaginary) = (&mut next.real, &mut next.imaginary);
+        let (real, imaginary) = (real.as_chunks_mut().0, imaginary.as_chunks_mut::<LANES>().0);
+        for k in 0..self.chunks() {
+            let [mut re, mut im] = [[0.0; LANES]; 2];
+            let (p, q) = (turn[0][k], turn[1][k]);
+            for l in 0..LANES {
+                re[l] = p[l] * a[k][l] - q[l] * b[k][l];
+                im[l] = p[l] * b[k][l] + q[l] * a[k][l];
             }
+            for (kernel, force) in kernels.iter().zip(&step.force) {
+                let (p, q) = (kernel[0][k], kernel[1][k]);
+                for l in 0..LANES {
+                    re[l] += p[l] * force;
+                    im[l] += q[l] * force;
+                }
+            }
+            (real[k], imaginary[k]) = (re, im);
         }
     }
 
@@ -237,6 +291,7 @@ impl Touch<'_> {
         (next.time, next.bump, next.defect) = (now.time + time, 0.0, now.defect);
         (next.impulse, next.speed) = (now.impulse, now.speed);
         (next.closing, next.force) = (now.closing + time * now.speed, 0.0);
+        next.compression = f64::NAN;
         next.lost = now.lost;
         for (k, part) in part.iter().enumerate() {
             let k = k as f64;
@@ -247,7 +302,7 @@ impl Touch<'_> {
             next.speed -= self.felt.inverse_mass * once;
             next.closing -= self.felt.inverse_mass * twice;
         }
-        for (n, s) in self.poles.iter().enumerate() {
+        for (n, s) in self.modes() {
             let (whole, all) = moments::<POINTS>([s[0] * time, s[1] * time]);
             let mut memory = times(whole, [now.real[n], now.imaginary[n]]);
             for (part, moment) in part.iter().zip(&all) {
@@ -266,8 +321,8 @@ impl Touch<'_> {
         state.speed -= by * self.felt.inverse_mass * force;
         state.impulse += by * force;
         state.time += by;
-        state.force = polynomial(&step.powers, time / step.length);
-        for (n, s) in self.poles.iter().enumerate() {
+        (state.compression, state.force) = (f64::NAN, polynomial(&step.powers, time / step.length));
+        for (n, s) in self.modes() {
             let z = [s[0] * by, s[1] * by];
             // (e^z − 1)/z to the fifth order.
             let mut over = [1.0, 0.0];
@@ -291,7 +346,7 @@ impl Touch<'_> {
         &self,
         next: &mut State,
         length: f64,
-        bump: impl Fn(usize) -> Pair,
+        bump: [&[f64]; 2],
         [most, slight]: [f64; 2],
         top: Option<Top>,
     ) -> Option<f64> {
@@ -309,23 +364,27 @@ impl Touch<'_> {
             // `s(1 − s)` has the area 1/6, half of it to each side of the middle.
             let speed = -length * self.felt.inverse_mass / 6.0;
             let closing = 0.5 * length * speed;
-            let mut slope = next.speed * speed / self.felt.inverse_mass;
-            let mut moved = closing;
-            for (n, s) in self.poles.iter().enumerate() {
-                let (b, w, square) = (bump(n), self.weights[n], s[0] * s[0] + s[1] * s[1]);
-                moved -= w * b[1];
-                let rates =
-                    (s[0] * next.imaginary[n] + s[1] * next.real[n], s[0] * b[1] + s[1] * b[0]);
-                slope += w / s[1] * (rates.0 * rates.1 + square * next.imaginary[n] * b[1]);
+            let [m, a, b, square] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
+            let [re, im] = [&next.real, &next.imaginary].map(|v| lanes(v));
+            let ([p, q], w) = (bump.map(lanes), lanes(&self.weights));
+            let [mut moved, mut slope] = [[0.0; LANES]; 2];
+            for k in 0..self.chunks() {
+                for l in 0..LANES {
+                    let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
+                    let other = a[k][l] * q[k][l] + b[k][l] * p[k][l];
+                    let both = rate * other + square[k][l] * im[k][l] * q[k][l];
+                    moved[l] -= w[k][l] * q[k][l];
+                    slope[l] += m[k][l] * both;
+                }
             }
+            let moved = closing + sum(moved);
+            let slope = next.speed * speed / self.felt.inverse_mass + sum(slope);
             let size = -defect / (slope + next.force * moved);
             // Where the compression does not change no force does work.
-            if size.is_nan() || size.abs() > 2.0 * most {
-                break;
-            }
             let kick = (size * speed / self.speed).abs();
-            if kick > slight.max(ILL * defect.abs() / self.energy) {
-                if off > ROUND_OFF {
+            let ill = kick > slight.max(ILL * defect.abs() / self.energy);
+            if size.is_nan() || size.abs() > 2.0 * most || ill {
+                if off > ROUND_OFF && slight.is_finite() {
                     return None;
                 }
                 break;
@@ -334,10 +393,16 @@ impl Touch<'_> {
             next.closing += size * closing;
             next.impulse += size * length / 6.0;
             next.bump += size;
-            for n in 0..self.poles.len() {
-                let b = bump(n);
-                next.real[n] += size * b[0];
-                next.imaginary[n] += size * b[1];
+            for (memory, bump) in [&mut next.real, &mut next.imaginary].into_iter().zip(bump) {
+                for (part, bump) in memory.iter_mut().zip(bump) {
+                    *part += size * bump;
+                }
+            }
+            // What is left is the square of this, and seen with the next step's.
+            if defect.abs() <= SMALL * self.energy {
+                self.settle(next, top);
+                next.defect = 0.0;
+                break;
             }
         }
         Some(off)
@@ -354,7 +419,7 @@ impl Touch<'_> {
             let memory = [now.real[n], now.imaginary[n]];
             -2.0 * s[0] * self.weights[n] / s[1] * time * self.square(*s, time, memory, &force)
         };
-        let damped = self.poles.iter().enumerate().filter(|(_, s)| s[0] != 0.0);
+        let damped = self.modes().filter(|(_, s)| s[0] != 0.0);
         damped.map(of_mode).sum()
     }
 
@@ -406,24 +471,21 @@ impl Touch<'_> {
     }
 }
 
-/// Solves for the points beyond the first.
+/// Solves for the points ahead, by Gauss's and Jordan's method: so few unknowns fit the registers.
 #[inline(always)]
-fn eliminate(matrix: &mut Coupling, mut left: [f64; POINTS]) -> [f64; POINTS] {
-    for c in 1..POINTS {
+fn eliminate(matrix: &mut [[f64; AHEAD]; AHEAD], mut left: [f64; AHEAD]) -> [f64; AHEAD] {
+    for c in 0..AHEAD {
         let inverse = 1.0 / matrix[c][c];
-        for i in c + 1..POINTS {
-            let factor = matrix[i][c] * inverse;
-            for j in c..POINTS {
-                matrix[i][j] -= factor * matrix[c][j];
+        let row = matrix[c].map(|part| part * inverse);
+        let value = left[c] * inverse;
+        for i in 0..AHEAD {
+            let factor = if i == c { 0.0 } else { matrix[i][c] };
+            for j in 0..AHEAD {
+                matrix[i][j] -= factor * row[j];
             }
-            left[i] -= factor * left[c];
+            left[i] -= factor * value;
         }
-    }
-    for c in (1..POINTS).rev() {
-        for j in c + 1..POINTS {
-            left[c] -= matrix[c][j] * left[j];
-        }
-        left[c] /= matrix[c][c];
+        (matrix[c], left[c]) = (row, value);
     }
     left
 }

@@ -67,7 +67,9 @@ pub fn sweep(
             if planned && truncation > 0.3 * request.tolerance {
                 finer.modes = (finer.modes + finer.modes / 2).min(MOST);
             }
-            if steps > 0.3 * request.tolerance && effort.accuracy > FINEST {
+            // What is compared differs by its steps too, and better ones cost little.
+            let open = truncation.max(steps) > 0.3 * request.tolerance;
+            if open && effort.accuracy > FINEST {
                 effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
                 again = true;
             }

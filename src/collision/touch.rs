@@ -1,7 +1,7 @@
 //! Ball and bat at one moment of a contact: how far they have come together, how fast, with what
 //! energies. The equations are those of [`crate::collision::contact`].
 
-use crate::collision::collocation::{Lobatto, Pair};
+use crate::collision::collocation::{LANES, Lobatto, Pair, lanes, sum, total};
 use crate::collision::force_law::{ForceLaw, Top};
 
 /// The bat as the ball feels it at one place.
@@ -29,6 +29,7 @@ pub struct State {
     /// `v`, real and imaginary parts (N s).
     pub real: Vec<f64>,
     pub imaginary: Vec<f64>,
+    /// Of the ball (m; not a number where it is still to be found), and its force (N).
     pub compression: f64,
     pub force: f64,
     pub impulse: f64,
@@ -46,10 +47,16 @@ impl State {
 /// One place, one ball, one speed.
 pub struct Touch<'a> {
     pub rule: &'a Lobatto,
+    /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
     pub poles: &'a [Pair],
+    /// Its real and imaginary part (1/s), its absolute square (1/s²).
+    pub decay: &'a [f64],
+    pub swing: &'a [f64],
+    pub square: &'a [f64],
     pub felt: &'a Felt,
-    /// `c/ω_d` of every mode (s/kg).
+    /// `c/ω_d` (s/kg), and over ω_d once more (s²/kg).
     pub weights: Vec<f64>,
+    pub masses: Vec<f64>,
     pub damped: bool,
     pub law: ForceLaw,
     /// At the first touch (m/s), and the energy that goes with it, `μ u²/2` (J).
@@ -63,46 +70,79 @@ pub struct Touch<'a> {
 }
 
 impl Touch<'_> {
+    /// The modes that are not there to fill the lanes.
+    #[inline(always)]
+    pub fn modes(&self) -> impl Iterator<Item = (usize, &Pair)> {
+        self.poles.iter().enumerate().take(self.felt.gains.len())
+    }
+
+    /// Lanes of modes.
+    #[inline(always)]
+    pub fn chunks(&self) -> usize {
+        self.weights.len() / LANES
+    }
+
     /// `z + Σ y` (m).
     #[inline(always)]
     pub fn reach(&self, state: &State) -> f64 {
-        state.closing - dot(&self.weights, &state.imaginary)
+        let [w, im] = [&self.weights, &state.imaginary].map(|v| lanes(v));
+        state.closing - total(self.chunks(), |k, l| w[k][l] * im[k][l])
     }
 
     /// Its rate (m/s).
     #[inline(always)]
     pub fn rate(&self, state: &State) -> f64 {
-        let mut sum = state.speed;
-        for (n, s) in self.poles.iter().enumerate() {
-            sum -= self.weights[n] * (s[0] * state.imaginary[n] + s[1] * state.real[n]);
-        }
-        sum
+        let [w, a, b] = [&self.weights, self.decay, self.swing].map(lanes);
+        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
+        let part = |k: usize, l: usize| w[k][l] * (a[k][l] * im[k][l] + b[k][l] * re[k][l]);
+        state.speed - total(self.chunks(), part)
     }
 
     /// `m_n (q′² + ω² q²)/2` (J).
     #[inline(always)]
     pub fn in_mode(&self, state: &State, n: usize) -> f64 {
-        let s = self.poles[n];
-        let rate = s[0] * state.imaginary[n] + s[1] * state.real[n];
-        let square = s[0] * s[0] + s[1] * s[1];
-        let q = state.imaginary[n];
-        0.5 * self.weights[n] / s[1] * (rate * rate + square * q * q)
+        let (re, im) = (state.real[n], state.imaginary[n]);
+        let rate = self.decay[n] * im + self.swing[n] * re;
+        0.5 * self.masses[n] * (rate * rate + self.square[n] * im * im)
     }
 
     /// Of ball and bat, relative to their common motion, with what is lost (J).
     #[inline(always)]
     pub fn whole_energy(&self, state: &State, top: Option<Top>) -> f64 {
-        let [stored, lost] = self.law.energy(state.compression, top);
+        let [stored, lost] = self.law.energy_of(state.compression, state.force, top);
         let rigid = 0.5 * state.speed * state.speed / self.felt.inverse_mass;
-        let modes: f64 = (0..self.poles.len()).map(|n| self.in_mode(state, n)).sum();
-        rigid + modes + stored + lost + state.lost + 0.5 * self.felt.rest * state.force.powi(2)
+        let [m, a, b, q] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
+        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
+        let mut modes = [0.0; LANES];
+        for k in 0..self.chunks() {
+            for l in 0..LANES {
+                let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
+                modes[l] += m[k][l] * (rate * rate + q[k][l] * im[k][l] * im[k][l]);
+            }
+        }
+        let rest = 0.5 * self.felt.rest * state.force * state.force;
+        rigid + 0.5 * sum(modes) + stored + lost + state.lost + rest
     }
 
     /// Compression and force from the motions: `x + C F(x) = z + Σ y`.
     #[inline(always)]
     pub fn settle(&self, state: &mut State, top: Option<Top>) {
-        let reach = self.reach(state);
-        let shared = self.law.share(reach, self.felt.rest, top, state.compression);
+        let (reach, rest) = (self.reach(state), self.felt.rest);
+        let (mut x, mut force) = (state.compression, state.force);
+        // From the force that is known, as long as it is not far.
+        for _ in 0..3 {
+            let slope = self.law.slope(x, force, top);
+            let by = (reach - x - rest * force) / (1.0 + rest * slope);
+            let Some([near]) = self.law.near([x], [force], [by], top) else {
+                break;
+            };
+            (x, force) = (x + by, near);
+            if by.abs() <= 1e-8 * x || rest == 0.0 {
+                [state.compression, state.force] = [x, force];
+                return;
+            }
+        }
+        let shared = self.law.share(reach, rest, top, state.compression);
         [state.compression, state.force] = shared;
     }
 }
