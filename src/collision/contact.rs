@@ -29,7 +29,7 @@ use std::sync::OnceLock;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::collision::collocation::{LANES, Lobatto, POINTS, Pair};
-use crate::collision::events::{Event, Stop};
+use crate::collision::events::{CLOSED, Event, Stop};
 use crate::collision::force_law::{ForceLaw, Top};
 use crate::collision::step::{Course, Piece, Step, Table};
 use crate::collision::touch::{Felt, State, Touch};
@@ -82,8 +82,6 @@ const LEVELS: usize = 42;
 const USUAL_ERROR: f64 = 3.0;
 const LONG_ERROR: f64 = 0.01;
 const LAST_ENERGY: f64 = 0.03;
-/// Share of the energy that a contact may leave unaccounted for.
-pub const CLOSED: f64 = 1e-11;
 /// A bump may change the impulse by this share of the accuracy, relative.
 const SLIGHT: f64 = 0.05;
 /// More steps are no contact.

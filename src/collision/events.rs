@@ -1,7 +1,6 @@
 //! Where a step ends early: the largest compression, the return to it, the end of the contact.
 
 use crate::collision::collocation::{POINTS, Pair, lanes, moments, times, total};
-use crate::collision::contact::CLOSED;
 use crate::collision::force_law::Top;
 use crate::collision::step::{Course, Step, Table};
 use crate::collision::touch::{State, Touch};
@@ -24,6 +23,9 @@ pub struct Stop {
     pub top: Option<Top>,
     pub most: f64,
 }
+
+/// Share of the energy that a contact may leave unaccounted for.
+pub const CLOSED: f64 = 1e-11;
 
 impl Touch<'_> {
     /// What happens in a step.
@@ -143,7 +145,8 @@ impl Touch<'_> {
         for _ in 0..4 {
             let length = *time;
             // A bump is small: one that ends a little beside does as well.
-            if !((length - known).abs() <= 1e-6 * length) {
+            let as_before = (length - known).abs() <= 1e-6 * length;
+            if !as_before {
                 known = length;
                 for (n, s) in self.modes() {
                     let (_, all) = moments::<3>([s[0] * length, s[1] * length]);

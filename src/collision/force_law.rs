@@ -45,12 +45,11 @@ impl ForceLaw {
         if x <= 0.0 {
             return [0.0; 2];
         }
-        let (force, exponent) = match top {
-            None => (self.stiffness * x.powf(self.exponent), self.exponent),
-            Some(top) => (top.force * (x / top.compression).powf(self.unloading), self.unloading),
+        let force = match top {
+            None => self.stiffness * x.powf(self.exponent),
+            Some(top) => top.force * (x / top.compression).powf(self.unloading),
         };
-        // An infinite exponent has no force and no slope below the top.
-        [force, if force > 0.0 { exponent * force / x } else { 0.0 }]
+        [force, self.slope(x, force, top)]
     }
 
     /// The derivative (N/m) at a compression with that force (N).
@@ -171,6 +170,22 @@ mod tests {
             assert!((change / (2.0 * h) / force - 1.0).abs() < 1e-6);
             let change = LAW.force(x + h, top)[0] - LAW.force(x - h, top)[0];
             assert!((change / (2.0 * h) / slope - 1.0).abs() < 1e-6);
+        }
+    }
+
+    /// The binomial series is the power, to its end.
+    #[test]
+    fn near_a_known_force_the_series_is_the_force() {
+        let top = Some(Top { compression: 0.01, force: LAW.force(0.01, None)[0] });
+        for (x, top) in [(0.004, None), (0.004, top), (1e-6, top)] {
+            for share in [-6e-3, -1e-9, 2e-4, 6e-3] {
+                let known = LAW.force(x, top)[0];
+                let [near] = LAW.near([x], [known], [share * x], top).unwrap();
+                assert!((near / LAW.force(x * (1.0 + share), top)[0] - 1.0).abs() < 2e-14);
+            }
+            assert_eq!(LAW.near([x], [1.0], [0.06 * x], top), None);
+            assert_eq!(LAW.near([0.0], [0.0], [x], top), None);
+            assert_eq!(LAW.near([x], [1.0], [f64::NAN], top), None);
         }
     }
 

@@ -338,9 +338,10 @@ impl Touch<'_> {
     }
 
     /// Adds a bump to the force of a step of that length, so that the energy is right again;
-    /// returns by how much it was not, relative. Where the compression is about to turn hardly a force
-    /// does work: None if the bump would then change the impulse by more than the `slight` share and
-    /// by more than the energy was off by, and a shorter step is wanted.
+    /// returns by how much it was not, relative. Where the compression is about to turn or hardly a
+    /// force is left none does work: None, for a shorter step, if the bump would be more than twice
+    /// the `most` force or change the impulse by more than the `slight` share and by more than the
+    /// energy was off by. An infinite share wants no shorter step.
     #[inline(always)]
     pub fn correct(
         &self,

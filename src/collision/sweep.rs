@@ -101,15 +101,20 @@ pub fn sweep(
 /// The hits at all places (m). Where they lie close, one in a few is compared with rougher ones, and
 /// those between two take the larger error of both.
 pub fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
-    const FEW: usize = 4;
-    /// Of the length: modes that matter change along more.
-    const CLOSE: f64 = 0.025;
-    let close = |span: &[f64]| (span[span.len() - 1] - span[0]).abs() <= CLOSE * length;
-    if places.len() <= 2 * FEW || !places.windows(FEW + 1).all(close) {
+    const MOST: usize = 8;
+    /// Of the half-wave of the first mode left out: between two places so far apart its square is
+    /// nowhere twice as large as at the larger of both.
+    const CLOSE: f64 = 0.5;
+    let most = CLOSE * length / (hitter.modes_used() + 1) as f64;
+    let close = |few: &usize| {
+        places.len() > 2 * few
+            && places.windows(few + 1).all(|span| span.iter().all(|x| (x - span[0]).abs() <= most))
+    };
+    let Some(few) = (2..=MOST).rev().find(close) else {
         return places.par_iter().map(|x| hitter.strike(*x)).collect();
-    }
+    };
     let last = places.len() - 1;
-    let mut chosen: Vec<usize> = (0..last).step_by(FEW).collect();
+    let mut chosen: Vec<usize> = (0..last).step_by(few).collect();
     chosen.push(last);
     let compared: Vec<Impact> = chosen.par_iter().map(|k| hitter.strike(places[*k])).collect();
     let strike = |k: usize| {
