@@ -119,6 +119,15 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
     }
 
+    /// The same without what gives way: springs to ground and hands. A hit is over before they push.
+    pub fn without_springs(&self) -> Self {
+        let mut bare = self.clone();
+        for attachment in &mut bare.attachments {
+            (attachment.stiffness, attachment.rotational_stiffness) = (0.0, 0.0);
+        }
+        Self { grip: None, ..bare }
+    }
+
     /// Whether anything but the materials takes energy out of the bat.
     pub fn damping(&self) -> bool {
         self.absorbers.iter().any(|absorber| absorber.damping > 0.0)

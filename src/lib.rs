@@ -64,9 +64,9 @@
 //!
 //! Sections stay round and plane: hoop modes of hollow barrels, and wood that differs across the
 //! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
-//! solution ([`ignored`]), and [`advise`] measures what each part of a model does. The collision
-//! models are the rigid bat and the WPI report's empirical energy loss, both of a bat that nothing
-//! holds.
+//! solution ([`ignored`]), and [`advise`] measures what each part of a model does. A barrel's wall
+//! under the ball is one spring-mass of the caller's own figures, and a hit counts dashpots mode by
+//! mode ([`collision`]).
 
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]

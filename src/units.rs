@@ -182,7 +182,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     }
     let value = if unit.is_empty() { value } else { value * factor(unit, quantity)? };
     if value.is_finite() {
-        Ok(value)
+        // So that −0 is 0.
+        Ok(value + 0.0)
     } else {
         Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
     }
@@ -195,7 +196,7 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 /// As [`parse`].
 pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.is_finite() => Ok(value + 0.0),
         _ => parse(text, quantity),
     }
 }

@@ -117,3 +117,21 @@ fn a_slow_push_strains_as_statics_says() {
         );
     }
 }
+
+/// What was found in a short look is found in a long one.
+#[test]
+fn a_longer_look_finds_no_less() {
+    use sweetspot::report::aftermath::AfterHit;
+    let (bat, solution) = r161();
+    let scene = Scene::default();
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
+    let after = Aftermath::new(&bat, &solution, 0.65, hitter.force(0.65).unwrap());
+    let mut before = [0.0; 4];
+    for until in [1e-4, 2e-3, 0.02, 0.1, 3.0] {
+        let report = AfterHit::new(&bat, &after, &[0.13], until);
+        let [moved, speed, acceleration] = report.watched[0].1.peak;
+        let now = [moved, speed, acceleration, report.after.unwrap().strain];
+        assert!(now.iter().zip(before).all(|(now, before)| *now >= before), "{until} {now:?}");
+        before = now;
+    }
+}

@@ -178,3 +178,24 @@ fn a_wall_under_the_ball_is_a_trampoline() {
     }
     assert!(heavy.energy.wall > 0.1, "{}", heavy.energy.wall);
 }
+
+/// Hands and springs give way within a hit: a bat in them that does not bend is a free stiff one, by
+/// the rigid model and, all moduli raised a millionfold, by ball and modes.
+#[test]
+fn a_stiff_bat_in_soft_hands_is_free() {
+    let free = bundled_bat("meshes/r161.json").unwrap();
+    let grip = Grip { from: 0.0, to: 0.1524, stiffness: 3e4, damping: 0.0 };
+    let gripped = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
+    let mut stiff = gripped.clone();
+    stiff.scale(1.0, 1e6);
+    let scene = Scene::default();
+    for x in [0.5, 0.65, 0.8] {
+        let exit = |bat: &Bat, model| hit(bat, model, &scene, x).exit_speed;
+        let known = exit(&free, Model::Rigid);
+        assert!((exit(&gripped, Model::Rigid) / known - 1.0).abs() < 1e-12, "{x}");
+        // The hands push for a millisecond of their second.
+        assert!((exit(&stiff, Model::Contact) / known - 1.0).abs() < 1e-3, "{x}");
+        let outcome = hit(&gripped, Model::Rigid, &scene, x);
+        assert!(outcome.energy.imbalance().abs() < 1e-9 * outcome.energy.initial);
+    }
+}

@@ -390,7 +390,7 @@ impl SceneArgs {
             return Err(Error::value("--wall-stiffness", found, expected));
         }
         let mass = self.wall_mass.unwrap_or(0.0);
-        if !(stiffness > 1.0 && stiffness < 1e15) {
+        if !(1.0..=1e15).contains(&stiffness) {
             let found = format!("{stiffness:?} N/m");
             return Err(Error::value("--wall-stiffness", found, "1 to 1e15 N/m"));
         }
@@ -432,7 +432,7 @@ impl SceneArgs {
         let default = Pulse::default();
         let duration = self.pulse_duration.unwrap_or(default.duration);
         let loss_share = self.loss_share.unwrap_or(default.loss_share);
-        if !(duration > 1e-9 && duration < 1.0) {
+        if !(1e-9..=1.0).contains(&duration) {
             let expected = "a time from 1 ns to 1 s, such as \"0.75 ms\"";
             return Err(Error::value("--pulse-duration", format!("{duration} s"), expected));
         }
@@ -503,12 +503,12 @@ pub fn budget(text: &str) -> std::result::Result<Duration, String> {
 }
 
 fn cor(text: &str) -> std::result::Result<f64, String> {
-    text.parse().ok().and_then(|e| restitution(e).ok()).ok_or("expected 0 to 1".into())
+    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
 }
 
 fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if (0.0..=100.0).contains(&value) => Ok(value),
+        Ok(value) if (0.0..=100.0).contains(&value) => Ok(value + 0.0),
         _ => Err(format!("expected a {what} from 0 to 100")),
     }
 }

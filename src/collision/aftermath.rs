@@ -207,11 +207,12 @@ impl<'a> Aftermath<'a> {
             .iter()
             .map(|x| self.modes.iter().take(count).map(|r| r.mode.shape.curvature(*x)).collect())
             .collect();
+        let radii: Vec<f64> = places.iter().map(|x| self.bat.profile.at(*x).outer).collect();
         let mut worst: Option<Strained> = None;
         for now in instants {
-            for (x, curvature) in places.iter().zip(&curvatures) {
+            for ((x, radius), curvature) in places.iter().zip(&radii).zip(&curvatures) {
                 let sum: f64 = curvature.iter().zip(&now.modes).map(|(c, part)| c * part[0]).sum();
-                let strain = (self.bat.profile.at(*x).outer * sum).abs();
+                let strain = (radius * sum).abs();
                 if worst.is_none_or(|worst| strain > worst.strain) {
                     let stress = self.modulus(*x) * strain;
                     worst = Some(Strained { x: *x, time: now.time, strain, stress });

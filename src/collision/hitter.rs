@@ -12,10 +12,11 @@ use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene};
 use crate::collision::pulse::Pulse;
 use crate::collision::rigid::{Motion, RigidBat};
 use crate::collision::step::Piece;
-use crate::collision::struck::Struck;
+use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::collision::touch::Felt;
 use crate::dowel::wpi_alpha;
 use crate::error::{Error, Result};
+use crate::flexible::RigidMotion;
 use crate::modes::Mode;
 use crate::profile::Profile;
 use crate::solve::Solution;
@@ -29,6 +30,8 @@ pub struct Hitter<'a> {
     bat: RigidBat,
     motion: Motion,
     held: bool,
+    /// How a held bat moves that does not bend: springs and hands are too slow for a hit.
+    stiff: Vec<RigidMotion>,
     /// The body's inertia about the standard pivot, for the pivoted BBCOR (kg m²).
     pivot_inertia: f64,
     struck: Struck<'a>,
@@ -154,6 +157,7 @@ impl<'a> Hitter<'a> {
             bat: rigid,
             motion,
             held,
+            stiff: if held { without_springs(bat, solution) } else { vec![] },
             pivot_inertia: body.about(STANDARD_PIVOT),
             struck,
             effort,
@@ -254,15 +258,21 @@ impl<'a> Hitter<'a> {
         Some(self.collider.as_ref()?.meet_recorded(&felt, &law, closing, SMOOTH).1)
     }
 
-    /// `1/M_eff` (1/kg): how the bat gives way at `x` without bending.
+    /// `1/M_eff` (1/kg): how a bat that does not bend gives way at `x`.
     fn recoil(&self, x: f64) -> f64 {
-        if self.held { self.struck.recoil(x) } else { 1.0 / self.bat.recoil_mass(x) }
+        if self.held { recoil_between(&self.stiff, x, x) } else { 1.0 / self.bat.recoil_mass(x) }
+    }
+
+    /// The rigid motions of a held bat in this model. Where modes are counted, those in springs and
+    /// hands are among them.
+    fn motions(&self) -> &[RigidMotion] {
+        if self.model == Model::Rigid { &self.stiff } else { self.struck.rigid() }
     }
 
     /// The velocity (m/s) that an impulse of 1 N s at `x` gives a stiff bat at another place.
     fn recoil_between(&self, x: f64, there: f64) -> f64 {
         if self.held {
-            return self.struck.recoil_between(x, there);
+            return recoil_between(self.motions(), x, there);
         }
         let [x, there] = [x, there].map(|x| x - self.bat.balance_point);
         1.0 / self.bat.mass + x * there / self.bat.inertia
@@ -369,8 +379,14 @@ impl<'a> Hitter<'a> {
         };
         for fewer in rough {
             let felt = self.felt_with(x, fewer, beyond);
-            let other = self.meet(&felt, closing, ROUGHER * accuracy)?;
-            answer.truncation += (other.impulse - met.impulse).abs() / (ball * closing);
+            let other = self.meet(&felt, closing, ROUGHER * accuracy);
+            // One that comes to no end says nothing.
+            let apart =
+                other.map_or(1.0, |other| (other.impulse - met.impulse).abs() / (ball * closing));
+            answer.truncation += apart;
+        }
+        if met.reloaded || met.late {
+            answer.truncation *= DELICATE;
         }
         answer.steps = met.corrected;
         answer.error += answer.truncation + answer.steps;
@@ -403,7 +419,7 @@ impl<'a> Hitter<'a> {
             true => [
                 kinetic(closing),
                 kinetic(exit_speed - bat_speed),
-                0.5 * impulse * impulse * self.recoil(x),
+                0.5 * impulse * impulse * recoil_between(self.motions(), x, x),
             ],
             false => [
                 kinetic(*ball_speed) + self.bat.kinetic_energy(self.motion),
@@ -463,10 +479,18 @@ impl<'a> Hitter<'a> {
 
     fn meet(&self, felt: &Felt, closing: f64, accuracy: f64) -> Option<Encounter> {
         let law = self.law_at(felt, closing)?;
-        let met = self.collider.as_ref()?.meet(felt, &law, closing, accuracy);
-        (met.impulse.is_finite() && !met.endless).then_some(met)
+        let collider = self.collider.as_ref()?;
+        // Where rough steps come to no end, better ones may.
+        [1.0, 1e-2, 1e-4].into_iter().find_map(|finer| {
+            let met = collider.meet(felt, &law, closing, finer * accuracy);
+            (met.impulse.is_finite() && !met.endless).then_some(met)
+        })
     }
 }
+
+/// How much farther from the truth than those with fewer modes an answer may be where a second
+/// touch magnifies what is small.
+const DELICATE: f64 = 3.0;
 
 /// How much rougher the steps are of the answer that another is compared with.
 const ROUGHER: f64 = 10.0;

@@ -31,18 +31,12 @@ impl<'a> Struck<'a> {
 
     /// `1/M_eff` (1/kg) at `x` (m): how a stiff bat gives way there.
     pub fn recoil(&self, x: f64) -> f64 {
-        self.flexible.rigid.iter().map(|motion| motion.deflection(x).powi(2) / motion.mass).sum()
+        recoil_between(&self.flexible.rigid, x, x)
     }
 
     /// The rigid motions that nothing holds.
     pub fn rigid(&self) -> &[RigidMotion] {
         &self.flexible.rigid
-    }
-
-    /// The velocity (m/s) at another place after 1 N s at `x`, without bending.
-    pub fn recoil_between(&self, x: f64, there: f64) -> f64 {
-        let rigid = self.flexible.rigid.iter();
-        rigid.map(|motion| motion.deflection(x) * motion.deflection(there) / motion.mass).sum()
     }
 
     /// `φ_n²/m_n` (1/kg) at `x` of every mode.
@@ -121,4 +115,16 @@ impl<'a> Struck<'a> {
         };
         self.solution.modes.iter().map(doubt).collect()
     }
+}
+
+/// The rigid motions of the bat where springs and hands do not hold it.
+pub fn without_springs(bat: &Bat, solution: &Solution) -> Vec<RigidMotion> {
+    let bare = Bat { fixtures: bat.fixtures.without_springs(), ..bat.clone() };
+    Flexible::new(&bare, &solution.mesh, solution.degree, solution.theory).rigid
+}
+
+/// The velocity (m/s) at a place that 1 N s at another gives a bat with these motions alone.
+pub fn recoil_between(motions: &[RigidMotion], x: f64, there: f64) -> f64 {
+    let by = |motion: &RigidMotion| motion.deflection(x) * motion.deflection(there) / motion.mass;
+    motions.iter().map(by).sum()
 }

@@ -62,6 +62,9 @@ impl SweetSpot {
             let felt = looked.seen.iter().flatten().map(|glance| glance.hands[k]);
             felt.fold(0.0, f64::max) > [1e-9, 1e-5][k]
         };
+        // As the hit has it: without rotary inertia, of a line of mass.
+        let body = bat.inertia();
+        let body = if solution.theory.turns() { body } else { body.as_line() };
         Self {
             zone: exit_speed_max.map(|peak| looked.zone(peak)),
             inch_off: exit_speed_max.map(|peak| [off(peak, -INCH), off(peak, INCH)]),
@@ -71,7 +74,7 @@ impl SweetSpot {
             hands_acceleration_min: least(|g| Some(g.hands[1])).filter(|_| feels(1)),
             node_mode_1: last_node(0),
             node_mode_2: last_node(1),
-            center_of_percussion: bat.inertia().as_line().center_of_percussion(-scene.pivot),
+            center_of_percussion: body.center_of_percussion(-scene.pivot),
         }
     }
 }

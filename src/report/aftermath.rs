@@ -31,13 +31,16 @@ impl AfterHit {
     /// Looks from the first touch until that time (s), or until the ball leaves if that is later.
     pub fn new(bat: &Bat, after: &Aftermath, watched: &[f64], until: f64) -> Self {
         const WITHIN: usize = 200;
-        const BEYOND: usize = 2000;
+        /// Steps as short as while the ball is there; then they grow with the time.
+        const SHORT: usize = 2000;
         let end = after.end();
         let until = until.max(end);
+        let step = end / WITHIN as f64;
+        // The same instants however long it is looked: what was found stays found.
+        let later = |t: &f64| Some(t + step * (t / (step * SHORT as f64)).max(1.0));
         let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
-        let beyond = (1..=BEYOND).map(|k| end + (until - end) * k as f64 / BEYOND as f64);
-        let times: Vec<f64> =
-            if until > end { within.chain(beyond).collect() } else { within.collect() };
+        let beyond = std::iter::successors(later(&end), later).take_while(|t| *t <= until);
+        let times: Vec<f64> = within.chain(beyond).collect();
         let instants = after.at(&times);
         let places: Vec<f64> =
             (0..=PLACES).map(|k| bat.length() * k as f64 / PLACES as f64).collect();

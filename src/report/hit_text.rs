@@ -90,9 +90,9 @@ pub fn why(figures: &Figures, units: Units) -> String {
     };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
     let text = format!(
-        "Why there: a bat that does not bend would be best at {}; bending takes {there:.2} J there \
-         and {:.2} J at the sweet spot, {} {way}. Further out the bat recoils more than its speed \
-         makes up for, and bending takes more again.",
+        "Why there: a bat that does not bend would be best at {}; vibration takes {there:.2} J there \
+         and {:.2} J at the sweet spot, {} {way}. Further out recoil and vibration take more than the \
+         bat's speed there makes up for.",
         place(rigid.x),
         here.energy.vibration(),
         place((peak.x - rigid.x).abs())
@@ -161,9 +161,9 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let speed = |v: f64| units.inline(units.speed(v));
     peak("fastest ball", spot.exit_speed_max, &speed);
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
-    peak("least hand velocity", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
+    peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
     let shaken = |a: f64| format!("{:.0} g", a / STANDARD_GRAVITY);
-    peak("least hand shaking", spot.hands_acceleration_min, &shaken);
+    peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
     line("node of mode 1", spot.node_mode_1, None);
     line("node of mode 2", spot.node_mode_2, None);
     line("centre of percussion (swing)", spot.center_of_percussion, None);
@@ -243,9 +243,10 @@ pub fn moves(figures: &Figures, units: Units) -> String {
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
             (Some(before), Some(after)) => {
                 let change = after.value - before.value;
+                let rounded = |value: f64, scale: f64| (scale * value).round() / scale + 0.0;
                 match units {
-                    Units::Us => format!("{:+.1} mph", miles_per_hour(change)),
-                    _ => format!("{change:+.2} m/s"),
+                    Units::Us => format!("{:+.1} mph", rounded(miles_per_hour(change), 10.0)),
+                    _ => format!("{:+.2} m/s", rounded(change, 100.0)),
                 }
             }
             _ => String::new(),
@@ -285,7 +286,8 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
         );
     }
     if bat.fixtures.holding() {
-        out += "     the bat is held: energies are as its hands see them, the bat at rest\n";
+        out += "     the bat is held: energies are as its hands see them, the bat at rest;\n     \
+         swinging in what holds it counts as vibration\n";
     }
     out
 }

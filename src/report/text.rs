@@ -42,7 +42,10 @@ impl Units {
     }
 
     pub fn speed(self, value: f64) -> String {
-        self.show(format!("{value:.2} m/s"), format!("{:.1} mph", miles_per_hour(value)))
+        // Rounded first, so that nothing is not −0.0.
+        let (si, us) =
+            ((100.0 * value).round() / 100.0, (10.0 * miles_per_hour(value)).round() / 10.0);
+        self.show(format!("{:.2} m/s", si + 0.0), format!("{:.1} mph", us + 0.0))
     }
 
     /// The same in running text: `0.0635 m (2.50 in)`.
