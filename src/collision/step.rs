@@ -17,6 +17,23 @@ pub struct Piece {
     pub powers: [f64; POINTS],
 }
 
+impl Piece {
+    /// Whether it is less than zero somewhere by more than about a millionth of that force (N), which
+    /// no ball's is.
+    #[inline(always)]
+    pub fn pulls(&self, most: f64) -> bool {
+        const LOOKS: u32 = 16;
+        /// Between two looks it may be some times less.
+        const NOTHING: f64 = 3e-7;
+        // Closer towards the ends, where it is flat.
+        let force = |k: u32| {
+            let at = f64::from(k) / f64::from(LOOKS);
+            polynomial(&self.powers, at * at * (3.0 - 2.0 * at))
+        };
+        (1..LOOKS).any(|k| force(k) < -NOTHING * most)
+    }
+}
+
 /// What a step of one length does to every mode; numbers of the modes side by side.
 #[derive(Debug, Clone)]
 pub struct Table {

@@ -8,7 +8,7 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::report::curve;
-use crate::report::text::{Units, wrapped};
+use crate::report::text::{Units, rounded, wrapped};
 use crate::units::{inches, miles_per_hour};
 
 /// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration.
@@ -234,19 +234,17 @@ pub fn moves(figures: &Figures, units: Units) -> String {
     let spot = &figures.spot;
     for (what, moved) in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            // Rounded first, so that nothing is not −0.0.
             (Some(before), Some(after)) => {
-                format!("{:+.1}", (1e4 * (after.x - before.x)).round() / 10.0 + 0.0)
+                format!("{:+.1}", rounded(1e3 * (after.x - before.x), 1))
             }
             _ => String::new(),
         };
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
             (Some(before), Some(after)) => {
                 let change = after.value - before.value;
-                let rounded = |value: f64, scale: f64| (scale * value).round() / scale + 0.0;
                 match units {
-                    Units::Us => format!("{:+.1} mph", rounded(miles_per_hour(change), 10.0)),
-                    _ => format!("{:+.2} m/s", rounded(change, 100.0)),
+                    Units::Us => format!("{:+.1} mph", rounded(miles_per_hour(change), 1)),
+                    _ => format!("{:+.2} m/s", rounded(change, 2)),
                 }
             }
             _ => String::new(),

@@ -42,10 +42,8 @@ impl Units {
     }
 
     pub fn speed(self, value: f64) -> String {
-        // Rounded first, so that nothing is not −0.0.
-        let (si, us) =
-            ((100.0 * value).round() / 100.0, (10.0 * miles_per_hour(value)).round() / 10.0);
-        self.show(format!("{:.2} m/s", si + 0.0), format!("{:.1} mph", us + 0.0))
+        let (si, us) = (rounded(value, 2), rounded(miles_per_hour(value), 1));
+        self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
     }
 
     /// The same in running text: `0.0635 m (2.50 in)`.
@@ -93,6 +91,12 @@ pub fn summary(bat: &Bat, units: Units) -> String {
         line("centre of percussion, from tip", units.length(length - center));
     }
     out
+}
+
+/// The value to so many decimals; nothing is 0, not −0.
+pub fn rounded(value: f64, decimals: i32) -> f64 {
+    let scale = 10.0_f64.powi(decimals);
+    (scale * value).round() / scale + 0.0
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long.
