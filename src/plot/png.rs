@@ -25,8 +25,7 @@ pub fn fonts() -> Arc<Database> {
 
 /// One of our own pictures as PNG, on light paper, so many pixels for each of its own.
 pub fn png(svg: &str, scale: f32) -> Vec<u8> {
-    let options =
-        Options { font_family: "Ubuntu".into(), fontdb: fonts(), ..Options::default() };
+    let options = Options { font_family: "Ubuntu".into(), fontdb: fonts(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).expect("our own pictures are well-formed");
     let size = tree.size();
     let [width, height] = [size.width(), size.height()].map(|side| (side * scale).ceil() as u32);

@@ -142,8 +142,7 @@ impl Svg {
     /// A line through points.
     pub fn line(&mut self, points: &[Point], pen: Pen) {
         if points.len() > 1 {
-            let _ =
-                writeln!(self.body, "<path d=\"{}\"{}/>", route(points), stroke(pen));
+            let _ = writeln!(self.body, "<path d=\"{}\"{}/>", route(points), stroke(pen));
         }
     }
 
@@ -152,12 +151,8 @@ impl Svg {
         if outline.len() < 3 {
             return;
         }
-        let _ = writeln!(
-            self.body,
-            "<path d=\"{}Z\"{}/>",
-            route(outline),
-            filled(ink, opacity, pen)
-        );
+        let _ =
+            writeln!(self.body, "<path d=\"{}Z\"{}/>", route(outline), filled(ink, opacity, pen));
     }
 
     /// A rectangle from its upper left to its lower right.
@@ -194,6 +189,13 @@ impl Svg {
         };
         let shape: Vec<Point> = shape.iter().map(|[a, b]| [x + a * half, y + b * half]).collect();
         let _ = writeln!(self.body, "<path d=\"{}Z\"{look}/>", route(&shape));
+    }
+
+    /// A circle that shows what is under it.
+    pub fn ring(&mut self, at: Point, radius: f64, pen: Pen) {
+        let [x, y, radius] = [at[0], at[1], radius].map(px);
+        let look = stroke(pen);
+        let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{look}/>");
     }
 
     /// Words that show where a pointer rests, at some of the points: no curve needs more to be read.
