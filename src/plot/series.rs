@@ -98,6 +98,11 @@ impl Series {
 
 /// A number with four digits, without zeros at its end.
 pub fn short(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A number with so many digits, without zeros at its end.
+pub fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".into();
     }
@@ -105,7 +110,8 @@ pub fn short(value: f64) -> String {
     if !(-4..7).contains(&places) {
         return format!("{value:.2e}").replace('-', "−");
     }
-    let text = format!("{value:.*}", (3 - places).max(0) as usize).replace('-', "−");
+    let decimals = (count - 1 - places).max(0) as usize;
+    let text = format!("{value:.decimals$}").replace('-', "−");
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,

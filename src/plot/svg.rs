@@ -69,7 +69,7 @@ pub const LABEL: Type =
 /// What stands back.
 pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 /// The first line of a picture.
-pub const TITLE: Type = Type { size: 17.0, bold: true, ..LABEL };
+pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
     pub const fn at(self, anchor: Anchor) -> Self {

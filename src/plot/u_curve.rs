@@ -28,11 +28,9 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let x = Axis::logarithmic("number of cubic elements", points().map(|at| at[0]));
     let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
     let title = format!("Error against elements, mode {}", mode + 1);
-    let second = format!(
-        "{name}; own: by the solver's eigenvalue, again: strain over kinetic energy of its shape"
-    );
+    let facts = "own: as the solver's eigenvalue says; again: from the energies of its shape";
     let mut svg = Svg::new(WIDTH, 0.0);
-    head(&mut svg, &title, &second);
+    head(&mut svg, &title, [name, facts]);
     let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]) + 16.0;
     let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
@@ -46,7 +44,7 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
         _ => format!("u_curve_mode_{}", mode + 1),
     };
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
-    let alt = format!("{title} of {second}. Curves: {}.", names.join(", "));
+    let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
     Some(Picture::new(&file, &title, &alt, svg))
 }
 
