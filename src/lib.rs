@@ -120,6 +120,7 @@ pub mod ringing;
 pub mod frf;
 pub mod collision;
 pub mod report;
+pub mod exchange;
 pub mod known_hits;
 pub mod validation;
 pub mod published;
