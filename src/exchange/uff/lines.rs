@@ -3,6 +3,9 @@
 use super::number::{real, whole};
 use crate::error::{Complaint, Error, Place, Result, shortened};
 
+/// Columns of a line of numbers in single precision.
+pub(super) const SINGLES: [usize; 6] = [13; 6];
+
 /// What the lines of a file hold, read from the first to the last.
 pub(super) struct Lines<'a> {
     file: &'a str,
@@ -54,6 +57,26 @@ impl<'a> Lines<'a> {
             }
             None => Err(self.ended(what)),
         }
+    }
+
+    /// A line of text, which may be any but a fence in its very columns.
+    pub fn name(&mut self, what: &str) -> Result<String> {
+        match self.peek() {
+            Some(line) if line.bytes.trim_ascii_end() != b"    -1" => {
+                self.next();
+                Ok(line.name(0, 80))
+            }
+            _ => self.record(what).map(|line| line.name(0, 80)),
+        }
+    }
+
+    /// The five lines of text at the head of data.
+    pub fn ids(&mut self) -> Result<[String; 5]> {
+        let mut ids: [String; 5] = Default::default();
+        for id in &mut ids {
+            *id = self.name("five lines of text at the head of the dataset")?;
+        }
+        Ok(ids)
     }
 
     /// An error about the end of the file.

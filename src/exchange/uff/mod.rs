@@ -41,8 +41,8 @@ pub mod number;
 mod stamp;
 mod lines;
 mod units;
-mod read;
 mod read_function;
+mod read;
 mod write;
 
 pub use read::{parse, read};

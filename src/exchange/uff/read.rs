@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::lines::{Line, Lines};
+use super::lines::{Line, Lines, SINGLES};
 use super::read_function::{Binary, function};
 use super::{
     Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Skipped, Stamp, TraceLine, Units,
@@ -10,8 +10,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-/// Columns of six single-precision numbers, of eight integers, of coordinates.
-pub(super) const SINGLES: [usize; 6] = [13; 6];
+/// Columns of eight integers, of coordinates.
 const INTEGERS: [usize; 8] = [10; 8];
 const DOUBLES: [usize; 3] = [25; 3];
 
@@ -230,7 +229,7 @@ fn trace_line(lines: &mut Lines) -> Result<TraceLine> {
     let (Some(number), Some(count)) = (integers.first(), integers.get(1)) else {
         return Err(first.wrong(first.shown(), expected));
     };
-    let name = lines.record("the name of the line")?.name(0, 80);
+    let name = lines.name("the name of the line")?;
     let mut nodes = Vec::new();
     while let Some(line) = entry(lines) {
         nodes.extend(line.integers(&INTEGERS, "labels of nodes")?);
@@ -243,17 +242,8 @@ fn trace_line(lines: &mut Lines) -> Result<TraceLine> {
     Ok(TraceLine { number: *number, color, name, nodes })
 }
 
-/// Five lines of text.
-pub(super) fn ids(lines: &mut Lines) -> Result<[String; 5]> {
-    let mut ids: [String; 5] = Default::default();
-    for id in &mut ids {
-        *id = lines.record("five lines of text at the head of the dataset")?.name(0, 80);
-    }
-    Ok(ids)
-}
-
 fn nodal_data(lines: &mut Lines) -> Result<NodalData> {
-    let ids = ids(lines)?;
+    let ids = lines.ids()?;
     let expected = "model, analysis, characteristic, kind of data, 2 or 5, count of values";
     let form = lines.record(expected)?;
     let integers = form.integers(&INTEGERS[..6], expected)?;

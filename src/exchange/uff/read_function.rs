@@ -1,7 +1,6 @@
 //! Reading dataset 58: functions at a degree of freedom, as text or as bytes.
 
-use super::lines::{Line, Lines};
-use super::read::{SINGLES, ids};
+use super::lines::{Line, Lines, SINGLES};
 use super::{Abscissa, Axis, Complex, Dof, Function, Values};
 use crate::error::Result;
 
@@ -35,7 +34,7 @@ struct Form {
 }
 
 pub(super) fn function(lines: &mut Lines, binary: Option<&Binary>) -> Result<Function> {
-    let ids = ids(lines)?;
+    let ids = lines.ids()?;
     let dofs = lines.record("kind of function, response and reference")?;
     let (header, [response, reference]) = degrees_of_freedom(dofs)?;
     let form = form(lines.record("data type, count of values and spacing")?)?;
@@ -66,28 +65,34 @@ pub(super) fn function(lines: &mut Lines, binary: Option<&Binary>) -> Result<Fun
     })
 }
 
+/// Kind, number, version, load case, and response and reference.
+type Header = ([i64; 4], [Dof; 2]);
+
 /// Record 6, FORMAT(2(I5,I10),2(1X,10A1,I10,I4)), or the same with blanks between.
-fn degrees_of_freedom(line: Line) -> Result<([i64; 4], [Dof; 2])> {
+fn degrees_of_freedom(line: Line) -> Result<Header> {
     let expected = "kind, number, version, load case, and name, node, direction twice";
-    let whole = super::number::whole;
-    if let Some([kind, number, version, case, a, a_node, a_way, b, b_node, b_way]) =
-        line.words().as_deref()
-        && let [Some(kind), Some(number), Some(version), Some(case)] =
-            [kind, number, version, case].map(|word| whole(word))
-        && let [Some(a_node), Some(a_way), Some(b_node), Some(b_way)] =
-            [a_node, a_way, b_node, b_way].map(|word| whole(word))
-    {
-        let dof = |name: &str, node, direction| Dof { entity: named(name), node, direction };
-        let dofs = [dof(a, a_node, a_way), dof(b, b_node, b_way)];
-        return Ok(([kind, number, version, case], dofs));
-    }
     let integer = |start, width| line.integer(start, width, expected);
     let dof = |start: usize| -> Result<Dof> {
-        let entity = line.name(start, 10);
-        Ok(Dof { entity, node: integer(start + 10, 10)?, direction: integer(start + 20, 4)? })
+        let (node, direction) = (integer(start + 10, 10)?, integer(start + 20, 4)?);
+        Ok(Dof { entity: line.name(start, 10), node, direction })
     };
-    let header = [integer(0, 5)?, integer(5, 10)?, integer(15, 5)?, integer(20, 10)?];
-    Ok((header, [dof(31)?, dof(56)?]))
+    let columns = || -> Result<Header> {
+        let header = [integer(0, 5)?, integer(5, 10)?, integer(15, 5)?, integer(20, 10)?];
+        Ok((header, [dof(31)?, dof(56)?]))
+    };
+    columns().or_else(|error| spaced_degrees_of_freedom(line).ok_or(error))
+}
+
+fn spaced_degrees_of_freedom(line: Line) -> Option<Header> {
+    let words = line.words()?;
+    let whole = |k: usize| super::number::whole(words[k]);
+    if words.len() != 10 {
+        return None;
+    }
+    let dof = |k: usize| -> Option<Dof> {
+        Some(Dof { entity: named(words[k]), node: whole(k + 1)?, direction: whole(k + 2)? })
+    };
+    Some(([whole(0)?, whole(1)?, whole(2)?, whole(3)?], [dof(4)?, dof(7)?]))
 }
 
 /// `NONE` is no name.
@@ -121,20 +126,21 @@ fn form(line: Line) -> Result<Form> {
 /// Records 8 to 11, FORMAT(I10,3I5,2(1X,20A1)), or the same with blanks between.
 fn axis(line: Line) -> Result<Axis> {
     let expected = "kind of data, three exponents, label, unit";
-    if let Some([a, b, c, d, label, unit]) = line.words().as_deref()
-        && let [Some(quantity), Some(length), Some(force), Some(temperature)] =
-            [a, b, c, d].map(|word| super::number::whole(word))
-    {
-        let exponents = [length, force, temperature];
-        return Ok(Axis { quantity, exponents, label: named(label), unit: named(unit) });
-    }
     let integer = |start, width| line.integer(start, width, expected);
-    Ok(Axis {
-        quantity: integer(0, 10)?,
-        exponents: [integer(10, 5)?, integer(15, 5)?, integer(20, 5)?],
-        label: line.name(26, 20),
-        unit: line.name(47, 20),
-    })
+    let columns = || -> Result<Axis> {
+        let exponents = [integer(10, 5)?, integer(15, 5)?, integer(20, 5)?];
+        let (label, unit) = (line.name(26, 20), line.name(47, 20));
+        Ok(Axis { quantity: integer(0, 10)?, exponents, label, unit })
+    };
+    columns().or_else(|error| spaced_axis(line).ok_or(error))
+}
+
+fn spaced_axis(line: Line) -> Option<Axis> {
+    let words = line.words()?;
+    let whole = |k: usize| super::number::whole(words.get(k)?);
+    let exponents = [whole(1)?, whole(2)?, whole(3)?];
+    let name = |k: usize| words.get(k).map_or(String::new(), |word| named(word));
+    Some(Axis { quantity: whole(0)?, exponents, label: name(4), unit: name(5) })
 }
 
 impl Form {
