@@ -142,12 +142,14 @@ fn vectors(out: &mut String, name: &str, vectors: &[[f64; 3]]) {
     rows(out, vectors.iter().map(|[x, y, z]| format!("{x:?} {y:?} {z:?}")), 2);
 }
 
+/// The head of an array; one component is what is taken where no number stands.
 fn begin(out: &mut String, kind: &str, name: &str, components: usize) {
-    let _ = writeln!(
-        out,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-         format=\"ascii\">"
-    );
+    let components = match components {
+        1 => String::new(),
+        n => format!(" NumberOfComponents=\"{n}\""),
+    };
+    let _ =
+        writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"ascii\">");
 }
 
 /// The numbers of an array, so many on a line, and its end.
