@@ -121,6 +121,7 @@ pub mod frf;
 pub mod collision;
 pub mod report;
 pub mod plot;
+pub mod exchange;
 pub mod known_hits;
 pub mod validation;
 pub mod published;
