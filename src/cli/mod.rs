@@ -10,6 +10,7 @@ mod materials;
 mod modes;
 mod promise_table;
 mod ring;
+mod schema;
 mod trade;
 mod validate;
 
@@ -66,11 +67,11 @@ enum Verb {
     Advise(advise::Args),
     Validate(validate::Args),
     Materials(materials::Args),
+    Schema(schema::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] =
-    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "new"];
+const LATER_VERBS: &[&str] = &["convert", "compare", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
 
@@ -88,6 +89,7 @@ pub fn run() -> Result<Done> {
         Verb::Advise(args) => advise::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
+        Verb::Schema(args) => schema::run(&args),
     }
 }
 
