@@ -108,6 +108,7 @@ pub mod factored;
 pub mod survey;
 pub mod plan;
 pub mod solve;
+pub mod up_to;
 pub mod batch;
 pub mod trade;
 pub mod ignored;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use crate::damping::Kind;
-use crate::schema::modes::{DampedOut, DampingUsed};
+use crate::schema::modes as file;
 use crate::solve::Solution;
 
 /// A row for each mode; nothing for a bat without damping.
@@ -47,9 +47,9 @@ fn digits(value: f64, count: usize) -> String {
 }
 
 /// What a mode's damping is; None where nothing damps it.
-pub fn of_mode(solution: &Solution, k: usize) -> Option<DampedOut> {
+pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
     let damped = solution.damping.modes.get(k)?;
-    Some(DampedOut {
+    Some(file::Damped {
         natural_frequency_hz: damped.natural / TAU,
         damped_frequency_hz: damped.swinging() / TAU,
         decay_1_per_s: damped.decay,
@@ -63,9 +63,9 @@ pub fn of_mode(solution: &Solution, k: usize) -> Option<DampedOut> {
 }
 
 /// How the damping was found; None where there is none.
-pub fn of_model(solution: &Solution) -> Option<DampingUsed> {
+pub fn of_model(solution: &Solution) -> Option<file::Damping> {
     let damping = &solution.damping;
-    (!damping.modes.is_empty()).then(|| DampingUsed {
+    (!damping.modes.is_empty()).then(|| file::Damping {
         method: damping.kind.to_string(),
         rigid_decay_1_per_s: damping.rigid.clone(),
     })

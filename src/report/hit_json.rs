@@ -8,16 +8,13 @@ use crate::collision::figures::{Figures, Swung};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Wall};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::schema;
-use crate::schema::hit::{
-    BallOut, EnergyOut, FiguresOut, HitErrorOut, HitFile, HitFormat, ImpactOut, MovedOut, PeakOut,
-    SceneOut, SweetSpotOut, SwungOut, WallOut,
-};
+use crate::schema::hit as file;
 use crate::schema::modes::Generator;
 
 /// The `sweetspot-hit/1` document, without the figures.
 pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &SweetSpot) -> Value {
-    schema::value(&HitFile {
-        format: HitFormat::One,
+    schema::value(&file::HitFile {
+        format: file::HitFormat::One,
         generator: Generator::this(),
         model: model_name(model).to_owned(),
         scene: scene_out(bat, scene),
@@ -47,10 +44,10 @@ pub fn model_name(model: Model) -> &'static str {
     }
 }
 
-fn scene_out(bat: &Bat, scene: &Scene) -> SceneOut {
+fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
     let seen_from = if bat.fixtures.holding() { "hands" } else { "ground" };
-    let wall = |wall: Wall| WallOut { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
-    SceneOut {
+    let wall = |wall: Wall| file::Wall { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
+    file::Scene {
         bat_pivot_m: scene.pivot,
         swing_rad_s: scene.swing,
         ball: ball_out(&scene.ball),
@@ -62,8 +59,8 @@ fn scene_out(bat: &Bat, scene: &Scene) -> SceneOut {
     }
 }
 
-fn ball_out(ball: &Ball) -> BallOut {
-    BallOut {
+fn ball_out(ball: &Ball) -> file::Ball {
+    file::Ball {
         name: ball.name.clone(),
         source: ball.source.clone(),
         mass_kg: ball.mass,
@@ -75,8 +72,8 @@ fn ball_out(ball: &Ball) -> BallOut {
     }
 }
 
-fn sweet_spot(spot: &SweetSpot) -> SweetSpotOut {
-    SweetSpotOut {
+fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
+    file::SweetSpot {
         exit_speed_max: spot.exit_speed_max.map(peak),
         vibration_min: spot.vibration_min.map(peak),
         node_mode_1_m: spot.node_mode_1,
@@ -89,22 +86,22 @@ fn sweet_spot(spot: &SweetSpot) -> SweetSpotOut {
     }
 }
 
-fn peak(peak: Peak) -> PeakOut {
-    PeakOut { x_m: peak.x, value: peak.value }
+fn peak(peak: Peak) -> file::Peak {
+    file::Peak { x_m: peak.x, value: peak.value }
 }
 
-fn figures_out(figures: &Figures) -> FiguresOut {
+fn figures_out(figures: &Figures) -> file::Figures {
     let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
-    let swung = |swung: &Swung| SwungOut {
+    let swung = |swung: &Swung| file::Swung {
         exponent: swung.exponent,
         swing_rad_s: swung.swing,
         exit_speed_max: swung.best.map(peak),
     };
-    let moved = |(change, spot): &(String, SweetSpot)| MovedOut {
+    let moved = |(change, spot): &(String, SweetSpot)| file::Moved {
         sweet_spot: sweet_spot(spot),
         change: change.clone(),
     };
-    FiguresOut {
+    file::Figures {
         certified: false,
         bat_ball_speed_m_s: best.map(|o| o.exit_speed),
         collision_efficiency: best.map(|o| o.collision_efficiency),
@@ -118,10 +115,10 @@ fn figures_out(figures: &Figures) -> FiguresOut {
     }
 }
 
-fn impact_out(bat: &Bat, impact: &Impact) -> ImpactOut {
+fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
     let outcome = impact.outcome.as_ref();
     let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
-    ImpactOut {
+    file::Impact {
         x_m: impact.x,
         from_tip_m: bat.length() - impact.x,
         bat_speed_m_s: impact.bat_speed,
@@ -137,12 +134,12 @@ fn impact_out(bat: &Bat, impact: &Impact) -> ImpactOut {
         modes_used: outcome.map(|o| o.energy.vibration_by_mode.len()),
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
         energy_j: outcome.map(|o| energy_out(&o.energy)),
-        error: HitErrorOut { exit_speed: number(&|o| o.error) },
+        error: file::HitError { exit_speed: number(&|o| o.error) },
     }
 }
 
-fn energy_out(energy: &Energy) -> EnergyOut {
-    EnergyOut {
+fn energy_out(energy: &Energy) -> file::Energy {
+    file::Energy {
         initial: energy.initial,
         ball: energy.ball,
         bat_rigid: energy.bat_rigid,

@@ -10,10 +10,7 @@ use crate::ignored::ignored;
 use crate::report::damped;
 use crate::report::resolved::resolved_bat;
 use crate::schema;
-use crate::schema::modes::{
-    Generator, ModeErrorOut, ModeOut, ModelUsed, ModesFile, ModesFormat, ShapeOut, Summary,
-    TimingOut, WeighedOut,
-};
+use crate::schema::modes as file;
 use crate::solve::Solution;
 use crate::trade::reference::solver_name;
 
@@ -32,14 +29,19 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
 }
 
 /// The same as plain data.
-pub fn modes_file(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) -> ModesFile {
+pub fn modes_file(
+    bat: &Bat,
+    solution: &Solution,
+    points: ShapePoints,
+    timing: bool,
+) -> file::ModesFile {
     let places = places(bat, solution, points);
-    ModesFile {
-        format: ModesFormat::One,
-        generator: Generator::this(),
+    file::ModesFile {
+        format: file::ModesFormat::One,
+        generator: file::Generator::this(),
         bat: resolved_bat(bat),
         summary: summary(bat),
-        model: ModelUsed {
+        model: file::Model {
             theory: solution.theory.name().to_owned(),
             elements: solution.mesh.len(),
             degree: solution.degree,
@@ -54,7 +56,7 @@ pub fn modes_file(bat: &Bat, solution: &Solution, points: ShapePoints, timing: b
         },
         rigid_modes: solution.rigid_modes,
         modes: (0..solution.modes.len()).map(|k| mode(solution, k, &places)).collect(),
-        timing: timing.then(|| TimingOut {
+        timing: timing.then(|| file::Timing {
             plan_s: solution.timing.plan.as_secs_f64(),
             assemble_s: solution.timing.assemble.as_secs_f64(),
             solve_s: solution.timing.solve.as_secs_f64(),
@@ -64,22 +66,22 @@ pub fn modes_file(bat: &Bat, solution: &Solution, points: ShapePoints, timing: b
 
 /// Which program wrote this.
 pub fn generator() -> Value {
-    schema::value(&Generator::this())
+    schema::value(&file::Generator::this())
 }
 
-fn mode(solution: &Solution, k: usize, places: &[f64]) -> ModeOut {
+fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {
     let mode = &solution.modes[k];
     let along = |f: &dyn Fn(f64) -> f64| places.iter().map(|x| f(*x)).collect::<Vec<f64>>();
     // What is no number is no estimate.
     let known = |error: f64| Some(error).filter(|error| error.is_finite());
-    ModeOut {
+    file::Mode {
         order: mode.order,
         frequency_hz: mode.frequency(),
         omega_rad_s: mode.omega,
         damping_ratio: solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
         modal_mass_kg: mode.modal_mass,
         nodes_m: mode.nodes.clone(),
-        error: ModeErrorOut {
+        error: file::ModeError {
             discretization: known(mode.error.discretization),
             round_off: known(mode.error.round_off),
             residual: known(mode.error.residual),
@@ -87,7 +89,7 @@ fn mode(solution: &Solution, k: usize, places: &[f64]) -> ModeOut {
             modal_mass: known(mode.error.modal_mass),
             shape: known(mode.error.shape),
         },
-        shape: ShapeOut {
+        shape: file::Shape {
             x_m: places.to_vec(),
             deflection: along(&|x| mode.shape.deflection(x)),
             rotation: along(&|x| mode.shape.rotation(x)),
@@ -104,16 +106,16 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
     }
 }
 
-fn summary(bat: &Bat) -> Summary {
+fn summary(bat: &Bat) -> file::Summary {
     let inertia = bat.inertia();
     let measured = bat.weighed.balance_point;
-    let weighed = (bat.weighed != Weighed::default()).then(|| WeighedOut {
+    let weighed = (bat.weighed != Weighed::default()).then(|| file::WeighedFactors {
         density_factor: bat.factors[0],
         modulus_factor: bat.factors[1],
         balance_point_m: measured,
         balance_point_difference_m: measured.map(|x| inertia.balance_point - x),
     });
-    Summary {
+    file::Summary {
         length_m: bat.length(),
         mass_kg: inertia.mass,
         balance_point_m: inertia.balance_point,

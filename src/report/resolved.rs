@@ -30,12 +30,12 @@ pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
         tapes: fixtures
             .tapes
             .iter()
-            .map(|tape| file::ResolvedTape { from: tape.from, to: tape.to, mass: tape.mass })
+            .map(|tape| file::Tape { from: tape.from, to: tape.to, mass: tape.mass })
             .collect(),
         absorbers: fixtures
             .absorbers
             .iter()
-            .map(|a| file::ResolvedAbsorber {
+            .map(|a| file::Absorber {
                 x: a.x,
                 mass: a.mass,
                 stiffness: a.stiffness,
@@ -45,7 +45,7 @@ pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
         joints: fixtures
             .joints
             .iter()
-            .map(|joint| file::ResolvedJoint {
+            .map(|joint| file::Joint {
                 x: joint.x,
                 rotational_stiffness: joint.rotational_stiffness,
             })
@@ -53,15 +53,15 @@ pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
         supports: fixtures
             .supports
             .iter()
-            .map(|support| file::ResolvedSupport { x: support.x, kind: held(support.kind) })
+            .map(|support| file::Support { x: support.x, kind: held(support.kind) })
             .collect(),
         grip: fixtures.grip.map(grip),
         weighed: (bat.weighed != Weighed::default()).then(|| weighed(&bat.weighed)),
     }
 }
 
-fn material(material: &Material) -> file::ResolvedMaterial {
-    file::ResolvedMaterial {
+fn material(material: &Material) -> file::Material {
+    file::Material {
         density: material.density,
         youngs_modulus: material.youngs_modulus,
         loss_factor: material.loss_factor,
@@ -71,16 +71,16 @@ fn material(material: &Material) -> file::ResolvedMaterial {
     }
 }
 
-fn profile(profile: &Profile) -> file::ResolvedProfile {
+fn profile(profile: &Profile) -> file::Profile {
     match &profile.formulas {
-        Some(formulas) => file::ResolvedProfile::Pieces(pieces(formulas)),
-        None => file::ResolvedProfile::Columns(columns(&profile.stations)),
+        Some(formulas) => file::Profile::Pieces(pieces(formulas)),
+        None => file::Profile::Columns(columns(&profile.stations)),
     }
 }
 
-fn columns(stations: &Stations) -> file::ResolvedColumns {
+fn columns(stations: &Stations) -> file::Columns {
     let hollow = stations.inner.iter().any(|r| *r > 0.0);
-    file::ResolvedColumns {
+    file::Columns {
         interpolation: match stations.interpolation {
             Interpolation::Pchip => file::Interpolation::Pchip,
             // What is constant has become steps between straight lines.
@@ -93,21 +93,21 @@ fn columns(stations: &Stations) -> file::ResolvedColumns {
     }
 }
 
-fn pieces(formulas: &Formulas) -> file::ResolvedPieces {
-    let piece = |piece: &FormulaPiece| file::ResolvedPiece {
+fn pieces(formulas: &Formulas) -> file::Pieces {
+    let piece = |piece: &FormulaPiece| file::Piece {
         from: piece.from,
         to: piece.to,
         formula: piece.outer.text().to_owned(),
         inner_formula: piece.inner.as_ref().map(|inner| inner.text().to_owned()),
     };
-    file::ResolvedPieces {
+    file::Pieces {
         measured_from: if formulas.from_tip { file::End::Tip } else { file::End::Knob },
         pieces: formulas.pieces.iter().map(piece).collect(),
     }
 }
 
-fn region(region: &Region) -> file::ResolvedRegion {
-    file::ResolvedRegion {
+fn region(region: &Region) -> file::Region {
+    file::Region {
         from: region.from,
         to: region.to,
         material: material(&region.layup.outer),
@@ -115,8 +115,8 @@ fn region(region: &Region) -> file::ResolvedRegion {
     }
 }
 
-fn attachment(a: &Attachment) -> file::ResolvedAttachment {
-    file::ResolvedAttachment {
+fn attachment(a: &Attachment) -> file::Attachment {
+    file::Attachment {
         x: a.x,
         mass: a.mass,
         rotary_inertia: a.rotary_inertia,
@@ -126,20 +126,20 @@ fn attachment(a: &Attachment) -> file::ResolvedAttachment {
     }
 }
 
-fn held(kind: Held) -> file::HeldKind {
+fn held(kind: Held) -> file::Held {
     match kind {
-        Held::Pinned => file::HeldKind::Pinned,
-        Held::Clamped => file::HeldKind::Clamped,
+        Held::Pinned => file::Held::Pinned,
+        Held::Clamped => file::Held::Clamped,
     }
 }
 
-fn grip(grip: Grip) -> file::ResolvedGrip {
+fn grip(grip: Grip) -> file::Grip {
     let Grip { from, to, stiffness, damping } = grip;
-    file::ResolvedGrip { from, to, stiffness, damping }
+    file::Grip { from, to, stiffness, damping }
 }
 
-fn weighed(weighed: &Weighed) -> file::ResolvedWeighed {
-    file::ResolvedWeighed {
+fn weighed(weighed: &Weighed) -> file::Weighed {
+    file::Weighed {
         mass: weighed.mass,
         balance_point: weighed.balance_point,
         first_bending_hz: weighed.first_bending,

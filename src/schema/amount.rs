@@ -42,7 +42,9 @@ pub struct Measures(pub Quantity);
 impl Transform for Measures {
     fn transform(&mut self, schema: &mut Schema) {
         describe(schema, &sentence(&self.0.expected()));
-        schema.insert("examples".to_owned(), json!([self.0.example()]));
+        if schema.get("examples").is_none() {
+            schema.insert("examples".to_owned(), json!([self.0.example()]));
+        }
     }
 }
 

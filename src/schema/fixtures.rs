@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::schema::amount::{Amount, Measures};
 use crate::schema::material::{Comment, Material};
-use crate::schema::resolved::HeldKind;
+use crate::schema::resolved::Held;
 use crate::units::Quantity;
 
 /// A stretch of another material, of another core, or of both.
@@ -132,7 +132,7 @@ pub struct Support {
     pub x: Amount,
     /// pinned: it does not move but may turn; clamped: neither.
     #[schemars(rename = "type")]
-    pub kind: HeldKind,
+    pub kind: Held,
 }
 
 /// Hands as an elastic bed.

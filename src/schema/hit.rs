@@ -16,11 +16,11 @@ pub struct HitFile {
     /// How the bat's bending is counted.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
-    pub scene: SceneOut,
-    pub impacts: Vec<ImpactOut>,
-    pub sweet_spot: SweetSpotOut,
+    pub scene: Scene,
+    pub impacts: Vec<Impact>,
+    pub sweet_spot: SweetSpot,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub figures: Option<FiguresOut>,
+    pub figures: Option<Figures>,
 }
 
 /// Name of the format and its version.
@@ -33,12 +33,12 @@ pub enum HitFormat {
 
 /// A swing meets a pitch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SceneOut {
+pub struct Scene {
     /// Rotation centre of the swing beyond the knob end (m), negative inside the handle.
     pub bat_pivot_m: f64,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,
-    pub ball: BallOut,
+    pub ball: Ball,
     /// Speed of the ball towards the bat (m/s).
     pub ball_speed_m_s: f64,
     /// Coefficient of restitution, unless the ball's own depends on the speed.
@@ -49,12 +49,12 @@ pub struct SceneOut {
     #[schemars(extend("enum" = ["ground", "hands"]))]
     pub energies_seen_from: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub wall: Option<WallOut>,
+    pub wall: Option<Wall>,
 }
 
 /// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BallOut {
+pub struct Ball {
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
@@ -75,7 +75,7 @@ pub struct BallOut {
 
 /// The barrel's wall as a spring-mass under the ball, where it gives way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WallOut {
+pub struct Wall {
     /// Stiffness (N/m).
     pub stiffness_n_m: f64,
     /// Mass (kg) of its vibration; 0 is a spring in series.
@@ -85,7 +85,7 @@ pub struct WallOut {
 /// One impact. Most is null where ball and bat do not meet, or where the model has no real answer;
 /// `flags` says why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ImpactOut {
+pub struct Impact {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
     /// The same from the tip (m).
@@ -116,13 +116,13 @@ pub struct ImpactOut {
     /// Why there is no outcome.
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
-    pub energy_j: Option<EnergyOut>,
-    pub error: HitErrorOut,
+    pub energy_j: Option<Energy>,
+    pub error: HitError,
 }
 
 /// Energies (J): the initial one is the sum of all others, each computed on its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EnergyOut {
+pub struct Energy {
     /// Of ball and bat before the hit (J).
     pub initial: f64,
     /// Of the ball after it (J).
@@ -151,14 +151,14 @@ fn is_zero(value: &f64) -> bool {
 
 /// Estimated errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct HitErrorOut {
+pub struct HitError {
     /// Of the exit speed, relative to the closing speed.
     pub exit_speed: Option<f64>,
 }
 
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PeakOut {
+pub struct Peak {
     /// The place (m).
     pub x_m: f64,
     /// The value, in the unit of the member that holds it.
@@ -167,11 +167,11 @@ pub struct PeakOut {
 
 /// The sweet spot of the outer half of the bat, by each of its definitions; null where one has none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SweetSpotOut {
+pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
-    pub exit_speed_max: Option<PeakOut>,
+    pub exit_speed_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
-    pub vibration_min: Option<PeakOut>,
+    pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).
     pub node_mode_1_m: Option<f64>,
     /// The barrel-side node of the second bending mode (m).
@@ -181,9 +181,9 @@ pub struct SweetSpotOut {
     /// From where to where the exit speed is within 1 % of its maximum (m).
     pub zone_m: Option<[f64; 2]>,
     /// Where the hands feel the least velocity (m/s).
-    pub hands_velocity_min: Option<PeakOut>,
+    pub hands_velocity_min: Option<Peak>,
     /// Where the hands feel the least acceleration (m/s²).
-    pub hands_acceleration_min: Option<PeakOut>,
+    pub hands_acceleration_min: Option<Peak>,
     /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip; null
     /// beyond the tip.
     pub inch_off_m_s: Option<[Option<f64>; 2]>,
@@ -191,7 +191,7 @@ pub struct SweetSpotOut {
 
 /// The figures by which bats are compared, computed from this model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FiguresOut {
+pub struct Figures {
     /// Never: these are no certificate of any standard.
     pub certified: bool,
     /// Exit speed at the sweet spot (m/s).
@@ -203,32 +203,32 @@ pub struct FiguresOut {
     /// BBCOR there, of a bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
     /// Largest BBCOR of the outer half, of the free bat.
-    pub bbcor_max: Option<PeakOut>,
+    pub bbcor_max: Option<Peak>,
     /// Largest BBCOR of the outer half, of a bat held 6 in from the knob.
-    pub bbcor_pivoted_max: Option<PeakOut>,
+    pub bbcor_pivoted_max: Option<Peak>,
     /// Where the same bat would be best if it did not bend, and its exit speed there (m/s).
-    pub rigid_exit_speed_max: Option<PeakOut>,
+    pub rigid_exit_speed_max: Option<Peak>,
     /// The same batter with this bat, by several laws of swing; empty without a reference inertia.
-    pub swings: Vec<SwungOut>,
+    pub swings: Vec<Swung>,
     /// The sweet spot of scenes that differ in one thing each.
-    pub moves: Vec<MovedOut>,
+    pub moves: Vec<Moved>,
 }
 
 /// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SwungOut {
+pub struct Swung {
     pub exponent: f64,
     /// The swing of this bat (rad/s).
     pub swing_rad_s: f64,
     /// Where the ball leaves fastest (m/s).
-    pub exit_speed_max: Option<PeakOut>,
+    pub exit_speed_max: Option<Peak>,
 }
 
 /// The sweet spot of another scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MovedOut {
+pub struct Moved {
     #[serde(flatten)]
-    pub sweet_spot: SweetSpotOut,
+    pub sweet_spot: SweetSpot,
     /// What is different there, in words.
     pub change: String,
 }

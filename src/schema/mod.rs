@@ -22,7 +22,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,7 +93,7 @@ pub fn all() -> Value {
         "properties": { "format": { "enum": formats } },
         "required": ["format"],
         "allOf": File::ALL.map(by_format),
-        "$defs": File::ALL.map(definition).into_iter().collect::<serde_json::Map<_, _>>(),
+        "$defs": File::ALL.map(definition).into_iter().collect::<Map<_, _>>(),
     })
 }
 
@@ -104,47 +104,62 @@ pub fn value<T: Serialize>(document: &T) -> Value {
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-/// The schema with its name, descriptions in whole lines, and no null where a member is left out
-/// instead.
+/// The schema with its name first, descriptions in whole lines, and no null where a member is left
+/// out instead.
 fn finished(mut schema: Schema, id: &str) -> Value {
     RecursiveTransform(absent_not_null).transform(&mut schema);
-    RecursiveTransform(unwrapped).transform(&mut schema);
+    RecursiveTransform(plain).transform(&mut schema);
     let mut named = json!({ "$schema": DRAFT, "$id": id });
-    let members = schema.as_object_mut().map(std::mem::take).unwrap_or_default();
-    for (key, value) in members {
-        named[key] = value;
+    for key in ["title", "description"] {
+        if let Some(text) = schema.remove(key) {
+            named[key] = text;
+        }
     }
+    let others = schema.as_object_mut().map(std::mem::take).unwrap_or_default();
+    others.into_iter().for_each(|(key, value)| named[key] = value);
     named
 }
 
 /// A member that may be absent is never null: only what must be there can say that it has no value.
 fn absent_not_null(schema: &mut Schema) {
     let required = schema.get("required").cloned().unwrap_or(json!([]));
-    let is_required =
-        |key: &String| required.as_array().is_some_and(|all| all.contains(&json!(key)));
+    let must = |key: &str| required.as_array().is_some_and(|all| all.contains(&json!(key)));
     let Some(Value::Object(properties)) = schema.get_mut("properties") else { return };
-    for (_, property) in properties.iter_mut().filter(|(key, _)| !is_required(key)) {
-        let Some(member) = property.as_object_mut() else { continue };
-        if let Some(Value::Array(types)) = member.get_mut("type") {
-            types.retain(|name| name != "null");
-            if let [one] = &types[..] {
-                let one = one.clone();
-                member.insert("type".to_owned(), one);
-            }
-        }
-        let alternatives = member.get("anyOf").and_then(Value::as_array).cloned();
-        if let Some([Value::Object(one), null]) = alternatives.as_deref()
-            && *null == json!({ "type": "null" })
-        {
-            member.remove("anyOf");
-            member.extend(one.clone());
+    for (_, property) in properties.iter_mut().filter(|(key, _)| !must(key)) {
+        if let Some(member) = property.as_object_mut() {
+            without_null(member);
         }
     }
 }
 
-/// Comments are broken into lines for the source alone.
-fn unwrapped(schema: &mut Schema) {
+fn without_null(member: &mut Map<String, Value>) {
+    if let Some(Value::Array(values)) = member.get_mut("enum") {
+        values.retain(|value| !value.is_null());
+    }
+    if let Some(Value::Array(types)) = member.get_mut("type") {
+        types.retain(|name| name != "null");
+        if let [one] = &types[..] {
+            let one = one.clone();
+            member.insert("type".to_owned(), one);
+        }
+    }
+    // Of two alternatives, one of them null, the other one is the schema.
+    let Some(Value::Array(alternatives)) = member.get_mut("anyOf") else { return };
+    alternatives.retain(|alternative| *alternative != json!({ "type": "null" }));
+    if let [Value::Object(one)] = &alternatives[..] {
+        let one = one.clone();
+        member.remove("anyOf");
+        member.extend(one);
+    }
+}
+
+/// Comments are broken into lines for the source alone, and how wide a number is in this program is
+/// nobody's concern.
+fn plain(schema: &mut Schema) {
     if let Some(Value::String(text)) = schema.get_mut("description") {
         *text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    }
+    if schema.get("format").is_some_and(Value::is_string) {
+        schema.remove("format");
     }
 }

@@ -16,15 +16,15 @@ pub struct ModesFile {
     pub generator: Generator,
     pub bat: ResolvedBat,
     pub summary: Summary,
-    pub model: ModelUsed,
+    pub model: Model,
     /// How many motions of the bat are rigid, at 0 Hz: 2 of a free bat. They are not among `modes`.
     #[schemars(range(max = 2))]
     pub rigid_modes: usize,
     /// The elastic modes, rising in frequency.
-    pub modes: Vec<ModeOut>,
+    pub modes: Vec<Mode>,
     /// Left out where equal input was to give equal bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub timing: Option<TimingOut>,
+    pub timing: Option<Timing>,
 }
 
 /// Name of the format and its version.
@@ -69,12 +69,12 @@ pub struct Summary {
     /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
     pub center_of_percussion_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub weighed: Option<WeighedOut>,
+    pub weighed: Option<WeighedFactors>,
 }
 
 /// What came of what was weighed and tapped; only of a bat of which something was.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WeighedOut {
+pub struct WeighedFactors {
     /// By how much the weighed mass made all densities larger.
     pub density_factor: f64,
     /// By how much the tapped frequency made all moduli larger.
@@ -89,7 +89,7 @@ pub struct WeighedOut {
 
 /// What was computed, and how.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ModelUsed {
+pub struct Model {
     /// Beam theory.
     #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: String,
@@ -113,12 +113,12 @@ pub struct ModelUsed {
     /// What was left out and what it costs, a sentence each.
     pub ignored: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping: Option<DampingUsed>,
+    pub damping: Option<Damping>,
 }
 
 /// How the damping was found; only of a damped bat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DampingUsed {
+pub struct Damping {
     /// In words.
     pub method: String,
     /// Decay rates (1/s) of rigid motions that only dashpots hold.
@@ -128,7 +128,7 @@ pub struct DampingUsed {
 /// One elastic mode. Its shape is scaled to a largest deflection of 1 along the bat, positive at the
 /// barrel end, or at the knob end if the barrel end is at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ModeOut {
+pub struct Mode {
     /// From 1.
     #[schemars(range(min = 1))]
     pub order: usize,
@@ -142,15 +142,15 @@ pub struct ModeOut {
     pub modal_mass_kg: f64,
     /// Isolated interior zeros of the deflection (m), from the knob.
     pub nodes_m: Vec<f64>,
-    pub error: ModeErrorOut,
-    pub shape: ShapeOut,
+    pub error: ModeError,
+    pub shape: Shape,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping: Option<DampedOut>,
+    pub damping: Option<Damped>,
 }
 
 /// Estimated errors; null where none could be made. Those of the frequency are relative to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ModeErrorOut {
+pub struct ModeError {
     /// Of the frequency, by the finite elements.
     pub discretization: Option<f64>,
     /// Of the frequency, by arithmetic.
@@ -167,7 +167,7 @@ pub struct ModeErrorOut {
 
 /// Samples of a shape; as many places as deflections and rotations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ShapeOut {
+pub struct Shape {
     /// Places (m).
     pub x_m: Vec<f64>,
     /// Deflection there, 1 at the largest.
@@ -178,7 +178,7 @@ pub struct ShapeOut {
 
 /// How a mode dies out; only of a damped bat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DampedOut {
+pub struct Damped {
     /// Modulus of the damped motion's pole (Hz).
     pub natural_frequency_hz: f64,
     /// How fast it swings (Hz).
@@ -201,7 +201,7 @@ pub struct DampedOut {
 
 /// Where the time went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TimingOut {
+pub struct Timing {
     /// Planning (s).
     pub plan_s: f64,
     /// Assembling (s).

@@ -12,30 +12,30 @@ pub struct ResolvedBat {
     /// Where its numbers come from.
     pub source: String,
     /// What it is made of where no region says otherwise.
-    pub material: ResolvedMaterial,
-    pub profile: ResolvedProfile,
+    pub material: Material,
+    pub profile: Profile,
     /// Stretches of other materials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub regions: Vec<ResolvedRegion>,
+    pub regions: Vec<Region>,
     /// Weights and springs to ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub attachments: Vec<ResolvedAttachment>,
+    pub attachments: Vec<Attachment>,
     /// Mass that is spread and bears nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub tapes: Vec<ResolvedTape>,
+    pub tapes: Vec<Tape>,
     /// Masses that hang on springs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub absorbers: Vec<ResolvedAbsorber>,
+    pub absorbers: Vec<Absorber>,
     /// Places that give way to bending.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub joints: Vec<ResolvedJoint>,
+    pub joints: Vec<Joint>,
     /// Places that are held.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub supports: Vec<ResolvedSupport>,
+    pub supports: Vec<Support>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub grip: Option<ResolvedGrip>,
+    pub grip: Option<Grip>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub weighed: Option<ResolvedWeighed>,
+    pub weighed: Option<Weighed>,
 }
 
 /// Name of the format and its version.
@@ -48,7 +48,7 @@ pub enum BatFormat {
 
 /// A material, along the bat's axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedMaterial {
+pub struct Material {
     /// Density (kg/m³).
     pub density: f64,
     /// Young's modulus (Pa).
@@ -69,14 +69,14 @@ pub struct ResolvedMaterial {
 /// Outer and inner radius along the bat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
-pub enum ResolvedProfile {
-    Columns(ResolvedColumns),
-    Pieces(ResolvedPieces),
+pub enum Profile {
+    Columns(Columns),
+    Pieces(Pieces),
 }
 
 /// Stations from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedColumns {
+pub struct Columns {
     pub interpolation: Interpolation,
     /// Unit of the columns: m.
     pub unit: String,
@@ -100,9 +100,9 @@ pub enum Interpolation {
 
 /// Formulas, touching end to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedPieces {
+pub struct Pieces {
     pub measured_from: End,
-    pub pieces: Vec<ResolvedPiece>,
+    pub pieces: Vec<Piece>,
 }
 
 /// The end from which the formulas' `x` counts.
@@ -116,7 +116,7 @@ pub enum End {
 
 /// A stretch whose radii are formulas.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedPiece {
+pub struct Piece {
     /// Where it begins (m).
     pub from: f64,
     /// Where it ends (m).
@@ -130,21 +130,21 @@ pub struct ResolvedPiece {
 
 /// A stretch of other materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedRegion {
+pub struct Region {
     /// Where it begins (m).
     pub from: f64,
     /// Where it ends (m).
     pub to: f64,
     /// What the wall is made of.
-    pub material: ResolvedMaterial,
+    pub material: Material,
     /// What fills the bore.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub core: Option<ResolvedMaterial>,
+    pub core: Option<Material>,
 }
 
 /// A point mass and springs to ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedAttachment {
+pub struct Attachment {
     /// Where it is fixed (m).
     pub x: f64,
     /// Mass (kg).
@@ -161,7 +161,7 @@ pub struct ResolvedAttachment {
 
 /// A mass spread evenly on a stretch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedTape {
+pub struct Tape {
     /// Where it begins (m).
     pub from: f64,
     /// Where it ends (m).
@@ -172,7 +172,7 @@ pub struct ResolvedTape {
 
 /// A mass on a spring and a dashpot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedAbsorber {
+pub struct Absorber {
     /// Where it hangs (m).
     pub x: f64,
     /// Mass (kg).
@@ -185,7 +185,7 @@ pub struct ResolvedAbsorber {
 
 /// A place that gives way to bending.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedJoint {
+pub struct Joint {
     /// Where it is (m).
     pub x: f64,
     /// Bending moment per angle between both sides (N m/rad).
@@ -194,25 +194,25 @@ pub struct ResolvedJoint {
 
 /// A place that is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedSupport {
+pub struct Support {
     /// Where (m).
     pub x: f64,
     #[serde(rename = "type")]
-    pub kind: HeldKind,
+    pub kind: Held,
 }
 
 /// What a support holds: the deflection, or the rotation too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
-pub enum HeldKind {
+pub enum Held {
     Pinned,
     Clamped,
 }
 
 /// Hands as an elastic bed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedGrip {
+pub struct Grip {
     /// Where they begin (m).
     pub from: f64,
     /// Where they end (m).
@@ -225,7 +225,7 @@ pub struct ResolvedGrip {
 
 /// What a scale and a tap said.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ResolvedWeighed {
+pub struct Weighed {
     /// Mass with everything attached (kg).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
