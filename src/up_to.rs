@@ -9,32 +9,44 @@ use crate::beam::statics::Statics;
 use crate::error::{Error, Result};
 use crate::plan::{Plan, Wanted};
 use crate::solve::{Request, Solver, solve};
+use crate::theory::Theory;
 
 /// More modes than that are not listed.
 pub const MOST: usize = 1000;
-/// Frequencies to ask for (Hz), far above all that a beam describes.
+/// The highest limit (Hz), far above all that a beam describes.
 const HIGHEST: f64 = 1e9;
+/// Relative accuracy of the frequencies among which is counted.
+const ACCURACY: f64 = 1e-6;
 
-/// The number of bending modes whose frequency is at most `limit` (Hz), by the theory of the
-/// request: the request with so many modes has a solution with none above it, and the next mode is
-/// above.
+/// The number of bending modes whose frequency is at most `limit` (Hz): the request with so many
+/// modes has a solution with none above it, and the next mode is above.
 ///
-/// On a mesh that knows so many modes as well as asked, the motions slower than the limit are
-/// counted ([`count`]): none can be missing. A mode that is on the limit to within its error may be
-/// on either side of it.
+/// On a mesh that knows so many modes well the motions slower than the limit are counted
+/// ([`count`]), so that none is missed. Only if a mode is nearer to the limit than the request's
+/// tolerance tells, or the request has elements of its own, it is solved to see on which side the
+/// answer has it.
 ///
 /// # Errors
 ///
 /// [`Error::Value`] for a limit that is not above 0 or has more than [`MOST`] modes below it; those
 /// of [`solve`].
 pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
+    const FIELD: &str = "frequency limit";
     if !(limit > 0.0 && limit <= HIGHEST) {
         let expected = format!("a frequency above 0, {HIGHEST:e} Hz at most");
-        return Err(Error::value("frequency limit", format!("{limit:?} Hz"), expected));
+        return Err(Error::value(FIELD, format!("{limit:?} Hz"), expected));
     }
     request.check(1)?;
-    let mut modes = counted(bat, request, limit)?;
-    // The mesh of the answer is another one, where a mode on the limit may be above it.
+    let margin = (3.0 * request.tolerance).clamp(10.0 * ACCURACY, 0.5);
+    let counts =
+        [1.0 - margin, 1.0 + margin].map(|near| counted(bat, request.theory, limit * near));
+    let [Some(surely), Some(mut modes)] = counts else {
+        let found = format!("{limit} Hz, with more than {MOST} bending modes below it");
+        return Err(Error::value(FIELD, found, "a lower frequency"));
+    };
+    if surely == modes && request.elements.is_none() {
+        return Ok(modes);
+    }
     loop {
         let solution = solve(bat, &Request { modes, ..*request })?;
         let below = solution.modes.iter().filter(|mode| mode.frequency() <= limit).count();
@@ -45,34 +57,27 @@ pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
     }
 }
 
-/// The bending modes slower than the limit on meshes for more and more modes, until one mesh is fine
-/// enough for all that are slower on it.
-fn counted(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
+/// The bending modes slower than the limit (Hz), on meshes for more and more modes until one is fine
+/// enough for all that are slower on it. None for more than [`MOST`], and for a limit so far above
+/// the bat's frequencies that nothing can be counted there.
+fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
     const FIRST: usize = 16;
-    /// Whoever asks for less still wants all modes.
-    const ROUGHEST: f64 = 1e-6;
-    let mut wanted = Wanted {
-        modes: FIRST,
-        tolerance: request.tolerance.min(ROUGHEST),
-        degree: Some(DEGREE),
-        most_unknowns: Solver::Statics.most_unknowns(),
-        theory: request.theory,
-    };
-    loop {
+    let most_unknowns = Solver::Statics.most_unknowns();
+    let mut modes = FIRST;
+    while modes <= MOST {
+        let degree = Some(DEGREE);
+        let wanted = Wanted { modes, tolerance: ACCURACY, degree, most_unknowns, theory };
         let mesh = Plan::cheapest(bat, &wanted).mesh;
-        let slower = match request.theory.shears() {
-            true => slower::<{ DEGREE + 1 }, { 2 * DEGREE }>(bat, &mesh, request, limit)?,
-            false => slower::<{ DEGREE + 1 }, { DEGREE + 1 }>(bat, &mesh, request, limit)?,
+        let slower = match theory.shears() {
+            true => slower::<{ DEGREE + 1 }, { 2 * DEGREE }>(bat, &mesh, theory, limit)?,
+            false => slower::<{ DEGREE + 1 }, { DEGREE + 1 }>(bat, &mesh, theory, limit)?,
         };
-        match slower {
-            slower if slower <= wanted.modes => return Ok(slower),
-            _ if wanted.modes < MOST => wanted.modes = (2 * wanted.modes).max(slower).min(MOST),
-            _ => {
-                let found = format!("{limit} Hz, with more than {MOST} bending modes below it");
-                return Err(Error::value("frequency limit", found, "a lower frequency"));
-            }
+        if slower <= modes {
+            return Some(slower);
         }
+        modes = (2 * modes).min(MOST).max(slower);
     }
+    None
 }
 
 /// Degree of the elements on which is counted.
@@ -82,17 +87,13 @@ const DEGREE: usize = 7;
 fn slower<const N: usize, const W: usize>(
     bat: &Bat,
     mesh: &Mesh,
-    request: &Request,
+    theory: Theory,
     limit: f64,
-) -> Result<usize> {
-    let mut statics = Statics::<f64, N, W>::empty(bat, request.theory);
+) -> Option<usize> {
+    let mut statics = Statics::<f64, N, W>::empty(bat, theory);
     statics.assemble(&[bat], &[mesh]);
-    // A frequency that is the mesh's own to the last digit cannot be counted at, the next one can.
+    // A frequency that is the mesh's own to the last digit cannot be counted at; one beside it can.
     let nearby = (0..8).map(|k| TAU * limit * (1.0 + 1e-13 * f64::from(k * k)));
-    let all = nearby.into_iter().find_map(|omega| count::slower(&statics, omega));
-    let Some(all) = all else {
-        let found = format!("{limit} Hz, at which motions cannot be counted");
-        return Err(Error::value("frequency limit", found, "one a little higher or lower"));
-    };
-    Ok(all.saturating_sub(statics.rigid_modes()))
+    let all = nearby.into_iter().find_map(|omega| count::slower(&statics, omega))?;
+    Some(all.saturating_sub(statics.rigid_modes()))
 }

@@ -82,23 +82,24 @@ impl BatArgs {
         output: &OutputArgs,
     ) -> Result<Prepared> {
         let Some(limit) = self.up_to else { return solve.prepare(bat, modes, output) };
-        // More modes may need more of a theory, and more of a theory has more modes: one or the
-        // other stays after as many rounds as there are theories.
+        // More modes may need a richer theory, and a richer theory has more modes up to there: the
+        // number stays after as many rounds as there are theories.
         for _ in 0..=Theory::ALL.len() {
             let prepared = solve.prepare(bat.clone(), modes, output)?;
             let found = modes_up_to(&prepared.bat, &prepared.request, limit);
             let found = found.map_err(|error| named("--up-to", error))?;
             if found == modes {
-                break;
+                return Ok(prepared);
+            }
+            if found == 0 {
+                let one = solve.prepare(bat.clone(), 1, output)?;
+                let first = solve::solve(&one.bat, &one.request)?.modes[0].frequency();
+                output.warn(&format!(
+                    "note: no bending mode up to {limit} Hz: the first is at {first:.1} Hz"
+                ));
+                return solve.prepare(bat, 0, output);
             }
             modes = found;
-        }
-        if modes == 0 {
-            let Prepared { bat, request, .. } = solve.prepare(bat.clone(), 1, output)?;
-            let first = solve::solve(&bat, &request)?.modes[0].frequency();
-            output.warn(&format!(
-                "note: no bending mode up to {limit} Hz: the first is at {first:.1} Hz"
-            ));
         }
         solve.prepare(bat, modes, output)
     }

@@ -17,6 +17,7 @@ pub struct HitFile {
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
     pub scene: Scene,
+    /// As many as places were asked for, in their order.
     pub impacts: Vec<Impact>,
     pub sweet_spot: SweetSpot,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -113,7 +114,10 @@ pub struct Impact {
     pub bbcor_pivoted: Option<f64>,
     /// How many bending modes took part.
     pub modes_used: Option<usize>,
-    /// Why there is no outcome.
+    /// Why there is no outcome: no_contact, no_section, no_real_solution. Or what makes it delicate:
+    /// reload (the ball was pressed further after it had begun to spring back), late_contact (the
+    /// bat caught up when the force had almost gone), second_contact (the bat would have caught the
+    /// ball again after it left). There may come others.
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
     pub energy_j: Option<Energy>,
@@ -217,6 +221,7 @@ pub struct Figures {
 /// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Swung {
+    /// 0 for the same angular speed, 0.5 for the same energy.
     pub exponent: f64,
     /// The swing of this bat (rad/s).
     pub swing_rad_s: f64,

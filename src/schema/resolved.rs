@@ -102,6 +102,7 @@ pub enum Interpolation {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pieces {
     pub measured_from: End,
+    /// One after the other.
     pub pieces: Vec<Piece>,
 }
 
