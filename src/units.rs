@@ -111,6 +111,11 @@ impl Quantity {
         self.facts().0
     }
 
+    /// A value of this quantity in units of the trade.
+    pub fn example(self) -> &'static str {
+        self.facts().3
+    }
+
     /// What a value of this quantity may look like, for error messages.
     pub fn expected(self) -> String {
         let (name, _, si, example) = self.facts();

@@ -120,7 +120,7 @@ fn advice(args: &Args, bat: &Bat) -> String {
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(args: &Args, solution: &Solution) -> Result<String> {
-    let count = args.solve.modes_within(args.bat.count().max(10), 1);
+    let count = args.solve.modes_within(solution.modes.len().max(10), 1);
     let [truth, stated] = validation::dowel_proof(&args.solve.request(count))?;
     let here = match solution.modes.is_empty() {
         true => String::new(),

@@ -12,12 +12,13 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
 use sweetspot::collision::pulse::Pulse;
-use sweetspot::error::{Error, Result, nearest};
+use sweetspot::error::{Complaint, Error, Result, nearest};
 use sweetspot::report::file;
 use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::theory::Theory;
 use sweetspot::units::{self, Quantity};
+use sweetspot::up_to::modes_up_to;
 use sweetspot::weighed;
 
 use crate::cli::{NOT_REACHED, printable};
@@ -32,17 +33,22 @@ pub struct BatArgs {
     #[arg(short = 'n', long = "modes", value_name = "N",
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     count: Option<u16>,
+
+    /// All bending modes up to this frequency, such as 2000 or "2 kHz", in place of a number
+    #[arg(long, value_name = "HZ", conflicts_with = "count", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+    up_to: Option<f64>,
 }
 
 impl BatArgs {
-    /// Number of bending modes.
+    /// Number of bending modes where no frequency was given.
     pub fn count(&self) -> usize {
         self.count.unwrap_or(10).into()
     }
 
-    /// Whether that number was asked for.
+    /// Whether a number or a frequency was asked for.
     pub fn asked(&self) -> bool {
-        self.count.is_some()
+        self.count.is_some() || self.up_to.is_some()
     }
 
     /// Reads the bat and passes its warnings on.
@@ -57,13 +63,55 @@ impl BatArgs {
 
     /// Finds the modes of a bat that was read.
     pub fn solve_for(&self, bat: Bat, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
-        let Prepared { bat, request, warning } = solve.prepare(bat, self.count(), output)?;
+        let prepared = self.prepare(bat, self.count(), solve, output)?;
+        let Prepared { bat, request, warning } = prepared;
         let solution = match solve.budget {
             Some(budget) => solve::solve_within(&bat, &request, budget)?,
             None => solve::solve(&bat, &request)?,
         };
         solve.say_raised(&solution, output);
         Ok(Solved { bat, solution, warning })
+    }
+
+    /// The bat and what is asked of it: so many modes, or all up to the frequency that was given.
+    pub fn prepare(
+        &self,
+        bat: Bat,
+        mut modes: usize,
+        solve: &SolveArgs,
+        output: &OutputArgs,
+    ) -> Result<Prepared> {
+        let Some(limit) = self.up_to else { return solve.prepare(bat, modes, output) };
+        // More modes may need a richer theory, and a richer theory has more modes up to there: the
+        // number stays after as many rounds as there are theories.
+        for _ in 0..=Theory::ALL.len() {
+            let prepared = solve.prepare(bat.clone(), modes, output)?;
+            let found = modes_up_to(&prepared.bat, &prepared.request, limit);
+            let found = found.map_err(|error| named("--up-to", error))?;
+            if found == modes {
+                return Ok(prepared);
+            }
+            if found == 0 {
+                let one = solve.prepare(bat.clone(), 1, output)?;
+                let first = solve::solve(&one.bat, &one.request)?.modes[0].frequency();
+                output.warn(&format!(
+                    "note: no bending mode up to {limit} Hz: the first is at {first:.1} Hz"
+                ));
+                return solve.prepare(bat, 0, output);
+            }
+            modes = found;
+        }
+        solve.prepare(bat, modes, output)
+    }
+}
+
+/// An error about a value, by the option that gave it.
+fn named(option: &str, error: Error) -> Error {
+    match error {
+        Error::Value(complaint) if complaint.field == "frequency limit" => {
+            Error::Value(Complaint { field: option.to_owned(), ..complaint })
+        }
+        other => other,
     }
 }
 

@@ -100,7 +100,9 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     check(args, bat.fixtures.rigid_modes() > 0)?;
     let modes = args.bat.count().max(1);
-    let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
+    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let request = Request { modes: request.modes.max(1), ..request };
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
     let mut frf = reaching(&bat, &request, [at, to], args)?;
     let (frequencies, even) = frequencies(args, &frf)?;

@@ -98,7 +98,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;
     let model = args.scene.model()?;
     args.solve.refuse_budget("hit")?;
-    let prepared = args.solve.prepare(bat, args.bat.count(), &args.output)?;
+    let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let (scene, law) = args.scene.scene(&bat)?;
     let places = args.place.places(&bat)?;

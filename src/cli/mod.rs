@@ -11,6 +11,7 @@ mod materials;
 mod modes;
 mod promise_table;
 mod ring;
+mod schema;
 mod trade;
 mod validate;
 
@@ -68,12 +69,13 @@ enum Verb {
     Convert(convert::Args),
     Validate(validate::Args),
     Materials(materials::Args),
+    Schema(schema::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] = &["schema", "compare", "fit", "tune", "sweep", "lab", "new"];
+const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
 /// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] = &["--up-to", "--report"];
+const LATER_OPTIONS: &[&str] = &[];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {
@@ -90,6 +92,7 @@ pub fn run() -> Result<Done> {
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
+        Verb::Schema(args) => schema::run(&args),
     }
 }
 

@@ -57,7 +57,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let table = format!(
         "{}\n{}\n{}",
         text::summary(&bat, args.output.units),
-        text::modes(&bat, &solution, args.bat.count(), args.output.units),
+        text::modes(&bat, &solution, solution.modes.len(), args.output.units),
         text::model(&bat, &solution)
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);

@@ -132,7 +132,7 @@ pub fn run(args: &Args) -> Result<Done> {
         json!({
         "format": "sweetspot-ring/1",
         "generator": json::generator(),
-        "modes": args.bat.count(),
+        "modes": solution.modes.len(),
         "theory": solution.theory.name(),
         "rigid_motion": !args.bending_only && solution.rigid_modes > 0,
         "at_m": args.at,
@@ -194,7 +194,8 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         on_the_bat(&bat, "--watch", *place)?;
     }
     args.solve.refuse_budget("ring --hit")?;
-    let Prepared { bat, request, warning } = args.solve.prepare(bat, count, &args.output)?;
+    let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
     let model = args.scene.model()?;
     if model != Model::Contact {
         let expected = "contact, the model with a force in time";

@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use serde_json::{Value, json};
-
 use crate::damping::Kind;
+use crate::schema::modes as file;
 use crate::solve::Solution;
 
 /// A row for each mode; nothing for a bat without damping.
@@ -47,27 +46,27 @@ fn digits(value: f64, count: usize) -> String {
     }
 }
 
-/// What a mode's damping is, null where nothing damps it.
-pub fn of_mode(solution: &Solution, k: usize) -> Value {
-    let Some(damped) = solution.damping.modes.get(k) else { return Value::Null };
-    json!({
-        "natural_frequency_hz": damped.natural / TAU,
-        "damped_frequency_hz": damped.swinging() / TAU,
-        "decay_1_per_s": damped.decay,
-        "loss_factor": 2.0 * damped.ratio,
-        "q_half_power": damped.q_half_power(),
-        "q_amplitude": damped.q_amplitude(),
-        "material_damping_ratio": damped.of_materials,
-        "complex": matches!(solution.damping.kind, Kind::Complex(_)),
-        "error": damped.error,
+/// What a mode's damping is; None where nothing damps it.
+pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
+    let damped = solution.damping.modes.get(k)?;
+    Some(file::Damped {
+        natural_frequency_hz: damped.natural / TAU,
+        damped_frequency_hz: damped.swinging() / TAU,
+        decay_1_per_s: damped.decay,
+        loss_factor: 2.0 * damped.ratio,
+        q_half_power: damped.q_half_power(),
+        q_amplitude: damped.q_amplitude(),
+        material_damping_ratio: damped.of_materials,
+        complex: matches!(solution.damping.kind, Kind::Complex(_)),
+        error: damped.error,
     })
 }
 
-/// How the damping was found, null where there is none.
-pub fn of_model(solution: &Solution) -> Value {
+/// How the damping was found; None where there is none.
+pub fn of_model(solution: &Solution) -> Option<file::Damping> {
     let damping = &solution.damping;
-    if damping.modes.is_empty() {
-        return Value::Null;
-    }
-    json!({ "method": damping.kind.to_string(), "rigid_decay_1_per_s": damping.rigid })
+    (!damping.modes.is_empty()).then(|| file::Damping {
+        method: damping.kind.to_string(),
+        rigid_decay_1_per_s: damping.rigid.clone(),
+    })
 }

@@ -1,141 +1,147 @@
 //! The bat in the JSON files: as it was understood, and a bat file in its own right.
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::bat::Bat;
-use crate::fixtures::{Fixtures, Held, Region};
+use crate::bat::{Bat, Weighed};
+use crate::fixtures::{Attachment, Grip, Held, Region};
 use crate::material::Material;
-use crate::profile::{FormulaPiece, Formulas, Interpolation, Stations};
+use crate::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
+use crate::schema;
+use crate::schema::resolved as file;
+use crate::schema::resolved::{BatFormat, ResolvedBat};
 
 /// The bat as it was understood: SI, defaults filled in, materials as they were weighed. Read as a
 /// bat file it is the same bat.
 pub fn resolved(bat: &Bat) -> Value {
-    let mut resolved = json!({
-        "format": "sweetspot-bat/1",
-        "name": bat.name,
-        "source": bat.source,
-        "material": material(bat.material()),
-        "profile": match &bat.profile.formulas {
-            Some(formulas) => pieces(formulas),
-            None => columns(&bat.profile.stations),
+    schema::value(&resolved_bat(bat))
+}
+
+/// The same as plain data.
+pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
+    let fixtures = &bat.fixtures;
+    ResolvedBat {
+        format: BatFormat::One,
+        name: bat.name.clone(),
+        source: bat.source.clone(),
+        material: material(bat.material()),
+        profile: profile(&bat.profile),
+        regions: fixtures.regions.iter().map(region).collect(),
+        attachments: fixtures.attachments.iter().map(attachment).collect(),
+        tapes: fixtures
+            .tapes
+            .iter()
+            .map(|tape| file::Tape { from: tape.from, to: tape.to, mass: tape.mass })
+            .collect(),
+        absorbers: fixtures
+            .absorbers
+            .iter()
+            .map(|a| file::Absorber {
+                x: a.x,
+                mass: a.mass,
+                stiffness: a.stiffness,
+                damping: a.damping,
+            })
+            .collect(),
+        joints: fixtures
+            .joints
+            .iter()
+            .map(|joint| file::Joint {
+                x: joint.x,
+                rotational_stiffness: joint.rotational_stiffness,
+            })
+            .collect(),
+        supports: fixtures
+            .supports
+            .iter()
+            .map(|support| file::Support { x: support.x, kind: held(support.kind) })
+            .collect(),
+        grip: fixtures.grip.map(grip),
+        weighed: (bat.weighed != Weighed::default()).then(|| weighed(&bat.weighed)),
+    }
+}
+
+fn material(material: &Material) -> file::Material {
+    file::Material {
+        density: material.density,
+        youngs_modulus: material.youngs_modulus,
+        loss_factor: material.loss_factor,
+        shear_modulus: material.shear_modulus,
+        poisson_ratio: material.poisson_ratio,
+        shear_coefficient: material.shear_coefficient,
+    }
+}
+
+fn profile(profile: &Profile) -> file::Profile {
+    match &profile.formulas {
+        Some(formulas) => file::Profile::Pieces(pieces(formulas)),
+        None => file::Profile::Columns(columns(&profile.stations)),
+    }
+}
+
+fn columns(stations: &Stations) -> file::Columns {
+    let hollow = stations.inner.iter().any(|r| *r > 0.0);
+    file::Columns {
+        interpolation: match stations.interpolation {
+            Interpolation::Pchip => file::Interpolation::Pchip,
+            // What is constant has become steps between straight lines.
+            Interpolation::Linear | Interpolation::Constant => file::Interpolation::Linear,
         },
-    });
-    fixtures(&mut resolved, &bat.fixtures);
-    for (key, value) in [
-        ("mass", bat.weighed.mass),
-        ("balance_point", bat.weighed.balance_point),
-        ("first_bending_hz", bat.weighed.first_bending),
-    ] {
-        if let Some(value) = value {
-            resolved["weighed"][key] = json!(value);
-        }
+        unit: "m".to_owned(),
+        x: stations.x.clone(),
+        radius: stations.outer.clone(),
+        inner_radius: hollow.then(|| stations.inner.clone()),
     }
-    resolved
 }
 
-fn material(material: &Material) -> Value {
-    let mut numbers = json!({
-        "density": material.density,
-        "youngs_modulus": material.youngs_modulus,
-        "loss_factor": material.loss_factor,
-    });
-    if let Some(modulus) = material.shear_modulus {
-        numbers["shear_modulus"] = json!(modulus);
-    }
-    if let Some(nu) = material.poisson_ratio {
-        numbers["poisson_ratio"] = json!(nu);
-    }
-    if let Some(kappa) = material.shear_coefficient {
-        numbers["shear_coefficient"] = json!(kappa);
-    }
-    numbers
-}
-
-fn fixtures(resolved: &mut Value, fixtures: &Fixtures) {
-    let mut list = |key: &str, items: Vec<Value>| {
-        if !items.is_empty() {
-            resolved[key] = Value::Array(items);
-        }
+fn pieces(formulas: &Formulas) -> file::Pieces {
+    let piece = |piece: &FormulaPiece| file::Piece {
+        from: piece.from,
+        to: piece.to,
+        formula: piece.outer.text().to_owned(),
+        inner_formula: piece.inner.as_ref().map(|inner| inner.text().to_owned()),
     };
-    list("regions", fixtures.regions.iter().map(region).collect());
-    let attachments = fixtures.attachments.iter().map(|a| {
-        json!({
-            "x": a.x,
-            "mass": a.mass,
-            "rotary_inertia": a.rotary_inertia,
-            "offset": a.offset,
-            "stiffness": a.stiffness,
-            "rotational_stiffness": a.rotational_stiffness,
-        })
-    });
-    list("attachments", attachments.collect());
-    let tapes = fixtures.tapes.iter();
-    let tapes = tapes.map(|tape| json!({ "from": tape.from, "to": tape.to, "mass": tape.mass }));
-    list("tapes", tapes.collect());
-    let absorbers = fixtures.absorbers.iter().map(
-        |a| json!({ "x": a.x, "mass": a.mass, "stiffness": a.stiffness, "damping": a.damping }),
-    );
-    list("absorbers", absorbers.collect());
-    let joints = fixtures.joints.iter();
-    let joints =
-        joints.map(|j| json!({ "x": j.x, "rotational_stiffness": j.rotational_stiffness }));
-    list("joints", joints.collect());
-    let supports = fixtures.supports.iter().map(|support| {
-        let kind = match support.kind {
-            Held::Pinned => "pinned",
-            Held::Clamped => "clamped",
-        };
-        json!({ "x": support.x, "type": kind })
-    });
-    list("supports", supports.collect());
-    if let Some(grip) = &fixtures.grip {
-        resolved["grip"] = json!({
-            "from": grip.from,
-            "to": grip.to,
-            "stiffness": grip.stiffness,
-            "damping": grip.damping,
-        });
+    file::Pieces {
+        measured_from: if formulas.from_tip { file::End::Tip } else { file::End::Knob },
+        pieces: formulas.pieces.iter().map(piece).collect(),
     }
 }
 
-fn region(region: &Region) -> Value {
-    let mut written = json!({
-        "from": region.from,
-        "to": region.to,
-        "material": material(&region.layup.outer),
-    });
-    if let Some(core) = &region.layup.core {
-        written["core"] = material(core);
+fn region(region: &Region) -> file::Region {
+    file::Region {
+        from: region.from,
+        to: region.to,
+        material: material(&region.layup.outer),
+        core: region.layup.core.as_ref().map(material),
     }
-    written
 }
 
-fn columns(stations: &Stations) -> Value {
-    let interpolation =
-        if stations.interpolation == Interpolation::Pchip { "pchip" } else { "linear" };
-    let mut profile = json!({
-        "interpolation": interpolation,
-        "unit": "m",
-        "x": stations.x,
-        "radius": stations.outer,
-    });
-    if stations.inner.iter().any(|r| *r > 0.0) {
-        profile["inner_radius"] = json!(stations.inner);
+fn attachment(a: &Attachment) -> file::Attachment {
+    file::Attachment {
+        x: a.x,
+        mass: a.mass,
+        rotary_inertia: a.rotary_inertia,
+        offset: a.offset,
+        stiffness: a.stiffness,
+        rotational_stiffness: a.rotational_stiffness,
     }
-    profile
 }
 
-fn pieces(formulas: &Formulas) -> Value {
-    let piece = |piece: &FormulaPiece| {
-        let mut written =
-            json!({ "from": piece.from, "to": piece.to, "formula": piece.outer.text() });
-        if let Some(inner) = &piece.inner {
-            written["inner_formula"] = json!(inner.text());
-        }
-        written
-    };
-    json!({
-        "measured_from": if formulas.from_tip { "tip" } else { "knob" },
-        "pieces": formulas.pieces.iter().map(piece).collect::<Vec<_>>(),
-    })
+fn held(kind: Held) -> file::Held {
+    match kind {
+        Held::Pinned => file::Held::Pinned,
+        Held::Clamped => file::Held::Clamped,
+    }
+}
+
+fn grip(grip: Grip) -> file::Grip {
+    let Grip { from, to, stiffness, damping } = grip;
+    file::Grip { from, to, stiffness, damping }
+}
+
+fn weighed(weighed: &Weighed) -> file::Weighed {
+    file::Weighed {
+        mass: weighed.mass,
+        balance_point: weighed.balance_point,
+        first_bending_hz: weighed.first_bending,
+    }
 }

@@ -1,0 +1,29 @@
+//! `sweetspot schema [bat|modes|hit]`: what the files look like.
+
+use sweetspot::error::Result;
+use sweetspot::schema::{self, File};
+
+use crate::cli::Done;
+
+/// JSON Schema of the files: what may stand in a bat file, and what modes and hit write
+///
+/// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
+/// three, which tells them apart by their "format".
+///
+/// Example: sweetspot schema bat > bat.schema.json
+#[derive(clap::Args)]
+pub struct Args {
+    /// Which file: bat, modes or hit [default: all of them in one schema]
+    #[arg(value_name = "FILE", value_parser = file)]
+    file: Option<File>,
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let schema = args.file.map_or_else(schema::all, File::schema);
+    Ok(Done::new(format!("{schema:#}\n"), 0))
+}
+
+fn file(text: &str) -> std::result::Result<File, String> {
+    let known = File::ALL.into_iter().find(|file| file.name() == text);
+    known.ok_or_else(|| format!("expected one of {}", File::ALL.map(File::name).join(", ")))
+}

@@ -1,0 +1,56 @@
+//! The form of a material in a bat file, and of a remark, for its schema.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Value, json};
+
+use crate::material::{BUILT_IN, BuiltIn};
+use crate::schema::amount::{Amount, Measures};
+use crate::units::Quantity;
+
+/// A remark for people: a text or a list of texts, which programs pass over.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum Comment {
+    Text(String),
+    Lines(Vec<String>),
+}
+
+/// A material: the name of a built-in one, or its numbers, along the axis where it is wood.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum Material {
+    Named(#[schemars(schema_with = "names")] String),
+    Numbers(MaterialNumbers),
+}
+
+/// The built-in materials, each with where its numbers come from.
+fn names(_: &mut SchemaGenerator) -> Schema {
+    let name = |known: &BuiltIn| json!({ "const": known.name, "description": known.source });
+    json_schema!({
+        "type": "string",
+        "oneOf": BUILT_IN.iter().map(name).collect::<Vec<Value>>(),
+    })
+}
+
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[schemars(extend("dependentRequired" = { "shear_modulus": ["youngs_modulus"] }))]
+pub struct MaterialNumbers {
+    pub comment: Option<Comment>,
+    #[schemars(transform = Measures(Quantity::Density), extend("exclusiveMinimum" = 0))]
+    pub density: Option<Amount>,
+    #[schemars(transform = Measures(Quantity::Pressure), extend("exclusiveMinimum" = 0))]
+    pub youngs_modulus: Option<Amount>,
+    /// Needed, or Poisson's ratio instead, for shear to count.
+    #[schemars(transform = Measures(Quantity::Pressure), extend("exclusiveMinimum" = 0))]
+    pub shear_modulus: Option<Amount>,
+    /// Poisson's ratio.
+    #[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5), example = 0.33)]
+    pub poisson_ratio: Option<f64>,
+    /// Timoshenko's shear coefficient; Cowper's of the section without it.
+    #[schemars(extend("exclusiveMinimum" = 0), example = 0.9)]
+    pub shear_coefficient: Option<f64>,
+    /// Loss factor: a mode's damping ratio is half of it.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 2, "default" = 0), example = 0.01)]
+    pub loss_factor: Option<f64>,
+}
