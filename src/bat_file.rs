@@ -172,7 +172,7 @@ fn formula_piece(node: &Node) -> Result<FormulaPiece> {
         let text = node.string().map_err(|_| {
             node.error(node.shown(), "a formula in quotes, such as \"0.0125 + 0.02*x\"")
         })?;
-        Formula::parse(&text).map_err(|complaint| node.complain(complaint))
+        Formula::parse_in_place(&text).map_err(|(said, part)| node.complain_of(part, said))
     };
     let from = mistakes.note(end("from", "\"from\": where the piece begins"));
     let to = mistakes.note(end("to", "\"to\": where the piece ends"));

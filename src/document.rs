@@ -72,7 +72,7 @@ const START: (usize, usize, usize) = (0, 1, 1);
 /// lines the first character stands for the whole.
 fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
     /// Columns for the line, and for what is marked in it.
-    const LINE: usize = 70;
+    const LINE: usize = 72;
     const MARKED: usize = 40;
     let whole = &text[marked.clone()];
     let first = whole.chars().next().map_or(0, char::len_utf8);
@@ -162,19 +162,19 @@ mod tests {
         let digits = "0123456789".repeat(100_000);
         let [before, marked, after] = parts(&format!("{digits}bad{digits}"), "bad");
         let size = |text: &str| text.chars().count();
-        assert_eq!((size(&before), &*marked, size(&after)), (46, "bad", 23));
-        assert!(before.starts_with("…56789") && before.ends_with("789"), "{before}");
-        assert!(after.starts_with("0123") && after.ends_with("1…"), "{after}");
+        assert_eq!((size(&before), &*marked, size(&after)), (47, "bad", 24));
+        assert!(before.starts_with("…456789") && before.ends_with("789"), "{before}");
+        assert!(after.starts_with("0123") && after.ends_with("2…"), "{after}");
         let [before, marked, after] = parts(&format!("[{digits}]"), &digits);
         assert_eq!((&*before, size(&marked), &*after), ("[", 40, "…"));
         // The beginning and the end of a line leave their room to the other side.
         let [before, _, after] = parts(&format!("bad{digits}"), "bad");
-        assert_eq!((size(&before), size(&after)), (0, 68));
+        assert_eq!((size(&before), size(&after)), (0, 70));
         let [before, _, after] = parts(&format!("{digits}bad"), "bad");
-        assert_eq!((size(&before), size(&after)), (68, 0));
+        assert_eq!((size(&before), size(&after)), (70, 0));
         let wide = "黒".repeat(1000);
         let [before, _, after] = parts(&format!("{wide}bad{wide}"), "bad");
-        assert!(2 * size(&before) + 2 * size(&after) <= 72, "{before} {after}");
+        assert!(2 * size(&before) + 2 * size(&after) <= 74, "{before} {after}");
     }
 
     #[test]

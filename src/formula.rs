@@ -13,6 +13,7 @@
 //! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. It is spelled out with the parser
 //! library winnow, because ready-made expression evaluators take `-2^2` for 4.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use winnow::ModalResult;
@@ -98,20 +99,28 @@ impl Formula {
     /// there and what was expected. Also more than 10 000 characters or 100 levels of brackets
     /// and powers.
     pub fn parse(text: &str) -> Result<Self, Complaint> {
+        Self::parse_in_place(text).map_err(|(complaint, _)| complaint)
+    }
+
+    /// As [`Self::parse`], with the part of the text that is wrong, in bytes.
+    pub(crate) fn parse_in_place(text: &str) -> Result<Self, (Complaint, Range<usize>)> {
         let length = text.chars().count();
         if length > LONGEST {
             let expected = format!("{LONGEST} at most");
             let found = format!("a formula of {length} characters");
-            return Err(Complaint::new("", found, expected));
+            return Err((Complaint::new("", found, expected), 0..text.len()));
         }
         if text.trim().is_empty() {
             let expected = "a formula of x, such as \"0.0125 + 0.02*x\"";
-            return Err(Complaint::new("", "an empty formula", expected));
+            return Err((Complaint::new("", "an empty formula", expected), 0..text.len()));
         }
         let mut input = Input { input: LocatingSlice::new(text), state: 0 };
         match whole(&mut input) {
             Ok(root) => Ok(Self(Arc::new(Parsed { text: text.to_owned(), root }))),
-            Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => Err(fault.complaint(text)),
+            Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => {
+                let part = fault.offset..fault.offset + word(&text[fault.offset..]).len();
+                Err((fault.complaint(text), part))
+            }
             Err(ErrMode::Incomplete(_)) => unreachable!("the whole text is there"),
         }
     }

@@ -5,6 +5,7 @@
 
 use std::collections::HashSet;
 use std::fmt;
+use std::ops::Range;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
@@ -48,6 +49,18 @@ impl<'a> Node<'a> {
         }
         let offset = self.offset();
         self.document.error(offset..offset + self.raw.len(), complaint)
+    }
+
+    /// An error about a part of this text, in bytes of it; about the whole where it is written in
+    /// another way in the file.
+    pub fn complain_of(&self, part: Range<usize>, mut complaint: Complaint) -> Error {
+        complaint.field.clone_from(&self.path);
+        if self.raw.contains('\\') {
+            return self.complain(complaint);
+        }
+        // After the quote.
+        let start = self.offset() + 1;
+        self.document.error(start + part.start..start + part.end, complaint)
     }
 
     /// Where it begins in the text, in bytes.
@@ -128,7 +141,7 @@ impl<'a> Node<'a> {
             (key, Node { document: self.document, path, raw: raw.get() })
         };
         let members = entries.0.into_iter().map(member).collect();
-        Ok(Object { node: self.clone(), members })
+        Ok(Object { node: self.clone(), members, strayed: false })
     }
 
     pub fn is_object(&self) -> bool {
@@ -223,6 +236,8 @@ impl<'a> Node<'a> {
 pub(crate) struct Object<'a> {
     pub node: Node<'a>,
     members: Vec<(String, Node<'a>)>,
+    /// Whether a key was told that is not known.
+    strayed: bool,
 }
 
 impl<'a> Object<'a> {
@@ -238,15 +253,21 @@ impl<'a> Object<'a> {
             }
             let shown = shortened(key, 40);
             let found = format!("unknown key \"{shown}\"");
-            let complaint = Complaint::new("", found, format!("one of {}", known.join(", ")));
-            let error = node.key().complain(complaint.or_nearest(&shown, &names));
+            let expected = match nearest(&shown, &names) {
+                Some(name) => format!("\"{name}\""),
+                None => format!("one of {}", known.join(", ")),
+            };
+            let complaint = Complaint::new("", found, expected).or_nearest(&shown, &names);
+            let error = node.key().complain(complaint);
             if let Some(meant) = nearest(&shown, known).filter(|meant| seen.insert((*meant).into()))
             {
                 *key = meant.to_owned();
             }
             Err(error)
         });
-        mistakes.note(mistakes::all(unknown).map(|_| ()));
+        let unknown = mistakes::all(unknown);
+        self.strayed = unknown.is_err();
+        mistakes.note(unknown.map(|_| ()));
         mistakes.note(self.check_once());
         let comments = self.members.iter().filter(|(key, _)| key == "comment");
         mistakes.note(mistakes::all(comments.map(|(_, node)| node.check_comment())).map(|_| ()));
@@ -300,9 +321,10 @@ impl<'a> Object<'a> {
         self.get(key).ok_or_else(|| self.node.error(format!("no \"{key}\""), expected))
     }
 
-    /// An error unless one of these members at least is there.
+    /// An error unless one of these members at least is there, or a key was told that may have been
+    /// meant for one.
     pub fn require_some(&self, keys: &[&str]) -> Result<()> {
-        if keys.iter().any(|key| self.get(key).is_some()) {
+        if self.strayed || keys.iter().any(|key| self.get(key).is_some()) {
             return Ok(());
         }
         let names: Vec<String> = keys.iter().map(|key| format!("\"{key}\"")).collect();

@@ -42,7 +42,11 @@ fn group(error: &Error) -> Group<'static> {
         Error::Input { place, complaint } => input(place, complaint),
         Error::Value(complaint) if !complaint.hint.is_empty() => {
             let plain = Complaint { hint: String::new(), ..complaint.clone() };
-            titled(&plain.to_string()).element(Level::HELP.message(footer("help", &complaint.hint)))
+            advised(&plain.to_string(), &complaint.hint)
+        }
+        Error::NotYet { what, advice } => advised(&format!("{what} is not supported yet"), advice),
+        Error::NotBuilt { what, advice } => {
+            advised(&format!("{what} is not in this build"), advice)
         }
         other => titled(&other.to_string()),
     }
@@ -52,9 +56,14 @@ fn titled(text: &str) -> Group<'static> {
     Group::with_title(Level::ERROR.primary_title(printable(text)))
 }
 
+fn advised(text: &str, advice: &str) -> Group<'static> {
+    titled(text).element(Level::HELP.message(footer("help", advice)))
+}
+
 fn input(place: &Place, complaint: &Complaint) -> Group<'static> {
     let Excerpt { before, marked, after } = &place.excerpt;
     let [before, marked, after] = [before, marked, after].map(|part| visible(part));
+    let before = outdented(before);
     let expected = format!("expected {}", printable(&complaint.expected));
     let mark = AnnotationKind::Primary.span(before.len()..before.len() + marked.len());
     // Room for the number of the line, the bar and the spaces around it.
@@ -117,6 +126,13 @@ fn footer(name: &str, text: &str) -> String {
 /// A part of a line of a file: tabs as spaces, and nothing that does anything to a terminal.
 fn visible(part: &str) -> String {
     printable(&part.replace('\t', "    "))
+}
+
+/// The beginning of a line without the spaces of a deep indent.
+fn outdented(before: String) -> String {
+    const DEEP: usize = 20;
+    let text = before.trim_start_matches(' ');
+    if before.len() - text.len() > DEEP { format!("…{text}") } else { before }
 }
 
 /// Columns of a text; what may be wide counts as wide.
