@@ -177,7 +177,7 @@ fn read_row(
             Ok(v) if (v * scale).is_finite() => values.push(v * scale),
             _ => {
                 let expected = "a finite number (the unit stands in the header)";
-                let complaint = Complaint::new(*key, format!("\"{written}\""), expected);
+                let complaint = Complaint::new(*key, format!("{written:?}"), expected);
                 mistakes.add(document.error(cell(&document.text, at, k), complaint));
             }
         }

@@ -120,7 +120,7 @@ pub struct Excerpt {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.file, self.line, self.column)
+        write!(f, "{}:{}:{}", one_line(&self.file), self.line, self.column)
     }
 }
 
@@ -162,11 +162,18 @@ impl Complaint {
 impl fmt::Display for Complaint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if !self.field.is_empty() {
-            write!(f, "{}: ", shortened(&self.field, 200))?;
+            write!(f, "{}: ", one_line(&shortened(&self.field, 200)))?;
         }
-        write!(f, "found {}, expected {}", shortened(&self.found, 400), self.expected)?;
-        if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", self.hint) }
+        let found = one_line(&shortened(&self.found, 400));
+        write!(f, "found {found}, expected {}", one_line(&self.expected))?;
+        if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", one_line(&self.hint)) }
     }
+}
+
+/// A text that may hold anything of somebody's file, its control characters written out.
+fn one_line(text: &str) -> String {
+    let written = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(written).collect()
 }
 
 /// The beginning of a text that may be a megabyte of somebody's file.
@@ -219,5 +226,19 @@ mod tests {
         assert_eq!(nearest("youngsModulus", &keys), Some("youngs_modulus"));
         assert_eq!(nearest("colour", &keys), None);
         assert_eq!(nearest("", &keys), None);
+    }
+
+    #[test]
+    fn an_error_is_one_line_whatever_is_in_the_file() {
+        let complaint = Complaint::new("a\nb", "\"\u{1b}[2J\"", "é").hinted("did you mean 7?");
+        let excerpt = Excerpt::default();
+        let place = Box::new(Place { file: "my\tbat.json".into(), line: 3, column: 4, excerpt });
+        let one = || Error::Input { place: place.clone(), complaint: complaint.clone() };
+        let said = "my\\tbat.json:3:4: a\\nb: found \"\\u{1b}[2J\", expected é; did you mean 7?";
+        assert_eq!(one().to_string(), said);
+        let two = Error::Several { shown: vec![one(), one()], more: 0 };
+        assert_eq!(two.to_string(), format!("{said} (and 1 more mistake)"));
+        let many = Error::Several { shown: vec![one(), one()], more: 7 };
+        assert_eq!(many.to_string(), format!("{said} (and 8 more mistakes)"));
     }
 }

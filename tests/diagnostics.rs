@@ -146,8 +146,8 @@ fn a_line_of_a_megabyte_is_shortened_around_the_caret() {
         format!(
             r#"error: my.json:1:{column}: profile.radius[100000]: found unknown unit "inn"
   |
-1 | … 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, "1 inn", 0.02, 0.02, 0.02, 0…
-  |                                             ^^^^^^^
+1 | …, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, "1 inn", 0.02, 0.02, 0.02, 0…
+  |                                              ^^^^^^^
   |
   = expected: a length such as "33 in" or a number in m
   = help: did you mean in?
@@ -216,7 +216,7 @@ fn independent_mistakes_are_all_told_in_the_order_of_the_file() {
     let folder = Folder::new("five");
     let text = r#"{
   "format": "sweetspot-bat/1",
-  "supports": [{ "x": 0.1, "type": "fixed" }, { "x": 2, "type": "pinned" }],
+  "supports": [{ "x": 0.1, "type": "fixed" }, { "x": "2 s", "type": "pinned" }],
   "nmae": "five and more",
   "profile": {
     "interpolation": "linaer",
@@ -233,7 +233,7 @@ fn independent_mistakes_are_all_told_in_the_order_of_the_file() {
         .collect();
     let expected = [
         "my.json:3:36: supports[0].type",
-        "my.json:3:52: supports[1].x",
+        "my.json:3:54: supports[1].x",
         "my.json:4:3: nmae",
         "my.json:6:22: profile.interpolation",
         "my.json:7:19: profile.x[2]",
