@@ -387,7 +387,8 @@ fn broken(document: &Document, error: &serde_json::Error) -> Error {
         Some(expected) => Complaint::new("", shortened(here, 20), expected),
         None => Complaint::new("", format!("broken JSON, {said}"), "JSON"),
     };
-    document.error(offset..offset + here.len(), complaint.hinted(mended(said, here)))
+    document
+        .error(offset..offset + here.len(), complaint.hinted(mended(&text[..offset], said, here)))
 }
 
 /// The word that a text begins with, or the one character that ends words.
@@ -407,14 +408,15 @@ fn unclosed(rest: &str) -> &'static str {
     }
 }
 
-/// What to do about the commonest slips in JSON.
-fn mended(said: &str, here: &str) -> &'static str {
-    let comma = said.starts_with("expected `,`");
+/// What to do about the commonest slips in JSON: what stood before, what was said and what is here.
+fn mended(before: &str, said: &str, here: &str) -> &'static str {
+    let after_comma = before.trim_end().ends_with(',');
     match here.chars().next() {
         Some('/' | '#') => "JSON has no comments: write them as \"comment\": \"…\"",
         Some('\'') => "texts stand in double quotes",
-        Some('"') if comma => "is a comma missing before it?",
-        _ if said == "trailing comma" => "no comma follows the last one of a list or an object",
+        Some('"') if said.starts_with("expected `,`") => "is a comma missing before it?",
+        Some(']' | '}') if after_comma => "no comma follows the last one of a list or an object",
+        Some(',') if after_comma => "one comma is enough",
         _ if said == "key must be a string" => "keys stand in double quotes",
         _ => "",
     }
@@ -500,18 +502,21 @@ mod tests {
         let document = Document::new("f".into(), "{ \"a\": [{}, { \"x\": 5 }] }");
         let item = Node::root(&document).unwrap().nearest("a[1]");
         let said = item.locate(Complaint::new("a[1].x", "5 m", "less")).to_string();
-        assert_eq!(said, "f:1:21: a[1].x: found 5 m, expected less");
+        assert_eq!(said, "f:1:20: a[1].x: found 5 m, expected less");
     }
 
     #[test]
     fn broken_json_is_placed_where_it_breaks() {
         for (text, says) in [
-            ("{\n \"a\": 1,,\n}", &["f:2:9: ", "keys stand in double quotes"][..]),
+            ("{\n \"a\": 1,,\n}", &["f:2:9: ", "one comma is enough"][..]),
             ("{\n \"a\": 1\n \"b\": 2\n}", &["f:3:2: found \"b\"", "a comma missing before"]),
-            ("{ \"a\": [1, 2,] }", &["f:1:14: ", "trailing comma", "no comma follows"]),
+            ("{ \"a\": [1, 2,] }", &["f:1:14: found ]", "no comma follows"]),
+            ("{ \"a\": 1, }", &["f:1:11: ", "no comma follows"]),
+            ("{ a: 1 }", &["f:1:3: ", "keys stand in double quotes"]),
+            ("{ \"a\": }", &["f:1:8: found }, expected a JSON value"]),
             ("{ // a bat\n}", &["f:1:3: ", "JSON has no comments", "\"comment\""]),
             ("{ \"a\": 'b' }", &["f:1:8: found 'b'", "double quotes"]),
-            ("{ \"a\": [1, 2", &["f:1:14: found the end of the file", "a closing ]"]),
+            ("{ \"a\": [1, 2", &["f:1:13: found the end of the file", "a closing ]"]),
             ("{ \"a\": \u{a0}1 }", &["f:1:8: found \u{a0}"]),
         ] {
             let document = Document::new("f".into(), text);
