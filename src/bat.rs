@@ -1,9 +1,11 @@
 //! What bat is this; is it physical; its mass, balance point and swing weight.
 
 use crate::error::{Error, Result};
-use crate::fixtures::{Fixtures, on_the_bat, positive};
+use crate::fixtures::Fixtures;
+use crate::fixtures_check::{on_the_bat, positive};
 use crate::layup::{Layup, Worth};
 use crate::material::Material;
+use crate::mistakes::Mistakes;
 use crate::profile::{Piece, Profile, Radii, Section};
 use crate::quadrature::{RunningSum, converged, gauss};
 
@@ -39,17 +41,18 @@ pub struct Weighed {
 
 impl Weighed {
     /// Every value in its possible range, of a bat of that length (m).
-    fn check(&self, length: f64) -> Result<()> {
+    pub(crate) fn check(&self, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
         if let Some(mass) = self.mass.filter(|mass| *mass <= 0.0 || !mass.is_finite()) {
-            return Err(Error::value("weighed.mass", format!("{mass} kg"), "a mass above 0"));
+            mistakes.add(Error::value("weighed.mass", format!("{mass} kg"), "a mass above 0"));
         }
         if let Some(x) = self.balance_point {
-            on_the_bat("weighed.balance_point", x, length)?;
+            mistakes.note(on_the_bat("weighed.balance_point", x, length));
         }
-        match self.first_bending {
-            Some(frequency) => positive("weighed.first_bending_hz", frequency, "Hz"),
-            None => Ok(()),
+        if let Some(frequency) = self.first_bending {
+            mistakes.note(positive("weighed.first_bending_hz", frequency, "Hz"));
         }
+        mistakes.end(())
     }
 }
 
@@ -89,7 +92,7 @@ impl Bat {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`], its field the path of a key in a bat file.
+    /// [`Error::Value`], its field the path of a key in a bat file, or several of them.
     pub fn with_fixtures(
         name: impl Into<String>,
         profile: Profile,
@@ -99,8 +102,10 @@ impl Bat {
     ) -> Result<Self> {
         let (name, source) = (name.into(), String::new());
         let layups = vec![Layup::of(material)];
-        fixtures.check(profile.length())?;
-        weighed.check(profile.length())?;
+        let mut mistakes = Mistakes::default();
+        mistakes.note(fixtures.check(profile.length()));
+        mistakes.note(weighed.check(profile.length()));
+        mistakes.end(())?;
         let factors = [1.0; 2];
         let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
         bat.lay_out();

@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
-use crate::bat::Bat;
-use crate::document::{Document, Node, Object};
-use crate::error::{Error, Result};
+use crate::bat::{Bat, Weighed};
+use crate::document::Document;
+use crate::error::{Complaint, Error, Result};
 use crate::fixtures_file;
 use crate::formula::Formula;
+use crate::json_node::{Node, Object};
+use crate::material::Material;
 use crate::material_file;
+use crate::mistakes::{self, Mistakes};
 use crate::profile::{FormulaPiece, Interpolation, Profile};
 use crate::station_table::Table;
 use crate::units::{self, Quantity};
@@ -51,7 +54,7 @@ impl Bat {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column if
+    /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column, or several, if
     /// anything in it is wrong or impossible.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
@@ -70,129 +73,159 @@ impl Bat {
 }
 
 fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
-    let root = document.root()?.members()?;
+    let root = Node::root(document)?.members()?;
     // Before the keys are looked at: another format may have others.
-    if let Some(format) = root.get("format")
-        && format.string().ok().as_deref() != Some("sweetspot-bat/1")
-    {
-        return Err(format.error(format.shown(), "\"sweetspot-bat/1\""));
+    root.check_format("sweetspot-bat/1")?;
+    let mut mistakes = Mistakes::default();
+    let root = root.only(KEYS, &mut mistakes);
+    mistakes.note(root.require("format", "\"format\": \"sweetspot-bat/1\"").map(|_| ()));
+    let name = mistakes.note(root.string("name"));
+    let source = mistakes.note(root.string("source"));
+    let weighed = mistakes.some(fixtures_file::weighed(&root));
+    let material = mistakes.some(material(&root, weighed.as_ref()));
+    let node = mistakes.some(root.require("profile", "a profile"));
+    let profile = node.and_then(|node| profile(node, folder, &mut mistakes));
+    let length = profile.as_ref().map(Profile::length);
+    // Something sound stands in for a material that could not be read: no bat is made of it.
+    let sound = || Material::new(700.0, 14e9).expect("both are above 0");
+    let material = material.unwrap_or_else(sound);
+    let on = fixtures_file::On { material: &material, length };
+    let fixtures = fixtures_file::read(&root, &on, &mut mistakes);
+    let placed = |error: Error| error.placed(|complaint| root.node.locate(complaint));
+    if let (Some(weighed), Some(length)) = (weighed, length) {
+        mistakes.note(weighed.check(length).map_err(placed));
     }
-    let root = root.only(KEYS)?;
-    root.require("format", "\"format\": \"sweetspot-bat/1\"")?;
-    let weighed = fixtures_file::weighed(&root)?;
-    let without_density = match (weighed.mass, root.get("regions")) {
-        (None, _) => Err("\"density\" here or \"mass\" in \"weighed\""),
-        (Some(_), Some(_)) => Err("\"density\": the weighed mass is one factor for all regions"),
+    let weighed = weighed.unwrap_or_default();
+    mistakes.end(())?;
+    let profile = profile.expect("a profile that could not be read was noted");
+    let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
+    let bat = Bat::with_fixtures(name, profile, material, fixtures, weighed).map_err(placed)?;
+    Ok(Bat { source: source.unwrap_or_default(), ..bat })
+}
+
+/// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is
+/// asked for in its place where that could not be read.
+fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
+    let regions = root.get("regions").is_some();
+    let without_density = match (weighed.map(|weighed| weighed.mass), regions) {
+        (Some(None), _) => Err("\"density\" here or \"mass\" in \"weighed\""),
+        (Some(Some(_)), true) => Err("\"density\": the weighed mass is one factor for all regions"),
         // The weighed mass will set it; any positive number is as good.
-        (Some(_), None) => Ok(1.0),
+        (Some(Some(_)), false) | (None, _) => Ok(1.0),
     };
-    let node = root.require("material", "a material")?;
-    let without_modulus = match (weighed.first_bending, root.get("regions")) {
-        (None, _) => {
+    let without_modulus = match (weighed.map(|weighed| weighed.first_bending), regions) {
+        (Some(None), _) => {
             Err("\"youngs_modulus\", such as \"18.1 GPa\", or \"first_bending_hz\" in \"weighed\"")
         }
-        (Some(_), Some(_)) => {
+        (Some(Some(_)), true) => {
             Err("\"youngs_modulus\": the tapped frequency is one factor for all regions")
         }
         // The tap will set it; a wood's is a good beginning.
-        (Some(_), None) => Ok(1e10),
+        (Some(Some(_)), false) | (None, _) => Ok(1e10),
     };
-    let material = material_file::read(node, without_density, without_modulus)?;
-    let profile = profile(root.require("profile", "a profile")?, folder)?;
-    let fixtures = fixtures_file::read(&root, &material, profile.length())?;
-    let name = root.string("name")?.unwrap_or_else(|| "unnamed bat".to_owned());
-    let bat = Bat::with_fixtures(name, profile, material, fixtures, weighed);
-    let mut bat = bat.map_err(|error| match error {
-        Error::Value(complaint) => root.node.locate(complaint),
-        other => other,
-    })?;
-    bat.source = root.string("source")?.unwrap_or_default();
-    Ok(bat)
+    material_file::read(root.require("material", "a material")?, without_density, without_modulus)
 }
 
-fn profile(node: &Node, folder: &Path) -> Result<Profile> {
-    let object = node.object(PROFILE_KEYS)?;
-    let from_tip = match object.get("measured_from") {
-        Some(node) => node.word(&[("knob", false), ("tip", true)])?,
-        None => false,
-    };
+/// The profile, if there is nothing wrong with it but its keys.
+fn profile(node: &Node, folder: &Path, mistakes: &mut Mistakes) -> Option<Profile> {
+    let object = node.object(PROFILE_KEYS, mistakes);
+    let object = mistakes.some(object)?;
+    let from_tip = object.get("measured_from");
+    let from_tip = from_tip.map(|node| node.word(&[("knob", false), ("tip", true)])).transpose();
+    let from_tip = mistakes.some(from_tip);
     let profile = match object.get("pieces") {
-        Some(pieces) => formulas(&object, pieces)?,
-        None => columns(object, folder)?,
+        Some(pieces) => formulas(&object, pieces),
+        None => columns(object, folder),
     };
-    Ok(if from_tip { profile.reversed() } else { profile })
+    let profile = mistakes.some(profile)?;
+    Some(if from_tip?.unwrap_or(false) { profile.reversed() } else { profile })
 }
 
 /// Formulas, in the `pieces` of a `profile` object.
 fn formulas(object: &Object, node: &Node) -> Result<Profile> {
+    let mut mistakes = Mistakes::default();
     for key in PROFILE_KEYS.iter().filter(|key| !["pieces", "measured_from"].contains(key)) {
         if let Some(node) = object.get(key) {
             let expected = "\"pieces\" alone: formulas give the radius in m from x in m";
-            return Err(node.error(format!("\"{key}\" beside \"pieces\""), expected));
+            mistakes.add(node.key().error(format!("\"{key}\" beside \"pieces\""), expected));
         }
     }
-    let items = node.items()?;
-    if items.is_empty() {
-        return Err(node.error("an empty list", "one piece at least"));
-    }
-    let pieces: Vec<FormulaPiece> = items.iter().map(formula_piece).collect::<Result<_>>()?;
-    Profile::from_formulas(pieces).map_err(|error| match error {
-        Error::Value(mut complaint) => {
+    mistakes.and(node.items().and_then(|items| {
+        if items.is_empty() {
+            return Err(node.error("an empty list", "one piece at least"));
+        }
+        let pieces: Vec<FormulaPiece> = mistakes::all(items.iter().map(formula_piece))?;
+        let placed = |mut complaint: Complaint| {
             // The field is `pieces[k].key`: its value's place, or that of the piece.
             let field = std::mem::take(&mut complaint.field);
             object.node.nearest(&field).complain(complaint)
-        }
-        other => other,
-    })
+        };
+        Profile::from_formulas(pieces).map_err(|error| error.placed(placed))
+    }))
 }
 
 fn formula_piece(node: &Node) -> Result<FormulaPiece> {
-    let piece = node.object(&["from", "to", "formula", "inner_formula"])?;
+    let mut mistakes = Mistakes::default();
+    let piece = node.object(&["from", "to", "formula", "inner_formula"], &mut mistakes)?;
     let end = |key: &str, expected: &str| piece.require(key, expected)?.quantity(Quantity::Length);
     let formula = |node: &Node| {
         let text = node.string().map_err(|_| {
             node.error(node.shown(), "a formula in quotes, such as \"0.0125 + 0.02*x\"")
         })?;
-        Formula::parse(&text).map_err(|complaint| node.complain(complaint))
+        Formula::parse_in_place(&text).map_err(|(said, part)| node.complain_of(part, said))
     };
-    Ok(FormulaPiece {
-        from: end("from", "\"from\": where the piece begins")?,
-        to: end("to", "\"to\": where the piece ends")?,
-        outer: formula(piece.require("formula", "\"formula\": the outer radius in m")?)?,
-        inner: piece.get("inner_formula").map(formula).transpose()?,
-    })
+    let from = mistakes.note(end("from", "\"from\": where the piece begins"));
+    let to = mistakes.note(end("to", "\"to\": where the piece ends"));
+    let outer = piece.require("formula", "\"formula\": the outer radius in m");
+    let outer = outer.and_then(formula);
+    let inner = mistakes.note(piece.get("inner_formula").map(formula).transpose());
+    mistakes.and(outer.map(|outer| FormulaPiece { from, to, outer, inner }))
 }
 
 /// Columns of stations, in a `profile` object itself or in the CSV file that it names.
 fn columns(object: Object, folder: &Path) -> Result<Profile> {
+    let mut mistakes = Mistakes::default();
     let unit = match object.get("unit") {
-        Some(node) => units::factor(&node.string()?, Quantity::Length)
-            .map_err(|complaint| node.complain(complaint))?,
-        None => 1.0,
+        Some(node) => node.string().and_then(|unit| {
+            units::factor(&unit, Quantity::Length).map_err(|complaint| node.complain(complaint))
+        }),
+        None => Ok(1.0),
     };
     let interpolation = match object.get("interpolation") {
-        Some(node) => node.word(INTERPOLATIONS)?,
-        None => Interpolation::Pchip,
+        Some(node) => node.word(INTERPOLATIONS),
+        None => Ok(Interpolation::Pchip),
     };
-    let table = match object.get("csv") {
-        Some(node) => {
-            let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter"];
-            for key in columns.into_iter().chain(["wall_thickness"]) {
-                if let Some(node) = object.get(key) {
-                    let expected = "the columns in the csv file alone";
-                    return Err(node.error(format!("\"{key}\" beside \"csv\""), expected));
-                }
-            }
-            let path = folder.join(node.string()?);
-            Table::from_csv(&path, unit).map_err(|error| match error {
-                Error::Read { source, .. } => node.error(
-                    format!("{}, which cannot be read ({source})", path.display()),
-                    "a CSV file, sought from the folder of this one",
-                ),
-                other => other,
-            })?
+    // Straight lines ask least of the stations.
+    let interpolation = mistakes.some(interpolation).unwrap_or(Interpolation::Linear);
+    let table = mistakes.some(table(object, folder, *unit.as_ref().unwrap_or(&1.0)));
+    // Nothing can be said of places and radii in no unit.
+    let profile = unit.and_then(|_| {
+        let Some(table) = table else { return Ok(None) };
+        let profile = table.stations(interpolation).and_then(Profile::new);
+        profile.map(Some).map_err(|error| table.locate(error))
+    });
+    mistakes.and(profile).map(|profile| profile.expect("a table that could not be read was noted"))
+}
+
+/// The columns that a `profile` object has, or the CSV file that it names.
+fn table<'a>(object: Object<'a>, folder: &Path, unit: f64) -> Result<Table<'a>> {
+    let Some(node) = object.get("csv") else { return Table::from_json(object, unit) };
+    let mut mistakes = Mistakes::default();
+    let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
+    for key in columns {
+        if let Some(node) = object.get(key) {
+            let found = format!("\"{key}\" beside \"csv\"");
+            mistakes.add(node.key().error(found, "the columns in the csv file alone"));
         }
-        None => Table::from_json(object, unit)?,
-    };
-    Profile::new(table.stations(interpolation)?).map_err(|e| table.locate(e))
+    }
+    mistakes.and(node.string().and_then(|name| {
+        let path = folder.join(name);
+        Table::from_csv(&path, unit).map_err(|error| match error {
+            Error::Read { source, .. } => node.error(
+                format!("{}, which cannot be read ({source})", path.display()),
+                "a CSV file, sought from the folder of this one",
+            ),
+            other => other,
+        })
+    }))
 }

@@ -1,7 +1,10 @@
 //! Columns of numbers from a CSV file, each row with its place.
 
+use std::ops::Range;
+
 use crate::document::Document;
-use crate::error::{Complaint, Result, nearest};
+use crate::error::{Complaint, Error, Result};
+use crate::mistakes::{self, Mistakes};
 use crate::units::{self, Quantity};
 
 /// A table of numbers: the columns of a CSV file in SI, and where each row stands.
@@ -41,51 +44,28 @@ impl Csv {
             .flexible(true)
             .has_headers(false)
             .from_reader(document.text.as_bytes());
-        let wrong = |offset: usize, field: &str, found: String, expected: String| {
-            document.error(offset, Complaint::new(field, found, expected))
-        };
+        let text = &document.text;
         let offset = |record: &csv::StringRecord| {
-            row_start(&document.text, record.position().map_or(0, |p| p.byte() as usize))
+            row_start(text, record.position().map_or(0, |p| p.byte() as usize))
         };
         let mut records = reader.records();
         let Some(Ok(names)) = records.next() else {
             let expected = format!("a header of {} and their units", keys.join(", "));
-            return Err(wrong(0, "", "no header".into(), expected));
+            return Err(document.error(0..0, Complaint::new("", "no header", expected)));
         };
         let header = offset(&names);
-        let mut scales: Vec<(&'static str, f64)> = Vec::new();
-        for name in &names {
-            let (key, scale) = column(name, &keys, columns)
-                .map_err(|complaint| document.error(header, complaint))?;
-            if scales.iter().any(|(other, _)| *other == key) {
-                let found = format!("column \"{key}\" a second time");
-                return Err(wrong(header, "header", found, "it once".into()));
-            }
-            scales.push((key, scale));
-        }
+        let scales = scales(document, header, &names, columns)?;
         let mut filled: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
         let mut rows = Vec::new();
-        for record in records {
-            let record =
-                record.map_err(|e| wrong(header, "", e.to_string(), "rows of numbers".into()))?;
+        mistakes::all(records.map(|record| {
+            let record = record.map_err(|error| {
+                let complaint = Complaint::new("", error, "rows of numbers");
+                document.error(line(text, header), complaint)
+            })?;
             let at = offset(&record);
-            if record.len() != scales.len() {
-                let found = format!("{} cells in this row", record.len());
-                return Err(wrong(at, "", found, format!("{}, as in the header", scales.len())));
-            }
-            let cells = record.iter().zip(&scales).zip(&mut filled).enumerate();
-            for (k, ((cell, (key, scale)), (_, values))) in cells {
-                match cell.parse::<f64>() {
-                    Ok(v) if (v * scale).is_finite() => values.push(v * scale),
-                    _ => {
-                        let at = cell_start(&document.text, at, k);
-                        let expected = "a finite number (the unit stands in the header)";
-                        return Err(wrong(at, key, format!("\"{cell}\""), expected.into()));
-                    }
-                }
-            }
             rows.push(at);
-        }
+            read_row(document, at, &record, &scales, &mut filled)
+        }))?;
         let unit = |(name, (key, _)): (&str, &(&str, f64))| {
             name[key.len()..].trim_start_matches('_').to_owned()
         };
@@ -93,12 +73,25 @@ impl Csv {
         Ok(Self { columns: filled, units, header, rows })
     }
 
-    /// Where a cell stands in the text, what is written there, and its unit.
-    pub fn cell<'a>(&'a self, text: &'a str, key: &str, row: usize) -> (usize, &'a str, &'a str) {
+    /// An error about a value: a row of a column, or the header.
+    pub fn error(
+        &self,
+        document: &Document,
+        key: &str,
+        row: Option<usize>,
+        complaint: Complaint,
+    ) -> Error {
+        match row {
+            Some(row) => document.error(self.cell(&document.text, key, row).0, complaint),
+            None => document.error(line(&document.text, self.header), complaint),
+        }
+    }
+
+    /// Where a cell stands in the text, and its unit.
+    pub fn cell(&self, text: &str, key: &str, row: usize) -> (Range<usize>, &str) {
         let column = self.columns.iter().position(|(name, _)| *name == key).unwrap_or(0);
-        let start = cell_start(text, self.rows.get(row).copied().unwrap_or(self.header), column);
-        let cell = text[start..].split([',', '\n']).next().unwrap_or_default();
-        (start, cell.trim(), &self.units[column])
+        let row = self.rows.get(row).copied().unwrap_or(self.header);
+        (cell(text, row, column), &self.units[column])
     }
 
     pub fn column(&self, key: &str) -> Option<&[f64]> {
@@ -118,32 +111,97 @@ fn row_start(text: &str, mut offset: usize) -> usize {
     }
 }
 
-/// Where cell number `column` of the row at `offset` begins.
-fn cell_start(text: &str, offset: usize, column: usize) -> usize {
-    let cells = text[offset..].split(',').take(column).map(|cell| cell.len() + 1);
-    let start = (offset + cells.sum::<usize>()).min(text.len());
-    start + text[start..].len() - text[start..].trim_start_matches([' ', '\t']).len()
+/// The line that begins at `offset`, without its end.
+fn line(text: &str, offset: usize) -> Range<usize> {
+    let line = text[offset..].lines().next().unwrap_or_default();
+    offset..offset + line.trim_end().len()
+}
+
+/// Where cell number `column` of the row at `offset` stands, the spaces around it left out.
+fn cell(text: &str, offset: usize, column: usize) -> Range<usize> {
+    let (mut quoted, mut passed, mut start, mut end) = (false, 0, offset, text.len());
+    for (at, byte) in (offset..).zip(text[offset..].bytes()) {
+        match byte {
+            b'"' => quoted = !quoted,
+            b',' if !quoted && passed < column => (passed, start) = (passed + 1, at + 1),
+            b',' | b'\n' if !quoted => {
+                end = at;
+                break;
+            }
+            _ => {}
+        }
+    }
+    let start = end - text[start..end].trim_start().len();
+    start..start + text[start..end].trim_end().len()
+}
+
+/// Key and factor to SI of every column.
+fn scales(
+    document: &Document,
+    header: usize,
+    names: &csv::StringRecord,
+    columns: &[(&'static str, Quantity, f64)],
+) -> Result<Vec<(&'static str, f64)>> {
+    let mut seen = Vec::new();
+    mistakes::all(names.iter().enumerate().map(|(k, name)| {
+        let wrong = |complaint| document.error(cell(&document.text, header, k), complaint);
+        let (key, scale) = column(name, columns).map_err(wrong)?;
+        if seen.contains(&key) {
+            let found = format!("column \"{key}\" a second time");
+            return Err(wrong(Complaint::new("header", found, "it once")));
+        }
+        seen.push(key);
+        Ok((key, scale))
+    }))
+}
+
+/// Adds the cells of the row at `at` to the columns.
+fn read_row(
+    document: &Document,
+    at: usize,
+    record: &csv::StringRecord,
+    scales: &[(&'static str, f64)],
+    columns: &mut [(&'static str, Vec<f64>)],
+) -> Result<()> {
+    if record.len() != scales.len() {
+        let cells = if record.len() == 1 { "cell" } else { "cells" };
+        let found = format!("{} {cells} in this row", record.len());
+        let complaint = Complaint::new("", found, format!("{}, as in the header", scales.len()));
+        return Err(document.error(line(&document.text, at), complaint));
+    }
+    let mut mistakes = Mistakes::default();
+    for (k, ((written, (key, scale)), (_, values))) in
+        record.iter().zip(scales).zip(columns).enumerate()
+    {
+        match written.parse::<f64>() {
+            Ok(v) if (v * scale).is_finite() => values.push(v * scale),
+            _ => {
+                let expected = "a finite number (the unit stands in the header)";
+                let complaint = Complaint::new(*key, format!("{written:?}"), expected);
+                mistakes.add(document.error(cell(&document.text, at, k), complaint));
+            }
+        }
+    }
+    mistakes.end(())
 }
 
 /// Key and factor to SI of a header cell such as `diameter_in`.
 fn column(
     name: &str,
-    keys: &[&'static str],
     columns: &[(&'static str, Quantity, f64)],
 ) -> std::result::Result<(&'static str, f64), Complaint> {
     // Longer keys first, so that none is taken for the beginning of another.
-    let known = keys.iter().filter(|key| {
-        name.strip_prefix(**key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    let known = columns.iter().filter(|(key, ..)| {
+        name.strip_prefix(*key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     });
-    let Some(&key) = known.max_by_key(|key| key.len()) else {
+    let Some(&(key, quantity, unit)) = known.max_by_key(|(key, ..)| key.len()) else {
+        let keys: Vec<&str> = columns.iter().map(|(key, ..)| *key).collect();
         let stem = name.rsplit_once('_').map_or(name, |(stem, _)| stem);
-        let hint = nearest(stem, keys).map_or(String::new(), |n| format!(" (did you mean {n}?)"));
         let example = if keys.contains(&"x") { "x_in" } else { "t_ms" };
-        let expected = format!("{} with a unit, as in {example}{hint}", keys.join(", "));
-        return Err(Complaint::new("header", format!("column \"{name}\""), expected));
+        let expected = format!("{} with a unit, as in {example}", keys.join(", "));
+        let complaint = Complaint::new("header", format!("column \"{name}\""), expected);
+        return Err(complaint.or_nearest(stem, &keys));
     };
-    let named = columns.iter().find(|(name, ..)| *name == key);
-    let &(_, quantity, unit) = named.expect("it is one of the names");
     match name[key.len()..].strip_prefix('_') {
         // Names of columns are often in small letters throughout.
         Some("n") if quantity == Quantity::Force => Ok((key, 1.0)),

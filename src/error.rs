@@ -23,7 +23,12 @@ pub enum Error {
 
     /// Something in an input file is wrong.
     #[error("{place}: {complaint}")]
-    Input { place: Place, complaint: Complaint },
+    Input { place: Box<Place>, complaint: Complaint },
+
+    /// Several things are wrong: the first of them in the order of the file, two or more, and how
+    /// many were found beyond these.
+    #[error("{}", said_together(shown, *more))]
+    Several { shown: Vec<Error>, more: usize },
 
     /// A value given directly, on the command line or by a program, is wrong.
     #[error("{0}")]
@@ -68,29 +73,66 @@ impl Error {
     ) -> Self {
         Self::Value(Complaint::new(field, found, expected))
     }
+
+    /// The same, where every complaint about a value is made one about its place in a file.
+    pub(crate) fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
+        let one = |error| match error {
+            Self::Value(complaint) => place(complaint),
+            other => other,
+        };
+        match self {
+            Self::Several { shown, more } => {
+                Self::Several { shown: shown.into_iter().map(one).collect(), more }
+            }
+            error => one(error),
+        }
+    }
 }
 
-/// A place in an input file; line and column count from 1.
+/// The first of several errors, and how many more there are.
+fn said_together(shown: &[Error], more: usize) -> String {
+    let first = shown.first().map_or(String::new(), Error::to_string);
+    match (shown.len() + more).saturating_sub(1) {
+        0 => first,
+        1 => format!("{first} (and 1 more mistake)"),
+        others => format!("{first} (and {others} more mistakes)"),
+    }
+}
+
+/// A place in an input file; line and column count from 1, the column in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     pub file: String,
     pub line: usize,
     pub column: usize,
+    pub excerpt: Excerpt,
+}
+
+/// The line of a place as it stands in the file, in three parts: what comes before the mistake, the
+/// mistake itself (nothing at the end of a file) and what comes after. A long line is shortened to
+/// the surroundings of the mistake, with `…` where something is left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Excerpt {
+    pub before: String,
+    pub marked: String,
+    pub after: String,
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.file, self.line, self.column)
+        write!(f, "{}:{}:{}", one_line(&self.file), self.line, self.column)
     }
 }
 
-/// What is wrong with one value: the field, what was found, what was expected.
+/// What is wrong with one value: the field, what was found, what was expected, what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Complaint {
     /// Path of the field, such as `profile.x[3]`; empty for the whole document.
     pub field: String,
     pub found: String,
     pub expected: String,
+    /// What to do about it, such as "did you mean radius?"; empty where there is nothing to say.
+    pub hint: String,
 }
 
 impl Complaint {
@@ -99,17 +141,39 @@ impl Complaint {
         found: impl fmt::Display,
         expected: impl Into<String>,
     ) -> Self {
-        Self { field: field.into(), found: found.to_string(), expected: expected.into() }
+        let (found, hint) = (found.to_string(), String::new());
+        Self { field: field.into(), found, expected: expected.into(), hint }
+    }
+
+    /// The same with a word about what to do.
+    pub fn hinted(self, hint: impl Into<String>) -> Self {
+        Self { hint: hint.into(), ..self }
+    }
+
+    /// The same with the nearest of `names` to a misspelt `word`, if one is near enough.
+    pub fn or_nearest(self, word: &str, names: &[&str]) -> Self {
+        match nearest(word, names) {
+            Some(name) => self.hinted(format!("did you mean {name}?")),
+            None => self,
+        }
     }
 }
 
 impl fmt::Display for Complaint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if !self.field.is_empty() {
-            write!(f, "{}: ", shortened(&self.field, 200))?;
+            write!(f, "{}: ", one_line(&shortened(&self.field, 200)))?;
         }
-        write!(f, "found {}, expected {}", shortened(&self.found, 400), self.expected)
+        let found = one_line(&shortened(&self.found, 400));
+        write!(f, "found {found}, expected {}", one_line(&self.expected))?;
+        if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", one_line(&self.hint)) }
     }
+}
+
+/// A text that may hold anything of somebody's file, its control characters written out.
+fn one_line(text: &str) -> String {
+    let written = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(written).collect()
 }
 
 /// The beginning of a text that may be a megabyte of somebody's file.
@@ -162,5 +226,19 @@ mod tests {
         assert_eq!(nearest("youngsModulus", &keys), Some("youngs_modulus"));
         assert_eq!(nearest("colour", &keys), None);
         assert_eq!(nearest("", &keys), None);
+    }
+
+    #[test]
+    fn an_error_is_one_line_whatever_is_in_the_file() {
+        let complaint = Complaint::new("a\nb", "\"\u{1b}[2J\"", "é").hinted("did you mean 7?");
+        let excerpt = Excerpt::default();
+        let place = Box::new(Place { file: "my\tbat.json".into(), line: 3, column: 4, excerpt });
+        let one = || Error::Input { place: place.clone(), complaint: complaint.clone() };
+        let said = "my\\tbat.json:3:4: a\\nb: found \"\\u{1b}[2J\", expected é; did you mean 7?";
+        assert_eq!(one().to_string(), said);
+        let two = Error::Several { shown: vec![one(), one()], more: 0 };
+        assert_eq!(two.to_string(), format!("{said} (and 1 more mistake)"));
+        let many = Error::Several { shown: vec![one(), one()], more: 7 };
+        assert_eq!(many.to_string(), format!("{said} (and 8 more mistakes)"));
     }
 }

@@ -1,6 +1,5 @@
 //! What is on the bat and what holds it: weights, springs, supports, hands, joints.
 
-use crate::error::{Error, Result};
 use crate::layup::Layup;
 
 /// Everything that a bat may have beside its shape and its material.
@@ -97,9 +96,6 @@ pub struct Grip {
     /// Force per velocity and per length (N s/m²).
     pub damping: f64,
 }
-
-/// Products of larger values are beyond the range of numbers.
-const MOST: f64 = 1e100;
 
 impl Fixtures {
     /// Whether nothing moves otherwise than a bare bat: regions of other materials and tape may be
@@ -200,155 +196,5 @@ impl Fixtures {
     pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
         let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
         fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))
-    }
-
-    /// Every value in its possible range, on a bat of that length (m).
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] with the path of the key in a bat file as its field.
-    pub fn check(&self, length: f64) -> Result<()> {
-        for (k, region) in self.regions.iter().enumerate() {
-            let name = |key: &str| format!("regions[{k}].{key}");
-            stretch(&name, region.from, region.to, length)?;
-            for (key, material) in ["material", "core"].iter().zip(region.layup.materials()) {
-                material.check().map_err(|error| within(&name(key), error))?;
-            }
-            // Ends that differ by their last digits only are the same place.
-            let same = 1e-12 * length;
-            let overlap =
-                |before: &&Region| before.from < region.to - same && region.from < before.to - same;
-            if let Some(before) = self.regions[..k].iter().find(overlap) {
-                let found = format!("{} to {} m, an overlap", region.from, region.to);
-                let expected = format!("a stretch outside {} to {} m", before.from, before.to);
-                return Err(Error::value(name("from"), found, expected));
-            }
-        }
-        for (k, a) in self.attachments.iter().enumerate() {
-            let name = |key: &str| format!("attachments[{k}].{key}");
-            on_the_bat(name("x"), a.x, length)?;
-            heavy(name("mass"), a.mass, "kg")?;
-            heavy(name("rotary_inertia"), a.rotary_inertia, "kg m²")?;
-            soft(name("stiffness"), a.stiffness, "N/m")?;
-            soft(name("rotational_stiffness"), a.rotational_stiffness, "N m/rad")?;
-            if !a.offset.is_finite() || a.offset.abs() > 10.0 * length {
-                let expected = "a distance of at most ten lengths of the bat";
-                return Err(Error::value(name("offset"), shown(a.offset, "m"), expected));
-            }
-        }
-        for (k, tape) in self.tapes.iter().enumerate() {
-            let name = |key: &str| format!("tapes[{k}].{key}");
-            stretch(&name, tape.from, tape.to, length)?;
-            heavy(name("mass"), tape.mass, "kg")?;
-        }
-        for (k, a) in self.absorbers.iter().enumerate() {
-            let name = |key: &str| format!("absorbers[{k}].{key}");
-            on_the_bat(name("x"), a.x, length)?;
-            positive(name("mass"), a.mass, "kg")?;
-            heavy(name("mass"), a.mass, "kg")?;
-            positive(name("stiffness"), a.stiffness, "N/m")?;
-            soft(name("stiffness"), a.stiffness, "N/m")?;
-            not_negative(name("damping"), a.damping, "N s/m")?;
-        }
-        for (k, joint) in self.joints.iter().enumerate() {
-            let name = |key: &str| format!("joints[{k}].{key}");
-            let stiffness = joint.rotational_stiffness;
-            if !(joint.x > 0.0 && joint.x < length) {
-                let expected = format!("a place inside the bat, 0 to {length} m");
-                return Err(Error::value(name("x"), shown(joint.x, "m"), expected));
-            }
-            positive(name("rotational_stiffness"), stiffness, "N m/rad")?;
-            soft(name("rotational_stiffness"), stiffness, "N m/rad")?;
-            if self.joints[..k].iter().any(|before| before.x == joint.x) {
-                let expected = "one joint at one place";
-                return Err(Error::value(name("x"), format!("{} m again", joint.x), expected));
-            }
-        }
-        for (k, support) in self.supports.iter().enumerate() {
-            let name = format!("supports[{k}].x");
-            on_the_bat(name.clone(), support.x, length)?;
-            if self.supports[..k].iter().any(|before| before.x == support.x) {
-                let found = format!("{} m again", support.x);
-                return Err(Error::value(name, found, "one support at one place"));
-            }
-        }
-        if let Some(grip) = &self.grip {
-            stretch(&|key: &str| format!("grip.{key}"), grip.from, grip.to, length)?;
-            soft("grip.stiffness".to_owned(), grip.stiffness, "N/m²")?;
-            not_negative("grip.damping".to_owned(), grip.damping, "N s/m²")?;
-        }
-        Ok(())
-    }
-}
-
-/// An error about a part, as one about the whole: its field is a path from there.
-fn within(path: &str, error: Error) -> Error {
-    match error {
-        Error::Value(mut complaint) => {
-            complaint.field = format!("{path}.{}", complaint.field);
-            Error::Value(complaint)
-        }
-        other => other,
-    }
-}
-
-fn stretch(name: &dyn Fn(&str) -> String, from: f64, to: f64, length: f64) -> Result<()> {
-    on_the_bat(name("from"), from, length)?;
-    on_the_bat(name("to"), to, length)?;
-    if to > from {
-        return Ok(());
-    }
-    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))
-}
-
-pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Result<()> {
-    if x >= 0.0 && x <= length {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(x, "m"), format!("a place on the bat, 0 to {length} m")))
-}
-
-pub(crate) fn positive(field: impl Into<String>, value: f64, unit: &str) -> Result<()> {
-    if value > 0.0 && value < MOST {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(value, unit), format!("a number above 0, below {MOST:e}")))
-}
-
-fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
-    if (0.0..MOST).contains(&value) {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
-}
-
-/// No spring, or one whose motion can be told from a rigid one.
-fn soft(field: String, value: f64, unit: &str) -> Result<()> {
-    const SOFTEST: f64 = 1e-12;
-    not_negative(field.clone(), value, unit)?;
-    if value == 0.0 || value >= SOFTEST {
-        return Ok(());
-    }
-    let expected = format!("0, or {SOFTEST:e} {unit} and more: a softer spring holds nothing");
-    Err(Error::value(field, shown(value, unit), expected))
-}
-
-/// A mass that a bat can be told from.
-fn heavy(field: String, value: f64, unit: &str) -> Result<()> {
-    const HEAVIEST: f64 = 1e8;
-    not_negative(field.clone(), value, unit)?;
-    if value <= HEAVIEST {
-        return Ok(());
-    }
-    let expected = format!("{HEAVIEST:e} {unit} at most: more is a support");
-    Err(Error::value(field, shown(value, unit), expected))
-}
-
-/// A value without a row of zeros.
-fn shown(value: f64, unit: &str) -> String {
-    match value.abs() {
-        size if !size.is_finite() => "a value beyond the range of numbers".to_owned(),
-        0.0 | 1e-4..1e6 => format!("{value} {unit}"),
-        _ => format!("{value:e} {unit}"),
     }
 }

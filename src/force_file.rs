@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::csv_file::Csv;
 use crate::document::Document;
 use crate::error::{Complaint, Result};
+use crate::mistakes;
 use crate::units::Quantity;
 
 /// Forces (N) at rising times (s).
@@ -48,9 +49,8 @@ pub fn read(path: &Path) -> Result<ForceHistory> {
     let document = Document::read(path)?;
     let columns = [("t", Quantity::Time, 1.0), ("force", Quantity::Force, 1.0)];
     let csv = Csv::read_columns(&document, &columns)?;
-    let error = |row: usize, field: &str, found: String, expected: &str| {
-        let offset = csv.rows.get(row).copied().unwrap_or(0);
-        Err(document.error(offset, Complaint::new(field, found, expected)))
+    let error = |row: usize, field: &str, found: String, expected: &str| -> Result<()> {
+        Err(csv.error(&document, field, Some(row), Complaint::new(field, found, expected)))
     };
     let (Some(t), Some(force)) = (csv.column("t"), csv.column("force")) else {
         let complaint = Complaint::new(
@@ -58,20 +58,20 @@ pub fn read(path: &Path) -> Result<ForceHistory> {
             "a column missing",
             "columns t and force, such as t_ms,force_n",
         );
-        return Err(document.error(csv.header, complaint));
+        return Err(csv.error(&document, "", None, complaint));
     };
     if t.len() < 2 {
-        return error(0, "t", format!("{} row(s)", t.len()), "two at least");
+        error(0, "t", format!("{} row(s)", t.len()), "two at least")?;
     }
     if t[0] < 0.0 {
-        return error(0, "t", format!("{} s", t[0]), "0 or later");
+        error(0, "t", format!("{} s", t[0]), "0 or later")?;
     }
-    if let Some(k) = (1..t.len()).find(|k| t[*k] <= t[k - 1]) {
-        return error(k, "t", format!("{} s", t[k]), "rising times");
-    }
-    if let Some(k) = force.iter().position(|f| f.abs() >= MOST) {
-        return error(k, "force", format!("{:e} N", force[k]), "less than 1e9 N");
-    }
+    let wrong = |k: usize| match force[k].abs() < MOST {
+        _ if k > 0 && t[k] <= t[k - 1] => error(k, "t", format!("{} s", t[k]), "rising times"),
+        true => Ok(()),
+        false => error(k, "force", format!("{:e} N", force[k]), "less than 1e9 N"),
+    };
+    mistakes::all((0..t.len()).map(wrong))?;
     Ok(ForceHistory { t: t.to_vec(), force: force.to_vec() })
 }
 

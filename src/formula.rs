@@ -13,6 +13,7 @@
 //! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. It is spelled out with the parser
 //! library winnow, because ready-made expression evaluators take `-2^2` for 4.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use winnow::ModalResult;
@@ -98,20 +99,28 @@ impl Formula {
     /// there and what was expected. Also more than 10 000 characters or 100 levels of brackets
     /// and powers.
     pub fn parse(text: &str) -> Result<Self, Complaint> {
+        Self::parse_in_place(text).map_err(|(complaint, _)| complaint)
+    }
+
+    /// As [`Self::parse`], with the part of the text that is wrong, in bytes.
+    pub(crate) fn parse_in_place(text: &str) -> Result<Self, (Complaint, Range<usize>)> {
         let length = text.chars().count();
         if length > LONGEST {
             let expected = format!("{LONGEST} at most");
             let found = format!("a formula of {length} characters");
-            return Err(Complaint::new("", found, expected));
+            return Err((Complaint::new("", found, expected), 0..text.len()));
         }
         if text.trim().is_empty() {
             let expected = "a formula of x, such as \"0.0125 + 0.02*x\"";
-            return Err(Complaint::new("", "an empty formula", expected));
+            return Err((Complaint::new("", "an empty formula", expected), 0..text.len()));
         }
         let mut input = Input { input: LocatingSlice::new(text), state: 0 };
         match whole(&mut input) {
             Ok(root) => Ok(Self(Arc::new(Parsed { text: text.to_owned(), root }))),
-            Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => Err(fault.complaint(text)),
+            Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => {
+                let part = fault.offset..fault.offset + word(&text[fault.offset..]).len();
+                Err((fault.complaint(text), part))
+            }
             Err(ErrMode::Incomplete(_)) => unreachable!("the whole text is there"),
         }
     }
@@ -242,6 +251,7 @@ struct Fault {
     /// What was found, where it is not the word that stands there.
     found: Option<String>,
     expected: String,
+    hint: String,
 }
 
 impl ParserError<Input<'_>> for Fault {
@@ -249,7 +259,7 @@ impl ParserError<Input<'_>> for Fault {
 
     fn from_input(input: &Input<'_>) -> Self {
         let offset = input.current_token_start();
-        Self { offset, found: None, expected: String::new() }
+        Self { offset, found: None, expected: String::new(), hint: String::new() }
     }
 
     fn into_inner(self) -> Result<Self, Self> {
@@ -278,13 +288,15 @@ impl Fault {
         let window = format!("{dots}{}", shortened(&window, 100));
         let found = format!("{what} at character {} of {window:?}", before + 1);
         let hint = match here.chars().next() {
-            Some('\u{2212}' | '–' | '—') => " (a minus is written -)",
-            Some('×' | '·' | '⋅') => " (times is written *)",
-            Some('²' | '³') => " (a square is written ^2)",
-            Some(',') if self.expected.starts_with("an operator (") => " (0.5 with a point)",
-            _ => "",
+            Some('\u{2212}' | '–' | '—') => "a minus is written -",
+            Some('×' | '·' | '⋅') => "times is written *",
+            Some('²' | '³') => "a square is written ^2",
+            Some(',') if self.expected.starts_with("an operator (") => {
+                "decimals follow a point: 0.5"
+            }
+            _ => &self.hint,
         };
-        Complaint::new("", found, self.expected + hint)
+        Complaint::new("", found, self.expected.clone()).hinted(hint)
     }
 }
 
@@ -431,7 +443,7 @@ fn named(input: &mut Input) -> ModalResult<Node, Fault> {
     };
     let Some((name, function)) = function else {
         input.reset(&start);
-        return Err(Fault::new(input, known_names(name)));
+        return Err(unknown_name(input, name));
     };
     if opt(symbol(['('])).parse_next(input)?.is_none() {
         return Err(Fault::new(input, format!("a bracket: {name}(…)")));
@@ -450,15 +462,16 @@ fn named(input: &mut Input) -> ModalResult<Node, Fault> {
     Err(ErrMode::Cut(Fault { found: Some(found), expected: expected.into(), ..fault }))
 }
 
-/// The names that a formula may use, and the nearest one to a name that is none of them.
-fn known_names(unknown: &str) -> String {
+/// A name that is none, and the nearest one that a formula may use.
+fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
     let functions = FUNCTIONS.map(|(name, _)| name);
     let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();
     let expected = format!("x, pi or a function: {}", functions.join(", "));
     // `math.tanh` and `np.tanh` mean what they end with.
     let plain = unknown.rsplit('.').next().unwrap_or(unknown);
     let meant = if plain == "ln" { Some("log") } else { nearest(plain, &names) };
-    meant.map_or(expected.clone(), |name| format!("{expected} (did you mean {name}?)"))
+    let hint = meant.map(|name| format!("did you mean {name}?")).unwrap_or_default();
+    ErrMode::Cut(Fault { expected, hint, ..Fault::from_input(input) })
 }
 
 #[cfg(test)]
@@ -568,11 +581,11 @@ mod tests {
                 "0.01 + tanhh(x)",
                 "\"tanhh\" at character 8 of \"0.01 + tanhh(x)\", expected x, pi or a function: sin, cos",
             ),
-            ("tanhh(x)", "(did you mean tanh?)"),
-            ("X", "(did you mean x?)"),
+            ("tanhh(x)", "; did you mean tanh?"),
+            ("X", "; did you mean x?"),
             ("math.sqrt(x)", "\"math.sqrt\" at character 1"),
-            ("math.sqrt(x)", "(did you mean sqrt?)"),
-            ("ln(x)", "(did you mean log?)"),
+            ("math.sqrt(x)", "; did you mean sqrt?"),
+            ("ln(x)", "; did you mean log?"),
             ("é + 1", "\"é\" at character 1"),
             ("sin x", "\"x\" at character 5 of \"sin x\", expected a bracket: sin(…)"),
             ("sin", "the end at character 4"),
@@ -589,14 +602,14 @@ mod tests {
             ),
             (
                 "0,5",
-                "\",\" at character 2 of \"0,5\", expected an operator (+ - * / ^) or the end (0.5 with a point)",
+                "\",\" at character 2 of \"0,5\", expected an operator (+ - * / ^) or the end; decimals follow a point: 0.5",
             ),
             (".", "\".\" at character 1 of \".\", expected a number such as"),
             ("1e999", "\"1e999\" at character 1 of \"1e999\", expected a number"),
             ("1e", "\"e\" at character 2"),
             ("0x10", "\"x10\" at character 2"),
             ("1..2", "\".2\" at character 3"),
-            ("1 − x", "(a minus is written -)"),
+            ("1 − x", "; a minus is written -"),
             ("x²", "at character 2"),
             ("x if x > 0 else 1", "\"if\" at character 3"),
             ("x > 0", "\">\" at character 3"),

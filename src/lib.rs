@@ -75,6 +75,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod error;
+mod mistakes;
 pub mod units;
 pub mod real;
 pub mod lanes;
@@ -87,8 +88,10 @@ pub mod profile;
 mod formula_profile;
 pub mod layup;
 pub mod fixtures;
+mod fixtures_check;
 pub mod bat;
 mod document;
+mod json_node;
 mod csv_file;
 mod station_table;
 mod material_file;

@@ -2,9 +2,10 @@
 
 mod cli;
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
+use cli::diagnostic;
 use sweetspot::Error;
 
 fn main() -> ExitCode {
@@ -12,7 +13,9 @@ fn main() -> ExitCode {
         Ok(done) => done,
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
-            let _ = writeln!(io::stderr(), "error: {}", cli::printable(&error.to_string()));
+            let mut err = io::stderr();
+            let coloured = diagnostic::coloured(err.is_terminal());
+            let _ = write!(err, "{}", diagnostic::render(&error, coloured));
             // Modes that do not converge are an accuracy not reached; all else is the input.
             let code =
                 if matches!(error, Error::NotConverged { .. }) { cli::NOT_REACHED } else { 2 };

@@ -1,6 +1,7 @@
 //! How stiff, how heavy: materials by numbers or by name.
 
 use crate::error::{Error, Result};
+use crate::mistakes::Mistakes;
 
 /// A material, along the bat's axis where it is wood.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +46,7 @@ impl Material {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] with the key of the bat file as its field.
+    /// [`Error::Value`] with the key of the bat file as its field, or several of them.
     pub fn check(&self) -> Result<()> {
         let positive = |key: &str, value: Option<f64>, unit: &str| match value {
             Some(v) if !(v > 0.0 && v.is_finite()) => {
@@ -53,17 +54,19 @@ impl Material {
             }
             _ => Ok(()),
         };
-        positive("density", Some(self.density), "kg/m³")?;
-        positive("youngs_modulus", Some(self.youngs_modulus), "Pa")?;
-        positive("shear_coefficient", self.shear_coefficient, "")?;
+        let mut mistakes = Mistakes::default();
+        mistakes.note(positive("density", Some(self.density), "kg/m³"));
+        mistakes.note(positive("youngs_modulus", Some(self.youngs_modulus), "Pa"));
+        mistakes.note(positive("shear_coefficient", self.shear_coefficient, ""));
         if !(self.loss_factor >= 0.0 && self.loss_factor < 2.0) {
             let expected = "0 or more and below 2 (a damping ratio below 1)";
-            return Err(Error::value("loss_factor", self.loss_factor, expected));
+            mistakes.add(Error::value("loss_factor", self.loss_factor, expected));
         }
         if let Some(nu) = self.poisson_ratio.filter(|nu| !(*nu > -1.0 && *nu <= 0.5)) {
-            return Err(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
+            mistakes.add(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
         }
-        // After the ratio, which it may have been made from.
+        mistakes.end(())?;
+        // After the modulus and the ratio, which it may have been made from.
         positive("shear_modulus", self.shear_modulus, "Pa")
     }
 

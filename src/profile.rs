@@ -2,6 +2,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::formula::Formula;
+use crate::mistakes::{self, Mistakes};
 use crate::pchip::{bernstein, blossom, cubics};
 
 /// How the radius runs between stations.
@@ -137,7 +138,8 @@ impl Profile {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station.
+    /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station, or several
+    /// of them.
     pub fn new(stations: Stations) -> Result<Self> {
         for (role, column) in [("outer", &stations.outer), ("inner", &stations.inner)] {
             if column.len() != stations.x.len() {
@@ -145,8 +147,10 @@ impl Profile {
                 return Err(Error::value(role, format!("{} values", column.len()), expected));
             }
         }
-        check_positions(&stations.x)?;
-        check_radii(&stations)?;
+        let mut mistakes = Mistakes::default();
+        mistakes.note(check_positions(&stations.x));
+        mistakes.note(check_radii(&stations));
+        mistakes.end(())?;
         let stations = match stations.interpolation {
             Interpolation::Constant => held(&stations)?,
             _ => stations,
@@ -296,20 +300,13 @@ fn check_positions(x: &[f64]) -> Result<()> {
     if x.len() < 2 {
         return Err(Error::value("x", format!("{} station(s)", x.len()), "two stations at least"));
     }
+    let mut mistakes = Mistakes::default();
     if x[0] != 0.0 {
         let expected = "0: positions count from the end named in \"measured_from\"";
-        return Err(Error::value("x[0]", format!("{} m", x[0]), expected));
+        mistakes.add(Error::value("x[0]", format!("{} m", x[0]), expected));
     }
-    for k in 1..x.len() {
-        if x[k] < x[k - 1] || !x[k].is_finite() {
-            let expected = format!("a position beyond x[{}]", k - 1);
-            return Err(Error::value(format!("x[{k}]"), format!("{} m", x[k]), expected));
-        }
-        if k > 1 && x[k] == x[k - 2] {
-            let expected = "two stations at most at one place (left and right of a step)";
-            return Err(Error::value(format!("x[{k}]"), "a third station at one place", expected));
-        }
-    }
+    mistakes.note(mistakes::all((1..x.len()).map(|k| check_position(x, k))));
+    mistakes.end(())?;
     let last = x.len() - 1;
     if x[last] == 0.0 {
         return Err(Error::value(format!("x[{last}]"), "a bat of no length", "a length above 0"));
@@ -322,35 +319,44 @@ fn check_positions(x: &[f64]) -> Result<()> {
     Ok(())
 }
 
+/// Whether station `k` lies beyond the one before.
+fn check_position(x: &[f64], k: usize) -> Result<()> {
+    if x[k] < x[k - 1] || !x[k].is_finite() {
+        let expected = format!("a position beyond x[{}]", k - 1);
+        return Err(Error::value(format!("x[{k}]"), format!("{} m", x[k]), expected));
+    }
+    if k > 1 && x[k] == x[k - 2] {
+        let expected = "two stations at most at one place (left and right of a step)";
+        return Err(Error::value(format!("x[{k}]"), "a third station at one place", expected));
+    }
+    Ok(())
+}
+
 fn check_radii(stations: &Stations) -> Result<()> {
-    let last = stations.x.len() - 1;
-    for (k, (&r, &ri)) in stations.outer.iter().zip(&stations.inner).enumerate() {
-        let at_end = k == 0 || k == last;
-        let shown = |v: f64| format!("{v} m");
-        if !(r > 0.0 || r == 0.0 && at_end) || !r.is_finite() {
-            let expected = if r == 0.0 {
-                "a radius above 0 (only an end of the bat may come to a point)"
-            } else {
-                "a radius above 0"
-            };
-            return Err(Error::value(format!("outer[{k}]"), shown(r), expected));
-        }
-        if !(ri >= 0.0 && ri.is_finite()) {
-            return Err(Error::value(format!("inner[{k}]"), shown(ri), "0 or more"));
-        }
-        if ri >= r && !(r == 0.0 && ri == 0.0) {
-            return Err(Error::value(
-                format!("inner[{k}]"),
-                shown(ri),
-                format!("less than outer[{k}]"),
-            ));
-        }
-        let stiffness = Section { outer: r, inner: ri }.second_moment();
-        let in_range = stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX;
-        if !at_end && !in_range {
-            let expected = "a radius whose fourth power is within the range of numbers";
-            return Err(Error::value(format!("outer[{k}]"), shown(r), expected));
-        }
+    mistakes::all((0..stations.x.len()).map(|k| check_radius(stations, k))).map(|_| ())
+}
+
+/// Whether the section at station `k` is one.
+fn check_radius(stations: &Stations, k: usize) -> Result<()> {
+    let (r, ri) = (stations.outer[k], stations.inner[k]);
+    let at_end = k == 0 || k == stations.x.len() - 1;
+    let wrong = |role: &str, value: f64, expected: &str| {
+        Err(Error::value(format!("{role}[{k}]"), format!("{value} m"), expected))
+    };
+    if !(r > 0.0 || r == 0.0 && at_end) || !r.is_finite() {
+        let pointed = "a radius above 0 (only an end of the bat may come to a point)";
+        return wrong("outer", r, if r == 0.0 { pointed } else { "a radius above 0" });
+    }
+    if !(ri >= 0.0 && ri.is_finite()) {
+        return wrong("inner", ri, "0 or more");
+    }
+    if ri >= r && !(r == 0.0 && ri == 0.0) {
+        return wrong("inner", ri, &format!("less than outer[{k}]"));
+    }
+    let stiffness = Section { outer: r, inner: ri }.second_moment();
+    let in_range = stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX;
+    if !at_end && !in_range {
+        return wrong("outer", r, "a radius whose fourth power is within the range of numbers");
     }
     Ok(())
 }

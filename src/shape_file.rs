@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::csv_file::Csv;
 use crate::document::Document;
 use crate::error::{Complaint, Result};
+use crate::mistakes;
 use crate::units::Quantity;
 
 /// Deflections `w` (m) at rising places `x` (m).
@@ -43,24 +44,22 @@ impl InitialShape {
 pub fn read(path: &Path, length: f64) -> Result<InitialShape> {
     let document = Document::read(path)?;
     let csv = Csv::read(&document, &["x", "w"], Quantity::Length, 1.0)?;
-    let error = |row: usize, found: String, expected: &str| {
-        let offset = csv.rows.get(row).copied().unwrap_or(0);
-        Err(document.error(offset, Complaint::new("x", found, expected)))
+    let error = |row: usize, found: String, expected: &str| -> Result<()> {
+        Err(csv.error(&document, "x", Some(row), Complaint::new("x", found, expected)))
     };
     let (Some(x), Some(w)) = (csv.column("x"), csv.column("w")) else {
         let expected = "columns x and w, such as x_m,w_mm";
         let complaint = Complaint::new("header", "a column missing", expected);
-        return Err(document.error(csv.header, complaint));
+        return Err(csv.error(&document, "", None, complaint));
     };
     if x.len() < 2 {
-        return error(0, format!("{} row(s)", x.len()), "two at least");
+        error(0, format!("{} row(s)", x.len()), "two at least")?;
     }
-    if let Some(k) = (1..x.len()).find(|k| x[*k] <= x[k - 1]) {
-        return error(k, format!("{} m", x[k]), "rising places");
-    }
+    let falling = (1..x.len()).filter(|k| x[*k] <= x[k - 1]);
+    mistakes::all(falling.map(|k| error(k, format!("{} m", x[k]), "rising places")))?;
     if x[0].abs() > 1e-9 * length || (x[x.len() - 1] - length).abs() > 1e-9 * length {
         let found = format!("{} to {} m", x[0], x[x.len() - 1]);
-        return error(0, found, &format!("the whole bat, 0 to {length} m"));
+        error(0, found, &format!("the whole bat, 0 to {length} m"))?;
     }
     Ok(InitialShape { x: x.to_vec(), w: w.to_vec() })
 }

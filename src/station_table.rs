@@ -4,8 +4,10 @@
 use std::path::Path;
 
 use crate::csv_file::Csv;
-use crate::document::{Document, Node, Object};
+use crate::document::Document;
 use crate::error::{Complaint, Error, Result};
+use crate::json_node::{Node, Object};
+use crate::mistakes::{self, Mistakes};
 use crate::profile::{Interpolation, Stations};
 use crate::units::Quantity;
 
@@ -38,25 +40,31 @@ impl<'a> Table<'a> {
         let column = |key: &'static str, node: &Node| -> Result<Column> {
             Ok(Column { key, values: node.quantities(Quantity::Length, unit)? })
         };
-        let x = column("x", object.require("x", "\"x\": the positions of the stations")?)?;
-        let outer = match object.one_of(&OUTER)? {
-            Some((key, node)) => column(key, node)?,
-            None => {
-                let missing = object.node.error("no \"radius\" and no \"diameter\"", "one of them");
-                return Err(missing);
-            }
-        };
-        let inner = match object.one_of(&INNER)? {
-            Some((key, node)) => Some(column(key, node)?),
-            None => None,
+        let mut mistakes = Mistakes::default();
+        let x = object.require("x", "\"x\": the positions of the stations");
+        let x = mistakes.some(x.and_then(|node| column("x", node)));
+        let outer = object.one_of(&OUTER).and_then(|found| {
+            let missing = || object.node.error("no \"radius\" and no \"diameter\"", "one of them");
+            let (key, node) = found.ok_or_else(missing)?;
+            column(key, node)
+        });
+        let outer = mistakes.some(outer);
+        let inner = object.one_of(&INNER).and_then(|found| {
+            let column = found.map(|(key, node)| column(key, node));
+            column.transpose()
+        });
+        let inner = mistakes.note(inner);
+        let (Some(x), Some(outer)) = (x, outer) else {
+            return Err(mistakes.end(()).expect_err("what is not there was noted"));
         };
         for column in inner.iter().chain([&outer]) {
             if column.values.len() != x.values.len() {
                 let node = object.get(column.key).expect("it was read from there");
                 let found = format!("{} values", column.values.len());
-                return Err(node.error(found, format!("{}, one for each x", x.values.len())));
+                mistakes.add(node.error(found, format!("{}, one for each x", x.values.len())));
             }
         }
+        mistakes.end(())?;
         Ok(Self { x, outer, inner, places: Places::Json(object) })
     }
 
@@ -67,7 +75,7 @@ impl<'a> Table<'a> {
         let keys: Vec<&'static str> = ["x"].into_iter().chain(OUTER).chain(INNER).collect();
         let csv = Csv::read(&document, &keys, Quantity::Length, unit)?;
         let header = |found: String, expected: &str| {
-            Err(document.error(csv.header, Complaint::new("header", found, expected)))
+            Err(csv.error(&document, "", None, Complaint::new("header", found, expected)))
         };
         for role in [&OUTER[..], &INNER[..]] {
             let there: Vec<&str> =
@@ -118,13 +126,17 @@ impl<'a> Table<'a> {
                 Ok(inner)
             }
         };
-        outer.iter().zip(wall).enumerate().map(bore).collect()
+        mistakes::all(outer.iter().zip(wall).enumerate().map(bore))
     }
 
-    /// Gives an error about station `k` of `x`, `outer` or `inner` its place in the file, and the
-    /// file's own names, values and units.
+    /// Gives an error about stations its places in the file.
     pub fn locate(&self, error: Error) -> Error {
-        let Error::Value(mut complaint) = error else { return error };
+        error.placed(|complaint| self.placed(complaint))
+    }
+
+    /// A complaint about station `k` of `x`, `outer` or `inner` with its place in the file, and the
+    /// file's own names, values and units.
+    fn placed(&self, mut complaint: Complaint) -> Error {
         let (role, index) = complaint.field.split_once('[').unwrap_or((&complaint.field, ""));
         let index: Option<usize> = index.trim_end_matches(']').parse().ok();
         let column = self.column(role);
@@ -148,10 +160,8 @@ impl<'a> Table<'a> {
                 node.complain(complaint)
             }
             Places::Csv { document, csv } => {
-                let offset =
-                    index.map_or(csv.header, |k| csv.cell(&document.text, column.key, k).0);
                 complaint.field = column.key.to_owned();
-                document.error(offset, complaint)
+                csv.error(document, column.key, index, complaint)
             }
         }
     }
@@ -174,8 +184,8 @@ impl<'a> Table<'a> {
                 if shown.starts_with('"') { shown } else { format!("{shown} {unit}") }
             }
             Places::Csv { document, csv } => {
-                let (_, cell, unit) = csv.cell(&document.text, key, k);
-                format!("{cell} {unit}").trim_end().to_owned()
+                let (at, unit) = csv.cell(&document.text, key, k);
+                format!("{} {unit}", &document.text[at]).trim_end().to_owned()
             }
         }
     }

@@ -121,6 +121,20 @@ impl Quantity {
         let (name, _, si, example) = self.facts();
         format!("{name} such as \"{example}\" or a number in {si}")
     }
+
+    /// The units that would do, where symbols of their own measure it.
+    fn units(self) -> String {
+        let (name, dimension, si, _) = self.facts();
+        let others = SYMBOLS.iter().filter(|symbol| symbol.2 == dimension && symbol.0 != si);
+        let others: Vec<&str> = others.map(|symbol| symbol.0).collect();
+        match others[..] {
+            [] => String::new(),
+            [ref most @ .., last] => {
+                let most: Vec<&str> = [si].iter().chain(most).copied().collect();
+                format!("{name} is in {} or {last}", most.join(", "))
+            }
+        }
+    }
 }
 
 /// Symbols with their factor to SI and their dimension; the first of a family is its short form.
@@ -179,11 +193,14 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     let (number, unit) = split(text);
     let wrong = |found: String| Complaint::new("", found, quantity.expected());
     if unit.starts_with(',') {
-        return Err(wrong(format!("\"{text}\" (decimals follow a point, not a comma)")));
+        let hint = "decimals follow a point, not a comma";
+        return Err(wrong(format!("\"{text}\"")).hinted(hint));
     }
     let value: f64 = number.parse().map_err(|_| wrong(format!("\"{text}\"")))?;
     if unit.is_empty() && value.is_finite() {
-        return Err(wrong(format!("\"{text}\" without a unit")));
+        let si = quantity.facts().2;
+        let hint = format!("write \"{number} {si}\", or {number} without quotes");
+        return Err(wrong(format!("\"{text}\" without a unit")).hinted(hint));
     }
     let value = if unit.is_empty() { value } else { value * factor(unit, quantity)? };
     if value.is_finite() {
@@ -212,8 +229,10 @@ pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 ///
 /// As [`parse`].
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
-    let (factor, dimension) =
-        product(unit).map_err(|found| Complaint::new("", found, quantity.expected()))?;
+    let (factor, dimension) = product(unit).map_err(|(found, hint)| {
+        let hint = if hint.is_empty() { quantity.units() } else { hint };
+        Complaint::new("", found, quantity.expected()).hinted(hint)
+    })?;
     if quantity.has(dimension) {
         return Ok(factor);
     }
@@ -222,7 +241,11 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
         Some(q) => format!("unit \"{unit}\", which measures {}", q.name()),
         None => format!("unit \"{unit}\", which does not measure {}", quantity.name()),
     };
-    Err(Complaint::new("", found, quantity.expected() + advice(quantity, is, unit)))
+    let hint = match advice(quantity, is, unit) {
+        "" => quantity.units(),
+        advice => advice.to_owned(),
+    };
+    Err(Complaint::new("", found, quantity.expected()).hinted(hint))
 }
 
 /// What to do about a force for a mass or a mass for a force.
@@ -231,11 +254,11 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
     let of_mass = unit.contains("lb") && !unit.contains("lbf");
     match (wanted, found) {
         (Quantity::Mass, Some(Quantity::Force)) => {
-            "; mass is mass here: a bat that a scale shows as 2 lbf has a mass of 2 lb"
+            "mass is mass here: a bat that a scale shows as 2 lbf has a mass of 2 lb"
         }
-        (Quantity::Force, Some(Quantity::Mass)) => "; oz and lb are masses here: write ozf or lbf",
-        (Quantity::Density, _) if unit.contains("lbf") => "; lb is the mass, lbf the force",
-        (Quantity::Pressure, _) if per_area => "; lb is a mass here: write psi",
+        (Quantity::Force, Some(Quantity::Mass)) => "oz and lb are masses here: write ozf or lbf",
+        (Quantity::Density, _) if unit.contains("lbf") => "lb is the mass, lbf the force",
+        (Quantity::Pressure, _) if per_area => "lb is a mass here: write psi",
         (
             Quantity::Stiffness
             | Quantity::RotationalStiffness
@@ -243,7 +266,7 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
             | Quantity::Damping
             | Quantity::BedDamping,
             _,
-        ) if of_mass => "; lb is a mass here: write lbf",
+        ) if of_mass => "lb is a mass here: write lbf",
         _ => "",
     }
 }
@@ -268,8 +291,11 @@ fn split(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim())
 }
 
+/// What was found that is no unit, and what it may have been meant for.
+type Unknown = (String, String);
+
 /// The factor and the dimension of a product of powers of symbols.
-fn product(unit: &str) -> Result<(f64, Dimension), String> {
+fn product(unit: &str) -> Result<(f64, Dimension), Unknown> {
     let unit = unit.replace('²', "^2").replace('³', "^3").replace('µ', "u");
     let (mut total, mut dimension): (f64, Dimension) = (1.0, [0; 4]);
     let mut sign = 1;
@@ -293,7 +319,7 @@ fn product(unit: &str) -> Result<(f64, Dimension), String> {
 }
 
 /// `in^3` and `in3` as symbol and power.
-fn power(symbol: &str) -> Result<(&str, i8), String> {
+fn power(symbol: &str) -> Result<(&str, i8), Unknown> {
     let base = symbol.trim_end_matches(|c: char| c.is_ascii_digit());
     let exponent = &symbol[base.len()..];
     if exponent.is_empty() {
@@ -301,16 +327,14 @@ fn power(symbol: &str) -> Result<(&str, i8), String> {
     }
     match exponent.parse() {
         Ok(power @ 1..=9) => Ok((base.strip_suffix('^').unwrap_or(base), power)),
-        _ => Err(format!("unit \"{symbol}\"")),
+        _ => Err((format!("unit \"{symbol}\""), String::new())),
     }
 }
 
-fn unknown(symbol: &str) -> String {
+fn unknown(symbol: &str) -> Unknown {
     let names: Vec<&str> = SYMBOLS.iter().map(|s| s.0).collect();
-    match nearest(symbol, &names) {
-        Some(name) => format!("unknown unit \"{symbol}\" (did you mean {name}?)"),
-        None => format!("unknown unit \"{symbol}\""),
-    }
+    let hint = nearest(symbol, &names).map(|name| format!("did you mean {name}?"));
+    (format!("unknown unit \"{symbol}\""), hint.unwrap_or_default())
 }
 
 /// Pounds-mass times square inches, the unit of swing weight, from kg m².

@@ -258,6 +258,38 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
     if peak.is_finite() && !text.is_empty() { Ok(()) } else { Err(format!("{spot:?}")) }
 }
 
+/// What is wrong with what is said of a text: it must name the file, and a place in it where what
+/// is shown stands.
+fn misplaced(error: &Error, name: &str, text: &str) -> Option<String> {
+    if let Error::Several { shown, more } = error {
+        let order = |error: &Error| match error {
+            Error::Input { place, .. } => (place.line, place.column),
+            _ => (0, 0),
+        };
+        let count = shown.len();
+        let sorted = shown.is_sorted_by_key(order);
+        if !sorted || !(2..=10).contains(&count) || (*more > 0 && count < 10) {
+            return Some(format!("{count} mistakes and {more}, sorted: {sorted}"));
+        }
+        return shown.iter().find_map(|error| misplaced(error, name, text));
+    }
+    let said = error.to_string();
+    let Error::Input { place, .. } = error else { return Some(said) };
+    let text = text.trim_start_matches('\u{feff}');
+    let line = text.split('\n').nth(place.line - 1).unwrap_or("no such line");
+    let (before, at) = match line.char_indices().nth(place.column - 1) {
+        Some((at, _)) => line.split_at(at),
+        None => (line, ""),
+    };
+    let excerpt = &place.excerpt;
+    let parts = [&excerpt.before, &excerpt.after].map(|part| part.trim_matches('…'));
+    let stands = before.ends_with(parts[0]) && at.starts_with(&*excerpt.marked);
+    let width = excerpt.before.chars().chain(excerpt.after.chars()).count();
+    let good = said.contains("found ") && said.contains(name) && !said.contains("found NaN ");
+    let good = good && stands && at.contains(parts[1]) && width < 80 && !said.contains('\n');
+    (!good).then(|| format!("{said}\n{excerpt:?}\nin {line:?}"))
+}
+
 #[test]
 fn the_files_are_good_and_the_places_to_spoil_are_found() {
     for (name, text) in FILES {
@@ -294,11 +326,51 @@ proptest! {
                 let verdict = solve_and_hit(&bat);
                 prop_assert!(verdict.is_ok(), "{}\n{}", verdict.unwrap_err(), text);
             }
-            Err(error) => {
-                let said = error.to_string();
-                let found = said.contains("found ") || matches!(error, Error::Read { .. });
-                prop_assert!(found && said.contains(name) && !said.contains("found NaN "), "{}", said);
-            }
+            Err(error) => prop_assert_eq!(misplaced(&error, name, &text), None),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 4000,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(34),
+        ..ProptestConfig::default()
+    })]
+
+    /// Files that are spoilt in many places, read only.
+    #[test]
+    fn every_mistake_stands_where_it_is_said_to_stand(
+        file in 0..FILES.len(),
+        mutations in prop::collection::vec(mutation(), 1..12),
+    ) {
+        let (name, good) = FILES[file];
+        let text = mutations.iter().fold(good.to_owned(), |text, mutation| mutate(&text, mutation));
+        if let Err(error) = Bat::from_text(name, &text, Path::new("")) {
+            prop_assert_eq!(misplaced(&error, name, &text), None);
+        }
+    }
+
+    /// A table that is spoilt: JSON has its own words for what is broken, CSV has cells.
+    #[test]
+    fn a_spoilt_table_is_an_error_or_a_bat(
+        mutations in prop::collection::vec(mutation(), 1..6),
+    ) {
+        let good = "# radii, \"material\"\r\nx_in,diameter_in,wall_thickness_mm\r\n0,1,2\n\n\
+                    # a comment\n 5 ,0.9,\"2\"\n20,1.6,3\n33.5,2.61,3.5\n";
+        let text = mutations.iter().fold(good.to_owned(), |text, mutation| mutate(&text, mutation));
+        let folder = std::env::temp_dir().join(format!("sweetspot-tables-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("t.csv"), &text).unwrap();
+        let bat = r#"{ "format": "sweetspot-bat/1", "material": "white-ash",
+            "profile": { "csv": "t.csv" } }"#;
+        let read = Bat::from_text("bat.json", bat, &folder);
+        std::fs::remove_dir_all(&folder).unwrap();
+        if let Err(error) = read {
+            let of_bat = error.to_string().starts_with("bat.json:");
+            let (name, text) = if of_bat { ("bat.json", bat) } else { ("t.csv", &*text) };
+            prop_assert_eq!(misplaced(&error, name, text), None);
         }
     }
 }

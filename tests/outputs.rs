@@ -8,6 +8,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Output, Stdio};
 
+use common::diagnostic::diagnostics;
 use common::folder::Folder;
 use serde_json::Value;
 use sweetspot::report::resolved::resolved;
@@ -22,7 +23,8 @@ fn mesh(name: &str) -> String {
 fn failure(output: &Output) -> String {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.starts_with("error: ") && told.trim_end().lines().count() == 1, "{told}");
+    let (each, _) = diagnostics(&told);
+    assert!(told.starts_with("error: ") && each.len() == 1 && each[0].rest.is_empty(), "{told}");
     told
 }
 

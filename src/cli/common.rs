@@ -388,7 +388,7 @@ impl SceneArgs {
         let mut ball = match self.ball.as_str() {
             "baseball" => Ball::baseball(),
             "softball" => Ball::softball(),
-            path => Ball::from_file(path)?,
+            path => Ball::from_file(path).map_err(|error| unknown_ball(path, error))?,
         };
         let cor = self.cor.unwrap_or(ball.cor);
         if !(self.pitch.abs() < 1e6 && self.swing_speed.abs() < 1e6 && self.pivot.abs() < 1e6) {
@@ -488,6 +488,19 @@ impl SceneArgs {
             return Err(Error::value("--loss-share", loss_share, "0 to 1"));
         }
         Ok(Pulse { duration, loss_share })
+    }
+}
+
+/// What is wrong with a ball: a word that is near a known one is no file's name.
+fn unknown_ball(name: &str, error: Error) -> Error {
+    let known = ["baseball", "softball"];
+    match error {
+        Error::Read { source, .. } if nearest(name, &known).is_some() => {
+            let found = format!("{name}, which cannot be read ({source})");
+            let complaint = Complaint::new("--ball", found, "baseball, softball or a ball file");
+            Error::Value(complaint.or_nearest(name, &known))
+        }
+        other => other,
     }
 }
 

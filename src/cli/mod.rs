@@ -4,6 +4,7 @@ mod advise;
 mod analyze;
 mod common;
 mod convert;
+pub mod diagnostic;
 mod extremes_table;
 mod frf;
 mod hit;
@@ -118,7 +119,10 @@ fn given(matches: &clap::ArgMatches, name: &str) -> bool {
 
 /// One line that does nothing to a terminal, whatever a file is called or holds.
 pub fn printable(text: &str) -> String {
-    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    // Marks that turn the direction of writing could show a line as another one.
+    let turns = |c| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let acts = |c: char| c.is_control() || turns(c) || matches!(c, '\u{2028}' | '\u{2029}');
+    let escaped = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
     text.chars().map(escaped).collect()
 }
 

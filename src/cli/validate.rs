@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use sweetspot::error::{Error, Result, nearest};
+use sweetspot::error::{Complaint, Error, Result};
 use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
@@ -69,9 +69,8 @@ fn case(name: &str) -> std::result::Result<String, Error> {
     if names.contains(&name) {
         return Ok(name.to_owned());
     }
-    let meant = nearest(name, &names).map(|near| format!("; did you mean {near}?"));
-    let expected = format!("a name of validation/{}", meant.unwrap_or_default());
-    Err(Error::value("--case", name, expected))
+    let complaint = Complaint::new("--case", name, "a name of validation/");
+    Err(Error::Value(complaint.or_nearest(name, &names)))
 }
 
 /// Writes the page; what is left for standard output.
