@@ -14,6 +14,7 @@ use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
     "format",
+    "comment",
     "name",
     "source",
     "material",
@@ -28,6 +29,7 @@ const KEYS: &[&str] = &[
     "grip",
 ];
 const PROFILE_KEYS: &[&str] = &[
+    "comment",
     "interpolation",
     "unit",
     "measured_from",

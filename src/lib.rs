@@ -75,6 +75,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod error;
+pub mod telling;
 pub mod units;
 pub mod real;
 pub mod lanes;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sweetspot::advise::advice::{Advice, MOST_MODES, advise};
+use sweetspot::advise::advice::{Advice, MOST_MODES, advise_telling};
 use sweetspot::error::Result;
 use sweetspot::report::advice;
 
@@ -32,8 +32,10 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     let bat = read(&args.bat, args.output.quiet)?;
-    args.output.progress("solving …");
-    let advice = advise(&bat, args.count.into(), args.tol)?;
+    let progress = args.output.progress("the full model");
+    let tell = |share, what: &str| progress.say(share, what);
+    let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
+    drop(progress);
     let code = verdict(args, &advice);
     let table = advice::text(&advice, args.output.units);
     Ok(Done::new(args.output.deliver(table, || advice::json(&advice))?, code))

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use sweetspot::Bat;
 use sweetspot::advise::advice::advise;
 use sweetspot::collision::figures::Figures;
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::sweep_telling;
+use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
+use sweetspot::report::sketch::{self, Row};
 use sweetspot::report::{advice, file, hit_json, hit_text, text};
 use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
@@ -47,7 +49,7 @@ const POINTS: usize = 101;
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
-    args.output.progress("solving …");
+    let progress = args.output.progress("modes");
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;
@@ -56,13 +58,17 @@ pub fn run(args: &Args) -> Result<Done> {
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let hits = sweep(&bat, model, &scene, &request, false, &places)?;
+    let tell = |share: f64, what: &str| progress.say(0.5 * share, what);
+    let hits = sweep_telling(&bat, (model, &scene), (&request, false), &places, &tell)?;
+    progress.say(0.5, "the sweet spot");
     let figures = Figures::new(&bat, (model, hits.effort), (&scene, law), &hits.solution)?;
+    progress.say(0.8, "what the model needs");
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
-        "{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
+        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
         text::summary(&bat, units),
+        args.output.sketch(&bat, &sketch(&bat, &solution, &figures.spot)),
         text::modes(&bat, &solution, 3, units),
         text::model(&bat, &solution),
         proof(args, &solution)?,
@@ -76,6 +82,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::beyond(&hits, &scene, units),
         hit_text::figures(&figures, units)
     );
+    drop(progress);
     let modes = json::modes(&bat, &solution, ShapePoints::Even(101), !args.reproducible);
     let mut hit = hit_json::hit(&bat, model, &scene, &hits.impacts, &figures.spot);
     hit["figures"] = hit_json::figures(&figures);
@@ -90,6 +97,15 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = args.solve.verdict(&solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
     Ok(Done::new(args.output.deliver(table, || both)?, code).with(warning))
+}
+
+/// The nodes of the first three modes and the sweet spot.
+fn sketch(bat: &Bat, solution: &Solution, spot: &SweetSpot) -> Vec<Row> {
+    let mut rows = sketch::of_modes(bat, solution);
+    // The balance point is the last of them.
+    rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
+    rows.extend(sketch::of_sweet_spot(spot));
+    rows
 }
 
 /// What the model needs, in short; nothing for a bat of so many pieces that it would take long, nor

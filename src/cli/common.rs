@@ -1,6 +1,6 @@
 //! Options that several verbs share.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -14,13 +14,15 @@ use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::error::{Error, Result, nearest};
 use sweetspot::report::file;
+use sweetspot::report::sketch::{self, Glyphs, Row};
 use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::theory::Theory;
 use sweetspot::units::{self, Quantity};
 use sweetspot::weighed;
 
-use crate::cli::{NOT_REACHED, printable};
+use crate::cli::progress::{self, Progress};
+use crate::cli::{NOT_REACHED, printable, style};
 
 /// Which bat, and how many of its modes.
 #[derive(clap::Args)]
@@ -191,9 +193,14 @@ impl OutputArgs {
         let text = || format!("{:#}\n", document());
         match &self.json {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
-            Some(path) => file::write(path, text().as_bytes()).map(|()| table),
-            None => Ok(table),
+            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(table)),
+            None => Ok(style::table(table)),
         }
+    }
+
+    /// The bat and its places drawn with what this terminal can show.
+    pub fn sketch(&self, bat: &Bat, rows: &[Row]) -> String {
+        sketch::draw(bat, rows, self.units, glyphs())
     }
 
     /// Says something on standard error.
@@ -201,12 +208,24 @@ impl OutputArgs {
         warn(text, self.quiet);
     }
 
-    /// What took so long, for a person at a terminal.
-    pub fn progress(&self, text: &str) {
-        if std::io::stderr().is_terminal() {
-            self.warn(text);
-        }
+    /// What takes so long, for a person at a terminal.
+    pub fn progress(&self, what: &str) -> Progress {
+        Progress::new(self.quiet, what)
     }
+}
+
+/// Block elements where the locale says that characters are UTF-8.
+pub fn glyphs() -> Glyphs {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    // The first of them that is set is the one that counts.
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
+    let locale = locale.to_ascii_lowercase();
+    if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
+}
+
+/// What a file is called, as text.
+pub fn printed(path: &Path) -> String {
+    printable(&path.display().to_string())
 }
 
 /// Reads a bat and passes its warnings on.
@@ -252,7 +271,9 @@ pub fn prepare(
 fn warn(text: &str, quiet: bool) {
     if !quiet {
         // A closed standard error is no reason to stop.
-        let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        progress::beside(|| {
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        });
     }
 }
 
@@ -514,7 +535,7 @@ fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
 }
 
 /// One of `now`, with a word of its own for what comes `later`.
-fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
+pub fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
     if now.contains(&text) {
         return Ok(text.to_owned());
     }
@@ -551,7 +572,7 @@ fn model(text: &str) -> std::result::Result<String, String> {
     one_of(text, &["contact", "pulse", "energy-loss", "rigid"], &[])
 }
 
-fn unit_system(text: &str) -> std::result::Result<Units, String> {
+pub fn unit_system(text: &str) -> std::result::Result<Units, String> {
     Ok(match one_of(text, &["si", "us", "both"], &[])?.as_str() {
         "si" => Units::Si,
         "us" => Units::Us,

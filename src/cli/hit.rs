@@ -2,9 +2,9 @@
 
 use sweetspot::bat::Bat;
 use sweetspot::collision::figures::Figures;
-use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweep::{Sweep, sweep_telling};
 use sweetspot::error::{Error, Result};
-use sweetspot::report::{hit_json, hit_text};
+use sweetspot::report::{hit_json, hit_text, sketch};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{
@@ -93,15 +93,21 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let (scene, law) = args.scene.scene(&bat)?;
     let places = args.place.places(&bat)?;
-    let sweep = sweep(&bat, model, &scene, &request, args.bat.asked(), &places)?;
+    let progress = args.output.progress("modes");
+    let tell = |share, what: &str| progress.say(share, what);
+    let asked = (&request, args.bat.asked());
+    let sweep = sweep_telling(&bat, (model, &scene), asked, &places, &tell)?;
     args.solve.say_raised(&sweep.solution, &args.output);
+    progress.say(1.0, "the sweet spot");
     let figures = Figures::new(&bat, (model, sweep.effort), (&scene, law), &sweep.solution)?;
+    drop(progress);
     let units = args.output.units;
     let table = format!(
-        "{}{}\n{}\n{}{}{}\n{}\n{}",
+        "{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
         hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
         hit_text::meaning(model),
         hit_text::impacts(&bat, &sweep.impacts, units),
+        args.output.sketch(&bat, &sketch::of_hit(&bat, &figures.spot)),
         hit_text::sweet_spot(&bat, &figures.spot, units),
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),

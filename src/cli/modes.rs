@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
 use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{file, text};
+use sweetspot::report::{file, sketch, text};
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved};
@@ -38,7 +38,9 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
+    let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
+    drop(progress);
     if let Some(folder) = &args.matrices {
         if !bat.fixtures.none_moving() {
             let found = "a bat with attachments, joints or supports";
@@ -58,8 +60,9 @@ pub fn run(args: &Args) -> Result<Done> {
         }
     }
     let table = format!(
-        "{}\n{}\n{}",
+        "{}\n{}\n{}\n{}",
         text::summary(&bat, args.output.units),
+        args.output.sketch(&bat, &sketch::of_modes(&bat, &solution)),
         text::modes(&bat, &solution, args.bat.count(), args.output.units),
         text::model(&bat, &solution)
     );

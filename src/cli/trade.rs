@@ -1,6 +1,5 @@
 //! `sweetspot trade BAT`: speed against accuracy, measured on this bat.
 
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -12,8 +11,9 @@ use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;
 use sweetspot::trade::u_curve as curve;
 
-use crate::cli::Done;
 use crate::cli::common::{Prepared, TheoryChoice, budget, prepare, read, theory};
+use crate::cli::progress::Progress;
+use crate::cli::{Done, style};
 
 /// Speed against accuracy, measured on this bat, here and now
 ///
@@ -71,20 +71,17 @@ pub fn run(args: &Args) -> Result<Done> {
     let bat = read(&args.bat, args.quiet)?;
     let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
     let theory = request.theory;
-    let mut progress = Progress::new(args.quiet);
+    let progress = Progress::new(args.quiet, "the reference");
+    let tell = |share, what: &str| progress.say(share, what);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
     let (table, document, rows) = if args.u_curve {
-        progress.say("the reference");
         let reference = Reference::of(&bat, modes, theory)?;
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
-        let columns = curve::measure(&bat, &reference, solvers, MOST, time, &mut |what| {
-            progress.say(what);
-        });
+        let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
         let document = u_curve::json(&bat, &reference, &columns);
         (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns))
     } else {
-        let say = &mut |what: &str| progress.say(what);
-        let trade = measure(&bat, modes, theory, time(TRADE), say)?;
+        let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
     };
     Ok(Done::new(deliver(args, table, &document, rows)?, 0).with(warning))
@@ -93,7 +90,7 @@ pub fn run(args: &Args) -> Result<Done> {
 /// Writes the files; what is left for standard output.
 fn deliver(args: &Args, table: String, document: &Value, rows: String) -> Result<String> {
     let text = format!("{document:#}\n");
-    let mut out = table;
+    let mut out = style::table(table);
     for (path, contents) in [(&args.csv, rows), (&args.json, text)] {
         match path {
             Some(path) if path == Path::new("-") => out = contents,
@@ -102,30 +99,4 @@ fn deliver(args: &Args, table: String, document: &Value, rows: String) -> Result
         }
     }
     Ok(out)
-}
-
-/// One line on a terminal that says what is being measured, and is gone at the end.
-struct Progress {
-    shown: bool,
-}
-
-impl Progress {
-    fn new(quiet: bool) -> Self {
-        Self { shown: !quiet && std::io::stderr().is_terminal() }
-    }
-
-    fn say(&mut self, what: &str) {
-        if self.shown {
-            // A closed standard error is no reason to stop.
-            let _ = write!(std::io::stderr(), "\r\x1b[Kmeasuring {what}");
-        }
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        if self.shown {
-            let _ = write!(std::io::stderr(), "\r\x1b[K");
-        }
-    }
 }

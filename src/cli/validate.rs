@@ -8,9 +8,11 @@ use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
 use sweetspot::report::file;
+use sweetspot::telling::Tell;
 use sweetspot::validation::{CASES, Row, run as run_case};
 use sweetspot::validation_page;
 
+use crate::cli::progress::Progress;
 use crate::cli::{Done, FAILED, extremes_table, promise_table};
 
 /// Every case under validation/ and the promise about errors, as tables; exit 1 if any fails
@@ -36,23 +38,29 @@ pub struct Args {
     /// The extremes only: huge, tiny, thin and stepped bats, a million elements
     #[arg(long, conflicts_with_all = ["summary", "cases", "page", "promise"])]
     extremes: bool,
+
+    /// No progress on standard error
+    #[arg(long)]
+    quiet: bool,
 }
 
 pub fn run(args: &Args) -> Result<Done> {
+    let progress = Progress::new(args.quiet, "known answers");
+    let tell = |share, what: &str| progress.say(share, what);
     if args.extremes {
-        let (out, good) = extremes_table::table();
+        let (out, good) = extremes_table::table(&tell);
         return Ok(Done::new(out, if good { 0 } else { FAILED }));
     }
     if let Some(path) = &args.page {
-        return page(path);
+        return page(path, &tell);
     }
     let mut out = String::new();
     let mut good = true;
     if !args.promise {
-        good &= known_answers(args, &mut out)?;
+        good &= known_answers(args, &tell, &mut out)?;
     }
     if args.cases.is_empty() {
-        let rows = promise::rows()?;
+        let rows = promise::rows(&tell)?;
         out += if args.promise { "" } else { "\n" };
         if args.promise {
             out += &promise_table::table(&rows);
@@ -75,8 +83,8 @@ fn case(name: &str) -> std::result::Result<String, Error> {
 }
 
 /// Writes the page; what is left for standard output.
-fn page(path: &std::path::Path) -> Result<Done> {
-    let answers = Answer::all()?;
+fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
+    let answers = Answer::all(tell)?;
     let text = validation_page::text(&answers)?;
     let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
     if path.as_os_str() == "-" {
@@ -88,13 +96,14 @@ fn page(path: &std::path::Path) -> Result<Done> {
 }
 
 /// Every known answer beside ours; whether none is missed.
-fn known_answers(args: &Args, out: &mut String) -> Result<bool> {
+fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
     let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let (mut cases, mut counted, mut information, mut misses) = (0, 0, 0, 0);
     if args.summary {
         *out += "case                               rows  missed  worst error/tolerance\n";
     }
-    for (name, text) in CASES.iter().filter(|(name, _)| asked(name)) {
+    for (k, (name, text)) in CASES.iter().enumerate().filter(|(_, (name, _))| asked(name)) {
+        tell(k as f64 / CASES.len() as f64, name);
         let (case, rows) = run_case(name, text)?;
         let missed = rows.iter().filter(|row| row.missed()).count();
         let shown = rows.iter().filter(|row| row.information).count();
