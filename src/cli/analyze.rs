@@ -15,13 +15,19 @@ use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv};
+use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv, examples};
 use crate::cli::hit::verdict as hit_verdict;
 
-/// Everything about a bat: modes, proof on the dowel, collision, sweet spot
+/// Everything about a bat on one screen
 ///
-/// Example: sweetspot analyze meshes/r161.json --out r161
+/// What is this bat like, how does it ring, where is its sweet spot? In this order: the bat as a
+/// body (mass, balance point, swing weight); a sketch with the nodes of its modes and the zone of
+/// the best exit speeds; its frequencies, how far they may be off and what the model left out; the
+/// solver's proof on a dowel whose frequencies are known exactly; what this bat's model needs;
+/// then the hit: exit speeds along the barrel, the sweet spot by every definition, why it is there,
+/// and the figures by which bats are compared.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -33,16 +39,26 @@ pub struct Args {
     scene: SceneArgs,
 
     /// Write modes.json, hit.json and curve.csv into this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     out: Option<PathBuf>,
 
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     reproducible: bool,
 
     #[command(flatten)]
     output: OutputArgs,
 }
+
+const EXAMPLES: &str = "\
+  sweetspot analyze meshes/r161.json
+      a wooden bat of the major leagues, swung at 50 rad/s against a pitch of 90 mph
+
+  sweetspot analyze meshes/torpedo.json --units us --swing-speed \"55 rad/s\"
+      in inches, ounces and miles an hour, with a faster swing
+
+  sweetspot analyze meshes/r161.json --out r161
+      and modes.json, hit.json and curve.csv in the folder r161";
 
 /// Impact points along the outer half of the bat.
 const POINTS: usize = 101;

@@ -4,6 +4,7 @@ use std::io::{BufRead, Write};
 
 use sweetspot::error::{Error, Result, nearest};
 use sweetspot::material::BUILT_IN;
+use sweetspot::report::text::wrapped;
 use sweetspot::units::{self, Quantity, inches};
 
 /// Whoever answers, line by line; questions go to standard error.
@@ -64,11 +65,13 @@ impl<R: BufRead> Dialogue<R> {
     ///
     /// As [`Self::ask`].
     pub fn stations(&mut self, length: f64, unit: &'static str) -> Result<Vec<[f64; 2]>> {
-        self.say(&format!(
-            "Diameters in {unit}, from the knob end to the tip. Measure at the place that is asked, \
-             or answer\nwith a place of your own and its diameter, such as 2.5, 1.1. An empty line \
-             goes to the tip."
-        ));
+        let ruler = if unit == "in" { "inches" } else { unit };
+        let how = format!(
+            "Diameters in {ruler}, from the knob end to the tip. Measure at the place that is asked, \
+             or answer with a place of your own and its diameter, such as: 2.5, 1.1. An empty line \
+             goes on to the tip."
+        );
+        self.say(wrapped(&how, 0).trim_end());
         let mut stations: Vec<[f64; 2]> = Vec::new();
         for place in suggested(length, unit) {
             let last = stations.last().map_or(-1.0, |s| s[0]);

@@ -52,17 +52,28 @@ pub const FAILED: u8 = 1;
 /// The asked accuracy could not be reached; the best answer, if there is one, is given.
 pub const NOT_REACHED: u8 = 3;
 
-/// What a baseball bat does when it meets a ball.
+/// What a baseball bat does when it meets a ball
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 done; 1 a check failed; 2 the input or the command \
-line is wrong;\n3 the asked accuracy could not be reached (the best answer, if any, is still given)."
+    after_help = AFTER
 )]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
 }
+
+const AFTER: &str = "\
+Start here:
+  sweetspot new
+      writes a bat file from what you measured
+  sweetspot analyze meshes/r161.json
+      everything about a bat on one screen
+  sweetspot hit --help
+      what a verb answers, with examples
+
+Exit codes: 0 done; 1 a check failed; 2 the input or the command line is wrong;
+3 the asked accuracy could not be reached (the best answer, if any, is still given).";
 
 #[derive(Subcommand)]
 enum Verb {

@@ -125,10 +125,8 @@ fn refuse_existing(path: &Path, force: bool) -> Result<()> {
 
 /// From options alone; what is missing is said.
 fn given(args: &Args) -> Result<Measured> {
-    let missing = |what: &str| {
-        let expected = format!("{what}, or --ask to answer questions");
-        Error::value("new", format!("no {what}"), expected)
-    };
+    let missing =
+        |what: &str| Error::value("new", format!("no {what}"), "it, or --ask to answer questions");
     let unit = unit(args.unit.as_deref());
     let stations = match (&args.like, args.stations.is_empty()) {
         (None, true) => return Err(missing("--station or --like")),

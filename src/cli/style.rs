@@ -16,7 +16,7 @@ pub fn table(text: String) -> String {
 }
 
 /// A line that begins at the margin over one that does not is a heading, up to its colon if that
-/// comes soon.
+/// comes soon, or up to its columns.
 fn headings(text: &str) -> String {
     let bold = Style::new().bold();
     let mut out = String::with_capacity(text.len());
@@ -25,8 +25,9 @@ fn headings(text: &str) -> String {
         let indented = |line: &str| line.starts_with(' ');
         let above = lines.peek().is_some_and(|below| indented(below));
         let (content, end) = line.split_at(line.trim_end_matches('\n').len());
-        let heading = match content.split_once(": ") {
-            Some((label, _)) if label.len() <= LABEL => label.len() + 1,
+        let heading = match (content.find("  "), content.find(": ")) {
+            (Some(columns), _) => columns,
+            (None, Some(colon)) if colon <= LABEL => colon + 1,
             _ => content.len(),
         };
         if above && !indented(line) && !content.is_empty() {
@@ -45,8 +46,8 @@ mod tests {
 
     #[test]
     fn headings_are_bold_and_nothing_else_changes() {
-        let text = "A bat\n  length 1 m\n\nModel: thin,\n       far\nplain: no\n";
-        let bold = "\u{1b}[1mA bat\u{1b}[0m\n  length 1 m\n\n\u{1b}[1mModel:\u{1b}[0m thin,\n       far\n\
+        let text = "A bat  1 kg\n  length 1 m\n\nModel: thin,\n       far\nplain: no\n";
+        let bold = "\u{1b}[1mA bat\u{1b}[0m  1 kg\n  length 1 m\n\n\u{1b}[1mModel:\u{1b}[0m thin,\n       far\n\
                     plain: no\n";
         assert_eq!(headings(text), bold);
     }

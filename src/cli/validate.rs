@@ -15,27 +15,34 @@ use sweetspot::validation_page;
 use crate::cli::progress::Progress;
 use crate::cli::{Done, FAILED, extremes_table, promise_table};
 
-/// Every case under validation/ and the promise about errors, as tables; exit 1 if any fails
+/// Every known answer beside ours
+///
+/// May I trust it? Published bats, measured and computed, and exact answers are computed anew and
+/// set beside what is known, each with its tolerance; then stated errors are compared with true
+/// ones on bats with exact frequencies. The exit code is 1 if anything is missed.
 #[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// One line per case only
     #[arg(long)]
     summary: bool,
 
-    /// This case only, by its name in validation/; may be given again
+    /// This case only, by its name; may be given again
     #[arg(long = "case", value_name = "NAME", value_parser = case)]
     cases: Vec<String>,
 
-    /// Write the page docs/validation.md to this file (- = standard output): published bats side by
-    /// side and the exact answers in one table; and its picture r161_hit.svg beside it
+    /// Write the page docs/validation.md to this file (- = standard output)
+    ///
+    /// Published bats side by side and the exact answers in one table; its picture r161_hit.svg is
+    /// written beside it.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["summary", "cases"])]
     page: Option<PathBuf>,
 
-    /// The promise only: true beside stated errors, one line per bat and tolerance
+    /// True beside stated errors only, a line per bat and tolerance
     #[arg(long, conflicts_with_all = ["summary", "cases", "page"])]
     promise: bool,
 
-    /// The extremes only: huge, tiny, thin and stepped bats, a million elements
+    /// Huge, tiny, thin and stepped bats, a million elements only
     #[arg(long, conflicts_with_all = ["summary", "cases", "page", "promise"])]
     extremes: bool,
 
@@ -43,6 +50,17 @@ pub struct Args {
     #[arg(long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot validate --summary
+      a line for every case, and the promise about stated errors
+
+  sweetspot validate --case r161_nathan_timoshenko --case torpedo_wolfish
+      every number of two cases
+
+  sweetspot validate --promise
+      true beside stated errors, bat by bat and tolerance by tolerance";
 
 pub fn run(args: &Args) -> Result<Done> {
     let progress = Progress::new(args.quiet, "known answers");

@@ -1,6 +1,7 @@
 //! What several tests use: bats, and a folder to run the program in.
 #![allow(dead_code)] // Each test file uses some of them.
 
+pub mod commands;
 pub mod folder;
 
 use std::f64::consts::{PI, TAU};
