@@ -14,6 +14,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::strikes;
 use sweetspot::collision::touch::Felt;
+use sweetspot::telling::nobody;
 use sweetspot::theory::Theory;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
@@ -252,7 +253,7 @@ fn sweeps(hit: &Hit, places: &[f64]) {
         let whole = || {
             let hitter =
                 Hitter::new(Model::Contact, &hit.scene, &hit.bat, &solution, effort).unwrap();
-            one.install(|| strikes(&hitter, hit.bat.length(), places))
+            one.install(|| strikes(&hitter, hit.bat.length(), places, &nobody))
         };
         let errors: Vec<f64> =
             whole().iter().filter_map(|i| Some(i.outcome.as_ref()?.error)).collect();

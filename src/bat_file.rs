@@ -17,6 +17,7 @@ use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
     "format",
+    "comment",
     "name",
     "source",
     "material",
@@ -31,6 +32,7 @@ const KEYS: &[&str] = &[
     "grip",
 ];
 const PROFILE_KEYS: &[&str] = &[
+    "comment",
     "interpolation",
     "unit",
     "measured_from",

@@ -76,6 +76,7 @@
 
 pub mod error;
 mod mistakes;
+pub mod telling;
 pub mod units;
 pub mod real;
 pub mod lanes;

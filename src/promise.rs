@@ -13,6 +13,7 @@
 use crate::error::Result;
 use crate::modes::Mode;
 use crate::solve::{Request, Solution, solve};
+use crate::telling::Tell;
 use crate::validation::Truth;
 
 /// Modes asked for where so many are known.
@@ -171,11 +172,13 @@ impl Summary {
 /// # Errors
 ///
 /// As [`solve`].
-pub fn rows() -> Result<Vec<Row>> {
+pub fn rows(tell: Tell) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
+    let all = BATS.len() * DIGITS.count();
     for (name, cases) in BATS {
         let truth = known(cases)?;
         for digits in DIGITS {
+            tell(rows.len() as f64 / all as f64, name);
             rows.push(row(name, &truth, 10f64.powi(-digits))?);
         }
     }

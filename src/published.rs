@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::error::Result;
 use crate::solve::{Request, solve};
+use crate::telling::Tell;
 use crate::theory::Theory;
 use crate::units::inches;
 use crate::validation::{CASES, Case, Check, Kind, Known, Row, run};
@@ -22,12 +23,13 @@ impl Answer {
     /// # Errors
     ///
     /// As [`run`].
-    pub fn all() -> Result<Vec<Self>> {
-        let answer = |&(name, text): &(&'static str, &str)| {
+    pub fn all(tell: Tell) -> Result<Vec<Self>> {
+        let answer = |(k, &(name, text)): (usize, &(&'static str, &str))| {
+            tell(k as f64 / CASES.len() as f64, name);
             let (case, rows) = run(name, text)?;
             Ok(Self { name, case, rows })
         };
-        CASES.iter().map(answer).collect()
+        CASES.iter().enumerate().map(answer).collect()
     }
 
     /// Whether a number of it is missed.

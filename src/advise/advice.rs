@@ -9,6 +9,7 @@ use crate::advise::outside::outside;
 use crate::advise::smallest::{Smallest, smallest};
 use crate::bat::Bat;
 use crate::error::{Error, Result};
+use crate::telling::{Tell, nobody};
 use crate::weighed::tuned;
 
 /// What a bat's model needs.
@@ -68,6 +69,15 @@ pub const MOST_MODES: usize = 100;
 /// [`Error::Value`] for a number of modes that is not 1 to [`MOST_MODES`] or a tolerance that is
 /// not between 0 and 1; those of [`crate::solve::solve`].
 pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
+    advise_telling(bat, modes, tolerance, &nobody)
+}
+
+/// The same, telling how many of the smaller models have been tried.
+///
+/// # Errors
+///
+/// As [`advise`].
+pub fn advise_telling(bat: &Bat, modes: usize, tolerance: f64, tell: Tell) -> Result<Advice> {
     if !(1..=MOST_MODES).contains(&modes) {
         return Err(Error::value("modes", modes, format!("1 to {MOST_MODES}")));
     }
@@ -80,10 +90,11 @@ pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
     const FINE: f64 = 1e-10;
     let accuracy = (0.01 * tolerance).clamp(FINEST, FINE);
     let full = Model::full(bat);
+    tell(0.0, "everything on the bat, and each of it taken off");
     let bat = tuned(bat.clone(), full.theory, accuracy)?;
     let mut bench = Bench::new(&bat, modes, accuracy);
     let effects = effects(&mut bench, &full)?;
-    let smallest = smallest(&mut bench, &full, tolerance)?;
+    let smallest = smallest(&mut bench, &full, tolerance, tell)?;
     Ok(Advice {
         tolerance,
         full: bench.solve(&full)?,

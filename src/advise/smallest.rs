@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::advise::model::{Bench, Model, Solved};
 use crate::error::Result;
+use crate::telling::Tell;
 use crate::theory::Theory;
 
 /// A model that will do.
@@ -22,11 +23,14 @@ pub struct Smallest {
 /// # Errors
 ///
 /// Those of [`crate::solve::solve`].
-pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64) -> Result<Smallest> {
+pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64, tell: Tell) -> Result<Smallest> {
     let truth = bench.solve(full)?;
+    let (mut tried, all) = (0, models(full).count());
     for size in 0..full.size() {
         let mut best: Option<Smallest> = None;
         for model in models(full).filter(|model| model.size() == size) {
+            tell(f64::from(tried) / all as f64, "smaller models");
+            tried += 1;
             let bat = model.bat(bench.bat());
             let others = bat.fixtures.rigid_modes() != truth.bat.fixtures.rigid_modes();
             if others || (model.theory.shears() && !bat.knows_shear()) {

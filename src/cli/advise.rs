@@ -2,38 +2,53 @@
 
 use std::path::PathBuf;
 
-use sweetspot::advise::advice::{Advice, MOST_MODES, advise};
+use sweetspot::advise::advice::{Advice, MOST_MODES, advise_telling};
 use sweetspot::error::Result;
 use sweetspot::report::advice;
 
-use crate::cli::common::{OutputArgs, read, tolerance};
+use crate::cli::common::{OutputArgs, examples, read, tolerance};
 use crate::cli::{Done, NOT_REACHED};
 
-/// What each part of the model does to this bat's modes, and the smallest model that will do
+/// Which physics this bat needs, and which it can do without
 ///
-/// Example: sweetspot advise meshes/r161.json --tol 1%
+/// Rotary inertia, shear, tape, hands, a cork: what does each do to the frequencies and nodes of
+/// this bat? The table gives the shift that each makes, with how far that may be off. Below it is
+/// the smallest model whose frequencies are still within --tol of the full one's, and what no beam
+/// model has.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     /// Bat file (JSON)
+    #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
     /// Number of bending modes
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5",
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
           value_parser = clap::value_parser!(u16).range(1..=MOST_MODES as i64))]
     count: u16,
 
-    /// How near to the full model's frequencies is near enough, relative, such as 1e-4 or 1%
-    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance)]
+    /// How near to the full model's frequencies is near enough, such as 1%
+    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance,
+          help_heading = "Accuracy")]
     tol: f64,
 
     #[command(flatten)]
     output: OutputArgs,
 }
 
+const EXAMPLES: &str = "\
+  sweetspot advise meshes/r161.json --tol 1%
+      shear matters to a wooden bat, even at one per cent
+
+  sweetspot advise meshes/two_piece.json -n 3 --json advice.json
+      the same figures as JSON";
+
 pub fn run(args: &Args) -> Result<Done> {
     let bat = read(&args.bat, args.output.quiet)?;
-    args.output.progress("solving …");
-    let advice = advise(&bat, args.count.into(), args.tol)?;
+    let progress = args.output.progress("the full model");
+    let tell = |share, what: &str| progress.say(share, what);
+    let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
+    drop(progress);
     let code = verdict(args, &advice);
     let table = advice::text(&advice, args.output.units);
     Ok(Done::new(args.output.deliver(table, || advice::json(&advice))?, code))

@@ -5,23 +5,31 @@ use std::path::PathBuf;
 use sweetspot::Bat;
 use sweetspot::advise::advice::advise;
 use sweetspot::collision::figures::Figures;
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::sweep_telling;
+use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::error::{Error, Result};
 use sweetspot::plot::sets::Hits;
 use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
+use sweetspot::report::sketch::{self, Row};
 use sweetspot::report::{advice, file, hit_json, hit_text, text};
 use sweetspot::solve::{Request, Solution};
 use sweetspot::validation;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv};
+use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv, examples};
 use crate::cli::hit::verdict as hit_verdict;
 
-/// Everything about a bat: modes, proof on the dowel, collision, sweet spot
+/// Everything about a bat on one screen
 ///
-/// Example: sweetspot analyze meshes/r161.json --out r161
+/// What is this bat like, how does it ring, where is its sweet spot? In this order: the bat as a
+/// body (mass, balance point, swing weight); a sketch with the nodes of its modes and the zone of
+/// the best exit speeds; its frequencies, how far they may be off and what the model left out; the
+/// solver's proof on a dowel whose frequencies are known exactly; what this bat's model needs;
+/// then the hit: exit speeds along the barrel, the sweet spot by every definition, why it is there,
+/// and the figures by which bats are compared.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -33,27 +41,37 @@ pub struct Args {
     scene: SceneArgs,
 
     /// Write modes.json, hit.json and curve.csv into this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     out: Option<PathBuf>,
 
     /// Draw everything into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     reproducible: bool,
 
     #[command(flatten)]
     output: OutputArgs,
 }
 
+const EXAMPLES: &str = "\
+  sweetspot analyze meshes/r161.json
+      a wooden bat of the major leagues, swung at 50 rad/s against a pitch of 90 mph
+
+  sweetspot analyze meshes/torpedo.json --units us --swing-speed \"55 rad/s\"
+      in inches, ounces and miles an hour, with a faster swing
+
+  sweetspot analyze meshes/r161.json --out r161
+      and modes.json, hit.json and curve.csv in the folder r161";
+
 /// Impact points along the outer half of the bat.
 const POINTS: usize = 101;
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
-    args.output.progress("solving …");
+    let progress = args.output.progress("modes");
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;
@@ -62,7 +80,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let half = 0.5 * bat.length();
     let places: Vec<f64> =
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let hits = sweep(&bat, model, &scene, &request, false, &places)?;
+    let tell = |share: f64, what: &str| progress.say(0.5 * share, what);
+    let hits = sweep_telling(&bat, (model, &scene), (&request, false), &places, &tell)?;
+    progress.say(0.5, "the sweet spot");
     let figures = Figures::new(&bat, (model, hits.effort), (&scene, law), &hits.solution)?;
     if let Some(folder) = &args.plots {
         let mut pictures = sets::of_modes(&bat, &solution, Some(scene.pivot));
@@ -70,11 +90,13 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures.extend(hits.pictures(None)?);
         picture::write(folder, &pictures)?;
     }
+    progress.say(0.8, "what the model needs");
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(
-        "{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
+        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
         text::summary(&bat, units),
+        args.output.sketch(&bat, &sketch(&bat, &solution, &figures.spot)),
         text::modes(&bat, &solution, 3, units),
         text::model(&bat, &solution),
         proof(args, &solution)?,
@@ -88,6 +110,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::beyond(&hits, &scene, units),
         hit_text::figures(&figures, units)
     );
+    drop(progress);
     let modes = json::modes(&bat, &solution, ShapePoints::Even(101), !args.reproducible);
     let mut hit = hit_json::hit(&bat, model, &scene, &hits.impacts, &figures.spot);
     hit["figures"] = hit_json::figures(&figures);
@@ -102,6 +125,15 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = args.solve.verdict(&solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
     Ok(Done::new(args.output.deliver(table, || both)?, code).with(warning))
+}
+
+/// The nodes of the first three modes and the sweet spot.
+fn sketch(bat: &Bat, solution: &Solution, spot: &SweetSpot) -> Vec<Row> {
+    let mut rows = sketch::of_modes(bat, solution);
+    // The balance point is the last of them.
+    rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
+    rows.extend(sketch::of_sweet_spot(spot));
+    rows
 }
 
 /// What the model needs, in short; nothing for a bat of so many pieces that it would take long, nor

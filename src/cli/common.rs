@@ -1,6 +1,6 @@
 //! Options that several verbs share.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -14,6 +14,7 @@ use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::error::{Complaint, Error, Result, nearest};
 use sweetspot::report::file;
+use sweetspot::report::sketch::{self, Glyphs, Row};
 use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};
 use sweetspot::theory::Theory;
@@ -21,10 +22,21 @@ use sweetspot::units::{self, Quantity};
 use sweetspot::up_to::modes_up_to;
 use sweetspot::weighed;
 
-use crate::cli::{NOT_REACHED, printable};
+use crate::cli::progress::{self, Progress};
+use crate::cli::{NOT_REACHED, printable, style};
+
+/// The end of a verb's help: commands to try, and how values are written.
+pub fn examples(commands: &str) -> String {
+    format!(
+        "Examples:\n{commands}\n\nA bare number is in the unit that stands between < >; others are \
+         written with it,\nsuch as \"28 in\", \"31 oz\", \"90 mph\" or \"0.75 ms\". Places count from \
+         the knob end."
+    )
+}
 
 /// Which bat, and how many of its modes.
 #[derive(clap::Args)]
+#[command(next_help_heading = "The bat")]
 pub struct BatArgs {
     /// Bat file (JSON)
     bat: PathBuf,
@@ -117,32 +129,37 @@ fn named(option: &str, error: Error) -> Error {
 
 /// How the modes are found.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Accuracy")]
 pub struct SolveArgs {
     /// Wanted relative accuracy, such as 1e-6 or 0.01%
     #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance)]
     pub tol: f64,
 
-    /// Beam theory: auto (the simplest within the tolerance), euler-bernoulli, rayleigh (rotary
-    /// inertia) or timoshenko (and shear)
-    #[arg(long, default_value = "auto", value_parser = theory)]
+    /// Beam theory
+    ///
+    /// auto takes the simplest whose estimated shift of every frequency is within --tol. The others:
+    /// euler-bernoulli (bending alone), rayleigh (and rotary inertia), timoshenko (and shear, which
+    /// needs the material's shear modulus).
+    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory)]
     theory: TheoryChoice,
 
     /// Total number of elements; the tolerance is then not enforced
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     elements: Option<u32>,
 
-    /// Degree of the elements, 3 to 12 (alone: as many as the tolerance needs; with --elements
-    /// the default is 3)
+    /// Degree of the elements, 3 to 12
+    ///
+    /// Alone, there are as many elements as the tolerance needs; with --elements the default is 3.
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(3..=12))]
     degree: Option<u8>,
 
-    /// The most accurate answer within this time, such as "5 ms", in place of --tol
-    #[arg(long, value_name = "TIME", conflicts_with_all = ["tol", "elements"],
+    /// The most accurate answer within this time, in place of --tol
+    #[arg(long, value_name = "s", conflicts_with_all = ["tol", "elements"],
           value_parser = budget)]
     pub budget: Option<Duration>,
 
     /// Eigensolver: auto (statics), statics, dense, shift-invert or arpack
-    #[arg(long, default_value = "auto", value_parser = solver)]
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = solver)]
     solver: Solver,
 }
 
@@ -219,16 +236,17 @@ impl SolveArgs {
 
 /// What is printed, and where.
 #[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
 pub struct OutputArgs {
     /// Write JSON to this file (- = standard output, and no table then)
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 
     /// Units of the tables: si, us or both
-    #[arg(long, default_value = "both", value_parser = unit_system)]
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system)]
     pub units: Units,
 
-    /// No warnings on standard error
+    /// No warnings and no progress on standard error
     #[arg(long)]
     pub quiet: bool,
 }
@@ -239,9 +257,14 @@ impl OutputArgs {
         let text = || format!("{:#}\n", document());
         match &self.json {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
-            Some(path) => file::write(path, text().as_bytes()).map(|()| table),
-            None => Ok(table),
+            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(table)),
+            None => Ok(style::table(table)),
         }
+    }
+
+    /// The bat and its places drawn with what this terminal can show.
+    pub fn sketch(&self, bat: &Bat, rows: &[Row]) -> String {
+        sketch::draw(bat, rows, self.units, glyphs())
     }
 
     /// Says something on standard error.
@@ -249,12 +272,24 @@ impl OutputArgs {
         warn(text, self.quiet);
     }
 
-    /// What took so long, for a person at a terminal.
-    pub fn progress(&self, text: &str) {
-        if std::io::stderr().is_terminal() {
-            self.warn(text);
-        }
+    /// What takes so long, for a person at a terminal.
+    pub fn progress(&self, what: &str) -> Progress {
+        Progress::new(self.quiet, what)
     }
+}
+
+/// Block elements where the locale says that characters are UTF-8.
+pub fn glyphs() -> Glyphs {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    // The first of them that is set is the one that counts.
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
+    let locale = locale.to_ascii_lowercase();
+    if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
+}
+
+/// What a file is called, as text.
+pub fn printed(path: &Path) -> String {
+    printable(&path.display().to_string())
 }
 
 /// Reads a bat and passes its warnings on.
@@ -300,35 +335,40 @@ pub fn prepare(
 fn warn(text: &str, quiet: bool) {
     if !quiet {
         // A closed standard error is no reason to stop.
-        let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        progress::beside(|| {
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        });
     }
 }
 
 /// The swing, the pitch and the ball.
 #[derive(clap::Args)]
+#[command(next_help_heading = "The hit")]
 pub struct SceneArgs {
-    /// Collision model: contact (the default), pulse, energy-loss (the WPI report's empirical one)
-    /// or rigid
-    #[arg(long, default_value = "contact", value_parser = model)]
+    /// Collision model: contact, pulse, energy-loss or rigid
+    ///
+    /// contact: ball and bending modes in contact, by a nonlinear lossy spring. pulse: a half sine of
+    /// a given duration. energy-loss: the empirical loss of the WPI report. rigid: no bending.
+    #[arg(long, value_name = "MODEL", default_value = "contact", value_parser = model)]
     model: String,
 
     /// Angular speed of the swing
-    #[arg(long, value_name = "SPEED", default_value = "50 rad/s", allow_hyphen_values = true,
+    #[arg(long, value_name = "rad/s", default_value = "50 rad/s", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::AngularSpeed))]
     swing_speed: f64,
 
-    /// Rotation centre of the swing beyond the knob end (negative: inside the handle)
-    #[arg(long, value_name = "LENGTH", default_value = "2.5 in", allow_hyphen_values = true,
+    /// Rotation centre of the swing beyond the knob end (negative: inside)
+    #[arg(long, value_name = "m", default_value = "2.5 in", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     pivot: f64,
 
     /// Speed of the ball towards the bat
-    #[arg(long, value_name = "SPEED", default_value = "90 mph", allow_hyphen_values = true,
+    #[arg(long, value_name = "m/s", default_value = "90 mph", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Speed))]
     pitch: f64,
 
     /// Ball: baseball, softball or a ball file
-    #[arg(long, default_value = "baseball")]
+    #[arg(long, value_name = "BALL", default_value = "baseball")]
     ball: String,
 
     /// Coefficient of restitution, in place of the ball's own
@@ -336,27 +376,33 @@ pub struct SceneArgs {
     cor: Option<f64>,
 
     /// Where the hands feel the hit, from the knob end
-    #[arg(long, value_name = "X", default_value = "6 in", allow_hyphen_values = true,
+    #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     hands: f64,
 
-    /// Stiffness of the barrel's wall under the ball (contact; default: it does not give way)
-    #[arg(long, value_name = "K", allow_hyphen_values = true,
+    /// Stiffness of a hollow barrel's wall under the ball
+    ///
+    /// For the contact model; without it the wall does not give way.
+    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
     wall_stiffness: Option<f64>,
 
-    /// Mass of that wall's own vibration (contact) [default: none, a spring in series]
-    #[arg(long, value_name = "M", requires = "wall_stiffness",
+    /// Mass of that wall's own vibration [default: none, a spring in series]
+    #[arg(long, value_name = "kg", requires = "wall_stiffness",
           allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Mass))]
     wall_mass: Option<f64>,
 
-    /// The swing speed is that of a bat with this inertia about a point 6 in from the knob
-    #[arg(long, value_name = "I", allow_hyphen_values = true,
+    /// The swing speed is that of a bat with this swing weight
+    ///
+    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2".
+    #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Inertia))]
     reference_inertia: Option<f64>,
 
-    /// A bat of another inertia I is swung at (I_ref/I)^N times that speed: 0 for the same angular
-    /// speed, 0.5 for the same energy of rotation [default: 0]
+    /// How swings slow down with the swing weight [default: 0]
+    ///
+    /// A bat of another inertia I is swung at (I_ref/I)^N times the speed: 0 is the same angular
+    /// speed, 0.5 the same energy of rotation.
     #[arg(long, value_name = "N", requires = "reference_inertia",
           allow_hyphen_values = true, value_parser = |s: &str| not_negative(s, "exponent"))]
     swing_exponent: Option<f64>,
@@ -366,17 +412,17 @@ pub struct SceneArgs {
           value_parser = |s: &str| not_negative(s, "gamma"))]
     gamma: Option<f64>,
 
-    /// Power with which the empirical loss falls with the mode number (energy-loss)
+    /// Power with which that loss falls with the mode number (energy-loss)
     #[arg(long, value_name = "P", allow_hyphen_values = true,
           value_parser = |s: &str| not_negative(s, "decay"))]
     decay: Option<f64>,
 
     /// Duration of the force (pulse) [default: 0.75 ms]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true,
+    #[arg(long, value_name = "s", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Time))]
     pulse_duration: Option<f64>,
 
-    /// How much of the vibration's energy the ball need not lose, 0 to 1 (pulse) [default: 0.6]
+    /// Share of the vibration's energy the ball need not lose (pulse) [default: 0.6]
     #[arg(long, value_name = "KAPPA", allow_hyphen_values = true,
           value_parser = |s: &str| not_negative(s, "loss share"))]
     loss_share: Option<f64>,
@@ -575,7 +621,7 @@ fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
 }
 
 /// One of `now`, with a word of its own for what comes `later`.
-fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
+pub fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
     if now.contains(&text) {
         return Ok(text.to_owned());
     }
@@ -612,7 +658,7 @@ fn model(text: &str) -> std::result::Result<String, String> {
     one_of(text, &["contact", "pulse", "energy-loss", "rigid"], &[])
 }
 
-fn unit_system(text: &str) -> std::result::Result<Units, String> {
+pub fn unit_system(text: &str) -> std::result::Result<Units, String> {
     Ok(match one_of(text, &["si", "us", "both"], &[])?.as_str() {
         "si" => Units::Si,
         "us" => Units::Us,

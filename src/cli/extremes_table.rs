@@ -3,15 +3,17 @@
 use std::fmt::Write;
 
 use sweetspot::extremes::{EXTREMES, Outcome, Verdict};
+use sweetspot::telling::Tell;
 
 /// Every row, and whether all are right or refused with a reason.
-pub fn table() -> (String, bool) {
+pub fn table(tell: Tell) -> (String, bool) {
     let mut out = String::from("Right within three times the stated error, or refused");
     out += " with the reason:\n\n";
     let _ = writeln!(out, "{:<40}{:>8}{:>9}{:>9}  verdict", "what", "asked", "found", "stated");
     // Right, refused, wrong.
     let mut counts = [0; 3];
-    for extreme in EXTREMES {
+    for (k, extreme) in EXTREMES.iter().enumerate() {
+        tell(k as f64 / EXTREMES.len() as f64, extreme.what);
         let Outcome { asked, found, stated, verdict, note } = extreme.run();
         let (which, word, remark) = match verdict {
             Verdict::Right => (0, "right", note),

@@ -16,58 +16,65 @@ use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
 use crate::cli::common::{
-    BatArgs, OutputArgs, Prepared, SolveArgs, number, quantity, shown_length,
+    BatArgs, OutputArgs, Prepared, SolveArgs, examples, number, quantity, shown_length,
 };
 
-/// Frequency response between two points: receptance, mobility, accelerance
+/// How the bat answers a shaker or a tap, over frequency
 ///
-/// Example: sweetspot frf meshes/r161.json --at "28 in" --to "2 in" --kind mobility --to-hz 2000
+/// What would an accelerometer at one place see if a force swings at another? The table gives size
+/// and phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) for
+/// a unit force, and how much of it the modes left out may be. Undamped bats peak without bound at
+/// their frequencies: give the material a loss_factor.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
     /// Where the force is, from the knob end
-    #[arg(long, value_name = "X", allow_hyphen_values = true,
+    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     at: f64,
 
-    /// Where the answer is looked at (default: where the force is)
-    #[arg(long, value_name = "X", allow_hyphen_values = true,
+    /// Where the answer is looked at [default: where the force is]
+    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     to: Option<f64>,
 
     /// What is answered: receptance (deflection), mobility (velocity) or accelerance
-    #[arg(long, default_value = "receptance", value_parser = kind)]
+    #[arg(long, value_name = "KIND", default_value = "receptance", value_parser = kind,
+          help_heading = "The force")]
     kind: Kind,
 
-    /// Lowest frequency (default: a tenth of that of mode 1)
-    #[arg(long, value_name = "HZ", allow_hyphen_values = true,
+    /// Lowest frequency [default: a tenth of that of mode 1]
+    #[arg(long, value_name = "Hz", help_heading = "The force", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Frequency))]
     from_hz: Option<f64>,
 
-    /// Highest frequency (default: a fifth beyond that of the last mode); as many modes as it needs
-    #[arg(long, value_name = "HZ", allow_hyphen_values = true,
+    /// Highest frequency [default: a fifth beyond the last mode's]
+    ///
+    /// There are as many modes as it needs.
+    #[arg(long, value_name = "Hz", help_heading = "The force", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Frequency))]
     to_hz: Option<f64>,
 
     /// Number of frequencies from the lowest to the highest
-    #[arg(long, value_name = "N", default_value = "61",
+    #[arg(long, value_name = "N", default_value = "61", help_heading = "The force",
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: u32,
 
     /// Equal steps between them (else equal ratios)
-    #[arg(long)]
+    #[arg(long, help_heading = "The force")]
     linear: bool,
 
     /// These frequencies, separated by commas, in place of a range
-    #[arg(long, value_name = "HZ,HZ,…", value_delimiter = ',', allow_hyphen_values = true,
+    #[arg(long, value_name = "Hz,Hz,…", help_heading = "The force", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["from_hz", "to_hz", "points", "linear"],
           value_parser = |s: &str| quantity(s, Quantity::Frequency))]
     frequencies: Vec<f64>,
 
     /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
     /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
@@ -86,6 +93,13 @@ pub struct Args {
     #[command(flatten)]
     output: OutputArgs,
 }
+
+const EXAMPLES: &str = "\
+  sweetspot frf meshes/r161.json --at \"28 in\" --to \"2 in\" --kind mobility --to-hz 2000
+      struck on the barrel, felt at the handle
+
+  sweetspot frf meshes/dowel.json --at 0.3 --frequencies \"100,200,300\" --csv -
+      three frequencies as CSV";
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;

@@ -2,17 +2,25 @@
 
 mod advise;
 mod analyze;
+mod ask;
+mod bat_text;
 mod common;
 mod convert;
 pub mod diagnostic;
+mod completions;
 mod extremes_table;
 mod frf;
+mod help;
 mod hit;
+mod man;
 mod materials;
 mod modes;
+mod new;
+mod progress;
 mod promise_table;
 mod ring;
 mod schema;
+mod style;
 mod trade;
 mod validate;
 
@@ -20,6 +28,7 @@ use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use sweetspot::error::{Error, Result};
+use sweetspot::report::file;
 
 /// What is left to do when a verb is done.
 pub struct Done {
@@ -46,17 +55,28 @@ pub const FAILED: u8 = 1;
 /// The asked accuracy could not be reached; the best answer, if there is one, is given.
 pub const NOT_REACHED: u8 = 3;
 
-/// What a baseball bat does when it meets a ball.
+/// What a baseball bat does when it meets a ball
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "Exit codes: 0 done; 1 a check failed; 2 the input or the command \
-line is wrong;\n3 the asked accuracy could not be reached (the best answer, if any, is still given)."
+    after_help = AFTER
 )]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
 }
+
+const AFTER: &str = "\
+Start here:
+  sweetspot new
+      writes a bat file from what you measured
+  sweetspot analyze meshes/r161.json
+      everything about a bat on one screen
+  sweetspot hit --help
+      what a verb answers, with examples
+
+Exit codes: 0 done; 1 a check failed; 2 the input or the command line is wrong;
+3 the asked accuracy could not be reached (the best answer, if any, is still given).";
 
 #[derive(Subcommand)]
 enum Verb {
@@ -71,6 +91,9 @@ enum Verb {
     Validate(validate::Args),
     Materials(materials::Args),
     Schema(schema::Args),
+    New(new::Args),
+    Man(man::Args),
+    Completions(completions::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
@@ -82,7 +105,9 @@ const LATER_OPTIONS: &[&str] = &[];
 pub fn run() -> Result<Done> {
     let args = std::env::args_os().skip(1);
     refuse_later(&args.map(|arg| arg.to_string_lossy().into_owned()).collect::<Vec<_>>())?;
-    match parse().verb {
+    let verb = parse().verb;
+    stop_cleanly();
+    match verb {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
@@ -94,13 +119,30 @@ pub fn run() -> Result<Done> {
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
         Verb::Schema(args) => schema::run(&args),
+        Verb::New(args) => new::run(&args),
+        Verb::Man(args) => man::run(&args, Cli::command()),
+        Verb::Completions(args) => completions::run(&args, Cli::command()),
     }
+}
+
+/// The exit code of a program that was interrupted, as shells count it.
+const INTERRUPTED: i32 = 130;
+
+/// On Ctrl-C no half file stays, and no half line on the terminal.
+fn stop_cleanly() {
+    let handler = || {
+        file::abandon();
+        progress::clear();
+        std::process::exit(INTERRUPTED);
+    };
+    // Without a handler the program stops all the same, and may leave a part beside a file.
+    let _ = ctrlc::set_handler(handler);
 }
 
 /// The command line. What sets the scene of a hit is for `ring --hit` alone in that verb.
 fn parse() -> Cli {
     let scene = common::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = Cli::command().get_matches();
+    let matches = help::fitted(Cli::command()).get_matches();
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
         if let Some(name) = stray.and_then(clap::Arg::get_long) {

@@ -8,16 +8,20 @@ use sweetspot::error::{Error, Result};
 use sweetspot::plot::{picture, sets};
 use sweetspot::exchange::npz;
 use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{file, text};
+use sweetspot::report::{file, sketch, text};
 use sweetspot::solve::Solution;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 
-/// Natural frequencies, shapes and nodes
+/// How the bat rings: frequencies, nodes, shapes
 ///
-/// Example: sweetspot modes meshes/r161.json -n 5 --tol 1e-8
+/// Which tones does the bat have, and where does it stand still in them? The table gives each
+/// bending mode's frequency, how far it may be off, its modal mass and its nodes, from knob and
+/// tip; the sketch shows the nodes on the bat. Below is what the answer was made with and what was
+/// left out of the model, with what that costs on this bat. The shapes are in the JSON.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -25,29 +29,41 @@ pub struct Args {
     #[command(flatten)]
     solve: SolveArgs,
 
-    /// Samples of each shape in the JSON: a number of even points, or "nodes" for the mesh's
-    #[arg(long, value_name = "N", default_value = "101", value_parser = shape_points)]
+    /// Samples of each shape in the JSON: a number, or "nodes" for the mesh's
+    #[arg(long, value_name = "N", help_heading = "Output", default_value = "101", value_parser = shape_points)]
     shape_points: ShapePoints,
 
     /// Write K and M of the mesh into this folder: stiffness.mtx and mass.mtx (Matrix Market), and
     /// bat.npz (NumPy, SciPy's CSC parts) with the modes at the nodes
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     matrices: Option<PathBuf>,
 
     /// Draw the bat and its mode shapes into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
-    #[arg(long)]
+    #[arg(long, help_heading = "Output")]
     reproducible: bool,
 
     #[command(flatten)]
     output: OutputArgs,
 }
 
+const EXAMPLES: &str = "\
+  sweetspot modes meshes/r161.json -n 5
+      the first five modes, within 0.01 %
+
+  sweetspot modes meshes/r161.json -n 3 --tol 1e-10 --json modes.json
+      to ten digits, with the shapes as JSON
+
+  sweetspot modes meshes/northwestern_aluminium.json --budget \"2 ms\"
+      the best that two milliseconds give";
+
 pub fn run(args: &Args) -> Result<Done> {
+    let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
+    drop(progress);
     if let Some(folder) = &args.matrices {
         write_matrices(folder, &bat, &solution)?;
     }
@@ -55,8 +71,9 @@ pub fn run(args: &Args) -> Result<Done> {
         picture::write(folder, &sets::of_modes(&bat, &solution, None))?;
     }
     let table = format!(
-        "{}\n{}\n{}",
+        "{}\n{}\n{}\n{}",
         text::summary(&bat, args.output.units),
+        args.output.sketch(&bat, &sketch::of_modes(&bat, &solution)),
         text::modes(&bat, &solution, solution.modes.len(), args.output.units),
         text::model(&bat, &solution)
     );

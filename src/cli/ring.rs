@@ -18,77 +18,94 @@ use sweetspot::units::Quantity;
 
 use crate::cli::Done;
 use crate::cli::common::{
-    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, Solved, number, quantity, shown_length,
+    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, Solved, examples, number, quantity,
+    shown_length,
 };
 
-/// Motion after a hit or a blow, under a force or from an initial shape
+/// How the bat moves after a hit, a blow, a push or a release
 ///
-/// Example: sweetspot ring meshes/r161.json --hit "65 cm" --watch "5 in" --history hands.csv
-///
-/// Example: sweetspot ring meshes/r161.json --at "0.6 m" --impulse "1 N s" --modes 5 --times "0,1
-/// ms,2 ms"
+/// What do the hands feel, and does the bat break? With --hit a ball is hit and the table says how
+/// the watched places move, where and when the strain is largest, and what the hands hear. With
+/// --at and --impulse or --force, or with --initial, the deflection at even places and given
+/// instants is written as CSV.
 #[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
-    /// Hit a ball there (contact), from the knob end: what the hands feel, how the bat is strained
-    #[arg(long, value_name = "X", conflicts_with_all = ["at", "initial", "bending_only"],
+    /// Hit a ball there, from the knob end
+    #[arg(long, value_name = "m", help_heading = "The hit", conflicts_with_all = ["at", "initial", "bending_only"],
           allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
     hit: Option<f64>,
 
     /// Places to watch after a hit, separated by commas [default: the hands]
-    #[arg(long, value_name = "X,X,…", requires = "hit", value_delimiter = ',',
+    #[arg(long, value_name = "m,m,…", help_heading = "The hit", requires = "hit", value_delimiter = ',',
           allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
     watch: Vec<f64>,
 
     /// How long to watch after a hit [default: three periods of mode 1]
-    #[arg(long, value_name = "T", requires = "hit", allow_hyphen_values = true,
+    #[arg(long, value_name = "s", help_heading = "The hit", requires = "hit", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Time))]
     until: Option<f64>,
 
-    /// Write force, motion and strain at the watched places in time to this CSV file
-    #[arg(long, value_name = "FILE", requires = "hit")]
+    /// Write force, motion and strain at the watched places to this CSV file
+    #[arg(long, value_name = "FILE", help_heading = "Output", requires = "hit")]
     history: Option<PathBuf>,
 
     #[command(flatten)]
     scene: SceneArgs,
 
     /// Where it is struck or pushed, from the knob end
-    #[arg(long, value_name = "X", requires = "load", allow_hyphen_values = true,
+    #[arg(long, value_name = "m", help_heading = "A blow, a push or a release", requires = "load", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length))]
     at: Option<f64>,
 
     /// The impulse of the blow
-    #[arg(long, value_name = "J", requires = "at", allow_hyphen_values = true, group = "load",
+    #[arg(long, value_name = "N s", help_heading = "A blow, a push or a release", requires = "at", allow_hyphen_values = true, group = "load",
           value_parser = |s: &str| quantity(s, Quantity::Impulse))]
     impulse: Option<f64>,
 
-    /// Push it with the force in this CSV file (columns t_ms,force_n or with other units), straight
-    /// lines between its rows and nothing before and after
-    #[arg(long, value_name = "FILE", requires = "at", group = "load")]
+    /// Push it with the force in this CSV file
+    ///
+    /// Columns t_ms,force_n or with other units; straight lines between the rows, nothing before and
+    /// after them.
+    #[arg(
+        long,
+        value_name = "FILE",
+        help_heading = "A blow, a push or a release",
+        requires = "at",
+        group = "load"
+    )]
     force: Option<PathBuf>,
 
-    /// Release it from the shape in this CSV file (columns x_m,w_m or with other units)
-    #[arg(long, value_name = "FILE", conflicts_with = "at")]
+    /// Release it from the shape in this CSV file
+    ///
+    /// Columns x_m,w_m or with other units.
+    #[arg(
+        long,
+        value_name = "FILE",
+        help_heading = "A blow, a push or a release",
+        conflicts_with = "at"
+    )]
     initial: Option<PathBuf>,
 
-    /// Instants, separated by commas (default: nine over a period of mode 1)
-    #[arg(long, value_name = "T,T,…", value_delimiter = ',', allow_hyphen_values = true,
+    /// Instants, separated by commas [default: nine over a period of mode 1]
+    #[arg(long, value_name = "s,s,…", help_heading = "Output", value_delimiter = ',', allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Time))]
     times: Vec<f64>,
 
     /// Leave out the rigid motion
-    #[arg(long)]
+    #[arg(long, help_heading = "A blow, a push or a release")]
     bending_only: bool,
 
     /// Even points from end to end
-    #[arg(long, value_name = "N", default_value = "101",
+    #[arg(long, value_name = "N", default_value = "101", help_heading = "Output",
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     shape_points: u32,
 
     /// Write CSV to this file (- = standard output, the default)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
     #[command(flatten)]
@@ -97,6 +114,13 @@ pub struct Args {
     #[command(flatten)]
     output: OutputArgs,
 }
+
+const EXAMPLES: &str = "\
+  sweetspot ring meshes/r161.json --hit \"65 cm\" --watch \"5 in,9 in\" --history hands.csv
+      what two hands feel after a hit near the sweet spot, and every instant as CSV
+
+  sweetspot ring meshes/dowel.json --at \"0.6 m\" --impulse \"1 N s\" --modes 5 --times \"0,1 ms,2 ms\"
+      the deflected dowel after a blow, at three instants";
 
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(&args.output)?;

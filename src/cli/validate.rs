@@ -8,51 +8,77 @@ use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
 use sweetspot::report::file;
+use sweetspot::telling::Tell;
 use sweetspot::validation::{CASES, Row, run as run_case};
 use sweetspot::validation_page;
 
+use crate::cli::progress::Progress;
 use crate::cli::{Done, FAILED, extremes_table, promise_table};
 
-/// Every case under validation/ and the promise about errors, as tables; exit 1 if any fails
+/// Every known answer beside ours
+///
+/// May I trust it? Published bats, measured and computed, and exact answers are computed anew and
+/// set beside what is known, each with its tolerance; then stated errors are compared with true
+/// ones on bats with exact frequencies. The exit code is 1 if anything is missed.
 #[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// One line per case only
     #[arg(long)]
     summary: bool,
 
-    /// This case only, by its name in validation/; may be given again
+    /// This case only, by its name; may be given again
     #[arg(long = "case", value_name = "NAME", value_parser = case)]
     cases: Vec<String>,
 
-    /// Write the page docs/validation.md to this file (- = standard output): published bats side by
-    /// side and the exact answers in one table; and its picture r161_hit.svg beside it
+    /// Write the page docs/validation.md to this file (- = standard output)
+    ///
+    /// Published bats side by side and the exact answers in one table; its picture r161_hit.svg is
+    /// written beside it.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["summary", "cases"])]
     page: Option<PathBuf>,
 
-    /// The promise only: true beside stated errors, one line per bat and tolerance
+    /// True beside stated errors only, a line per bat and tolerance
     #[arg(long, conflicts_with_all = ["summary", "cases", "page"])]
     promise: bool,
 
-    /// The extremes only: huge, tiny, thin and stepped bats, a million elements
+    /// Huge, tiny, thin and stepped bats, a million elements only
     #[arg(long, conflicts_with_all = ["summary", "cases", "page", "promise"])]
     extremes: bool,
+
+    /// No progress on standard error
+    #[arg(long)]
+    quiet: bool,
 }
 
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot validate --summary
+      a line for every case, and the promise about stated errors
+
+  sweetspot validate --case r161_nathan_timoshenko --case torpedo_wolfish
+      every number of two cases
+
+  sweetspot validate --promise
+      true beside stated errors, bat by bat and tolerance by tolerance";
+
 pub fn run(args: &Args) -> Result<Done> {
+    let progress = Progress::new(args.quiet, "known answers");
+    let tell = |share, what: &str| progress.say(share, what);
     if args.extremes {
-        let (out, good) = extremes_table::table();
+        let (out, good) = extremes_table::table(&tell);
         return Ok(Done::new(out, if good { 0 } else { FAILED }));
     }
     if let Some(path) = &args.page {
-        return page(path);
+        return page(path, &tell);
     }
     let mut out = String::new();
     let mut good = true;
     if !args.promise {
-        good &= known_answers(args, &mut out)?;
+        good &= known_answers(args, &tell, &mut out)?;
     }
     if args.cases.is_empty() {
-        let rows = promise::rows()?;
+        let rows = promise::rows(&tell)?;
         out += if args.promise { "" } else { "\n" };
         if args.promise {
             out += &promise_table::table(&rows);
@@ -74,8 +100,8 @@ fn case(name: &str) -> std::result::Result<String, Error> {
 }
 
 /// Writes the page; what is left for standard output.
-fn page(path: &std::path::Path) -> Result<Done> {
-    let answers = Answer::all()?;
+fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
+    let answers = Answer::all(tell)?;
     let text = validation_page::text(&answers)?;
     let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
     if path.as_os_str() == "-" {
@@ -87,13 +113,14 @@ fn page(path: &std::path::Path) -> Result<Done> {
 }
 
 /// Every known answer beside ours; whether none is missed.
-fn known_answers(args: &Args, out: &mut String) -> Result<bool> {
+fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
     let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let (mut cases, mut counted, mut information, mut misses) = (0, 0, 0, 0);
     if args.summary {
         *out += "case                               rows  missed  worst error/tolerance\n";
     }
-    for (name, text) in CASES.iter().filter(|(name, _)| asked(name)) {
+    for (k, (name, text)) in CASES.iter().enumerate().filter(|(_, (name, _))| asked(name)) {
+        tell(k as f64 / CASES.len() as f64, name);
         let (case, rows) = run_case(name, text)?;
         let missed = rows.iter().filter(|row| row.missed()).count();
         let shown = rows.iter().filter(|row| row.information).count();

@@ -1,5 +1,7 @@
 //! Hits along a bat, with modes as good and as many as the wanted exit speeds need.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use crate::bat::Bat;
@@ -7,6 +9,7 @@ use crate::collision::hit::{Effort, Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::error::Result;
 use crate::solve::{Request, Solution, solve};
+use crate::telling::{Tell, nobody};
 
 /// The impacts along a bat.
 #[derive(Debug, Clone)]
@@ -36,6 +39,21 @@ pub fn sweep(
     exactly: bool,
     places: &[f64],
 ) -> Result<Sweep> {
+    sweep_telling(bat, (model, scene), (request, exactly), places, &nobody)
+}
+
+/// The same, telling how many of the places have been struck.
+///
+/// # Errors
+///
+/// As [`sweep`].
+pub fn sweep_telling(
+    bat: &Bat,
+    (model, scene): (Model, &Scene),
+    (request, exactly): (&Request, bool),
+    places: &[f64],
+    tell: Tell,
+) -> Result<Sweep> {
     /// More modes are not taken for an exit speed.
     const MOST: usize = 120;
     /// Steps are not made better than this.
@@ -51,10 +69,11 @@ pub fn sweep(
     if touching {
         asked.tolerance = (1e-2 * request.tolerance).clamp(1e-13, 1e-5);
     }
+    tell(0.0, "modes");
     let mut solution = solve(bat, &asked)?;
     loop {
         let hitter = Hitter::new(model, scene, bat, &solution, effort)?;
-        let impacts = strikes(&hitter, bat.length(), places);
+        let impacts = strikes(&hitter, bat.length(), places, tell);
         let outcomes = || impacts.iter().filter_map(|i| i.outcome.as_ref());
         // An error that is not a number is none to pass over.
         let greater = |worst: f64, e: f64| if e <= worst { worst } else { e };
@@ -100,8 +119,10 @@ pub fn sweep(
 
 /// The hits at all places (m). Where they lie close, one in a few is compared with rougher ones, and
 /// those between two take the larger error of both.
-pub fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
+pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<Impact> {
     const MOST: usize = 8;
+    /// Hits between two words of how many there are.
+    const OFTEN: usize = 64;
     /// Of the half-wave of the first mode left out: between two places so far apart its square is
     /// nowhere twice as large as at the larger of both.
     const CLOSE: f64 = 0.5;
@@ -110,13 +131,22 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
         places.len() > 2 * few
             && places.windows(few + 1).all(|span| span.iter().all(|x| (x - span[0]).abs() <= most))
     };
+    let struck = AtomicUsize::new(0);
+    let told = |impact: Impact| {
+        let count = struck.fetch_add(1, Ordering::Relaxed) + 1;
+        if count % OFTEN == 0 {
+            tell(count as f64 / places.len() as f64, "hits");
+        }
+        impact
+    };
     let Some(few) = (2..=MOST).rev().find(close) else {
-        return places.par_iter().map(|x| hitter.strike(*x)).collect();
+        return places.par_iter().map(|x| told(hitter.strike(*x))).collect();
     };
     let last = places.len() - 1;
     let mut chosen: Vec<usize> = (0..last).step_by(few).collect();
     chosen.push(last);
-    let compared: Vec<Impact> = chosen.par_iter().map(|k| hitter.strike(places[*k])).collect();
+    let compared: Vec<Impact> =
+        chosen.par_iter().map(|k| told(hitter.strike(places[*k]))).collect();
     let strike = |k: usize| {
         let after = chosen.partition_point(|at| *at < k);
         if chosen[after] == k {
@@ -124,7 +154,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64]) -> Vec<Impact> {
         }
         let [a, b] = [after - 1, after].map(|i| compared[i].outcome.as_ref());
         let error = a.zip(b).map(|(a, b)| a.truncation.max(b.truncation));
-        hitter.strike_knowing(places[k], error)
+        told(hitter.strike_knowing(places[k], error))
     };
     (0..=last).into_par_iter().map(strike).collect()
 }

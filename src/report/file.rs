@@ -2,7 +2,8 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::error::{Error, Result};
 
@@ -22,14 +23,42 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     }
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let beside = target.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = fs::File::create(&beside)
+    let created = {
+        // Under the list's lock, so that whoever removes the parts finds this one or forbids it.
+        let mut parts = parts();
+        parts.push(beside.clone());
+        fs::File::create(&beside)
+    };
+    let written = created
         .and_then(|mut file| file.write_all(contents).and_then(|()| file.sync_all()))
         .and_then(|()| fs::rename(&beside, &target));
-    written.map_err(|error| {
+    let written = written.map_err(|error| {
         // The part is of no use; that it may not be there is no further error.
         let _ = fs::remove_file(&beside);
         failed(error)
-    })
+    });
+    parts().retain(|part| *part != beside);
+    written
+}
+
+/// What is being written at this moment.
+static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A list of names is whole whatever happened to the thread that held it.
+    PARTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes every part that is being written, for a program that is told to stop. No further file is
+/// begun: whoever tries waits for the end of the program, which must follow.
+pub fn abandon() {
+    let parts = parts();
+    for part in parts.iter() {
+        // It may be whole and renamed by now.
+        let _ = fs::remove_file(part);
+    }
+    // The next file's thread must not pass.
+    std::mem::forget(parts);
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ pub mod resolved;
 pub mod damped;
 pub mod json;
 pub mod text;
+pub mod sketch;
 pub mod hit_text;
 pub mod hit_json;
 pub mod aftermath;

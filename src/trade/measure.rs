@@ -6,6 +6,7 @@ use crate::bat::Bat;
 use crate::beam::rule::DEGREES;
 use crate::error::Result;
 use crate::solve::{Request, Solution, Solver, solve};
+use crate::telling::Tell;
 use crate::theory::Theory;
 use crate::trade::front::{Run, mark};
 use crate::trade::reference::{Choice, Reference, solver_name};
@@ -63,18 +64,18 @@ pub fn measure(
     modes: usize,
     theory: Theory,
     budget: Duration,
-    progress: &mut dyn FnMut(&str),
+    tell: Tell,
 ) -> Result<Trade> {
     let started = Instant::now();
-    progress("the reference");
+    tell(0.0, "the reference");
     let reference = Reference::of(bat, modes, theory)?;
     let mut bench = Bench { bat, reference, started, budget: budget.as_secs_f64(), runs: vec![] };
-    bench.ask_planner(progress)?;
-    progress("more elements");
+    bench.ask_planner(tell)?;
     let time = budget.mul_f64(COLUMNS).saturating_sub(started.elapsed());
-    let columns = u_curve::measure(bat, &bench.reference, &SOLVERS, FINEST_COLUMN, time, progress);
-    bench.climb(progress);
-    progress("the front again");
+    let finer = |_, what: &str| tell(bench.share(), what);
+    let columns = u_curve::measure(bat, &bench.reference, &SOLVERS, FINEST_COLUMN, time, &finer);
+    bench.climb(tell);
+    tell(bench.share(), "the front again");
     for _ in 0..2 {
         bench.repeat_front();
     }
@@ -117,18 +118,23 @@ impl Bench<'_> {
         self.started.elapsed().as_secs_f64() < part * self.budget
     }
 
+    /// How much of the time is over, 0 to 1.
+    fn share(&self) -> f64 {
+        (self.started.elapsed().as_secs_f64() / self.budget).min(1.0)
+    }
+
     /// The reference's modes by its theory.
     fn request(&self) -> Request {
         let Reference { omegas, theory, .. } = &self.reference;
         Request { modes: omegas.len(), theory: *theory, ..Request::default() }
     }
 
-    fn ask_planner(&mut self, progress: &mut dyn FnMut(&str)) -> Result<()> {
+    fn ask_planner(&mut self, tell: Tell) -> Result<()> {
         for tolerance in TOLERANCES {
             if !self.runs.is_empty() && !self.before(COLUMNS) {
                 break;
             }
-            progress(&format!("the planner at {tolerance:.0e}"));
+            tell(self.share(), &format!("the planner at {tolerance:.0e}"));
             let request = Request { tolerance, ..self.request() };
             let mut measured = self.timed(request)?;
             measured.run.planned_for = Some(tolerance);
@@ -138,7 +144,7 @@ impl Bench<'_> {
     }
 
     /// One rung of every ladder, then the next of every ladder, until all end.
-    fn climb(&mut self, progress: &mut dyn FnMut(&str)) {
+    fn climb(&mut self, tell: Tell) {
         let ladder = |degree, solver| Ladder {
             degree,
             solver,
@@ -156,7 +162,8 @@ impl Bench<'_> {
                     break;
                 }
                 let (name, n) = (solver_name(ladder.solver), ladder.next.round());
-                progress(&format!("{name}, degree {}, {n} elements", ladder.degree));
+                let what = format!("{name}, degree {}, {n} elements", ladder.degree);
+                tell(self.share(), &what);
                 self.step(ladder);
             }
         }
@@ -281,6 +288,7 @@ fn median(samples: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::telling::nobody;
     use crate::trade::front::front;
     use crate::validation::bundled_bat;
 
@@ -288,8 +296,7 @@ mod tests {
     fn errors_on_the_ladder_are_what_the_solutions_say_and_the_front_goes_down() {
         let bat = bundled_bat("meshes/cone.json").unwrap();
         let trade =
-            measure(&bat, 3, Theory::EulerBernoulli, Duration::from_millis(600), &mut |_| {})
-                .unwrap();
+            measure(&bat, 3, Theory::EulerBernoulli, Duration::from_millis(600), &nobody).unwrap();
         let floor = trade.reference.floor();
         assert!(trade.runs.len() > 20, "{}", trade.runs.len());
         for run in &trade.runs {

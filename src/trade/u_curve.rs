@@ -9,6 +9,7 @@ use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::error::{Error, Result};
 use crate::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
+use crate::telling::Tell;
 use crate::trade::reference::{Reference, solver_name};
 
 /// The solvers of a U-curve, those of this build.
@@ -103,18 +104,25 @@ pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
 }
 
 /// The columns of these solvers up to `most` elements, for all modes of the reference; what would
-/// not be ready within `time` is left out. `progress` is told what comes next.
+/// not be ready within `time` is left out.
 pub fn measure(
     bat: &Bat,
     reference: &Reference,
     solvers: &[Solver],
     most: usize,
     time: Duration,
-    progress: &mut dyn FnMut(&str),
+    tell: Tell,
 ) -> Vec<Column> {
     let deadline = Instant::now() + time;
     let counts = counts(bat, reference.omegas.len(), most);
-    solvers.iter().map(|s| column(bat, reference, *s, &counts, deadline, progress)).collect()
+    // Time goes with the number of elements, and there are as many for every solver.
+    let all = counts.iter().sum::<usize>() as f64;
+    let share = |k: usize| k as f64 / solvers.len() as f64;
+    let columns = solvers.iter().enumerate().map(|(k, solver)| {
+        let tell = |before, what: &str| tell(share(k) + share(1) * before / all, what);
+        column(bat, reference, *solver, &counts, deadline, &tell)
+    });
+    columns.collect()
 }
 
 fn column(
@@ -123,9 +131,10 @@ fn column(
     solver: Solver,
     counts: &[usize],
     deadline: Instant,
-    progress: &mut dyn FnMut(&str),
+    tell: Tell,
 ) -> Column {
     let mut column = Column { solver, points: vec![], end: None };
+    let mut before = 0.0;
     for &elements in counts {
         let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
         // What is too large is refused at once.
@@ -134,7 +143,8 @@ fn column(
             column.end = Some(End::NoTime { elements });
             break;
         }
-        progress(&format!("{}, {elements} cubic elements", solver_name(solver)));
+        tell(before, &format!("{}, {elements} cubic elements", solver_name(solver)));
+        before += elements as f64;
         match point(bat, reference, solver, elements) {
             Ok(point) => column.points.push(point),
             Err(error) => {
@@ -194,13 +204,14 @@ fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::telling::nobody;
     use crate::theory::Theory;
     use crate::validation::bundled_bat;
 
     fn dowel(solvers: &[Solver], most: usize) -> Vec<Column> {
         let bat = bundled_bat("meshes/dowel.json").unwrap();
         let reference = Reference::of(&bat, 5, Theory::EulerBernoulli).unwrap();
-        measure(&bat, &reference, solvers, most, Duration::from_secs(3600), &mut |_| {})
+        measure(&bat, &reference, solvers, most, Duration::from_secs(3600), &nobody)
     }
 
     #[test]

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // Each test file uses some of them.
 
 pub mod diagnostic;
+pub mod commands;
 pub mod folder;
 
 use std::f64::consts::{PI, TAU};

@@ -1,0 +1,58 @@
+//! Help that fits a terminal.
+
+use std::fmt::Display;
+
+use clap::Command;
+
+/// Columns of what is said of a verb, of an option on lines of its own, and of one beside its name.
+const PROSE: usize = 80;
+const BELOW: usize = 78;
+const BESIDE: usize = 62;
+
+/// A space at which no line breaks.
+const TOGETHER: &str = "\u{a0}";
+
+/// The command with every help text broken into lines, and defaults said in the text.
+pub fn fitted(command: Command) -> Command {
+    let about = command.get_long_about().or(command.get_about()).map(|text| lines(text, PROSE));
+    let command = match about {
+        Some(text) => command.long_about(text),
+        None => command,
+    };
+    let command = command.mut_args(|arg| {
+        let values = arg.get_default_values().iter().map(|value| value.to_string_lossy());
+        let default = match values.collect::<Vec<_>>().join(" ") {
+            values if values.is_empty() || !arg.get_action().takes_values() => String::new(),
+            values => format!(" [default:{TOGETHER}{}]", values.replace(' ', TOGETHER)),
+        };
+        let short = arg.get_help().map(|text| format!("{text}{default}"));
+        let long = arg.get_long_help().map(|text| format!("{text}{default}"));
+        let long = long.or_else(|| short.clone());
+        let Some((short, long)) = short.zip(long) else { return arg };
+        let takes = arg.get_action().takes_values();
+        let arg = arg.help(lines(&short, BESIDE)).long_help(lines(&long, BELOW));
+        if takes { arg.hide_default_value(true) } else { arg }
+    });
+    command.mut_subcommands(fitted)
+}
+
+/// The text in lines of at most so many columns; its own line ends stay.
+fn lines(text: impl Display, width: usize) -> String {
+    let text = text.to_string();
+    let mut out: Vec<String> = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            let longer = line.chars().count() + 1 + word.chars().count();
+            if !line.is_empty() && longer > width {
+                out.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line += word;
+        }
+        out.push(line);
+    }
+    out.join("\n").replace(TOGETHER, " ")
+}

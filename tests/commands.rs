@@ -1,0 +1,125 @@
+//! Every command that README.md, docs/ and the help texts show does what it says it does.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::commands::{commands, wider, words};
+use common::folder::{Folder, but_shear};
+
+/// Commands that do not run as they stand.
+const EXCEPTIONS: &[(&str, Instead, &str)] = &[
+    ("trade meshes/r161.json", Instead::With("1 s"), "it measures for as long as it is told to"),
+    ("trade meshes/dowel.json --u-curve", Instead::With("1 s"), "as above"),
+    ("new", Instead::Nothing, "it asks; tests/terminal.rs answers"),
+];
+
+enum Instead {
+    /// The same with this `--budget`.
+    With(&'static str),
+    Nothing,
+}
+
+/// A folder in which the documents' commands find what they name.
+fn furnished(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    fs::create_dir_all(folder.0.join("meshes")).unwrap();
+    fs::create_dir_all(folder.0.join("docs")).unwrap();
+    for entry in fs::read_dir(meshes).unwrap() {
+        let path = entry.unwrap().path();
+        fs::copy(&path, folder.0.join("meshes").join(path.file_name().unwrap())).unwrap();
+    }
+    // The README describes it.
+    folder.write("push.csv", "t_ms,force_n\n0,0\n0.5,2000\n1,0\n");
+    folder
+}
+
+/// The words to run, with a `--budget` where the command would take as long as it is told.
+fn taken(command: &str) -> Option<Vec<String>> {
+    let mut words = words(command);
+    let begins = |shown: &&(&str, Instead, &str)| {
+        command == shown.0 || command.starts_with(&format!("{} -", shown.0))
+    };
+    match EXCEPTIONS.iter().find(begins) {
+        Some((_, Instead::Nothing, _)) if words.len() == 1 => return None,
+        Some((_, Instead::With(time), _)) if !words.contains(&"--budget".to_owned()) => {
+            words.extend(["--budget".to_owned(), (*time).to_owned()]);
+        }
+        _ => {}
+    }
+    Some(words)
+}
+
+/// Runs them in order; each must succeed, in silence, and print no line beyond column 80 but in
+/// JSON, CSV, Markdown and what other programs read.
+fn all_succeed(folder: &Folder, commands: &[String]) {
+    let mut faults = Vec::new();
+    for command in commands {
+        let Some(words) = taken(command) else { continue };
+        let args: Vec<&str> = words.iter().map(String::as_str).collect();
+        let output = folder.run(&args);
+        let told = but_shear(&String::from_utf8_lossy(&output.stderr));
+        if output.status.code() != Some(0) || !told.is_empty() {
+            faults.push(format!("{command}: {:?} {told}", output.status.code()));
+        }
+        let for_people = !args.contains(&"-") && !["man", "completions"].contains(&args[0]);
+        if for_people && !args.contains(&"--help") {
+            let wide = wider(&String::from_utf8_lossy(&output.stdout), 80);
+            faults.extend(wide.iter().map(|line| format!("{command}: {line}")));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn every_command_of_the_readme_and_the_documents_runs() {
+    let folder = furnished("readme");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let documents = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let pages = documents.filter(|path| path.extension().is_some_and(|end| end == "md"));
+    let mut shown = commands(&fs::read_to_string(root.join("README.md")).unwrap(), 4);
+    assert!(shown.len() > 10, "{shown:?}");
+    pages.for_each(|page| shown.extend(commands(&fs::read_to_string(page).unwrap(), 4)));
+    let mut seen = std::collections::BTreeSet::new();
+    shown.retain(|command| seen.insert(command.clone()));
+    all_succeed(&folder, &shown);
+}
+
+#[test]
+fn every_example_of_the_help_runs_and_no_help_is_wider_than_a_hundred_columns() {
+    let folder = furnished("help");
+    let top = folder.text(&["--help"]);
+    let verbs = top.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let verbs =
+        verbs.take_while(|line| !line.is_empty()).filter_map(|l| l.split_whitespace().next());
+    let mut shown = commands(&top, 2);
+    let mut faults = Vec::new();
+    for verb in verbs.filter(|verb| *verb != "help") {
+        for help in ["-h", "--help"] {
+            let text = folder.text(&[verb, help]);
+            faults.extend(wider(&text, 100));
+            if help == "--help" {
+                let examples = commands(&text, 2);
+                if !text.contains("Examples:") || examples.is_empty() {
+                    faults.push(format!("{verb} has no examples"));
+                }
+                shown.extend(examples);
+            }
+        }
+    }
+    assert!(faults.is_empty() && shown.len() > 25, "{faults:#?}\n{shown:#?}");
+    // The promise is run from the README.
+    shown.retain(|command| command != "validate --promise" && command != "validate --summary");
+    all_succeed(&folder, &shown);
+}
+
+#[test]
+fn words_are_taken_apart_as_by_a_shell() {
+    let text =
+        "    sweetspot hit b.json --pitch \"85 mph\" \\\n      --at 1 > out\n  sweetspot no\n";
+    let found = commands(text, 4);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(words(&found[0]), ["hit", "b.json", "--pitch", "85 mph", "--at", "1"]);
+}

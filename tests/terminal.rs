@@ -1,0 +1,341 @@
+//! What a person sees at a terminal, and what a pipe gets.
+
+mod common;
+
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+
+use common::commands::wider;
+use common::folder::Folder;
+use sweetspot::Bat;
+
+const MESHES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes");
+
+fn mesh(name: &str) -> String {
+    format!("{MESHES}/{name}.json")
+}
+
+#[test]
+fn tables_fit_eighty_columns_on_every_bat_in_every_unit() {
+    let folder = Folder::new("columns");
+    let mut faults = Vec::new();
+    for entry in fs::read_dir(MESHES).unwrap() {
+        let path = entry.unwrap().path();
+        let bat = path.to_str().unwrap();
+        let name = Bat::from_file(&path).unwrap().name;
+        for units in ["si", "us", "both"] {
+            for args in [
+                &["analyze", bat][..],
+                &["modes", bat, "-n", "30", "--tol", "1e-8"],
+                &["hit", bat, "--points", "5"],
+                &["hit", bat, "--points", "3", "--reference-inertia", "10000 oz in2"],
+                &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
+                &["frf", bat, "--at", "0.6", "--points", "5"],
+                &["advise", bat],
+                &["materials"],
+            ] {
+                let args = [args, &["--units", units]].concat();
+                let output = folder.run(&args);
+                let text = String::from_utf8_lossy(&output.stdout);
+                if output.status.code() != Some(0) || text.contains('\u{1b}') {
+                    faults.push(format!("{args:?}: {output:?}"));
+                }
+                let wide = wider(&text, 80).into_iter().filter(|line| !line.contains(&name));
+                faults.extend(wide.map(|line| format!("{args:?}: {line}")));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn trade_fits_eighty_columns() {
+    let folder = Folder::new("trade-columns");
+    let bat = mesh("cone");
+    for more in [&["-n", "3"][..], &["-n", "12"], &["-n", "5", "--u-curve"]] {
+        let args = [&["trade", &bat, "--budget", "500 ms"][..], more].concat();
+        let wide = wider(&folder.text(&args), 80);
+        assert!(wide.is_empty(), "{more:?} {wide:#?}");
+    }
+}
+
+#[test]
+fn a_pipe_gets_colour_only_if_it_is_forced() {
+    let folder = Folder::new("colour");
+    let coloured = |settings: &[(&str, &str)]| {
+        let mut command = folder.command(&["modes", &mesh("dowel"), "-n", "2"]);
+        for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        let output = command.envs(settings.iter().copied()).output().unwrap();
+        String::from_utf8(output.stdout).unwrap().contains('\u{1b}')
+    };
+    assert!(!coloured(&[]) && coloured(&[("CLICOLOR_FORCE", "1")]));
+    assert!(!coloured(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]));
+    let mut json = folder.command(&["modes", &mesh("dowel"), "--json", "-"]);
+    let output = json.env("CLICOLOR_FORCE", "1").output().unwrap();
+    assert!(serde_json::from_slice::<serde_json::Value>(&output.stdout).is_ok());
+}
+
+/// What a terminal gets to see of a command; None where there is no `script` to play one.
+#[cfg(target_os = "linux")]
+fn seen(folder: &Folder, args: &str, settings: &[(&str, &str)]) -> Option<String> {
+    let command = format!("{} {args}", env!("CARGO_BIN_EXE_sweetspot"));
+    let mut script = std::process::Command::new("script");
+    script.args(["-qec", &command, "/dev/null"]).current_dir(&folder.0).stdin(Stdio::null());
+    for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        script.env_remove(name);
+    }
+    script.env("TERM", "xterm").envs(settings.iter().copied());
+    Some(String::from_utf8_lossy(&script.output().ok()?.stdout).into_owned())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_bold_headings_unless_it_wants_none() {
+    let folder = Folder::new("bold");
+    let modes = format!("modes {} -n 2", mesh("dowel"));
+    let Some(plain) = seen(&folder, &modes, &[]) else { return };
+    assert!(plain.contains("\u{1b}[1mBending modes"), "{plain}");
+    for setting in [("NO_COLOR", "1"), ("TERM", "dumb"), ("CLICOLOR", "0")] {
+        let seen = seen(&folder, &modes, &[setting]).unwrap();
+        assert!(seen.contains("Bending modes") && !seen.contains('\u{1b}'), "{setting:?} {seen}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_long_wait_shows_a_bar_with_the_time_left_and_takes_it_away() {
+    let folder = Folder::new("bar");
+    let trade = format!("trade {} -n 3 --budget '3 s'", mesh("dowel"));
+    let Some(seen) = seen(&folder, &trade, &[]) else { return };
+    let (waiting, table) = seen.split_once("Front: ").unwrap();
+    assert!(waiting.contains(" %, ") && waiting.contains(" left  "), "{waiting}");
+    let line = waiting.rsplit("\u{1b}[2K").next().unwrap();
+    assert!(!line.contains(" left ") && !table.contains(" left  "), "{line}");
+    let quiet = self::seen(&folder, &format!("{trade} --quiet"), &[]).unwrap();
+    assert!(!quiet.contains("\u{1b}[2K"), "{quiet}");
+    // Nobody waits at a pipe.
+    let output = folder.run(&["trade", &mesh("dowel"), "-n", "3", "--budget", "1 s"]);
+    assert!(output.stderr.is_empty(), "{output:?}");
+}
+
+#[test]
+fn the_sketch_is_ascii_where_the_locale_is() {
+    let folder = Folder::new("locale");
+    let sketch = |locale: &str| {
+        let mut command = folder.command(&["modes", &mesh("r161"), "-n", "1", "--units", "si"]);
+        let output = command.env("LC_ALL", locale).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert!(sketch("en_GB.UTF-8").contains("██▄"));
+    assert!(sketch("C").contains("##.") && !sketch("C").contains('█'));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_no_half_file_and_the_old_one() {
+    const TRIES: usize = 40;
+    let folder = Folder::new("interrupt");
+    let bat = mesh("dowel");
+    // Some ten megabytes, so that there is a while in which it is half written.
+    let long = ["modes", &bat, "-n", "10", "--shape-points", "40000", "--json", "out.json"];
+    for _ in 0..TRIES {
+        folder.write("out.json", "\"old\"");
+        let mut child = folder.command(&long).stdout(Stdio::null()).spawn().unwrap();
+        let being_written = || folder.names().iter().any(|name| name.ends_with(".part"));
+        while !being_written() && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        let mut kill = std::process::Command::new("kill");
+        kill.args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status().unwrap();
+        let code = child.wait().unwrap().code();
+        assert_eq!(folder.names(), ["out.json"], "{code:?}");
+        let left = folder.read("out.json");
+        assert!(serde_json::from_str::<serde_json::Value>(&left).is_ok(), "{code:?}");
+        if code == Some(130) && left == "\"old\"" {
+            return;
+        }
+        // It was done before the signal came.
+        assert!(matches!(code, Some(0 | 130)), "{code:?}");
+    }
+    panic!("it was always done before the signal came");
+}
+
+#[test]
+fn completions_name_every_verb_and_the_shell_takes_them() {
+    let folder = Folder::new("completions");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = folder.text(&["completions", shell]);
+        for word in ["analyze", "swing-speed", "materials"] {
+            assert!(script.contains(word), "{shell} {word}");
+        }
+        folder.write(shell, script);
+    }
+    for shell in ["bash", "zsh"] {
+        let mut command = std::process::Command::new(shell);
+        // Where there is no such shell nothing can be said.
+        if let Ok(output) = command.arg("-n").arg(folder.0.join(shell)).output() {
+            assert!(output.status.success() && output.stderr.is_empty(), "{shell} {output:?}");
+        }
+    }
+}
+
+#[test]
+fn manual_pages_are_roff_with_the_words_of_the_help() {
+    let folder = Folder::new("man");
+    assert!(folder.text(&["man"]).contains("Start here"));
+    let written = folder.text(&["man", "--out", "man1"]);
+    let pages: Vec<&str> = written.lines().collect();
+    assert!(
+        pages.len() > 10 && pages.iter().any(|p| p.ends_with("sweetspot-modes.1")),
+        "{written}"
+    );
+    for page in pages {
+        let text = folder.read(page);
+        assert!(text.lines().any(|line| line.starts_with(".TH sweetspot")), "{page}");
+        assert!(text.contains(".SH NAME") && text.contains(".SH SYNOPSIS"), "{page}");
+        let mut man = std::process::Command::new("man");
+        // Containers have no pages and a `man` that says so and succeeds, or none.
+        if let Ok(output) = man.args(["-l", page]).current_dir(&folder.0).output() {
+            assert!(output.status.success(), "{page} {output:?}");
+        }
+    }
+    assert_eq!(folder.text(&["man", "modes"]), folder.read("man1/sweetspot-modes.1"));
+    let output = folder.run(&["man", "mods"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && told.contains("did you mean modes"), "{told}");
+}
+
+/// Runs `new` with these answers.
+fn answered(folder: &Folder, args: &[&str], answers: &str) -> std::process::Output {
+    let mut command = folder.command(&[&["new", "--ask"], args].concat());
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = piped.spawn().unwrap();
+    // It may have stopped before the last answer.
+    let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
+    let folder = Folder::new("asked");
+    let answers = "Birch, mine\ncm\n8.4\n84\n880\n880 g\npine\n5\n\
+                   5.0\n4.9\n2.6, 3\n99, 3\n2,5\n10, 2.7\n\n6.4\n";
+    let output = answered(&folder, &[], answers);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    for reason in [
+        "8.4 cm is no bat's length",
+        "880 of what?",
+        "\"pine\" is not in the list",
+        "99 cm is beyond the tip",
+        "decimals follow a point",
+    ] {
+        assert!(told.contains(reason), "{reason}: {told}");
+    }
+    assert_eq!(folder.names(), ["birch-mine.json"]);
+    let bat = Bat::from_file(folder.0.join("birch-mine.json")).unwrap();
+    assert_eq!(bat.name, "Birch, mine");
+    assert!((bat.length() - 0.84).abs() < 1e-12 && (bat.inertia().mass - 0.88).abs() < 1e-12);
+    assert_eq!(bat.material().name.as_deref(), Some("yellow-birch"));
+    for (x, diameter) in [(0.0, 0.05), (0.01, 0.049), (0.026, 0.03), (0.1, 0.027), (0.84, 0.064)] {
+        assert!((2.0 * bat.profile.at(x).outer - diameter).abs() < 1e-12, "{x}");
+    }
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.contains("measured") && shown.contains("sweetspot analyze birch-mine.json"));
+    // The same once more would replace it.
+    let again = answered(&folder, &["birch-mine.json"], answers);
+    assert_eq!(again.status.code(), Some(2), "{again:?}");
+}
+
+#[test]
+fn answers_that_end_too_soon_write_nothing() {
+    let folder = Folder::new("ended");
+    let answers = "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1.2\n\n2.5\n";
+    for (end, _) in answers.match_indices('\n').rev().skip(1) {
+        let output = answered(&folder, &["mine.json"], &answers[..=end]);
+        assert_eq!(output.status.code(), Some(2), "{end}");
+        assert!(folder.names().is_empty(), "{end}");
+    }
+    assert_eq!(answered(&folder, &["mine.json"], answers).status.code(), Some(0));
+}
+
+#[test]
+fn options_make_the_same_file_as_answers_and_what_is_missing_is_said() {
+    let folder = Folder::new("options");
+    let bat = ["--length", "33 in", "--mass", "31 oz", "--material", "white-ash", "--name", "Mine"];
+    let stations = ["--station", "0 in, 1.9 in", "--station", "1 in, 1", "--station", "33, 2.5"];
+    let written = folder.text(&[&["new", "-"], &bat[..], &stations].concat());
+    answered(&folder, &["asked.json"], "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1, 1\n\n2.5\n");
+    assert_eq!(folder.read("asked.json"), written);
+    for missing in ["--mass", "--material", "--station"] {
+        let kept = [&["new", "new.json"], &bat[..], &stations].concat();
+        let mut words = kept.iter();
+        let mut args = Vec::new();
+        while let Some(word) = words.next() {
+            if *word == missing {
+                words.next();
+            } else {
+                args.push(*word);
+            }
+        }
+        let output = folder.command(&args).stdin(Stdio::null()).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains(missing), "{missing}: {told}");
+    }
+    for wrong in ["1 in, 0.5", "0 in, 1 kg", "0 in", "40 in, 2"] {
+        let args = [&["new", "new.json"], &bat[..], &["--station", wrong]].concat();
+        let output = folder.command(&args).stdin(Stdio::null()).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains("--station"), "{wrong}: {told}");
+    }
+    assert_eq!(folder.names(), ["asked.json"]);
+}
+
+#[test]
+fn a_bat_like_another_has_its_diameters_at_its_own_length() {
+    let folder = Folder::new("like");
+    let like = ["--like", "r161", "--mass", "33 oz", "--material", "white-ash-dynamic"];
+    folder.text(&[&["new", "longer.json", "--length", "36 in"], &like[..]].concat());
+    let bat = Bat::from_file(folder.0.join("longer.json")).unwrap();
+    let r161 = Bat::from_file(mesh("r161")).unwrap();
+    let stretch = bat.length() / r161.length();
+    assert!((bat.length() - 36.0 * 0.0254).abs() < 1e-5);
+    for x in [0.01, 0.15, 0.4, 0.7, 0.83] {
+        let off = bat.profile.at(x * stretch).outer - r161.profile.at(x).outer;
+        // Four decimals of an inch are written.
+        assert!(off.abs() < 1e-5, "{x} {off}");
+    }
+    let output = folder.run(&[&["new", "longer.json"], &like[..]].concat());
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && told.contains("--force"), "{told}");
+    folder.text(&[&["new", "longer.json", "--force"], &like[..]].concat());
+}
+
+#[test]
+fn materials_are_the_same_in_every_unit_and_as_json() {
+    let folder = Folder::new("materials");
+    let [si, us] = ["si", "us"].map(|units| folder.text(&["materials", "--units", units]));
+    let cells = |text: &str, name: &str| -> Vec<f64> {
+        let line = text.lines().find(|l| l.split_whitespace().next() == Some(name)).unwrap();
+        line.split_whitespace().skip(1).map(|cell| cell.parse().unwrap_or(0.0)).collect()
+    };
+    let json = folder.json(&["materials", "--json", "-"]);
+    assert_eq!(json["format"], "sweetspot-materials/1");
+    for material in json["materials"].as_array().unwrap() {
+        let name = material["name"].as_str().unwrap();
+        let (si, us) = (cells(&si, name), cells(&us, name));
+        let number = |key: &str| material[key].as_f64().unwrap_or(0.0);
+        // 1 lb/in³ = 27 679.905 kg/m³ and 1 psi = 6 894.757 Pa.
+        for (value, [scale, si_of], [us_of, known]) in [
+            (number("density_kg_m3"), [1.0, si[0]], [27_679.905, us[0]]),
+            (number("youngs_modulus_pa"), [1e9, si[1]], [6.894_757e9, us[1]]),
+            (number("shear_modulus_pa"), [1e9, si[2]], [6.894_757e9, us[2]]),
+        ] {
+            assert!((value / scale - si_of).abs() <= 0.051 * si_of.max(0.01), "{name} {value}");
+            assert!((value / us_of - known).abs() <= 0.000_6, "{name} {value} {known}");
+        }
+    }
+}
