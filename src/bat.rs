@@ -13,6 +13,7 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 /// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
+    /// What people call it.
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
@@ -20,7 +21,9 @@ pub struct Bat {
     pub profile: Profile,
     /// What the pieces of the profile are made of; the first is the bat's own material.
     pub layups: Vec<Layup>,
+    /// What is on it and what holds it.
     pub fixtures: Fixtures,
+    /// What a scale and a tap said of it.
     pub weighed: Weighed,
     /// By how much what was weighed and tapped made all densities and all moduli larger.
     pub factors: [f64; 2],

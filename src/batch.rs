@@ -37,13 +37,16 @@ pub struct Found<'a> {
     /// after mode; the largest |φ| at the ends and the elements' sample points is 1 (anywhere, of a
     /// bat that was solved on its own), the tip positive.
     pub shapes: &'a [f64],
+    /// The elements.
     pub mesh: &'a Mesh,
+    /// Degree of their deflection.
     pub degree: usize,
 }
 
 /// How the bats are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
+    /// One after the other.
     OneByOne,
     /// Eight at a time in the lanes of a vector.
     SideBySide,

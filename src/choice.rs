@@ -9,6 +9,7 @@ use crate::theory::Theory;
 /// A theory, and what a person should know about the choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
+    /// The theory.
     pub theory: Theory,
     /// That shear matters and is not known, if so.
     pub warning: Option<String>,

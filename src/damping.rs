@@ -91,6 +91,7 @@ pub struct Damping {
     pub alone: Vec<f64>,
     /// Decay rates (1/s) of the rigid motions that only dashpots hold.
     pub rigid: Vec<f64>,
+    /// How the modes were found.
     pub kind: Kind,
 }
 

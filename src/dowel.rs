@@ -15,11 +15,17 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 /// How the two ends are held, the one at `X = 0` first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
+    /// Both free.
     FreeFree,
+    /// Clamped, then free: a cantilever.
     ClampedFree,
+    /// Both clamped.
     ClampedClamped,
+    /// Both pinned.
     PinnedPinned,
+    /// Clamped, then pinned.
     ClampedPinned,
+    /// Free, then pinned.
     FreePinned,
 }
 

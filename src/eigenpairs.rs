@@ -20,7 +20,9 @@ use crate::theory::Theory;
 /// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.
 #[derive(Debug, Clone)]
 pub struct Eigenpairs<R, const N: usize, const W: usize> {
+    /// The compliance of the bats.
     pub statics: Statics<R, N, W>,
+    /// The iteration.
     pub lanczos: Lanczos<R>,
     /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
     /// mode.

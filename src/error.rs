@@ -15,15 +15,30 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// A file that could not be read.
     #[error("cannot read {}: {source}", path.display())]
-    Read { path: PathBuf, source: std::io::Error },
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
 
     /// A file or stream that could not be written; nothing half-written is left behind.
     #[error("cannot write {}: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
 
     /// Something in an input file is wrong.
     #[error("{place}: {complaint}")]
-    Input { place: Place, complaint: Complaint },
+    Input {
+        /// Where it stands.
+        place: Place,
+        /// What is wrong with it.
+        complaint: Complaint,
+    },
 
     /// A value given directly, on the command line or by a program, is wrong.
     #[error("{0}")]
@@ -31,32 +46,66 @@ pub enum Error {
 
     /// Part of the bat format or of the command line that this version does not handle yet.
     #[error("{what} is not supported yet: {advice}")]
-    NotYet { what: String, advice: &'static str },
+    NotYet {
+        /// What was asked for.
+        what: String,
+        /// What to do instead.
+        advice: &'static str,
+    },
 
     /// Something that was left out when the program was built.
     #[error("{what} is not in this build: {advice}")]
-    NotBuilt { what: &'static str, advice: &'static str },
+    NotBuilt {
+        /// What was asked for.
+        what: &'static str,
+        /// How to build it in.
+        advice: &'static str,
+    },
 
     /// The iteration stopped before every wanted mode had converged.
     #[error(
         "only {converged} of {wanted} modes converged in {steps} Lanczos steps, and a list with \
          holes is no answer; ask for fewer modes or report this bat"
     )]
-    NotConverged { wanted: usize, converged: usize, steps: usize },
+    NotConverged {
+        /// How many modes were asked for.
+        wanted: usize,
+        /// How many of them were found.
+        converged: usize,
+        /// Products with the compliance or the inverse.
+        steps: usize,
+    },
 
     /// `K + σM` could not be factored; with too many elements round-off makes it indefinite.
     #[error("cannot factor the stiffness matrix of {unknowns} unknowns: {reason}")]
-    Factorization { unknowns: usize, reason: &'static str },
+    Factorization {
+        /// Size of the matrix.
+        unknowns: usize,
+        /// What went wrong, in words.
+        reason: &'static str,
+    },
 
     /// A mesh that cannot hold what was asked of it.
     #[error("{wanted} bending modes need at least {least} elements, {found} were asked for")]
-    TooFewElements { wanted: usize, least: usize, found: usize },
+    TooFewElements {
+        /// How many modes were asked for.
+        wanted: usize,
+        /// How many elements they need.
+        least: usize,
+        /// How many elements were asked for.
+        found: usize,
+    },
 
     /// A problem too large for the solver that was asked for.
     #[error(
         "the dense solver takes at most {most} unknowns, this mesh has {found}: use --solver statics"
     )]
-    TooLarge { most: usize, found: usize },
+    TooLarge {
+        /// The most unknowns it takes.
+        most: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 impl Error {
@@ -73,8 +122,11 @@ impl Error {
 /// A place in an input file; line and column count from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
+    /// Its name, as it was given.
     pub file: String,
+    /// From 1.
     pub line: usize,
+    /// From 1, in characters.
     pub column: usize,
 }
 
@@ -89,11 +141,14 @@ impl fmt::Display for Place {
 pub struct Complaint {
     /// Path of the field, such as `profile.x[3]`; empty for the whole document.
     pub field: String,
+    /// What stands there.
     pub found: String,
+    /// What should stand there.
     pub expected: String,
 }
 
 impl Complaint {
+    /// Of a field, what was found in it and what was expected.
     pub fn new(
         field: impl Into<String>,
         found: impl fmt::Display,

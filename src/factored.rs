@@ -46,7 +46,9 @@ impl Solver {
 /// Modes as scaled strains, one after the other.
 #[derive(Debug, Default)]
 pub struct Found {
+    /// The scaled strains of mode after mode.
     pub strains: Vec<f64>,
+    /// Products with the compliance or the inverse; 0 for the dense solver.
     pub steps: usize,
     /// ω (rad/s) of the first mode beyond them, if it was found.
     pub beyond: Option<f64>,

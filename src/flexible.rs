@@ -31,7 +31,9 @@ pub struct Flexible {
     pub dimension: usize,
     /// Strain energy of `½ qᵀq = 1` (J).
     pub energy_unit: f64,
+    /// The rigid motions that nothing holds.
     pub rigid: Vec<RigidMotion>,
+    /// The dashpots on the bat and under it.
     pub dashpots: Vec<Dashpot>,
     /// How far strains draw out the springs that absorbers hang on, one after the other.
     pub hung: Vec<Drawn>,
@@ -42,8 +44,9 @@ pub struct Flexible {
 /// A rigid motion that nothing holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
-    /// Deflection at the balance point (m) and rotation (rad).
+    /// Deflection at the balance point (m).
     pub push: f64,
+    /// Rotation (rad).
     pub turn: f64,
     /// Position of the balance point (m).
     pub balance: f64,
@@ -65,6 +68,7 @@ pub struct Dashpot {
     pub constant: f64,
     /// By the free rigid motions (m each).
     pub rigid: Vec<f64>,
+    /// By the strains.
     pub strains: Drawn,
 }
 

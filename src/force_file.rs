@@ -10,7 +10,9 @@ use crate::units::Quantity;
 /// Forces (N) at rising times (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceHistory {
+    /// Times (s).
     pub t: Vec<f64>,
+    /// Forces (N).
     pub force: Vec<f64>,
 }
 

@@ -6,6 +6,7 @@ use crate::profile::Section;
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layup {
+    /// What bears, from the bore to the surface.
     pub outer: Material,
     /// What fills the bore; nothing, if none.
     pub core: Option<Material>,

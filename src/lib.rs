@@ -68,6 +68,7 @@
 //! under the ball is one spring-mass of the caller's own figures, and a hit counts dashpots mode by
 //! mode ([`collision`]).
 
+#![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]
 #![cfg_attr(not(feature = "arpack"), forbid(unsafe_code))]

@@ -99,10 +99,15 @@ impl Material {
 /// One entry of the built-in list: SI values and where they come from.
 #[derive(Debug, Clone, Copy)]
 pub struct BuiltIn {
+    /// What a bat file calls it.
     pub name: &'static str,
+    /// ρ (kg/m³).
     pub density: f64,
+    /// E (Pa).
     pub youngs_modulus: f64,
+    /// G (Pa), if known.
     pub shear_modulus: Option<f64>,
+    /// Where the values come from.
     pub source: &'static str,
 }
 

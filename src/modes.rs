@@ -20,6 +20,7 @@ pub struct Mode {
     pub nodes: Vec<f64>,
     /// Deflection φ, largest |φ| = 1, the barrel end positive.
     pub shape: Shape,
+    /// How far these numbers may be off.
     pub error: ModeError,
 }
 

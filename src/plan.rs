@@ -41,8 +41,11 @@ use crate::theory::Theory;
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
+    /// The elements.
     pub mesh: Mesh,
+    /// Degree of their deflection.
     pub degree: usize,
+    /// Why these.
     pub reason: Reason,
 }
 
@@ -53,11 +56,22 @@ pub enum Reason {
     #[default]
     Asked,
     /// The cheapest of these degrees for that tolerance, by the formula.
-    Cheapest { degrees: [usize; 2], tolerance: f64 },
+    Cheapest {
+        /// The lowest and the highest that were tried.
+        degrees: [usize; 2],
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The plan before missed the tolerance, by little: one degree more.
-    OneDegreeMore { tolerance: f64 },
+    OneDegreeMore {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The plan before missed the tolerance: more elements where the error was.
-    Refined { tolerance: f64 },
+    Refined {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The most accurate plan within a time.
     Budget(Duration),
 }
@@ -94,6 +108,7 @@ pub struct Wanted {
     pub degree: Option<usize>,
     /// More than this only if the profile has as many pieces.
     pub most_unknowns: usize,
+    /// The beam theory.
     pub theory: Theory,
 }
 

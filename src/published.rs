@@ -11,8 +11,11 @@ use crate::validation::{CASES, Case, Check, Kind, Known, Row, run};
 /// A case with its rows, one for each check.
 #[derive(Debug)]
 pub struct Answer {
+    /// Its file in `validation/`, without the ending.
     pub name: &'static str,
+    /// The case.
     pub case: Case,
+    /// One for each check.
     pub rows: Vec<Row>,
 }
 

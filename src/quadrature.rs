@@ -63,6 +63,7 @@ pub struct RunningSum<R, const KEEP: bool = true> {
 }
 
 impl<R: Real, const KEEP: bool> RunningSum<R, KEEP> {
+    /// Adds a term.
     #[inline(always)]
     pub fn add(&mut self, term: R) {
         let sum = self.high + term;
@@ -73,6 +74,7 @@ impl<R: Real, const KEEP: bool> RunningSum<R, KEEP> {
         self.high = sum;
     }
 
+    /// The sum so far.
     #[inline(always)]
     pub fn value(self) -> R {
         if KEEP { self.high + self.low } else { self.high }
@@ -96,6 +98,7 @@ const MOST_PANELS: usize = 100;
 /// Integrals of several functions over [0, 1], and how far they are converged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Converged<const N: usize> {
+    /// One integral for each function.
     pub values: [f64; N],
     /// Largest difference of two rules as a share of `∫|f| ds`; the values are nearer than that.
     pub error: f64,

@@ -10,7 +10,9 @@ use crate::units::Quantity;
 /// Deflections `w` (m) at rising places `x` (m).
 #[derive(Debug, Clone, PartialEq)]
 pub struct InitialShape {
+    /// Places from the knob end (m).
     pub x: Vec<f64>,
+    /// Deflections (m).
     pub w: Vec<f64>,
 }
 

@@ -32,22 +32,39 @@ type Dimension = [i8; 4];
 /// A physical quantity: what a value is, its dimension, its SI unit and an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
+    /// m
     Length,
+    /// kg
     Mass,
+    /// kg/m³
     Density,
+    /// Pa; of a modulus, too.
     Pressure,
+    /// m/s
     Speed,
+    /// rad/s
     AngularSpeed,
+    /// rad
     Angle,
+    /// s
     Time,
+    /// Hz
     Frequency,
+    /// N
     Force,
+    /// N/m
     Stiffness,
+    /// N m/rad
     RotationalStiffness,
+    /// N/m²: per length of bat.
     BedStiffness,
+    /// N s/m
     Damping,
+    /// N s/m²: per length of bat.
     BedDamping,
+    /// Of mass (kg m²).
     Inertia,
+    /// N s
     Impulse,
 }
 
@@ -308,7 +325,7 @@ fn unknown(symbol: &str) -> String {
     }
 }
 
-/// Pounds-mass times square inches, the unit of swing weight, from kg m².
+/// kg m² to ounces (mass) times square inches, the unit of swing weight.
 pub fn ounce_square_inches(inertia: f64) -> f64 {
     inertia / (OUNCE * INCH * INCH)
 }
