@@ -1,4 +1,7 @@
-//! What bat is this; is it physical; its mass, balance point and swing weight.
+//! What bat is this, is it possible, and what are its mass, balance point and swing weight?
+//!
+//! [`Bat::new`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
+//! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
 use crate::error::{Error, Result};
 use crate::fixtures::{Fixtures, on_the_bat, positive};

@@ -1,4 +1,7 @@
-//! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
+//! What are the modes of many bats, as fast as the machine can?
+//!
+//! [`each`] goes through them on one core, [`all`] on all cores: one after the other or side by
+//! side in the lanes of a vector.
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
 //! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other

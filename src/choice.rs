@@ -1,4 +1,6 @@
-//! Which theory the question needs: the cheapest whose error is below the tolerance.
+//! Which theory does the question need?
+//!
+//! [`theory`] finds the cheapest whose error is below the tolerance.
 
 use crate::bat::Bat;
 use crate::error::Result;

@@ -1,4 +1,6 @@
-//! What a uniform beam does, in closed form: the yardstick for everything computed.
+//! What does a uniform beam do, in closed form?
+//!
+//! The yardstick for everything computed: [`Dowel::frequency`], [`UniformMode::new`], [`beta_l`].
 //!
 //! Euler–Bernoulli bending, `EI w⁗ = ω² ρA w`. With `X = x/L` and `b = βL` the modes are
 //!

@@ -1,5 +1,7 @@
-//! The lowest bending motions of bats on one mesh, with whatever vectors the machine has and
-//! memory that the next bats use again.
+//! What are the lowest bending motions of bats on one mesh?
+//!
+//! The engine below [`crate::solve()`] and [`crate::batch`], which are what to call: it takes
+//! whatever vectors the machine has, and memory that the next bats use again.
 //!
 //! The same bits whatever the vectors and in every lane: nothing is added in another order, and no
 //! product is fused with a sum.

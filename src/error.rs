@@ -1,4 +1,6 @@
-//! What a caller can get wrong, and what to say.
+//! What can a caller get wrong, and what is said then?
+//!
+//! [`Error`] is everything that any function here returns; [`Error::value`] makes the commonest.
 //!
 //! Every message is written for the person at the terminal: where, what was found,
 //! what was expected, what to do.

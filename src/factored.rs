@@ -1,4 +1,6 @@
-//! The bending modes by solvers that factor the assembled stiffness: the outside checks.
+//! What do solvers say that factor the assembled stiffness?
+//!
+//! They are the outside checks: ask for one by [`Solver`] in [`crate::solve::Request::solver`].
 
 use crate::bat::Bat;
 use crate::beam::assembly::{Pencil, places};

@@ -1,4 +1,7 @@
-//! What is on the bat and what holds it: weights, springs, supports, hands, joints.
+//! What is on the bat, and what holds it: weights, tape, springs, supports, hands, joints?
+//!
+//! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
+//! [`crate::Bat::with_fixtures`].
 
 use crate::error::{Error, Result};
 use crate::layup::Layup;

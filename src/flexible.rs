@@ -1,4 +1,6 @@
-//! A bat without the degree of its elements in its type: what responses are made of.
+//! How does a bat give way to a force anywhere, whatever the degree of its elements?
+//!
+//! [`Flexible::new`] on a solution's mesh is what responses and hits are made of.
 //!
 //! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic
 //! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they

@@ -1,4 +1,7 @@
-//! A force history from a CSV file: straight lines between its rows, nothing before and after.
+//! What force in time did somebody write down?
+//!
+//! [`read`] a CSV file: straight lines between its rows, nothing before and after; for
+//! [`crate::ringing::Ringing::pushed`].
 
 use std::path::Path;
 

@@ -1,4 +1,6 @@
-//! Hits of which something is known: a ball on a rigid wall, a ball on a bat.
+//! What is known of a ball on a rigid wall and of a ball on a bat?
+//!
+//! [`crate::validation::run`] is what to call.
 //!
 //! What a case of `validation/` says of them, and what the contact finds.
 

@@ -1,4 +1,6 @@
-//! What a section is worth: stiffness and mass per length of one material around another.
+//! What is a section worth: stiffness and mass per length of one material around another?
+//!
+//! [`Layup::of`] a material, [`Layup::worth`] of a section.
 
 use crate::material::Material;
 use crate::profile::Section;

@@ -1,4 +1,7 @@
-//! How stiff, how heavy: materials by numbers or by name.
+//! How stiff, how heavy is what the bat is made of?
+//!
+//! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
+//! `shear_modulus` to let it shear.
 
 use crate::error::{Error, Result};
 

@@ -1,4 +1,7 @@
-//! Which elements of which degree the wanted accuracy needs: the cheapest by a formula.
+//! Which elements of which degree does the wanted accuracy need?
+//!
+//! [`Plan::cheapest`] answers by a formula before anything is solved; [`crate::solve()`] looks at
+//! the errors then and calls [`Plan::refined`] where it was wrong.
 //!
 //! On an element of length `h` a mode is nearly `cos kx` with the local wave number
 //! `k = (ω²ρA/EI)^¼`. Polynomials of degree `p − 2` in the curvature miss of it what its Legendre

@@ -1,4 +1,6 @@
-//! What is the cross-section at `x`: outer and inner radius along the bat.
+//! What is the cross-section at `x`: outer and inner radius along the bat?
+//!
+//! [`Profile::new`] lays curves through [`Stations`]; [`Profile::at`] gives the [`Section`].
 
 use crate::error::{Complaint, Error, Result};
 use crate::formula::Formula;

@@ -1,4 +1,7 @@
-//! The promise and the truth: what a solution says of its own errors beside what they are.
+//! Do the stated errors hold?
+//!
+//! [`rows`] sets what a solution says of its own errors beside what they are; [`Summary::of`] sums
+//! that up.
 //!
 //! Every bat with exact frequencies is solved for tolerances from 1e-2 to 1e-12. The promise:
 //!

@@ -1,4 +1,6 @@
-//! Published numbers of real bats and ours, side by side.
+//! How do published numbers of real bats compare with ours?
+//!
+//! [`Answer::all`] computes every case anew, [`side_by_side`] tells those of one bat.
 
 use std::fmt::Write;
 

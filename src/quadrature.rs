@@ -1,4 +1,7 @@
-//! How do we integrate: Gauss–Legendre points on [0, 1], and sums that keep their digits.
+//! How do we integrate, and add up without losing digits?
+//!
+//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates what is no polynomial,
+//! and a [`RunningSum`] carries its rounding errors along.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;

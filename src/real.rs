@@ -1,4 +1,7 @@
-//! Numbers that the solver counts with: one at a time, or several side by side.
+//! What does the solver count with: one number at a time, or several side by side?
+//!
+//! [`Real`] is `f64` or [`crate::lanes::Lanes`]; [`Over`] lets several motions of one bat share its
+//! numbers.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

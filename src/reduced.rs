@@ -1,4 +1,7 @@
-//! A damped bat in few unknowns: its modes, and what forces and dashpots make of it beside them.
+//! How does a damped bat move, in as few unknowns as tell it?
+//!
+//! [`Reduced::new`], then [`Reduced::free_motions`] for what goes on by itself and
+//! [`Reduced::answer`] for what a force makes of it.
 //!
 //! In scaled strains the stiffness is the identity, and a motion as `e^{st}` obeys
 //!

@@ -1,4 +1,7 @@
-//! An initial shape from a CSV file: deflections along the bat, straight lines between.
+//! What initial shape did somebody write down?
+//!
+//! [`read`] a CSV file of deflections along the bat, straight lines between, for
+//! [`crate::ringing::Ringing::release`].
 
 use std::path::Path;
 

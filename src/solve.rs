@@ -1,4 +1,8 @@
-//! The modes of a bat, as accurately as asked: plan, solve, look at the error, refine.
+//! What are the modes of a bat, as accurately as asked?
+//!
+//! [`solve`](fn@solve) plans, solves, looks at the errors and refines; [`solve_within`] takes a
+//! time instead of an accuracy. A [`Request`] says what is wanted, a [`Solution`] what was found
+//! and how far to trust it.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,4 +1,6 @@
-//! What a number with a unit means in SI.
+//! What is a number with a unit in SI?
+//!
+//! [`parse`] for a string that must carry its unit, [`parse_or_si`] for one that may be bare.
 //!
 //! A bare number is SI. A string carries its unit: `"33 in"`, `"2.02e6 psi"`,
 //! `"0.0257 lb/in^3"`. A unit is a product of symbols with integer powers

@@ -1,4 +1,6 @@
-//! Known answers, and whether the program reproduces them.
+//! Does the program reproduce what is known?
+//!
+//! [`run`] solves one case of [`CASES`] and sets its numbers beside the known ones.
 //!
 //! The cases are data, in the folder `validation/`, and travel with the program.
 

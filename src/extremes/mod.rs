@@ -1,4 +1,6 @@
-//! The extremes: what no bat is, solved rightly or refused with the reason.
+//! Is what no bat is solved rightly, or refused with the reason?
+//!
+//! [`EXTREMES`] are the rows, each to be run by itself.
 //!
 //! Every row asks for something beyond any real bat or mesh. It is right if every true error is
 //! within three times the stated one and the wanted accuracy is met, refused if the answer or an
