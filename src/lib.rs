@@ -136,8 +136,8 @@
 //! | `p`, `N` | degree of an element's deflection, its number of coefficients `p + 1` | 1 |
 //! | `s`, `ξ` | place on an element or a piece, 0 to 1 and −1 to 1 | 1 |
 //! | `P_j` | Legendre's polynomial of degree j in ξ | 1 |
-//! | `c`, `g`, `q` | an element's curvatures, shear strains, both scaled by the strain energy | 1/m, 1, √J |
-//! | `U` | strain energy, or the unit of it that `½ qᵀq = 1` has | J |
+//! | `c`, `g`, `q` | an element's curvatures, shear strains, both scaled by the strain energy | 1/m, 1, 1 |
+//! | `U` | strain energy, and the unit of energy in which it is `½ qᵀq` | J |
 //! | `K`, `M`; `D = LLᵀ`, `S` | assembled stiffness and mass; stiffness of the strains; their integration | |
 //!
 //! | modes | meaning | unit |
