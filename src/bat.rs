@@ -1,4 +1,7 @@
-//! What bat is this; is it physical; its mass, balance point and swing weight.
+//! What bat is this, is it possible, and what are its mass, balance point and swing weight?
+//!
+//! [`Bat::new`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
+//! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
 use crate::error::{Error, Result};
 use crate::fixtures::Fixtures;
@@ -15,6 +18,7 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 /// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
+    /// What people call it.
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
@@ -22,7 +26,9 @@ pub struct Bat {
     pub profile: Profile,
     /// What the pieces of the profile are made of; the first is the bat's own material.
     pub layups: Vec<Layup>,
+    /// What is on it and what holds it.
     pub fixtures: Fixtures,
+    /// What a scale and a tap said of it.
     pub weighed: Weighed,
     /// By how much what was weighed and tapped made all densities and all moduli larger.
     pub factors: [f64; 2],

@@ -1,4 +1,7 @@
-//! Many bats: one after the other or side by side in the lanes of a vector, on all cores.
+//! What are the modes of many bats, as fast as the machine can?
+//!
+//! [`each`] goes through them on one core, [`all`] on all cores: one after the other or side by
+//! side in the lanes of a vector.
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
 //! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other
@@ -37,13 +40,16 @@ pub struct Found<'a> {
     /// after mode; the largest |φ| at the ends and the elements' sample points is 1 (anywhere, of a
     /// bat that was solved on its own), the tip positive.
     pub shapes: &'a [f64],
+    /// The elements.
     pub mesh: &'a Mesh,
+    /// Degree of their deflection.
     pub degree: usize,
 }
 
 /// How the bats are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
+    /// One after the other.
     OneByOne,
     /// Eight at a time in the lanes of a vector.
     SideBySide,

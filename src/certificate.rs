@@ -1,4 +1,6 @@
-//! How far a computed mode may be trusted, beyond what its own defect tells.
+//! How far may a computed mode be trusted, beyond what its own defect tells?
+//!
+//! [`crate::solve()`] calls these; what they find is in [`crate::modes::ModeError`].
 
 use crate::modes::Mode;
 

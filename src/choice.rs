@@ -1,4 +1,6 @@
-//! Which theory the question needs: the cheapest whose error is below the tolerance.
+//! Which theory does the question need?
+//!
+//! [`theory`] finds the cheapest whose error is below the tolerance.
 
 use crate::bat::Bat;
 use crate::error::Result;
@@ -9,6 +11,7 @@ use crate::theory::Theory;
 /// A theory, and what a person should know about the choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
+    /// The theory.
     pub theory: Theory,
     /// That shear matters and is not known, if so.
     pub warning: Option<String>,

@@ -1,4 +1,6 @@
-//! How fast a bat's motions die out: its materials, hands and absorbers.
+//! How fast do a bat's motions die out, by its materials, hands and absorbers?
+//!
+//! [`crate::Solution::damping`] has the answer; [`damping`](fn@damping) finds it for other modes.
 //!
 //! A material's loss factor η takes `2π η` times the strain energy away in every cycle, so that a
 //! mode has `ζ = ½ Σ η_i U_i/U`, `U_i` its strain energy in material i, bending and shear, springs
@@ -91,6 +93,7 @@ pub struct Damping {
     pub alone: Vec<f64>,
     /// Decay rates (1/s) of the rigid motions that only dashpots hold.
     pub rigid: Vec<f64>,
+    /// How the modes were found.
     pub kind: Kind,
 }
 

@@ -1,4 +1,6 @@
-//! What a uniform beam does, in closed form: the yardstick for everything computed.
+//! What does a uniform beam do, in closed form?
+//!
+//! The yardstick for everything computed: [`Dowel::frequency`], [`UniformMode::new`], [`beta_l`].
 //!
 //! Euler–Bernoulli bending, `EI w⁗ = ω² ρA w`. With `X = x/L` and `b = βL` the modes are
 //!
@@ -15,11 +17,17 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 /// How the two ends are held, the one at `X = 0` first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
+    /// Both free.
     FreeFree,
+    /// Clamped, then free: a cantilever.
     ClampedFree,
+    /// Both clamped.
     ClampedClamped,
+    /// Both pinned.
     PinnedPinned,
+    /// Clamped, then pinned.
     ClampedPinned,
+    /// Free, then pinned.
     FreePinned,
 }
 

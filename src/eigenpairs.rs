@@ -1,5 +1,7 @@
-//! The lowest bending motions of bats on one mesh, with whatever vectors the machine has and
-//! memory that the next bats use again.
+//! What are the lowest bending motions of bats on one mesh?
+//!
+//! The engine below [`crate::solve()`] and [`crate::batch`], which are what to call: it takes
+//! whatever vectors the machine has, and memory that the next bats use again.
 //!
 //! The same bits whatever the vectors and in every lane: nothing is added in another order, and no
 //! product is fused with a sum.
@@ -20,7 +22,9 @@ use crate::theory::Theory;
 /// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.
 #[derive(Debug, Clone)]
 pub struct Eigenpairs<R, const N: usize, const W: usize> {
+    /// The compliance of the bats.
     pub statics: Statics<R, N, W>,
+    /// The iteration.
     pub lanczos: Lanczos<R>,
     /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
     /// mode.

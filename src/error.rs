@@ -1,4 +1,6 @@
-//! What a caller can get wrong, and what to say.
+//! What can a caller get wrong, and what is said then?
+//!
+//! [`Error`] is everything that any function here returns; [`Error::value`] makes the commonest.
 //!
 //! Every message is written for the person at the terminal: where, what was found,
 //! what was expected, what to do.
@@ -15,20 +17,39 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// A file that could not be read.
     #[error("cannot read {}: {source}", path.display())]
-    Read { path: PathBuf, source: std::io::Error },
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
 
     /// A file or stream that could not be written; nothing half-written is left behind.
     #[error("cannot write {}: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
 
     /// Something in an input file is wrong.
     #[error("{place}: {complaint}")]
-    Input { place: Box<Place>, complaint: Complaint },
+    Input {
+        /// Where it stands.
+        place: Box<Place>,
+        /// What is wrong with it.
+        complaint: Complaint,
+    },
 
-    /// Several things are wrong: the first of them in the order of the file, two or more, and how
-    /// many were found beyond these.
+    /// Several things are wrong with a file.
     #[error("{}", said_together(shown, *more))]
-    Several { shown: Vec<Error>, more: usize },
+    Several {
+        /// The first of them in the order of the file, two or more.
+        shown: Vec<Error>,
+        /// How many were found beyond these.
+        more: usize,
+    },
 
     /// A value given directly, on the command line or by a program, is wrong.
     #[error("{0}")]
@@ -36,32 +57,66 @@ pub enum Error {
 
     /// Part of the bat format or of the command line that this version does not handle yet.
     #[error("{what} is not supported yet: {advice}")]
-    NotYet { what: String, advice: &'static str },
+    NotYet {
+        /// What was asked for.
+        what: String,
+        /// What to do instead.
+        advice: &'static str,
+    },
 
     /// Something that was left out when the program was built.
     #[error("{what} is not in this build: {advice}")]
-    NotBuilt { what: &'static str, advice: &'static str },
+    NotBuilt {
+        /// What was asked for.
+        what: &'static str,
+        /// How to build it in.
+        advice: &'static str,
+    },
 
     /// The iteration stopped before every wanted mode had converged.
     #[error(
         "only {converged} of {wanted} modes converged in {steps} Lanczos steps, and a list with \
          holes is no answer; ask for fewer modes or report this bat"
     )]
-    NotConverged { wanted: usize, converged: usize, steps: usize },
+    NotConverged {
+        /// How many modes were asked for.
+        wanted: usize,
+        /// How many of them were found.
+        converged: usize,
+        /// Products with the compliance or the inverse.
+        steps: usize,
+    },
 
     /// `K + σM` could not be factored; with too many elements round-off makes it indefinite.
     #[error("cannot factor the stiffness matrix of {unknowns} unknowns: {reason}")]
-    Factorization { unknowns: usize, reason: &'static str },
+    Factorization {
+        /// Size of the matrix.
+        unknowns: usize,
+        /// What went wrong, in words.
+        reason: &'static str,
+    },
 
     /// A mesh that cannot hold what was asked of it.
     #[error("{wanted} bending modes need at least {least} elements, {found} were asked for")]
-    TooFewElements { wanted: usize, least: usize, found: usize },
+    TooFewElements {
+        /// How many modes were asked for.
+        wanted: usize,
+        /// How many elements they need.
+        least: usize,
+        /// How many elements were asked for.
+        found: usize,
+    },
 
     /// A problem too large for the solver that was asked for.
     #[error(
         "the dense solver takes at most {most} unknowns, this mesh has {found}: use --solver statics"
     )]
-    TooLarge { most: usize, found: usize },
+    TooLarge {
+        /// The most unknowns it takes.
+        most: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 impl Error {
@@ -102,9 +157,13 @@ fn said_together(shown: &[Error], more: usize) -> String {
 /// A place in an input file; line and column count from 1, the column in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
+    /// Its name, as it was given.
     pub file: String,
+    /// From 1.
     pub line: usize,
+    /// From 1, in characters.
     pub column: usize,
+    /// The line itself.
     pub excerpt: Excerpt,
 }
 
@@ -113,8 +172,11 @@ pub struct Place {
 /// the surroundings of the mistake, with `…` where something is left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Excerpt {
+    /// What comes before the mistake.
     pub before: String,
+    /// The mistake itself; nothing at the end of a file.
     pub marked: String,
+    /// What comes after it.
     pub after: String,
 }
 
@@ -129,13 +191,16 @@ impl fmt::Display for Place {
 pub struct Complaint {
     /// Path of the field, such as `profile.x[3]`; empty for the whole document.
     pub field: String,
+    /// What stands there.
     pub found: String,
+    /// What should stand there.
     pub expected: String,
     /// What to do about it, such as "did you mean radius?"; empty where there is nothing to say.
     pub hint: String,
 }
 
 impl Complaint {
+    /// Of a field, what was found in it and what was expected.
     pub fn new(
         field: impl Into<String>,
         found: impl fmt::Display,

@@ -1,4 +1,6 @@
-//! The bending modes by solvers that factor the assembled stiffness: the outside checks.
+//! What do solvers say that factor the assembled stiffness?
+//!
+//! They are the outside checks: ask for one by [`Solver`] in [`crate::solve::Request::solver`].
 
 use crate::bat::Bat;
 use crate::beam::assembly::{Pencil, places};
@@ -46,7 +48,9 @@ impl Solver {
 /// Modes as scaled strains, one after the other.
 #[derive(Debug, Default)]
 pub struct Found {
+    /// The scaled strains of mode after mode.
     pub strains: Vec<f64>,
+    /// Products with the compliance or the inverse; 0 for the dense solver.
     pub steps: usize,
     /// ω (rad/s) of the first mode beyond them, if it was found.
     pub beyond: Option<f64>,

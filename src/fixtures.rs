@@ -1,25 +1,37 @@
-//! What is on the bat and what holds it: weights, springs, supports, hands, joints.
+//! What is on the bat, and what holds it: weights, tape, springs, supports, hands, joints?
+//!
+//! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
+//! [`crate::Bat::with_fixtures`].
 
 use crate::layup::Layup;
 
 /// Everything that a bat may have beside its shape and its material.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Fixtures {
+    /// Stretches of other materials.
     pub regions: Vec<Region>,
+    /// Weights and springs to ground.
     pub attachments: Vec<Attachment>,
+    /// Bat tape.
     pub tapes: Vec<Tape>,
+    /// Tuned absorbers.
     pub absorbers: Vec<Absorber>,
+    /// Places that give way to bending.
     pub joints: Vec<Joint>,
+    /// Pins and clamps.
     pub supports: Vec<Support>,
+    /// Hands.
     pub grip: Option<Grip>,
 }
 
 /// A stretch of other materials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// Where it begins and ends (m).
+    /// Where it begins (m).
     pub from: f64,
+    /// Where it ends (m).
     pub to: f64,
+    /// What it is made of.
     pub layup: Layup,
 }
 
@@ -28,21 +40,24 @@ pub struct Region {
 pub struct Attachment {
     /// Where it is fixed (m).
     pub x: f64,
-    /// Mass (kg), and how far beyond `x`, towards the barrel, its centre is (m).
+    /// Mass (kg).
     pub mass: f64,
+    /// How far beyond `x`, towards the barrel, its centre is (m).
     pub offset: f64,
     /// Moment of inertia about its own centre (kg m²).
     pub rotary_inertia: f64,
-    /// Springs from the bat at `x` to the ground, against deflection (N/m) and rotation (N m/rad).
+    /// Spring from the bat at `x` to the ground, against deflection (N/m).
     pub stiffness: f64,
+    /// The same against rotation (N m/rad).
     pub rotational_stiffness: f64,
 }
 
 /// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tape {
-    /// Where it begins and ends (m).
+    /// Where it begins (m).
     pub from: f64,
+    /// Where it ends (m).
     pub to: f64,
     /// Mass of the whole (kg).
     pub mass: f64,
@@ -53,9 +68,11 @@ pub struct Tape {
 pub struct Absorber {
     /// Where it hangs (m).
     pub x: f64,
-    /// Mass (kg), stiffness (N/m), damping (N s/m).
+    /// Mass (kg).
     pub mass: f64,
+    /// Spring constant (N/m).
     pub stiffness: f64,
+    /// Damping constant of the dashpot (N s/m).
     pub damping: f64,
 }
 
@@ -73,6 +90,7 @@ pub struct Joint {
 pub struct Support {
     /// Where (m).
     pub x: f64,
+    /// What it holds.
     pub kind: Held,
 }
 
@@ -88,8 +106,9 @@ pub enum Held {
 /// Hands as an elastic bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// Where they begin and end (m).
+    /// Where they begin (m).
     pub from: f64,
+    /// Where they end (m).
     pub to: f64,
     /// Force per deflection and per length (N/m²).
     pub stiffness: f64,

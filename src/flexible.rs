@@ -1,4 +1,6 @@
-//! A bat without the degree of its elements in its type: what responses are made of.
+//! How does a bat give way to a force anywhere, whatever the degree of its elements?
+//!
+//! [`Flexible::new`] on a solution's mesh is what responses and hits are made of.
 //!
 //! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic
 //! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they
@@ -31,7 +33,9 @@ pub struct Flexible {
     pub dimension: usize,
     /// Strain energy of `½ qᵀq = 1` (J).
     pub energy_unit: f64,
+    /// The rigid motions that nothing holds.
     pub rigid: Vec<RigidMotion>,
+    /// The dashpots on the bat and under it.
     pub dashpots: Vec<Dashpot>,
     /// How far strains draw out the springs that absorbers hang on, one after the other.
     pub hung: Vec<Drawn>,
@@ -42,8 +46,9 @@ pub struct Flexible {
 /// A rigid motion that nothing holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
-    /// Deflection at the balance point (m) and rotation (rad).
+    /// Deflection at the balance point (m).
     pub push: f64,
+    /// Rotation (rad).
     pub turn: f64,
     /// Position of the balance point (m).
     pub balance: f64,
@@ -65,6 +70,7 @@ pub struct Dashpot {
     pub constant: f64,
     /// By the free rigid motions (m each).
     pub rigid: Vec<f64>,
+    /// By the strains.
     pub strains: Drawn,
 }
 

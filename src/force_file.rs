@@ -1,4 +1,7 @@
-//! A force history from a CSV file: straight lines between its rows, nothing before and after.
+//! What force in time did somebody write down?
+//!
+//! [`read`] a CSV file: straight lines between its rows, nothing before and after; for
+//! [`crate::ringing::Ringing::pushed`].
 
 use std::path::Path;
 
@@ -11,7 +14,9 @@ use crate::units::Quantity;
 /// Forces (N) at rising times (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceHistory {
+    /// Times (s).
     pub t: Vec<f64>,
+    /// Forces (N).
     pub force: Vec<f64>,
 }
 

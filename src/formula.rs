@@ -1,4 +1,6 @@
-//! Radii written as formulas of `x`: parsed once, evaluated many times.
+//! What is the radius at `x`, where somebody wrote it as a formula?
+//!
+//! [`Formula::parse`] once, [`Formula::at`] many times.
 //!
 //! The grammar is Python's for arithmetic, with `^` another way to write `**`:
 //!

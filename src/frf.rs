@@ -1,4 +1,7 @@
-//! How a bat answers a force that swings: receptance, mobility, accelerance between two points.
+//! How does a bat answer a force that swings: receptance, mobility, accelerance?
+//!
+//! [`Frf::new`] for two points, then [`Frf::receptances`] at the frequencies; [`Kind::of`] makes
+//! the others of them.
 //!
 //! ```text
 //! H(ω) = Σ_rigid φ(x) φ(a)/(−ω² m) + row(x)ᵀ (1 + iK″ + iωC − ω²M)⁻¹ row(a)/U

@@ -1,5 +1,6 @@
-//! The picture `docs/r161_hit.svg`: exit speeds along an R161, ours beside what others measured and
-//! computed.
+//! What does the picture `docs/r161_hit.svg` show?
+//!
+//! Exit speeds along an R161, ours beside what others measured and computed; [`svg`] draws it anew.
 
 use crate::error::Result;
 use crate::known_hits::Seen;

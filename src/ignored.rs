@@ -1,4 +1,6 @@
-//! What a beam theory leaves out, and what that costs on this bat.
+//! What does a beam theory leave out, and what does that cost on this bat?
+//!
+//! [`ignored`](fn@ignored) says it in sentences, [`shifts`] in numbers.
 //!
 //! On a bare bat both shifts come from the plain beam's own mode: rotary inertia adds to the
 //! kinetic energy of Rayleigh's quotient, shear to the compliance. With anything on the bat or

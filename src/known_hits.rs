@@ -1,4 +1,6 @@
-//! Hits of which something is known: a ball on a rigid wall, a ball on a bat.
+//! What is known of a ball on a rigid wall and of a ball on a bat?
+//!
+//! [`crate::validation::run`] is what to call.
 //!
 //! What a case of `validation/` says of them, and what the contact finds.
 
@@ -46,6 +48,7 @@ pub struct Throw {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seen {
+    /// m/s
     ExitSpeedMPerS,
     /// The same, if the bat did not bend.
     RigidExitSpeedMPerS,
@@ -53,18 +56,25 @@ pub enum Seen {
     ShareBelowRigid,
     /// `e_eff` in `v′ = [(e_eff − r) v + (1 + e_eff) V]/(1 + r)`: BBCOR of the free bat.
     EffectiveRestitution,
-    /// Shares of all energy there was, the bat's own included, as seen from the ground.
+    /// Of all energy there was, the bat's own included, as seen from the ground: the ball's.
     BallShare,
+    /// The same of what the ball loses in itself.
     LostInBallShare,
+    /// The same of the bat's rigid motion.
     RecoilShare,
+    /// The same of the bending modes.
     VibrationShare,
     /// Where the exit speed is largest, from the knob end.
     BestPlaceM,
-    /// On a wall: to 99 % of the impulse, and to the end of the force.
+    /// On a wall, to 99 % of the impulse (ms).
     WallTimeMs,
+    /// Until the force ends (ms).
     WallContactMs,
+    /// Largest compression on a wall (mm).
     WallCompressionMm,
+    /// Largest force on a wall (kN).
     WallForceKn,
+    /// Speed off a wall over speed onto it.
     WallRestitution,
 }
 

@@ -1,5 +1,6 @@
-//! Several numbers side by side, for as many bats or modes at once as a vector of the machine
-//! holds.
+//! How do several bats or modes go through the same arithmetic at once?
+//!
+//! [`Lanes`] holds as many numbers as a vector of the machine.
 //!
 //! Plain loops over arrays, which the compiler turns into vector instructions;
 //! [`crate::eigenpairs`] has pulp choose the widest that the machine knows.

@@ -1,4 +1,6 @@
-//! What a section is worth: stiffness and mass per length of one material around another.
+//! What is a section worth: stiffness and mass per length of one material around another?
+//!
+//! [`Layup::of`] a material, [`Layup::worth`] of a section.
 
 use crate::material::Material;
 use crate::profile::Section;
@@ -6,6 +8,7 @@ use crate::profile::Section;
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layup {
+    /// What bears, from the bore to the surface.
     pub outer: Material,
     /// What fills the bore; nothing, if none.
     pub core: Option<Material>,

@@ -1,64 +1,166 @@
 //! What a baseball bat does when it meets a ball.
 //!
-//! A bat's profile becomes a beam, the beam's free bending modes follow from sparse mass and
-//! stiffness, and a collision model says how fast the ball leaves, how much energy stays in the
-//! vibration and where the sweet spot is. Every frequency comes with an estimate of its error.
+//! A bat's profile becomes a beam, the beam's bending modes follow from its stiffness and mass, and
+//! a collision model says how fast the ball leaves, how much energy stays in the vibration, where
+//! the sweet spot is and why. You ask for an accuracy, not for elements, and every frequency, node,
+//! modal mass and exit speed comes with an estimate of its own error.
 //!
 //! ```text
 //! bat.json ─▶ Bat ─▶ Plan ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit ─▶ report ─▶ JSON, table
 //!                     └─ refined until the modes' errors are small enough
 //! ```
 //!
-//! Each arrow borrows what lies to its left and returns a new value; a module uses only those
-//! declared above it.
+//! Each arrow is one function that borrows what lies to its left and returns a new value.
+//!
+//! # From calipers to a hit
+//!
+//! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
 //!
 //! ```
-//! use sweetspot::collision::hit::{Effort, Model, Scene};
-//! use sweetspot::collision::hitter::Hitter;
+//! use sweetspot::collision::{hit, hitter::Hitter, sweep::sweep, sweet_spot::SweetSpot};
+//! use sweetspot::material::Material;
+//! use sweetspot::profile::{Interpolation, Profile, Stations};
+//! use sweetspot::theory::Theory;
 //! use sweetspot::{Bat, Request, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
-//! let bat = Bat::from_file("meshes/r161.json")?;
-//! let solution = solve(&bat, &Request { modes: 10, tolerance: 1e-6, ..Request::default() })?;
-//! for mode in &solution.modes[..3] {
-//!     println!("{:7.1} Hz, relative error {:.0e}", mode.frequency(), mode.error.total());
+//! let inches = [0.0, 0.5, 1.25, 3.0, 6.0, 12.0, 18.0, 24.0, 30.0, 33.5];
+//! let diameters = [1.85, 1.95, 1.2, 0.98, 0.95, 1.05, 1.5, 2.3, 2.6, 2.45];
+//! let x = inches.map(|x| 0.0254 * x).to_vec();
+//! let outer = diameters.map(|d| 0.5 * 0.0254 * d).to_vec();
+//! let (inner, interpolation) = (vec![0.0; x.len()], Interpolation::Pchip);
+//! let profile = Profile::new(Stations { x, outer, inner, interpolation })?;
+//! let maple = Material::named("sugar-maple-dynamic").expect("it is built in");
+//! let bat = Bat::new("my maple", profile, maple, Some(0.893))?; // weighed, in kg
+//! println!("it balances {:.3} m from the knob", bat.inertia().balance_point);
+//!
+//! // Five bending modes, every frequency within 1e-8 of the exact beam's.
+//! let theory = Theory::Timoshenko;
+//! let asked = Request { modes: 5, tolerance: 1e-8, theory, ..Request::default() };
+//! let solution = solve(&bat, &asked)?;
+//! assert!(solution.met);
+//! for mode in &solution.modes {
+//!     println!("{:.4} Hz within {:.0e}", mode.frequency(), mode.error.total());
 //! }
 //!
-//! let scene = Scene { swing: 50.0, ball_speed: 40.0, ..Scene::default() };
-//! let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default())?;
-//! let hit = hitter.strike(0.70).outcome.expect("the ball is hit");
-//! println!("a ball met 0.70 m from the knob leaves at {:.1} m/s", hit.exit_speed);
-//! println!("and {:.1} J of {:.0} stay in vibration", hit.energy.vibration(), hit.energy.initial);
+//! // A swing meets a pitch; exit speeds within 1e-4 of the closing speed.
+//! let scene = hit::Scene { swing: 45.0, ball_speed: 38.0, ..hit::Scene::default() };
+//! let asked = Request { tolerance: 1e-4, theory, ..Request::default() };
+//! let hits = sweep(&bat, hit::Model::Contact, &scene, &asked, false, &[0.6, 0.7, 0.8])?;
+//! for (x, outcome) in hits.impacts.iter().filter_map(|at| Some((at.x, at.outcome.as_ref()?))) {
+//!     println!("a ball met {x} m from the knob leaves at {:.2} m/s", outcome.exit_speed);
+//! }
+//!
+//! // The sweet spot, and why it is there.
+//! let hitter = Hitter::new(hit::Model::Contact, &scene, &bat, &hits.solution, hits.effort)?;
+//! let spot = SweetSpot::find(&bat, &scene, &hits.solution, &hitter);
+//! let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
+//! let energy = hitter.strike(best.x).outcome.expect("it met it there").energy;
+//! println!("fastest, {:.2} m/s, at {:.3} m; of {:.0} J", best.value, best.x, energy.initial);
+//! println!("{:.1} J stay in vibration, {:.1} J in the bat", energy.vibration(), energy.bat_rigid);
+//! let nodes = [spot.node_mode_1, spot.node_mode_2].map(|node| node.expect("a free bat has some"));
+//! println!("the nodes of modes 1 and 2 are at {:.3} and {:.3} m", nodes[0], nodes[1]);
+//! # assert!(hits.met && nodes[0] < nodes[1]);
+//! # let inwards = hitter.strike(best.x - 0.1).outcome.expect("it is hit").energy;
+//! # assert!(inwards.vibration() > 3.0 * energy.vibration());
+//! # assert!(energy.imbalance().abs() < 1e-9 * energy.initial);
 //! # Ok(())
 //! # }
 //! ```
 //!
+//! A bat that meets the ball near the nodes of its first modes rings least there, and the barrel's
+//! speed grows towards the tip while the mass it has behind the ball falls: the fastest ball is
+//! where the three balance. `examples/` answers longer questions, `docs/theory.md` has the equations
+//! in one piece, and the `sweetspot` program does all of this from a bat file.
+//!
+//! # The modules, in the order of the flow
+//!
+//! A module uses only those above it, so that `src/` can be read from top to bottom.
+//!
+//! | module | question it answers |
+//! |---|---|
+//! | [`error`], [`units`] | what did the caller get wrong; what is a number with a unit in SI |
+//! | [`real`], [`lanes`], [`quadrature`] | what do we count with, how do we integrate |
+//! | [`material`], [`theory`] | how stiff, how heavy; which beam |
+//! | [`formula`], [`profile`], [`layup`] | what is the section at `x`, and what is it worth |
+//! | [`fixtures`] | what is on the bat, what holds it |
+//! | [`bat`] | what bat is this: mass, balance point, swing weight; is it possible |
+//! | [`shape_file`], [`force_file`] | how did somebody write down a shape, a force in time |
+//! | [`eigen`] | what are the extreme eigenvalues of an operator or of two matrices |
+//! | [`beam`] | what does one element store, what does a load do to the bat |
+//! | [`eigenpairs`], [`modes`] | how does the bat ring: frequencies, shapes, nodes, modal masses |
+//! | [`flexible`], [`reduced`], [`damping`] | how does it give way, how do its motions die out |
+//! | [`certificate`], [`factored`] | how far may a mode be trusted; what do other solvers say |
+//! | [`survey`], [`plan`], [`solve`](mod@solve), [`batch`] | which elements does an accuracy need: plan, solve, refine |
+//! | [`trade`] | what does a digit cost on this bat |
+//! | [`ignored`], [`choice`], [`weighed`], [`advise`] | what was left out and what does it cost; which theory; how stiff by a tap; which physics |
+//! | [`dowel`] | what does a uniform beam do, in closed form |
+//! | [`response`], [`ringing`], [`frf`] | how does the bat move after a blow, under a force, at a frequency |
+//! | [`collision`] | what do ball and bat do when they meet; where is the sweet spot |
+//! | [`report`] | how is all of it printed, drawn and written |
+//! | [`known_hits`], [`validation`], [`published`], [`hit_figure`], [`validation_page`] | are known answers reproduced |
+//! | [`promise`], [`extremes`] | do stated errors hold; does what no bat is stay right |
+//!
+//! # What is promised
+//!
+//! True errors of frequencies, nodes and modal masses are within three times the stated ones,
+//! always; the stated are within thirty times the true in nine cases of ten, and [`promise`] checks
+//! both. Where an accuracy cannot be reached the best answer comes with [`Solution::met`] false.
+//!
+//! # Conventions
+//!
+//! - SI everywhere inside. Units stand at the border only: a file's bare number is SI, a string
+//!   carries its unit, and what is written out names it (`frequency_hz`).
+//! - `x` runs from the knob end to the tip. Angles are positive where the tip goes ahead.
+//! - Modes are scaled to a largest |φ| of 1, the barrel end positive ([`Mode`]); `modal_mass` goes
+//!   with that scale. The batch's and the solver's inner vectors say their own.
+//! - Orders count from 1, bending modes only; how many motions are rigid is told beside them.
+//! - A swing goes in +: the bat moves in +, the ball comes in − and leaves in +. Speeds of balls
+//!   that are asked for are positive towards the bat. A pivot beyond the knob is positive.
+//! - Inertias are the body's, sections' own `∫ρI dx` included; a theory without rotary inertia
+//!   recoils as a line of mass, and says so ([`ignored`]).
+//! - What does not exist is `None`, and null in a file; no NaN and no infinity is given out.
+//!
 //! # Symbols
 //!
-//! SI everywhere inside; units only at the border, in names and strings. A module that uses a
-//! letter otherwise says so at the formula.
+//! A module that uses a letter otherwise says so at the formula.
 //!
-//! | symbol | meaning | unit |
+//! | the bat as a beam | meaning | unit |
 //! |---|---|---|
-//! | `x` | position along the axis from the knob end | m |
-//! | `L`, `h` | length of the bat, of an element | m |
+//! | `x`, `L`, `h` | position from the knob end; length of the bat, of an element | m |
 //! | `r`, `r_i` | outer and inner radius | m |
 //! | `ρ`, `E`, `G`, `κ` | density, Young's and shear modulus, shear coefficient | kg/m³, Pa, Pa, 1 |
 //! | `A`, `I` | area and second moment of area of a section (in [`eigen`], A is an operator) | m², m⁴ |
-//! | `w`, `θ` | deflection, rotation of the section (θ = dw/dx) | m, rad |
+//! | `w`, `θ` | deflection, rotation of the section (θ = dw/dx without shear) | m, rad |
+//! | `w″`, `γ`, `M`, `Q` | curvature, shear strain `w′ − θ`, bending moment, shear force (elsewhere M is the mass or the mass matrix) | 1/m, 1, N m, N |
 //! | `p`, `N` | degree of an element's deflection, its number of coefficients `p + 1` | 1 |
-//! | `w″`, `M` | curvature, bending moment (elsewhere M is the mass matrix) | 1/m, N m |
-//! | `c`, `q` | strains of an element, the same scaled by the strain energy | 1/m, √J |
 //! | `s`, `ξ` | place on an element or a piece, 0 to 1 and −1 to 1 | 1 |
 //! | `P_j` | Legendre's polynomial of degree j in ξ | 1 |
+//! | `c`, `g`, `q` | an element's curvatures, shear strains, both scaled by the strain energy | 1/m, 1, 1 |
+//! | `U` | strain energy, and the unit of energy in which it is `½ qᵀq` | J |
+//! | `K`, `M`; `D = LLᵀ`, `S` | assembled stiffness and mass; stiffness of the strains; their integration | |
+//!
+//! | modes | meaning | unit |
+//! |---|---|---|
 //! | `ω = 2πf`, `λ = ω²` | angular frequency, eigenvalue | rad/s, 1/s² |
 //! | `θ = 1/λ` in [`eigen`] | eigenvalue of the compliance, Ritz value | s² |
 //! | `σ` | shift of the eigenvalues for solvers that factor | 1/s² |
-//! | `η` | twice the relative error of a frequency, its defect; in [`damping`] the loss factor | 1 |
-//! | `ζ` | damping ratio | 1 |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |
+//! | `η` | twice the relative error of a frequency, its defect; in [`damping`] the loss factor | 1 |
+//! | `ζ`, `s = −ζω + iω_d` | damping ratio; how a damped motion goes, as `e^{st}` | 1, 1/s |
+//! | `ε` | 2⁻⁵², the spacing of numbers at 1 (in [`collision::aftermath`] a strain) | 1 |
+//!
+//! | the hit | meaning | unit |
+//! |---|---|---|
 //! | `a`, `J` | impact point, impulse | m, N s |
-//! | `e`, `e_A` | coefficient of restitution, collision efficiency | 1 |
+//! | `V`, `v`, `u` | speed of the bat at `a`, of the ball, closing speed `V − v` | m/s |
+//! | `Ω` | angular speed of the swing | rad/s |
+//! | `M_eff`, `μ` | what the stiff bat weighs at `a`; with the ball, `1/μ = 1/m + 1/M_eff` | kg |
+//! | `F = k x^α`, `β` | the ball's force at its compression x, its exponent on the way back | N, m |
+//! | `c_n = φ_n(a)²/m_n` | how readily mode n gives way at `a` | 1/kg |
+//! | `C` | flexibility of the modes left out | m/N |
+//! | `e`, `e₀`, `e_A` | coefficient of restitution, the ball's on a rigid wall, collision efficiency | 1 |
+//! | `τ`, `κ` in [`collision::pulse`] | duration of a pulse, share of the vibration that the ball need not lose | s, 1 |
 //!
 //! # What is left out
 //!
@@ -66,8 +168,14 @@
 //! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
 //! solution ([`ignored`]), and [`advise`] measures what each part of a model does. A barrel's wall
 //! under the ball is one spring-mass of the caller's own figures, and a hit counts dashpots mode by
-//! mode ([`collision`]).
+//! mode ([`collision`]). The ball meets the bat head on, without spin and friction.
+//!
+//! # Features
+//!
+//! `cli` (default): the command-line program. `png` (default): pictures as PNG beside SVG.
+//! `arpack`: the solver ARPACK as an outside referee; it needs a C compiler and the library.
 
+#![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.
 #![deny(unsafe_code)]
 #![cfg_attr(not(feature = "arpack"), forbid(unsafe_code))]

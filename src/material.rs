@@ -1,4 +1,7 @@
-//! How stiff, how heavy: materials by numbers or by name.
+//! How stiff, how heavy is what the bat is made of?
+//!
+//! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
+//! `shear_modulus` to let it shear.
 
 use crate::error::{Error, Result};
 use crate::mistakes::Mistakes;
@@ -102,10 +105,15 @@ impl Material {
 /// One entry of the built-in list: SI values and where they come from.
 #[derive(Debug, Clone, Copy)]
 pub struct BuiltIn {
+    /// What a bat file calls it.
     pub name: &'static str,
+    /// ρ (kg/m³).
     pub density: f64,
+    /// E (Pa).
     pub youngs_modulus: f64,
+    /// G (Pa), if known.
     pub shear_modulus: Option<f64>,
+    /// Where the values come from.
     pub source: &'static str,
 }
 

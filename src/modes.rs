@@ -1,4 +1,7 @@
-//! What the bat does when it rings: frequencies, shapes, nodes, modal masses.
+//! What does the bat do when it rings: frequencies, shapes, nodes, modal masses?
+//!
+//! [`crate::solve()`] gives the [`Mode`]s; [`Mode::frequency`], [`Shape::deflection`] and
+//! [`Mode::error`] are what to ask of one.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -20,6 +23,7 @@ pub struct Mode {
     pub nodes: Vec<f64>,
     /// Deflection φ, largest |φ| = 1, the barrel end positive.
     pub shape: Shape,
+    /// How far these numbers may be off.
     pub error: ModeError,
 }
 

@@ -1,4 +1,7 @@
-//! Which elements of which degree the wanted accuracy needs: the cheapest by a formula.
+//! Which elements of which degree does the wanted accuracy need?
+//!
+//! [`Plan::cheapest`] answers by a formula before anything is solved; [`crate::solve()`] looks at
+//! the errors then and calls [`Plan::refined`] where it was wrong.
 //!
 //! On an element of length `h` a mode is nearly `cos kx` with the local wave number
 //! `k = (ω²ρA/EI)^¼`. Polynomials of degree `p − 2` in the curvature miss of it what its Legendre
@@ -41,8 +44,11 @@ use crate::theory::Theory;
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
+    /// The elements.
     pub mesh: Mesh,
+    /// Degree of their deflection.
     pub degree: usize,
+    /// Why these.
     pub reason: Reason,
 }
 
@@ -53,11 +59,22 @@ pub enum Reason {
     #[default]
     Asked,
     /// The cheapest of these degrees for that tolerance, by the formula.
-    Cheapest { degrees: [usize; 2], tolerance: f64 },
+    Cheapest {
+        /// The lowest and the highest that were tried.
+        degrees: [usize; 2],
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The plan before missed the tolerance, by little: one degree more.
-    OneDegreeMore { tolerance: f64 },
+    OneDegreeMore {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The plan before missed the tolerance: more elements where the error was.
-    Refined { tolerance: f64 },
+    Refined {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
     /// The most accurate plan within a time.
     Budget(Duration),
 }
@@ -94,6 +111,7 @@ pub struct Wanted {
     pub degree: Option<usize>,
     /// More than this only if the profile has as many pieces.
     pub most_unknowns: usize,
+    /// The beam theory.
     pub theory: Theory,
 }
 

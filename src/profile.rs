@@ -1,4 +1,6 @@
-//! What is the cross-section at `x`: outer and inner radius along the bat.
+//! What is the cross-section at `x`: outer and inner radius along the bat?
+//!
+//! [`Profile::new`] lays curves through [`Stations`]; [`Profile::at`] gives the [`Section`].
 
 use crate::error::{Complaint, Error, Result};
 use crate::formula::Formula;
@@ -21,19 +23,24 @@ pub enum Interpolation {
 /// Two stations at the same `x` are a step: the first is the value to its left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stations {
+    /// Positions from the knob end (m), the first 0.
     pub x: Vec<f64>,
+    /// Outer radius at each station (m).
     pub outer: Vec<f64>,
     /// Inner radius at each station, 0 where the bat is solid.
     pub inner: Vec<f64>,
+    /// What happens between them.
     pub interpolation: Interpolation,
 }
 
 /// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaPiece {
-    /// Where it begins and ends (m).
+    /// Where it begins (m).
     pub from: f64,
+    /// Where it ends (m).
     pub to: f64,
+    /// The outer radius.
     pub outer: Formula,
     /// None where the bat is solid.
     pub inner: Option<Formula>,
@@ -51,9 +58,11 @@ pub struct Formulas {
 /// A stretch of the bat where both radii are smooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// Where it begins and how long it is (m).
+    /// Where it begins (m).
     pub start: f64,
+    /// How long it is (m).
     pub length: f64,
+    /// Both radii along it.
     pub radii: Radii,
     /// Which of the bat's layups it is made of; 0 is the bat's own material.
     pub layup: usize,
@@ -62,7 +71,9 @@ pub struct Piece {
 /// Both radii along a piece.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Radii {
+    /// Cubics through stations.
     Cubic(Cubics),
+    /// Formulas.
     Formula(Curves),
 }
 
@@ -73,7 +84,9 @@ pub enum Radii {
 /// not even at the thin end of a 1:10 000 cone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubics {
+    /// Coefficients `b₀ … b₃` of the outer radius (m).
     pub outer: [f64; 4],
+    /// Those of the inner radius (m).
     pub inner: [f64; 4],
     /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
     pub degree: usize,
@@ -82,12 +95,14 @@ pub struct Cubics {
 /// Both radii as smooth formulas of `x = from + (to − from) s`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
+    /// The outer radius.
     pub outer: Formula,
     /// None where the bat is solid.
     pub inner: Option<Formula>,
-    /// The formulas' `x` at the beginning and the end of the piece (m); it falls along a piece
-    /// that is measured from the tip.
+    /// The formulas' `x` at the beginning of the piece (m); it falls along a piece that is
+    /// measured from the tip.
     pub from: f64,
+    /// The formulas' `x` at the end (m).
     pub to: f64,
     /// Radii (m) up to this are the round-off of 0.
     pub floor: f64,
@@ -96,7 +111,9 @@ pub struct Curves {
 /// The outer and inner radius (m) at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
+    /// r (m).
     pub outer: f64,
+    /// r_i (m), 0 where the bat is solid.
     pub inner: f64,
 }
 
@@ -125,6 +142,7 @@ impl Section {
 /// The shape of a bat, checked: positive length, positive wall, radius 0 at most at an end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
+    /// Knob first, each beginning where the last ends.
     pub pieces: Vec<Piece>,
     /// The stations it was made from, knob first. Where it was made from formulas: the ends and
     /// the widest place of every piece.

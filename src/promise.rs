@@ -1,4 +1,7 @@
-//! The promise and the truth: what a solution says of its own errors beside what they are.
+//! Do the stated errors hold?
+//!
+//! [`rows`] sets what a solution says of its own errors beside what they are; [`Summary::of`] sums
+//! that up.
 //!
 //! Every bat with exact frequencies is solved for tolerances from 1e-2 to 1e-12. The promise:
 //!
@@ -95,24 +98,32 @@ pub const BATS: &[(&str, &[&str])] = &[
 /// One bat solved for one tolerance: what was promised and what is true.
 #[derive(Debug, Clone)]
 pub struct Row {
+    /// Its name in the table.
     pub bat: &'static str,
+    /// Relative, of every frequency.
     pub tolerance: f64,
+    /// How many modes were asked for.
     pub modes: usize,
-    /// The plan that the tolerance made.
+    /// Degree of the plan that the tolerance made.
     pub degree: usize,
+    /// Number of elements of the plan.
     pub elements: usize,
     /// Whether the solution claims the tolerance.
     pub met: bool,
-    /// Largest true and largest stated relative error of a frequency.
+    /// Largest true relative error of a frequency.
     pub truth: f64,
+    /// Largest stated relative error of a frequency.
     pub stated: f64,
-    /// Largest true over stated error of any one frequency, node and modal mass; a ratio of 3 is
-    /// the limit. Where nothing is known it is 0.
+    /// Largest true over stated error of any one frequency; a ratio of 3 is the limit. Where nothing
+    /// is known it is 0.
     pub frequency_ratio: f64,
+    /// The same of the nodes.
     pub node_ratio: f64,
+    /// The same of the modal masses.
     pub mass_ratio: f64,
-    /// Modes whose true error is above 1e-13, and those of them stated within 30 times it.
+    /// Modes whose true error is above 1e-13.
     pub visible: usize,
+    /// Those of the visible ones stated within 30 times the true error.
     pub close: usize,
 }
 
@@ -135,15 +146,20 @@ impl Row {
 pub struct Summary {
     /// As in [`Row`], the worst of all.
     pub frequency_ratio: f64,
+    /// The worst of the nodes.
     pub node_ratio: f64,
+    /// The worst of the modal masses.
     pub mass_ratio: f64,
+    /// All visible errors.
     pub visible: usize,
+    /// Those of them stated within 30 times.
     pub close: usize,
     /// Rows with an error beyond three times the stated one.
     pub broken: usize,
 }
 
 impl Summary {
+    /// Over those rows.
     pub fn of(rows: &[Row]) -> Self {
         let worst = |ratio: fn(&Row) -> f64| rows.iter().map(ratio).fold(0.0, f64::max);
         Self {

@@ -1,4 +1,6 @@
-//! Published numbers of real bats and ours, side by side.
+//! How do published numbers of real bats compare with ours?
+//!
+//! [`Answer::all`] computes every case anew, [`side_by_side`] tells those of one bat.
 
 use std::fmt::Write;
 
@@ -12,8 +14,11 @@ use crate::validation::{CASES, Case, Check, Kind, Known, Row, run};
 /// A case with its rows, one for each check.
 #[derive(Debug)]
 pub struct Answer {
+    /// Its file in `validation/`, without the ending.
     pub name: &'static str,
+    /// The case.
     pub case: Case,
+    /// One for each check.
     pub rows: Vec<Row>,
 }
 

@@ -1,4 +1,7 @@
-//! How do we integrate: Gauss–Legendre points on [0, 1], and sums that keep their digits.
+//! How do we integrate, and add up without losing digits?
+//!
+//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates what is no polynomial,
+//! and a [`RunningSum`] carries its rounding errors along.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -63,6 +66,7 @@ pub struct RunningSum<R, const KEEP: bool = true> {
 }
 
 impl<R: Real, const KEEP: bool> RunningSum<R, KEEP> {
+    /// Adds a term.
     #[inline(always)]
     pub fn add(&mut self, term: R) {
         let sum = self.high + term;
@@ -73,6 +77,7 @@ impl<R: Real, const KEEP: bool> RunningSum<R, KEEP> {
         self.high = sum;
     }
 
+    /// The sum so far.
     #[inline(always)]
     pub fn value(self) -> R {
         if KEEP { self.high + self.low } else { self.high }
@@ -96,6 +101,7 @@ const MOST_PANELS: usize = 100;
 /// Integrals of several functions over [0, 1], and how far they are converged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Converged<const N: usize> {
+    /// One integral for each function.
     pub values: [f64; N],
     /// Largest difference of two rules as a share of `∫|f| ds`; the values are nearer than that.
     pub error: f64,

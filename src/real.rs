@@ -1,4 +1,7 @@
-//! Numbers that the solver counts with: one at a time, or several side by side.
+//! What does the solver count with: one number at a time, or several side by side?
+//!
+//! [`Real`] is `f64` or [`crate::lanes::Lanes`]; [`Over`] lets several motions of one bat share its
+//! numbers.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -29,8 +32,11 @@ pub trait Real:
     fn lane(&self, lane: usize) -> f64;
     /// Sets the number in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
+    /// Of every lane.
     fn sqrt(self) -> Self;
+    /// Without sign, of every lane.
     fn abs(self) -> Self;
+    /// The greater of both, lane by lane.
     fn max(self, other: Self) -> Self;
     /// The size of this with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;

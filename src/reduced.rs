@@ -1,4 +1,7 @@
-//! A damped bat in few unknowns: its modes, and what forces and dashpots make of it beside them.
+//! How does a damped bat move, in as few unknowns as tell it?
+//!
+//! [`Reduced::new`], then [`Reduced::free_motions`] for what goes on by itself and
+//! [`Reduced::answer`] for what a force makes of it.
 //!
 //! In scaled strains the stiffness is the identity, and a motion as `e^{st}` obeys
 //!
@@ -28,6 +31,7 @@ use crate::theory::Theory;
 
 /// A bat on a few strains.
 pub struct Reduced {
+    /// The bat on its whole mesh.
     pub flexible: Flexible,
     /// ω (rad/s) of the modes, which come first.
     pub omega: Vec<f64>,
@@ -55,8 +59,9 @@ struct Member {
 pub struct Pole {
     /// `s` (1/s).
     pub s: c64,
-    /// Parts of the rigid motions, where they are coupled, and of the strains.
+    /// Parts of the rigid motions, where they are coupled.
     pub rigid: Vec<c64>,
+    /// Parts of the strains.
     pub parts: Vec<c64>,
     /// `vᵀ(2sM + C)v` (J s/m²): with it a unit impulse at a makes `v v(a) e^{st}/norm`.
     pub norm: c64,
@@ -82,7 +87,9 @@ pub struct FreeMotions {
 
 /// Strains under a force as `e^{iωt}`.
 pub struct Answer {
+    /// Parts of the rigid motions, where they are coupled.
     pub rigid: Vec<c64>,
+    /// Parts of the strains.
     pub parts: Vec<c64>,
     /// What the projection misses, as real and imaginary strains.
     pub residual: [Vec<f64>; 2],
@@ -595,6 +602,7 @@ impl Answer {
 /// One motion of the damped bat: a complex pair, its half with `Im s > 0`, or two real ones.
 #[derive(Debug, Clone)]
 pub struct Group {
+    /// One, or the two real ones.
     pub poles: Vec<Pole>,
 }
 

@@ -1,4 +1,7 @@
-//! How a bat rings: free motion as a sum of modes.
+//! How does anything ring whose modes are known: free motion as a sum of modes?
+//!
+//! [`struck`] and [`partial_sums`] after a blow, [`expansion`] from a shape; an [`Oscillator`] is
+//! one mode.
 //!
 //! ```text
 //! w(x, t) = Σ φ_n(x) q_n(t),    m_n (q̈_n + 2 ζ_n ω_n q̇_n + ω_n² q_n) = 0 after t = 0

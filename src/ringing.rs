@@ -1,5 +1,7 @@
-//! How this bat rings: its rigid and bending motions after a blow, under a force or from an initial
-//! shape.
+//! How does this bat ring, after a blow, under a force or from an initial shape?
+//!
+//! [`Ringing::new`] from a solution, then [`Ringing::blow`], [`Ringing::pushed`] or
+//! [`Ringing::release`]: its rigid and bending motions in time.
 //!
 //! Without dashpots, or with dashpots that leave the modes as they are, every motion is an
 //! [`Oscillator`] with its own damping ratio. Else the damped bat's own complex motions ring: a

@@ -1,4 +1,7 @@
-//! An initial shape from a CSV file: deflections along the bat, straight lines between.
+//! What initial shape did somebody write down?
+//!
+//! [`read`] a CSV file of deflections along the bat, straight lines between, for
+//! [`crate::ringing::Ringing::release`].
 
 use std::path::Path;
 
@@ -11,7 +14,9 @@ use crate::units::Quantity;
 /// Deflections `w` (m) at rising places `x` (m).
 #[derive(Debug, Clone, PartialEq)]
 pub struct InitialShape {
+    /// Places from the knob end (m).
     pub x: Vec<f64>,
+    /// Deflections (m).
     pub w: Vec<f64>,
 }
 

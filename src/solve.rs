@@ -1,4 +1,8 @@
-//! The modes of a bat, as accurately as asked: plan, solve, look at the error, refine.
+//! What are the modes of a bat, as accurately as asked?
+//!
+//! [`solve`](fn@solve) plans, solves, looks at the errors and refines; [`solve_within`] takes a
+//! time instead of an accuracy. A [`Request`] says what is wanted, a [`Solution`] what was found
+//! and how far to trust it.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -33,7 +37,9 @@ pub struct Request {
     pub elements: Option<usize>,
     /// Elements of this degree; with `elements` alone it is 3.
     pub degree: Option<usize>,
+    /// How the eigenvalues are found.
     pub solver: Solver,
+    /// The beam theory; [`crate::choice::theory`] chooses one.
     pub theory: Theory,
 }
 
@@ -93,11 +99,15 @@ impl Request {
 /// The modes of a bat, how they were found and how far they may be trusted.
 #[derive(Debug, Clone)]
 pub struct Solution {
+    /// The bending modes, by rising frequency.
     pub modes: Vec<Mode>,
     /// How many motions of the bat are rigid, at frequency 0.
     pub rigid_modes: usize,
+    /// How the eigenvalues were found.
     pub solver: Solver,
+    /// The beam theory.
     pub theory: Theory,
+    /// The elements.
     pub mesh: Mesh,
     /// Degree of the elements' deflection.
     pub degree: usize,
@@ -115,6 +125,7 @@ pub struct Solution {
     pub stopped: Option<String>,
     /// How the modes die out.
     pub damping: Damping,
+    /// Where the time went.
     pub timing: Timing,
 }
 
@@ -165,8 +176,11 @@ impl Solution {
 /// Where the time went.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Timing {
+    /// Planning.
     pub plan: Duration,
+    /// Compliance or matrices.
     pub assemble: Duration,
+    /// Eigenpairs, shapes and errors.
     pub solve: Duration,
 }
 

@@ -1,4 +1,6 @@
-//! A profile as the planner sees it: how many waves a piece holds and how much it tapers.
+//! How many waves does a piece of the profile hold, and how much does it taper?
+//!
+//! [`Survey::of`] samples a bat for [`crate::plan`].
 
 use crate::bat::Bat;
 use crate::profile::{Cubics, Piece, Radii, Section};

@@ -1,4 +1,7 @@
-//! Which beam: how much of a section's own motion takes part.
+//! Which beam: how much of a section's own motion takes part?
+//!
+//! A [`Theory`] goes into [`crate::solve::Request::theory`]; [`crate::choice::theory`] chooses the
+//! simplest that will do.
 
 /// The beam theories, each the limit of the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]

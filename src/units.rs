@@ -1,4 +1,6 @@
-//! What a number with a unit means in SI.
+//! What is a number with a unit in SI?
+//!
+//! [`parse`] for a string that must carry its unit, [`parse_or_si`] for one that may be bare.
 //!
 //! A bare number is SI. A string carries its unit: `"33 in"`, `"2.02e6 psi"`,
 //! `"0.0257 lb/in^3"`. A unit is a product of symbols with integer powers
@@ -32,22 +34,39 @@ type Dimension = [i8; 4];
 /// A physical quantity: what a value is, its dimension, its SI unit and an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
+    /// m
     Length,
+    /// kg
     Mass,
+    /// kg/m³
     Density,
+    /// Pa; of a modulus, too.
     Pressure,
+    /// m/s
     Speed,
+    /// rad/s
     AngularSpeed,
+    /// rad
     Angle,
+    /// s
     Time,
+    /// Hz
     Frequency,
+    /// N
     Force,
+    /// N/m
     Stiffness,
+    /// N m/rad
     RotationalStiffness,
+    /// N/m²: per length of bat.
     BedStiffness,
+    /// N s/m
     Damping,
+    /// N s/m²: per length of bat.
     BedDamping,
+    /// Of mass (kg m²).
     Inertia,
+    /// N s
     Impulse,
 }
 
@@ -337,7 +356,7 @@ fn unknown(symbol: &str) -> Unknown {
     (format!("unknown unit \"{symbol}\""), hint.unwrap_or_default())
 }
 
-/// Pounds-mass times square inches, the unit of swing weight, from kg m².
+/// kg m² to ounces (mass) times square inches, the unit of swing weight.
 pub fn ounce_square_inches(inertia: f64) -> f64 {
     inertia / (OUNCE * INCH * INCH)
 }

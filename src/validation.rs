@@ -1,4 +1,6 @@
-//! Known answers, and whether the program reproduces them.
+//! Does the program reproduce what is known?
+//!
+//! [`run`] solves one case of [`CASES`] and sets its numbers beside the known ones.
 //!
 //! The cases are data, in the folder `validation/`, and travel with the program.
 
@@ -23,7 +25,9 @@ use crate::weighed::tuned;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
+    /// `sweetspot-validation/1`.
     pub format: String,
+    /// What it is about.
     pub name: String,
     /// Where the expected numbers come from.
     pub source: String,
@@ -36,6 +40,7 @@ pub struct Case {
     solve: Solve,
     /// What is thrown at the bat, or at the wall, where all checks are of hits.
     pub hit: Option<Throw>,
+    /// The known numbers.
     pub checks: Vec<Check>,
 }
 
@@ -45,6 +50,7 @@ pub struct Case {
 pub struct Published {
     /// Cases of one bat stand in one table.
     pub bat: String,
+    /// How the numbers were found.
     pub kind: Kind,
     /// Which of several meshes, where the bat has more than one.
     pub row: Option<String>,
@@ -54,7 +60,9 @@ pub struct Published {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
+    /// By somebody, on the bat.
     Measured,
+    /// By somebody else's program.
     Computed,
 }
 
@@ -72,8 +80,11 @@ struct Solve {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
+    /// What is known.
     pub quantity: Known,
+    /// Of which mode, from 1.
     pub mode: Option<usize>,
+    /// Of which of its nodes, from 1 at the knob.
     pub node: Option<usize>,
     /// Where a ball hits, or a force acts and its deflection is seen (m), and how fast it swings
     /// (Hz).
@@ -84,6 +95,7 @@ pub struct Check {
     time_s: Option<f64>,
     /// How fast the ball flies at a wall (m/s).
     speed_m_per_s: Option<f64>,
+    /// The known number, in the quantity's unit.
     pub expected: f64,
     relative: Option<f64>,
     absolute: Option<f64>,
@@ -98,27 +110,39 @@ pub struct Check {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
+    /// Natural frequency (Hz).
     FrequencyHz,
     /// To the first frequency.
     FrequencyRatio,
+    /// A node from the knob end (m).
     NodeM,
+    /// For a largest deflection of 1 (kg).
     ModalMassKg,
     /// How fast a damped mode dies out and how fast it swings.
     #[serde(rename = "decay_1_per_s")]
     Decay,
+    /// How fast a damped mode swings (Hz).
     DampedFrequencyHz,
     /// Deflection per force at a frequency, with time as `e^{+iωt}`.
     ReceptanceRealMPerN,
+    /// The same, imaginary part.
     ReceptanceImaginaryMPerN,
     /// Deflection after an impulse of 1 N s, by the rigid motions and the modes of the case.
     DeflectionAfterBlowM,
+    /// Mass (kg).
     MassKg,
+    /// Balance point from the knob end (m).
     BalancePointM,
+    /// Moment of inertia about the balance point (kg m²).
     InertiaBalanceKgM2,
+    /// The same about the point 6 in from the knob (kg m²).
     #[serde(rename = "inertia_pivot_kg_m2")]
     InertiaPivotKgM2,
+    /// For a pivot 6 in from the knob, from the knob end (m).
     CenterOfPercussionM,
+    /// Swing weight: about the point 6 in from the knob (oz in²).
     InertiaPivotOzIn2,
+    /// Something of a hit.
     #[serde(untagged)]
     Hit(Seen),
 }
@@ -126,13 +150,19 @@ pub enum Known {
 /// A known number beside ours.
 #[derive(Debug, Clone)]
 pub struct Row {
+    /// Name of its case.
     pub case: String,
+    /// What is known, in words.
     pub quantity: String,
+    /// The known number.
     pub expected: f64,
+    /// Ours.
     pub found: f64,
     /// In the sense of the tolerance: relative, or absolute in the quantity's unit.
     pub error: f64,
+    /// How large the error may be, in the same sense.
     pub tolerance: f64,
+    /// Whether both are relative.
     pub relative: bool,
     /// For information only: neither passed nor missed.
     pub information: bool,
@@ -309,7 +339,9 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
 /// What is known of a bat to all digits of a number.
 #[derive(Debug, Clone)]
 pub struct Truth {
+    /// The bat.
     pub bat: Bat,
+    /// By which theory.
     pub theory: Theory,
     /// Of mode 1, 2, … (Hz).
     pub frequencies: Vec<f64>,

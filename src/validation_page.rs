@@ -1,4 +1,6 @@
-//! The page `docs/validation.md`: published bats side by side, exact answers in one table.
+//! What stands on the page `docs/validation.md`?
+//!
+//! Published bats side by side, exact answers in one table; [`text`] writes it anew.
 //!
 //! Everything on it is a case of `validation/` or was computed from one, and rounded so far that
 //! every run and every machine writes the same page.

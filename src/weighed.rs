@@ -1,4 +1,6 @@
-//! A bat as stiff as a tap says: one factor on all its moduli.
+//! How stiff is a bat whose first frequency was tapped?
+//!
+//! [`tuned`] finds the one factor on all its moduli.
 
 use crate::bat::Bat;
 use crate::error::{Error, Result};

@@ -21,7 +21,9 @@ pub struct Advice {
     pub full: Rc<Solved>,
     /// One for everything that can be switched.
     pub effects: Vec<Effect>,
+    /// What the bat's materials and dashpots damp.
     pub damping: Damping,
+    /// The smallest model that will do.
     pub smallest: Smallest,
     /// The physics that no model here has.
     pub outside: Vec<String>,

@@ -18,6 +18,7 @@ pub struct Damping {
 }
 
 impl Damping {
+    /// What damps that bat.
     pub fn of(bat: &Bat) -> Self {
         let lossless =
             [Part::Springs, Part::Absorbers, Part::Joints, Part::Grip].iter().any(|p| p.is_on(bat));

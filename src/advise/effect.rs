@@ -21,6 +21,7 @@ pub enum Switch {
     TypicalShear,
     /// Both: from Euler–Bernoulli to Timoshenko.
     Theory,
+    /// One kind of thing on the bat.
     Part(Part),
     /// All of [`Part::ATTACHED`] together.
     Attachments,
@@ -43,8 +44,11 @@ impl Switch {
 /// The bat with something and without it, all else as in the full model.
 #[derive(Debug, Clone)]
 pub struct Effect {
+    /// What is switched.
     pub switch: Switch,
+    /// The bat that has it.
     pub with: Rc<Solved>,
+    /// The bat that does not.
     pub without: Rc<Solved>,
     /// By how much it changes every mode; None where the modes are others altogether.
     pub shifts: Option<Vec<Shift>>,

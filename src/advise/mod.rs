@@ -1,4 +1,6 @@
-//! Which physics a bat needs: every part of its model switched off in turn, and the smallest model
+//! Which physics does a bat need?
+//!
+//! [`advice::advise`] switches off every part of its model in turn, and finds the smallest model
 //! that keeps its frequencies.
 
 pub mod part;

@@ -11,6 +11,7 @@ use crate::theory::Theory;
 /// What of a bat is in a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
+    /// The beam theory.
     pub theory: Theory,
     /// The parts that it has, in the order of [`Part::ALL`].
     pub parts: Vec<Part>,
@@ -52,8 +53,11 @@ impl Model {
 /// A model and its modes.
 #[derive(Debug, Clone)]
 pub struct Solved {
+    /// What of the bat is in it.
     pub model: Model,
+    /// The bat as the model sees it.
     pub bat: Bat,
+    /// Its modes.
     pub solution: Solution,
 }
 

@@ -10,11 +10,15 @@ pub enum Part {
     Materials,
     /// Masses of `attachments`, with their offset and rotary inertia.
     Weights,
+    /// Mass spread on the surface of a stretch.
     Tapes,
     /// Springs of `attachments` to the ground.
     Springs,
+    /// Masses that hang on springs.
     Absorbers,
+    /// Places that give way to bending.
     Joints,
+    /// Pins and clamps.
     Supports,
     /// Hands, as the springs of an elastic bed.
     Grip,

@@ -10,9 +10,11 @@ use crate::theory::Theory;
 /// A model that will do.
 #[derive(Debug, Clone)]
 pub struct Smallest {
+    /// The model and its modes.
     pub solved: Rc<Solved>,
-    /// The largest |f/f_full − 1|, and how far that may be off.
+    /// The largest |f/f_full − 1|.
     pub deviation: f64,
+    /// How far the deviation may be off.
     pub error: f64,
 }
 

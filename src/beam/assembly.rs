@@ -17,7 +17,9 @@ use crate::theory::Theory;
 /// in N/m to N m³, `M` in kg to kg m⁴.
 #[derive(Debug, Clone)]
 pub struct Pencil {
+    /// K.
     pub stiffness: CscMatrix<f64>,
+    /// M, consistent.
     pub mass: CscMatrix<f64>,
 }
 
@@ -56,6 +58,7 @@ impl Pencil {
         }
     }
 
+    /// The matrices of elements from knob to tip.
     pub fn assemble<const N: usize, const W: usize>(elements: &[Element<f64, N, W>]) -> Self {
         let size = (W - 2) * elements.len() + 2;
         let (mut k, mut m) = (CooMatrix::new(size, size), CooMatrix::new(size, size));

@@ -69,8 +69,9 @@ pub struct Samples<'a, R> {
     pub shear: &'a [R],
 }
 
-/// Room for the Legendre polynomials of a deflection of any degree, and for the strains.
+/// Room for the Legendre polynomials of a deflection of any degree.
 pub const MOST_TERMS: usize = 13;
+/// Room for the strains of an element of any degree and theory.
 pub const MOST_STRAINS: usize = 2 * MOST_TERMS - 4;
 
 /// `1/(2k + 1)`.
@@ -326,9 +327,12 @@ impl<R: Real, const N: usize> Beyond<R, N> {
 pub struct Link<R, const W: usize> {
     /// Mass matrix of `(q₀ … q_{W−3}, w, θ)`.
     pub mass: Matrix<R, W>,
-    /// `w_out = w + h θ + lift·q`, `θ_out = θ + turn·q`; the last two places are not used.
+    /// What its strains add to the deflection at the outer end, `w_out = w + h θ + lift·q` (m); the
+    /// last two places are not used.
     pub lift: Vector<R, W>,
+    /// What they add to the rotation there, `θ_out = θ + turn·q` (rad).
     pub turn: Vector<R, W>,
+    /// h (m).
     pub length: R,
 }
 

@@ -28,21 +28,30 @@ use crate::real::{Over, Real};
 /// A bare bat as the running sums see it.
 #[derive(Debug, Clone, Copy)]
 pub struct Body<'a, S, const N: usize, const W: usize> {
+    /// Its elements, the knob side first, both sides from the root outwards.
     pub cells: &'a [Cell<S, W>],
+    /// How many of them are on the knob side.
     pub split: usize,
+    /// Where the elements are sampled.
     pub rule: &'static Rule,
-    /// With everything attached.
+    /// With everything attached (kg).
     pub mass: S,
+    /// About the balance point (kg m²).
     pub inertia: S,
+    /// The balance point from the knob end (m).
     pub balance: S,
+    /// Energy of `½ qᵀq = 1` (J).
     pub energy_unit: S,
 }
 
 /// What is on one bat and what holds it.
 #[derive(Debug, Clone)]
 pub struct Fixed<S> {
+    /// Masses, on the bat itself or on springs.
     pub points: Vec<Point<S>>,
+    /// Places that give way to bending.
     pub joints: Vec<Spring<S>>,
+    /// What holds a deflection or a rotation.
     pub contacts: Vec<Contact<S>>,
     /// What is met on the way outwards on the knob side and on the tip side, in this order.
     pub stops: [Vec<Stop>; 2],
@@ -58,14 +67,18 @@ pub struct Fixed<S> {
 pub struct Stop {
     /// How many cells of this side lie before it.
     pub after: usize,
+    /// What is met there.
     pub what: What,
 }
 
 /// What there is, and its number among its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum What {
+    /// A point mass.
     Point(usize),
+    /// A joint.
     Joint(usize),
+    /// A contact.
     Contact(usize),
 }
 
@@ -83,16 +96,20 @@ pub struct Spring<S> {
 pub struct Point<S> {
     /// From the balance point, outwards (m).
     pub arm: S,
+    /// kg
     pub mass: S,
     /// How far outwards its centre is (m).
     pub offset: S,
+    /// Moment of inertia about its own centre (kg m²).
     pub inertia: S,
+    /// What it hangs on; none where it sits on the bat.
     pub spring: Option<Spring<S>>,
 }
 
 /// Something that holds.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<S> {
+    /// Where it holds.
     pub at: At,
     /// Whether it holds the rotation, else the deflection.
     pub turning: bool,
@@ -110,7 +127,12 @@ pub enum At {
     /// At a stop.
     Border,
     /// At a point of the rule on a cell, for a share of its length (m) and so many N/m².
-    Bed { cell: usize, point: usize },
+    Bed {
+        /// The cell, the knob side first.
+        cell: usize,
+        /// Its point.
+        point: usize,
+    },
 }
 
 impl<S: Real> Fixed<S> {

@@ -17,11 +17,13 @@ pub struct Holds<S> {
     pub inverse: Vec<[S; 2]>,
     /// Their displacements by strains.
     pub rows: Vec<Vec<S>>,
-    /// The contacts beyond, and how much of the primary ones' rows is taken out of theirs.
+    /// The contacts beyond.
     pub redundant: Vec<usize>,
+    /// How much of the primary contacts' rows is taken out of those of each.
     pub shares: Vec<[S; 2]>,
     /// The conditions on the strains, orthonormal, and their factor `L`: row i is `Σ_j L_ij Q_j`.
     pub basis: Vec<Vec<S>>,
+    /// The factor `L`, row by row.
     pub lower: Vec<Vec<S>>,
 }
 

@@ -7,8 +7,9 @@ use crate::bat::Bat;
 pub struct Element {
     /// Index of the piece of the profile it lies in.
     pub piece: usize,
-    /// Where in the piece it begins and ends, both in [0, 1].
+    /// Where in the piece it begins, in [0, 1].
     pub from: f64,
+    /// Where in the piece it ends, in [0, 1].
     pub to: f64,
     /// Position of its left end from the knob end (m).
     pub start: f64,
@@ -19,6 +20,7 @@ pub struct Element {
 /// The elements of a bat from knob to tip.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
+    /// Knob first, each beginning where the last ends.
     pub elements: Vec<Element>,
 }
 

@@ -1,4 +1,9 @@
-//! The bat as a beam: elements, the compliance by statics, and the assembled matrices.
+//! What does the bat as a beam store, and how does it give way?
+//!
+//! [`mesh`] says where the elements are, [`element`] what one of them stores, [`statics`] what a
+//! load does to the whole bat, [`motion`] how far a motion is from a mode and [`count`] how many
+//! modes are slower than one. [`assembly::Pencil::of`] gives K and M as sparse matrices; it is what
+//! to call from outside, for [`crate::solve()`] does the rest.
 
 pub mod mesh;
 pub mod rule;

@@ -92,6 +92,7 @@ pub enum Depth {
 #[derive(Debug, Clone)]
 pub struct Applied<R, const W: usize> {
     loads: Loads<R, W>,
+    /// The free rigid motion that carries them.
     pub rigid: Rigid<R>,
 }
 

@@ -13,6 +13,7 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 /// Gauss points of an element of one degree, with integrals of what is given there.
 #[derive(Debug)]
 pub struct Rule {
+    /// The points, from left to right.
     pub points: Vec<Point>,
     /// `P_0 … P_{N−1}` at the points, `N` the degree plus 1: point by point.
     legendre: Vec<f64>,

@@ -43,27 +43,32 @@ const LONG: usize = 200;
 /// the root outwards, and then those of springs.
 #[derive(Debug, Clone)]
 pub struct Statics<R, const N: usize, const W: usize> {
+    /// Where the elements are sampled.
     pub rule: &'static Rule,
+    /// The beam theory.
     pub theory: Theory,
     /// The elements in the order of the strains, each seen outwards.
     pub cells: Vec<Cell<R, W>>,
     /// How many of them are on the knob side.
     pub split: usize,
-    /// EI (N m²) and ρA (kg/m) at the points of every cell, outwards; ρI (kg m) and κGA (N) if the
-    /// theory asks for them.
+    /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: Vec<R>,
+    /// ρA (kg/m) at the same points.
     pub mass_per_length: Vec<R>,
+    /// ρI (kg m) at the same points, of a theory whose sections turn.
     pub turning_per_length: Vec<R>,
+    /// κGA (N) at the same points, of a theory with shear.
     pub shear_stiffness: Vec<R>,
-    /// Mass (kg) and the theory's inertia about the balance point (kg m²), summed from the elements
-    /// and what is attached.
+    /// Mass (kg), summed from the elements and what is attached.
     pub mass: R,
+    /// The theory's inertia about the balance point (kg m²), summed likewise.
     pub inertia: R,
     /// Position of the balance point from the knob end (m).
     pub balance: R,
     /// Energy of `½ qᵀq = 1`: a power of two near the greatest `EI h`, so that scaling a bat by
     /// powers of two scales every number in here by powers of two, and no digit changes.
     pub energy_unit: R,
+    /// Length of the bat (m).
     pub length: R,
     /// What is on the bat and what holds it, if anything; then there is one lane only.
     pub fixed: Option<Box<Fixed<R>>>,
@@ -448,22 +453,35 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
 /// is then compiled once.
 #[derive(Clone, Copy)]
 pub struct View<'a, S> {
+    /// Where the elements are sampled.
     pub rule: &'static Rule,
+    /// The beam theory.
     pub theory: Theory,
-    /// Legendre polynomials of a deflection, and strains, of an element.
+    /// Legendre polynomials of a deflection of an element.
     pub terms: usize,
+    /// Strains of an element.
     pub strains: usize,
-    /// Number of cells, and how many of them are on the knob side.
+    /// Number of cells.
     pub count: usize,
+    /// How many of the cells are on the knob side.
     pub split: usize,
+    /// The cell of that number, the knob side first, both sides from the root outwards.
     pub cell: &'a dyn Fn(usize) -> CellView<'a, S>,
+    /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: &'a [S],
+    /// ρA (kg/m) likewise.
     pub mass_per_length: &'a [S],
+    /// ρI (kg m) likewise; empty where sections do not turn.
     pub turning_per_length: &'a [S],
+    /// κGA (N) likewise; empty without shear.
     pub shear_stiffness: &'a [S],
+    /// Mass with everything attached (kg).
     pub mass: S,
+    /// The theory's inertia about the balance point (kg m²).
     pub inertia: S,
+    /// Energy of `½ qᵀq = 1` (J).
     pub energy_unit: S,
+    /// What is on the bat and what holds it, if anything.
     pub fixed: Option<&'a Fixed<S>>,
 }
 

@@ -7,6 +7,7 @@ use crate::real::{Over, Real};
 /// An element on one side of the root, seen in that direction.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell<R, const W: usize> {
+    /// What it stores and how far it carries its outer end.
     pub link: Link<R, W>,
     /// `L⁻¹` of the stiffness of its strains.
     pub inverse: Matrix<R, W>,
@@ -41,9 +42,13 @@ impl<S: Real, const W: usize> Cell<S, W> {
 pub struct CellView<'a, S> {
     /// Rows of `L⁻¹`, each with two numbers more than there are strains.
     inverse: &'a [S],
+    /// What its strains add to the deflection at its outer end (m).
     pub lift: &'a [S],
+    /// What they add to the rotation there (rad).
     pub turn: &'a [S],
+    /// h (m).
     pub length: S,
+    /// Distance of its inner end from the balance point, counted outwards (m).
     pub arm: S,
 }
 
@@ -87,7 +92,9 @@ impl<const W: usize> Cell<f64, W> {
 /// A rigid motion seen outwards: translation of the balance point and rotation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rigid<R> {
+    /// Translation of the balance point (m).
     pub push: R,
+    /// Rotation, as it is seen outwards (rad).
     pub turn: R,
 }
 
@@ -111,8 +118,11 @@ impl<R: Real> Rigid<R> {
 /// and couple of every point mass (outwards) and the force of every contact.
 #[derive(Debug, Clone, Default)]
 pub struct Loads<R, const W: usize> {
+    /// Generalised loads of every cell: strains, deflection, rotation.
     pub cells: Vec<Vector<R, W>>,
+    /// Force and couple of every point mass, outwards.
     pub points: Vec<[R; 2]>,
+    /// Force of every contact.
     pub contacts: Vec<R>,
 }
 
@@ -129,9 +139,13 @@ pub fn with_ends<R: Real, const W: usize>(q: &[R], w: R, theta: R) -> Vector<R, 
 /// inertia.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Outwards<R, const KEEP: bool> {
+    /// Deflection so far (m).
     pub w: RunningSum<R, KEEP>,
+    /// Rotation so far (rad).
     pub theta: RunningSum<R, KEEP>,
+    /// Force of the inertia so far, over ω².
     pub force: RunningSum<R, KEEP>,
+    /// Its moment about the balance point, over ω².
     pub moment: RunningSum<R, KEEP>,
 }
 
@@ -164,7 +178,9 @@ impl<R: Real, const KEEP: bool> Outwards<R, KEEP> {
 /// A way inwards, from a free end: shear and bending moment so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Inwards<R, const KEEP: bool> {
+    /// Shear force so far.
     pub shear: RunningSum<R, KEEP>,
+    /// Bending moment so far.
     pub bending: RunningSum<R, KEEP>,
 }
 

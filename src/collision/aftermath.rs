@@ -56,11 +56,13 @@ pub struct Instant {
 /// The largest strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strained {
-    /// Where (m) and when (s).
+    /// Where (m).
     pub x: f64,
+    /// When (s).
     pub time: f64,
-    /// At the outermost fibre, its size without sign, and the stress there (Pa).
+    /// At the outermost fibre, its size without sign.
     pub strain: f64,
+    /// Stress there (Pa).
     pub stress: f64,
 }
 
@@ -76,9 +78,9 @@ pub struct Line {
 /// What a place feels in a span of time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sting {
-    /// Largest displacement (m), velocity (m/s) and acceleration (m/s²), without sign, and when each
-    /// is (s).
+    /// Largest displacement (m), velocity (m/s) and acceleration (m/s²), without sign.
     pub peak: [f64; 3],
+    /// When each is the largest (s).
     pub when: [f64; 3],
     /// When the velocity first is a twentieth of its largest (s).
     pub begins: f64,

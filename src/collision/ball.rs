@@ -11,7 +11,9 @@ use crate::units::Quantity;
 /// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ball {
+    /// What people call it.
     pub name: String,
+    /// Where its numbers come from.
     pub source: String,
     /// Mass (kg).
     pub mass: f64,

@@ -41,11 +41,13 @@ pub struct Encounter {
     pub impulse: f64,
     /// From the first touch to the last (s).
     pub time: f64,
-    /// Largest force (N) and compression (m).
+    /// Largest force (N).
     pub peak_force: f64,
+    /// Largest compression (m).
     pub compression: f64,
-    /// Energy lost in the ball and by the bat's damping (J).
+    /// Energy lost in the ball (J).
     pub lost_in_ball: f64,
+    /// Energy lost by the bat's damping (J).
     pub lost_in_bat: f64,
     /// Energy of every mode (J).
     pub in_modes: Vec<f64>,

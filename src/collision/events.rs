@@ -19,8 +19,11 @@ pub enum Event {
 /// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
+    /// Why it stops.
     pub event: Event,
+    /// The largest compression, once the ball is on its way back.
     pub top: Option<Top>,
+    /// The step's largest force (N).
     pub most: f64,
 }
 

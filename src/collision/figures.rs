@@ -35,6 +35,7 @@ impl SwingLaw {
 /// A swing and the fastest ball it gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swung {
+    /// n of the law.
     pub exponent: f64,
     /// rad/s
     pub swing: f64,
@@ -45,16 +46,17 @@ pub struct Swung {
 /// What tests and catalogues state of a bat, and where and why it is best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
+    /// Where the bat is best, by every definition.
     pub spot: SweetSpot,
     /// The hit at the sweet spot: its `e_A`, its bat-ball speed.
     pub best: Option<Impact>,
-    /// Where the same bat would be best if it did not bend, and how much it would lose to vibration
-    /// there (J) as it is.
+    /// Where the same bat would be best if it did not bend.
     pub rigid_best: Option<Peak>,
+    /// What it loses to vibration there as it is (J).
     pub vibration_at_rigid_best: Option<f64>,
-    /// The largest BBCOR of the outer half, as of a free bat and as of one held at the standard
-    /// pivot.
+    /// The largest BBCOR of the outer half, as of a free bat.
     pub bbcor_max: Option<Peak>,
+    /// The same as of a bat held at the standard pivot.
     pub bbcor_pivoted_max: Option<Peak>,
     /// The same batter with this bat, by several laws; empty where no reference bat was given.
     pub swings: Vec<Swung>,

@@ -27,7 +27,9 @@ pub struct ForceLaw {
 /// The largest compression so far (m) and the force there (N), once the ball has given way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top {
+    /// x_m (m).
     pub compression: f64,
+    /// `k x_m^α` (N).
     pub force: f64,
 }
 

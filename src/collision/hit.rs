@@ -44,6 +44,7 @@ pub struct Scene {
     pub pivot: f64,
     /// Angular speed of the swing (rad/s).
     pub swing: f64,
+    /// What is hit.
     pub ball: Ball,
     /// Speed of the ball towards the bat (m/s).
     pub ball_speed: f64,
@@ -125,8 +126,9 @@ pub struct Impact {
     pub bat_speed: f64,
     /// What the same bat would do if it did not bend (m/s).
     pub rigid_exit_speed: Option<f64>,
+    /// What came of it; None where there is no hit or no real solution.
     pub outcome: Option<Outcome>,
-    /// Why there is no outcome.
+    /// What is unusual in it, and why there is no outcome where there is none.
     pub flags: Vec<&'static str>,
 }
 
@@ -141,29 +143,37 @@ pub struct Outcome {
     pub impulse: f64,
     /// `e_A = (v_out − V)/(v_in + V)`.
     pub collision_efficiency: f64,
-    /// From the first touch to the last (s), and the largest force (N), where the model has them.
+    /// From the first touch to the last (s), where the model has one.
     pub contact_time: Option<f64>,
+    /// Largest force (N), where the model has one.
     pub peak_force: Option<f64>,
     /// `e_A (1 + r) + r`, r = m/M_eff of the free bat.
     pub bbcor: f64,
     /// The same with `r = m Q²/I` of the bat held 6 in from the knob.
     pub bbcor_pivoted: f64,
+    /// Where the energy went.
     pub energy: Energy,
     /// Estimated error of the exit speed, relative to the closing speed: for modes left out and
     /// steps, and for the mesh.
     pub error: f64,
-    /// The parts of it that more modes and shorter steps would mend.
+    /// The part of it that more modes would mend.
     pub truncation: f64,
+    /// The part of it that shorter steps would mend.
     pub steps: f64,
 }
 
 /// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Energy {
+    /// Of ball and bat before the hit.
     pub initial: f64,
+    /// Of the ball after it.
     pub ball: f64,
+    /// Of the bat's rigid motion after it.
     pub bat_rigid: f64,
+    /// In each bending mode after it, in their order.
     pub vibration_by_mode: Vec<f64>,
+    /// Lost in the ball.
     pub dissipated_ball: f64,
     /// By the bat's own damping.
     pub dissipated_damping: f64,

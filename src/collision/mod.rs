@@ -1,4 +1,19 @@
-//! What ball and bat do when they meet.
+//! What do ball and bat do when they meet, and where is the sweet spot?
+//!
+//! Say who meets whom in a [`hit::Scene`], then [`sweep::sweep`] strikes the bat at all places with
+//! as many modes as the accuracy needs. A [`hitter::Hitter`] strikes it once more anywhere,
+//! [`sweet_spot::SweetSpot::find`] looks for the best places and [`figures::Figures`] has the rest
+//! of what catalogues state. [`aftermath`] goes on after the ball.
+//!
+//! | module | question |
+//! |---|---|
+//! | [`ball`], [`force_law`] | what ball, how hard does it push back |
+//! | [`contact`], with [`collocation`], [`touch`], [`step`], [`events`] | what happens while they touch |
+//! | [`struck`] | how does the bat give way to a ball, anywhere |
+//! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
+//! | [`hit`], [`hitter`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
+//! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
+//! | [`aftermath`] | what do the hands and the wood feel |
 
 pub mod ball;
 pub mod force_law;

@@ -23,7 +23,9 @@ pub struct RigidBat {
 /// How a rigid bat moves: its balance point across the axis (m/s), and its rotation (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
+    /// Of the balance point (m/s).
     pub velocity: f64,
+    /// Positive where the tip goes ahead (rad/s).
     pub rotation: f64,
 }
 
@@ -45,6 +47,7 @@ pub struct Rebound {
     pub impulse: f64,
     /// `v′` (m/s).
     pub ball_velocity: f64,
+    /// How the bat moves after it.
     pub bat: Motion,
     /// Kinetic energy gone, `μ u² (1 − e²)/2` (J).
     pub dissipated: f64,

@@ -10,8 +10,9 @@ use crate::collision::touch::{State, Touch, dot};
 /// A part of the force in time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Piece {
-    /// Since the first touch, and how long it lasts (s).
+    /// When it begins, since the first touch (s).
     pub start: f64,
+    /// How long it lasts (s).
     pub length: f64,
     /// Coefficients (N) of the powers of `(t − start)/length`.
     pub powers: [f64; POINTS],
@@ -37,7 +38,9 @@ impl Piece {
 /// What a step of one length does to every mode; numbers of the modes side by side.
 #[derive(Debug, Clone)]
 pub struct Table {
+    /// Length of the step (s).
     pub length: f64,
+    /// Number of modes, those that fill the lanes included.
     pub modes: usize,
     /// `e^{sh s_i}`, `[i][part][mode]`.
     pub turns: Vec<f64>,
@@ -48,6 +51,7 @@ pub struct Table {
 }
 
 impl Table {
+    /// The table of a step of that length (s) for modes of those `s` (1/s).
     pub fn new(rule: &Lobatto, poles: &[Pair], length: f64) -> Self {
         let modes = poles.len();
         let mut table = Self {
@@ -80,11 +84,13 @@ impl Table {
         table
     }
 
+    /// What a step turns every memory by up to point i: real parts (0) or imaginary parts (1).
     #[inline(always)]
     pub fn turn(&self, i: usize, part: usize) -> &[[f64; LANES]] {
         lanes(&self.turns[(2 * i + part) * self.modes..][..self.modes])
     }
 
+    /// What the force at point j does to every memory at point i: real (0) or imaginary parts (1).
     #[inline(always)]
     pub fn kernel(&self, i: usize, j: usize, part: usize) -> &[[f64; LANES]] {
         lanes(&self.kernels[((i * POINTS + j) * 2 + part) * self.modes..][..self.modes])
@@ -100,8 +106,11 @@ impl Table {
 /// A step whose force is known at the points.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Step {
+    /// How long it is (s).
     pub length: f64,
+    /// At the points (m).
     pub compression: [f64; POINTS],
+    /// At the points (N).
     pub force: [f64; POINTS],
     /// The force as a polynomial of the time over the length.
     pub powers: [f64; POINTS],
@@ -110,8 +119,11 @@ pub struct Step {
 /// A step's compression as a polynomial of the time over the length, and where the next step begins.
 #[derive(Debug, Clone, Copy)]
 pub struct Course {
+    /// How long the step is (s).
     pub length: f64,
+    /// Where the next step begins, in lengths of this one.
     pub from: f64,
+    /// Coefficients (m) of the powers of the time over the length.
     pub powers: [f64; POINTS],
 }
 

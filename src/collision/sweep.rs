@@ -14,8 +14,11 @@ use crate::telling::{Tell, nobody};
 /// The impacts along a bat.
 #[derive(Debug, Clone)]
 pub struct Sweep {
+    /// The modes that were struck.
     pub solution: Solution,
+    /// The steps that were taken.
     pub effort: Effort,
+    /// One for each place, in their order.
     pub impacts: Vec<Impact>,
     /// How much the modes left out change an exit speed at most, by estimate, relative to the
     /// closing speed; None where none are left out by the model.

@@ -10,7 +10,9 @@ use crate::solve::Solution;
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
+    /// From the knob end (m).
     pub x: f64,
+    /// What is largest or least there, in its own unit.
     pub value: f64,
 }
 
@@ -21,14 +23,15 @@ pub struct SweetSpot {
     pub exit_speed_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
-    /// The barrel-side node of the first and of the second bending mode (m).
+    /// The barrel-side node of the first bending mode (m).
     pub node_mode_1: Option<f64>,
+    /// The same node of the second mode (m).
     pub node_mode_2: Option<f64>,
     /// The centre of percussion for the swing's own pivot (m).
     pub center_of_percussion: Option<f64>,
-    /// Where the hands feel the least velocity (m/s) and the least acceleration (m/s²), as
-    /// [`Glance::hands`] counts them.
+    /// Where the hands feel the least velocity (m/s), as [`Glance::hands`] counts it.
     pub hands_velocity_min: Option<Peak>,
+    /// The same of the acceleration (m/s²).
     pub hands_acceleration_min: Option<Peak>,
     /// Where the exit speed is within 1 % of its maximum (m).
     pub zone: Option<[f64; 2]>,

@@ -18,26 +18,32 @@ pub struct Felt {
 /// One moment.
 #[derive(Debug, Clone, Default)]
 pub struct State {
+    /// Since the first touch (s).
     pub time: f64,
     /// `b` of the bump `b s(1 − s)` on the force of the step that led here (N).
     pub bump: f64,
     /// Energy that is wrong and not put right yet (J).
     pub defect: f64,
-    /// `z` (m) and `z′` (m/s).
+    /// `z` (m).
     pub closing: f64,
+    /// `z′` (m/s).
     pub speed: f64,
-    /// `v`, real and imaginary parts (N s).
+    /// Real parts of every `v` (N s).
     pub real: Vec<f64>,
+    /// Its imaginary parts (N s).
     pub imaginary: Vec<f64>,
-    /// Of the ball (m; not a number where it is still to be found), and its force (N).
+    /// Of the ball (m; not a number where it is still to be found).
     pub compression: f64,
+    /// Of the ball on the bat (N).
     pub force: f64,
+    /// J so far (N s).
     pub impulse: f64,
     /// Energy the bat's damping has taken (J).
     pub lost: f64,
 }
 
 impl State {
+    /// The moment of the first touch, at that closing speed (m/s), nothing ringing.
     pub fn at_first(modes: usize, speed: f64) -> Self {
         let none = || vec![0.0; modes];
         Self { speed, real: none(), imaginary: none(), ..Self::default() }
@@ -46,26 +52,35 @@ impl State {
 
 /// One place, one ball, one speed.
 pub struct Touch<'a> {
+    /// Where in a step the force is looked at.
     pub rule: &'a Lobatto,
     /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
     pub poles: &'a [Pair],
-    /// Its real and imaginary part (1/s), its absolute square (1/s²).
+    /// Real part of every `s` (1/s).
     pub decay: &'a [f64],
+    /// Imaginary part of every `s` (1/s).
     pub swing: &'a [f64],
+    /// Absolute square of every `s` (1/s²).
     pub square: &'a [f64],
+    /// The bat as the ball feels it there.
     pub felt: &'a Felt,
-    /// `c/ω_d` (s/kg), and over ω_d once more (s²/kg).
+    /// `c/ω_d` of every mode (s/kg).
     pub weights: Vec<f64>,
+    /// The same over ω_d once more (s²/kg), by which [`Self::in_mode`] makes energies of memories.
     pub masses: Vec<f64>,
+    /// Whether any mode dies out.
     pub damped: bool,
+    /// The ball's law.
     pub law: ForceLaw,
-    /// At the first touch (m/s), and the energy that goes with it, `μ u²/2` (J).
+    /// The closing speed u at the first touch (m/s).
     pub speed: f64,
+    /// `μ u²/2` at the first touch (J).
     pub energy: f64,
-    /// What the bat would compress the ball by if it did not ring (m), and how far the two would
-    /// then have come together (m).
+    /// What the bat would compress the ball by if it did not ring (m).
     pub deepest: f64,
+    /// How far the two would then have come together (m).
     pub way: f64,
+    /// How far the steps' forces may be off, relative.
     pub accuracy: f64,
 }
 

@@ -1,8 +1,8 @@
 //! The largest eigenvalues of a symmetric operator, by Lanczos with full reorthogonalisation.
 //!
-//! The compliance of a beam has eigenvalues that fall like n⁻⁴, so about `count + 5` steps find
-//! the `count` largest; keeping every basis vector costs nothing then, and none of Lanczos'
-//! ghosts appear.
+//! The compliance of a beam has eigenvalues that fall like n⁻⁴, so about two steps for each find
+//! the largest (an R161's first 5 in 10 to 12 steps, its first 10 in 17 to 19); keeping every basis
+//! vector costs nothing then, and none of Lanczos' ghosts appear.
 
 use crate::eigen::tridiagonal::Tridiagonal;
 use crate::error::{Error, Result};

@@ -1,4 +1,7 @@
-//! Eigenvalues, of whatever operator or matrices they are asked of.
+//! What are the extreme eigenvalues of an operator, or of two matrices?
+//!
+//! It knows matrices, not bats. [`lanczos`] is what [`crate::solve()`] uses; [`dense`],
+//! [`shift_invert`] and, with the feature `arpack`, ARPACK are its outside checks.
 
 pub mod tridiagonal;
 pub mod lanczos;

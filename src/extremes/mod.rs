@@ -1,4 +1,6 @@
-//! The extremes: what no bat is, solved rightly or refused with the reason.
+//! Is what no bat is solved rightly, or refused with the reason?
+//!
+//! [`EXTREMES`] are the rows, each to be run by itself.
 //!
 //! Every row asks for something beyond any real bat or mesh. It is right if every true error is
 //! within three times the stated one and the wanted accuracy is met, refused if the answer or an
@@ -15,6 +17,7 @@ use crate::error::Result;
 /// How a row ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
+    /// Right, within three times the stated error.
     Right,
     /// With the reason that a user is told.
     Refused(String),
@@ -31,6 +34,7 @@ pub struct Outcome {
     pub found: f64,
     /// The worst error that the answers state.
     pub stated: f64,
+    /// What follows.
     pub verdict: Verdict,
     /// Time and memory, where they are the point.
     pub note: String,
@@ -39,6 +43,7 @@ pub struct Outcome {
 /// One row of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Extreme {
+    /// What is asked for, as the table names it.
     pub what: &'static str,
     /// Whether it takes seconds rather than milliseconds.
     pub slow: bool,

@@ -13,11 +13,13 @@ use crate::units::{inches, miles_per_hour};
 
 /// All that is told of a hit's aftermath.
 pub struct AfterHit {
+    /// How long was looked (s).
     pub until: f64,
     /// Watched places (m), what each feels, and the modes as they ring there.
     pub watched: Vec<(f64, Sting, Vec<Line>)>,
-    /// The largest strain while the ball is there, and of the whole time.
+    /// The largest strain while the ball is there.
     pub during: Option<Strained>,
+    /// The largest strain of the whole time.
     pub after: Option<Strained>,
     /// How far the largest strain changes where a quarter of the modes is left out, relative.
     pub strain_error: f64,

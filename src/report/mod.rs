@@ -1,4 +1,7 @@
-//! Everything a user asked for, ready to print or to write.
+//! How is everything that was asked for printed, drawn and written?
+//!
+//! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents, [`svg`] pictures;
+//! [`file::write`] writes a file that is whole or not there. Nothing here computes physics.
 
 pub mod file;
 pub mod svg;

@@ -8,9 +8,13 @@ use std::fmt::Write;
 /// What an axis says, from where to where it goes, and how far its ticks are apart.
 #[derive(Debug, Clone)]
 pub struct Axis {
+    /// What stands beside it, with the unit.
     pub label: String,
+    /// Where it begins.
     pub from: f64,
+    /// Where it ends.
     pub to: f64,
+    /// From one tick to the next.
     pub tick: f64,
 }
 
@@ -18,26 +22,40 @@ pub struct Axis {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drawn {
     /// Joined by a line, dashed if so.
-    Line { dashed: bool },
+    Line {
+        /// Whether it is dashed.
+        dashed: bool,
+    },
     /// As dots, with error bars of that half height if it is above zero.
-    Dots { error: f64 },
+    Dots {
+        /// Half the height of the bars, in the unit of the axis.
+        error: f64,
+    },
 }
 
 /// Points in the units of the axes; what is outside of them is not drawn.
 #[derive(Debug, Clone)]
 pub struct Series {
+    /// What the legend calls it.
     pub name: String,
+    /// As SVG has it.
     pub color: &'static str,
+    /// By a line or as dots.
     pub drawn: Drawn,
+    /// x and y.
     pub points: Vec<[f64; 2]>,
 }
 
 /// One diagram.
 #[derive(Debug, Clone)]
 pub struct Panel {
+    /// What stands above it.
     pub title: String,
+    /// The axis below.
     pub x: Axis,
+    /// The axis to the left.
     pub y: Axis,
+    /// The curves and points.
     pub series: Vec<Series>,
 }
 

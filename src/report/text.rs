@@ -13,8 +13,11 @@ use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 /// Which units the tables are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Units {
+    /// SI alone.
     Si,
+    /// US units alone.
     Us,
+    /// Both, side by side.
     Both,
 }
 
@@ -28,19 +31,23 @@ impl Units {
         }
     }
 
+    /// A length, given in metres.
     pub fn length(self, metres: f64) -> String {
         self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
     }
 
+    /// A mass, given in kilograms.
     pub fn mass(self, kilograms: f64) -> String {
         self.show(format!("{kilograms:.4} kg"), format!("{:.2} oz", ounces(kilograms)))
     }
 
+    /// A moment of inertia, given in kg m².
     pub fn inertia(self, value: f64) -> String {
         let us = format!("{:.0} oz in²", ounce_square_inches(value));
         self.show(format!("{value:.5} kg m²"), us)
     }
 
+    /// A speed, given in m/s.
     pub fn speed(self, value: f64) -> String {
         let (si, us) = (rounded(value, 2), rounded(miles_per_hour(value), 1));
         self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))

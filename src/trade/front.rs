@@ -5,9 +5,11 @@ use crate::trade::reference::{Choice, worst};
 /// One way to solve the bat, timed and held against the reference.
 #[derive(Debug, Clone)]
 pub struct Run {
+    /// The mesh and the solver.
     pub choice: Choice,
     /// Plan, assembly, eigenpairs, shapes and estimates: median of the repeats (s).
     pub seconds: f64,
+    /// How often it was timed.
     pub repeats: usize,
     /// True relative error of the frequencies, mode by mode.
     pub errors: Vec<f64>,

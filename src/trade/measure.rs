@@ -16,6 +16,7 @@ use crate::trade::words::{digits, hurts, planner};
 /// Speed against accuracy on one bat, as measured.
 #[derive(Debug, Clone)]
 pub struct Trade {
+    /// What the runs are held against.
     pub reference: Reference,
     /// Every run, fastest first, those on the front marked.
     pub runs: Vec<Run>,

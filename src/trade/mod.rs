@@ -1,4 +1,7 @@
-//! Speed against accuracy on one bat: what is measured, what it is measured against, what follows.
+//! What does a digit cost on this bat, by which elements and which solver?
+//!
+//! [`measure::measure`] times a ladder of them against one reference: what is measured, what it is
+//! measured against, what follows.
 //!
 //! ```text
 //! Bat ─▶ Reference ─▶ runs (degree, elements, solver: time, error) ─▶ front ─▶ words

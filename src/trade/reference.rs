@@ -8,8 +8,11 @@ use crate::theory::Theory;
 /// How a bat is discretised and solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
+    /// Degree of the elements' deflection.
     pub degree: usize,
+    /// Number of elements.
     pub elements: usize,
+    /// How the eigenvalues are found.
     pub solver: Solver,
     /// Unknowns of the assembled matrices.
     pub degrees_of_freedom: usize,
@@ -42,7 +45,9 @@ pub fn solver_name(solver: Solver) -> &'static str {
 pub struct Reference {
     /// Angular frequencies of the lowest bending modes (rad/s).
     pub omegas: Vec<f64>,
+    /// The beam theory.
     pub theory: Theory,
+    /// How they were found.
     pub choice: Choice,
     /// Largest relative error of a frequency by the solution's own estimate.
     pub stated: f64,

@@ -24,6 +24,7 @@ pub const SOLVERS: &[Solver] = &[
 /// What one solver does as elements are added.
 #[derive(Debug, Clone)]
 pub struct Column {
+    /// The solver.
     pub solver: Solver,
     /// By rising number of elements.
     pub points: Vec<Point>,
@@ -35,16 +36,28 @@ pub struct Column {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
     /// The solver gave an error on so many elements.
-    Refused { elements: usize, reason: String },
+    Refused {
+        /// How many elements.
+        elements: usize,
+        /// The error, in words.
+        reason: String,
+    },
     /// So many elements are more than the solver takes.
-    TooLarge { elements: usize },
+    TooLarge {
+        /// How many elements.
+        elements: usize,
+    },
     /// So many elements would have taken longer than there was time for.
-    NoTime { elements: usize },
+    NoTime {
+        /// How many elements.
+        elements: usize,
+    },
 }
 
 /// The errors on one mesh, relative, mode by mode.
 #[derive(Debug, Clone)]
 pub struct Point {
+    /// Number of elements.
     pub elements: usize,
     /// Of the frequencies as the solver's own λ says them; empty for statics, which has no other.
     pub own: Vec<f64>,
@@ -57,7 +70,9 @@ pub struct Point {
 /// Which of a solver's two frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
+    /// The eigenvalue that the solver found.
     Own,
+    /// Strain energy over kinetic energy of its shape.
     Recomputed,
 }
 

@@ -1,0 +1,97 @@
+//! What does a weight in the knob do?
+//!
+//!     cargo run --release --example knob_weight [-- BAT.json]
+//!
+//! One, two and three ounces ¾ in from the knob end, on a bat that is swung at 50 rad/s whatever it
+//! weighs, and on one that is swung with the energy that the bare bat has at 50 rad/s, counted in
+//! the rotation about the point 6 in from the knob (`Ω = Ω₀ √(I₀/I)`).
+
+use std::env;
+use sweetspot::bat::{STANDARD_PIVOT, Weighed};
+use sweetspot::choice;
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweet_spot::Looked;
+use sweetspot::fixtures::Attachment;
+use sweetspot::units::{inches, miles_per_hour, ounce_square_inches};
+use sweetspot::{Bat, Request, Result};
+
+const OUNCE: f64 = 0.028_349_523_125;
+const KNOB: f64 = 0.75 * 0.0254;
+/// Angular speed of the swing (rad/s).
+const SWING: f64 = 50.0;
+
+/// The same bat with a mass (kg) in its knob.
+fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
+    let mut fixtures = bat.fixtures.clone();
+    fixtures.attachments.push(Attachment { x: KNOB, mass, ..Attachment::default() });
+    let (profile, material) = (bat.profile.clone(), bat.material().clone());
+    // The bare bat's density is known by now: nothing is weighed again.
+    Bat::with_fixtures(&bat.name, profile, material, fixtures, Weighed::default())
+}
+
+/// Where the ball leaves fastest at that swing (rad/s), how fast (m/s), and how far that may be off.
+fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
+    let scene = Scene { swing, ..Scene::default() };
+    let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
+    let looked = Looked::new([0.5 * bat.length(), bat.length()], &hitter);
+    let peak = looked.greatest(|glance| Some(glance.exit_speed));
+    let hit = hitter.strike(peak.expect("a swung barrel meets the ball").x);
+    let closing = hit.bat_speed + scene.ball_speed;
+    let outcome = hit.outcome.expect("it met it there");
+    Ok([hit.x, outcome.exit_speed, outcome.error * closing])
+}
+
+fn main() -> Result<()> {
+    let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
+    let bare = Bat::from_file(path)?;
+    let reference = bare.inertia().about(STANDARD_PIVOT);
+    let batter = SwingLaw { exponent: 0.5, reference, of_reference: SWING };
+    let mut request = Request { tolerance: 1e-5, ..Request::default() };
+    request.theory = choice::theory(&bare, &request)?.theory;
+
+    println!("{}, with a weight {:.2} in from the knob end", bare.name, inches(KNOB));
+    println!("                                                      sweet     fastest ball, mph,");
+    println!("  knob  balance  swing weight  modes 1, 2    node 1    spot     at the same");
+    println!("    oz  in, knob       oz in²          Hz   in, tip  in, tip    swing   energy");
+    let (mut rows, mut error) = (vec![], 0.0_f64);
+    for count in [0.0, 1.0, 2.0, 3.0] {
+        let bat = if count > 0.0 { weighted(&bare, count * OUNCE)? } else { bare.clone() };
+        let scene = Scene { swing: SWING, ..Scene::default() };
+        let sweep = sweep(&bat, Model::Contact, &scene, &request, false, &[0.8 * bat.length()])?;
+        let [x, same, off] = best(&bat, SWING, &sweep)?;
+        let [_, energy, also_off] = best(&bat, batter.swing(&bat), &sweep)?;
+        error = error.max(miles_per_hour(off.max(also_off)));
+
+        let body = bat.inertia();
+        let balance = inches(body.balance_point);
+        let weight = ounce_square_inches(body.about(STANDARD_PIVOT));
+        let modes = &sweep.solution.modes;
+        let [f1, f2] = [0, 1].map(|k: usize| modes[k].frequency());
+        let node = modes[0].nodes.last().expect("a free bat has nodes");
+        let [node, spot] = [*node, x].map(|x| inches(bat.length() - x));
+        let [same, energy] = [same, energy].map(miles_per_hour);
+        print!("{count:6.0} {balance:9.2} {weight:12.0} {f1:6.1} {f2:6.1} {node:8.2} {spot:8.2}");
+        println!(" {same:8.2} {energy:8.2}");
+        rows.push([balance, weight, f1, node, spot, same, energy]);
+    }
+    println!("  speeds within {error:.0e} mph by the program's own estimate\n");
+    let (bare, heavy) = (rows[0], rows[3]);
+    let by = |k: usize| heavy[k] - bare[k];
+    let share = |k: usize| 100.0 * (heavy[k] / bare[k] - 1.0);
+    println!("Three ounces move the balance point by {:+.2} in, the swing weight by", by(0));
+    println!(
+        "{:+.1} %, the first frequency by {:+.1} % and its barrel node by",
+        share(1),
+        share(2)
+    );
+    println!(
+        "{:+.2} in; the sweet spot by {:+.2} in. Swung as fast, the ball leaves",
+        by(3),
+        by(4)
+    );
+    println!("{:+.2} mph faster; with the same energy {:+.2} mph.", by(5), by(6));
+    Ok(())
+}
