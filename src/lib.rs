@@ -119,6 +119,7 @@ pub mod response;
 pub mod ringing;
 pub mod frf;
 pub mod collision;
+pub mod comparison;
 pub mod report;
 pub mod known_hits;
 pub mod validation;

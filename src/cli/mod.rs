@@ -3,6 +3,7 @@
 mod advise;
 mod analyze;
 mod common;
+mod compare;
 mod extremes_table;
 mod frf;
 mod hit;
@@ -60,6 +61,7 @@ enum Verb {
     Analyze(analyze::Args),
     Modes(modes::Args),
     Hit(hit::Args),
+    Compare(compare::Args),
     Ring(ring::Args),
     Frf(frf::Args),
     Trade(trade::Args),
@@ -69,8 +71,7 @@ enum Verb {
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] =
-    &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "new"];
+const LATER_VERBS: &[&str] = &["convert", "schema", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
 
@@ -82,6 +83,7 @@ pub fn run() -> Result<Done> {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
+        Verb::Compare(args) => compare::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),

@@ -13,3 +13,4 @@ pub mod aftermath;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;
+pub mod comparison;
