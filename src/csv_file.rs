@@ -107,7 +107,7 @@ impl Csv {
 }
 
 /// The first byte at or after `offset` that belongs to no comment and no empty line.
-fn row_start(text: &str, mut offset: usize) -> usize {
+pub(crate) fn row_start(text: &str, mut offset: usize) -> usize {
     loop {
         let rest = &text[offset..];
         offset += match rest.bytes().next() {
@@ -119,7 +119,7 @@ fn row_start(text: &str, mut offset: usize) -> usize {
 }
 
 /// Where cell number `column` of the row at `offset` begins.
-fn cell_start(text: &str, offset: usize, column: usize) -> usize {
+pub(crate) fn cell_start(text: &str, offset: usize, column: usize) -> usize {
     let cells = text[offset..].split(',').take(column).map(|cell| cell.len() + 1);
     let start = (offset + cells.sum::<usize>()).min(text.len());
     start + text[start..].len() - text[start..].trim_start_matches([' ', '\t']).len()

@@ -120,6 +120,8 @@ pub mod ringing;
 pub mod frf;
 pub mod collision;
 pub mod comparison;
+pub mod measured;
+pub mod measured_file;
 pub mod report;
 pub mod known_hits;
 pub mod validation;

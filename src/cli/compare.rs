@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 use sweetspot::comparison::contender::Terms;
 use sweetspot::comparison::table::{Comparison, Entry};
 use sweetspot::error::{Error, Result};
-use sweetspot::report::{comparison, file};
+use sweetspot::measured::place::{End, Told};
+use sweetspot::measured::study::Study;
+use sweetspot::measured_file;
+use sweetspot::report::{self, comparison, file};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, SceneArgs, SolveArgs, quantity, read};
+use crate::cli::common::{OutputArgs, Prepared, SceneArgs, SolveArgs, quantity, read};
 use crate::cli::{Done, NOT_REACHED};
 
 /// Bats side by side: what differs, which hits harder where, and whether that is sure
@@ -17,11 +20,40 @@ use crate::cli::{Done, NOT_REACHED};
 /// said to be none.
 ///
 /// Example: sweetspot compare meshes/r161.json meshes/torpedo.json
+///
+/// With --measured FILE one bat's computed modes stand beside measured ones: pairs, frequencies,
+/// damping, MAC, and whether the measured shapes are sound. A CSV file has places from the knob end
+/// downwards and modes side by side,
+///
+///     x_in,          mode_1, mode_2
+///     frequency_hz,  178.2,  583.0
+///     damping_ratio, 0.004,  0.005
+///     0,             1.00,   0.90
+///     3,             0.55,   0.12
+///
+/// or the columns mode,frequency_hz,damping_ratio where there are no shapes.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat files (JSON), two to eight
+    /// Bat files (JSON), two to eight; one with --measured
     #[arg(required = true, value_name = "BAT")]
     bats: Vec<PathBuf>,
+
+    /// Measured modes (CSV or UFF) to stand beside the bat's own
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["SceneArgs", "every", "csv"])]
+    measured: Option<PathBuf>,
+
+    /// The first measured point, the one with the lowest coordinate, is the nearest to the knob
+    #[arg(long, requires = "measured", conflicts_with = "tip_first")]
+    knob_first: bool,
+
+    /// The first measured point is the nearest to the tip
+    #[arg(long, requires = "measured")]
+    tip_first: bool,
+
+    /// Where the first measured point is, from the knob end [default: by its coordinate]
+    #[arg(long, value_name = "X", requires = "measured", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    origin: Option<f64>,
 
     /// Number of bending modes that count in a hit [default: as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
@@ -52,6 +84,38 @@ const MOST: usize = 8;
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("compare")?;
+    match &args.measured {
+        Some(file) => measured_beside(args, file),
+        None => bats_beside(args),
+    }
+}
+
+/// Measured modes beside those of one bat.
+fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
+    let [path] = args.bats.as_slice() else {
+        let found = format!("{} bats beside measured modes", args.bats.len());
+        return Err(Error::value("compare", found, "one bat file"));
+    };
+    let measured = measured_file::read(file)?;
+    let bat = read(path, args.output.quiet)?;
+    let modes = args.count.map_or(10, usize::from);
+    let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
+    let first = match (args.knob_first, args.tip_first) {
+        (true, _) => Some(End::Knob),
+        (_, true) => Some(End::Tip),
+        _ => None,
+    };
+    let told = Told { first, origin: args.origin };
+    let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
+    args.solve.say_raised(&study.solution, &args.output);
+    let text = report::measured::text(&bat, &study, args.output.units);
+    let name = path.display().to_string();
+    let text = args.output.deliver(text, || report::measured::json(&bat, &name, &study))?;
+    let code = args.solve.verdict(&study.solution, &args.output);
+    Ok(Done::new(text, code).with(warning))
+}
+
+fn bats_beside(args: &Args) -> Result<Done> {
     let standard = Some(Path::new("-"));
     if args.csv.as_deref() == standard && args.output.json.as_deref() == standard {
         let expected = "one of them on standard output";

@@ -14,3 +14,4 @@ pub mod u_curve;
 pub mod trade;
 pub mod advice;
 pub mod comparison;
+pub mod measured;
