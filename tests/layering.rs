@@ -16,13 +16,16 @@ fn declared(file: &Path) -> Vec<String> {
     names.collect()
 }
 
-/// The source files of a module: `x.rs`, or all of `x/`.
+/// The source files of a module: `x.rs`, or all of `x/` and of the folders in it.
 fn sources(folder: &Path, module: &str) -> Vec<PathBuf> {
     let single = folder.join(format!("{module}.rs"));
-    if single.exists() {
-        return vec![single];
-    }
-    fs::read_dir(folder.join(module)).unwrap().map(|entry| entry.unwrap().path()).collect()
+    if single.exists() { vec![single] } else { files(&folder.join(module)) }
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
+    entries.flat_map(below).collect()
 }
 
 /// Complaints about uses of `prefix::later` in a module declared before `later`.
@@ -44,11 +47,17 @@ fn reaching_back(folder: &Path, root: &str, prefix: &str) -> Vec<String> {
                 complaints.push(format!("{}: write {line} out", file.display()));
             }
             for later in &modules[k + 1..] {
-                let used = format!("{prefix}::{later}");
+                // In a room, `super` is the room.
+                let own = root == "mod.rs" && file.parent() == Some(folder);
+                let near = own.then(|| format!("super::{later}"));
+                let used = [Some(format!("{prefix}::{later}")), near];
                 let ends =
                     |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-                if code.iter().any(|line| line.split(&used).skip(1).any(ends)) {
-                    complaints.push(format!("{} uses {used}, declared below it", file.display()));
+                for used in used.iter().flatten() {
+                    if code.iter().any(|line| line.split(used).skip(1).any(ends)) {
+                        let file = file.display();
+                        complaints.push(format!("{file} uses {used}, declared below it"));
+                    }
                 }
             }
         }
@@ -60,8 +69,8 @@ fn reaching_back(folder: &Path, root: &str, prefix: &str) -> Vec<String> {
 fn no_module_reaches_back() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut complaints = reaching_back(&source, "lib.rs", "crate");
-    for room in ["beam", "eigen", "trade", "collision", "report"] {
-        let prefix = format!("crate::{room}");
+    for room in ["beam", "eigen", "trade", "collision", "report", "exchange", "exchange/uff"] {
+        let prefix = format!("crate::{}", room.replace('/', "::"));
         complaints.extend(reaching_back(&source.join(room), "mod.rs", &prefix));
     }
     assert!(complaints.is_empty(), "{complaints:#?}");
@@ -75,4 +84,34 @@ fn a_planted_use_of_a_later_module_is_found() {
     folder.write("second.rs", "use crate::first;\n");
     let complaints = reaching_back(&folder.0, "lib.rs", "crate");
     assert_eq!(complaints.len(), 1, "{complaints:?}");
+}
+
+#[test]
+fn a_planted_use_in_a_folder_of_a_folder_is_found() {
+    let folder = Folder::new("layering-deep");
+    folder.write("lib.rs", "pub mod room;\nmod second;\n");
+    folder.write("second.rs", "");
+    fs::create_dir_all(folder.0.join("room/inner")).unwrap();
+    folder.write("room/mod.rs", "mod inner;\nmod late;\n");
+    folder.write("room/late.rs", "");
+    folder.write("room/inner/mod.rs", "mod first;\nmod last;\n");
+    folder.write("room/inner/first.rs", "use crate::second::Thing;\nuse super::last::Thing;\n");
+    folder.write("room/inner/last.rs", "use crate::room::late::Thing;\nuse super::first::Thing;\n");
+    let of = |part: &str, root, prefix| reaching_back(&folder.0.join(part), root, prefix).len();
+    assert_eq!(of("", "lib.rs", "crate"), 1);
+    assert_eq!(of("room", "mod.rs", "crate::room"), 1);
+    assert_eq!(of("room/inner", "mod.rs", "crate::room::inner"), 1);
+}
+
+/// What could be lifted out needs nothing of the crate but its errors.
+#[test]
+fn the_universal_files_are_on_their_own() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/exchange/uff");
+    for file in files(&folder) {
+        let text = fs::read_to_string(&file).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let other = |line: &&str| line.contains("crate::") && !line.contains("crate::error::");
+        assert_eq!(code.clone().find(other), None, "{}", file.display());
+    }
 }

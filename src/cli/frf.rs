@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use serde_json::json;
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result, nearest};
+use sweetspot::exchange::frf_uff::{self, Measured};
+use sweetspot::exchange::uff::{self, Stamp, six_digits};
 use sweetspot::frf::{Frf, Kind, Sample};
 use sweetspot::report::text::wrapped;
 use sweetspot::report::{file, json};
@@ -68,6 +70,16 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
+    /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
+    /// and no table then). It has six digits for a frequency, so that all are rounded to that many
+    /// first; with --linear the steps are even in it
+    #[arg(long, value_name = "FILE")]
+    uff: Option<PathBuf>,
+
+    /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
+    #[arg(long, requires = "uff")]
+    reproducible: bool,
+
     #[command(flatten)]
     solve: SolveArgs,
 
@@ -77,10 +89,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
-    let to_stdout = |path: &Option<PathBuf>| path.as_ref().is_some_and(|p| p.as_os_str() == "-");
-    if to_stdout(&args.csv) && to_stdout(&args.output.json) {
-        return Err(Error::value("--csv", "- beside --json -", "one of them on standard output"));
-    }
+    one_on_stdout(args)?;
     let (at, to) = (args.at, args.to.unwrap_or(args.at));
     let bat = args.bat.read(&args.output)?;
     for (name, x) in [("--at", at), ("--to", to)] {
@@ -94,17 +103,11 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
     let mut frf = reaching(&bat, &request, [at, to], args)?;
-    let frequencies = frequencies(args, &frf)?;
+    let (frequencies, even) = frequencies(args, &frf)?;
     let samples = frf.receptances(&frequencies)?;
-    let csv = || csv(args.kind, &samples);
-    let text = match &args.csv {
-        Some(_) if to_stdout(&args.csv) => csv(),
-        Some(path) => {
-            file::write(path, csv().as_bytes())?;
-            table(args.kind, [at, to], &frf, &samples)
-        }
-        None => table(args.kind, [at, to], &frf, &samples),
-    };
+    let measured = Measured { bat: &bat.name, kind: args.kind, at, to, even };
+    let table = || table(args.kind, [at, to], &frf, &samples);
+    let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
     let document = || {
         let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
         let value = |s: &Sample| s.receptance * args.kind.of(s.frequency);
@@ -134,6 +137,43 @@ pub fn run(args: &Args) -> Result<Done> {
         false => args.solve.verdict(&frf.solution, &args.output),
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// Standard output is for one document.
+fn one_on_stdout(args: &Args) -> Result<()> {
+    let named = [("--json", &args.output.json), ("--csv", &args.csv), ("--uff", &args.uff)];
+    let mut there = named.into_iter().filter(|(_, path)| to_stdout(path.as_ref()));
+    match (there.next(), there.next()) {
+        (Some((first, _)), Some((second, _))) => {
+            let found = format!("- beside {first} -");
+            Err(Error::value(second, found, "one of them on standard output"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn to_stdout(path: Option<&PathBuf>) -> bool {
+    path.is_some_and(|path| path.as_os_str() == "-")
+}
+
+/// Writes the files that were asked for; what takes the place of the table.
+fn deliver(args: &Args, measured: &Measured, samples: &[Sample]) -> Result<Option<String>> {
+    let mut instead = None;
+    let mut put = |path: &PathBuf, text: String| -> Result<()> {
+        if to_stdout(Some(path)) {
+            instead = Some(text);
+            return Ok(());
+        }
+        file::write(path, text.as_bytes())
+    };
+    if let Some(path) = &args.csv {
+        put(path, csv(args.kind, samples))?;
+    }
+    if let Some(path) = &args.uff {
+        let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
+        put(path, uff::write(&frf_uff::response(measured, samples, &stamp))?)?;
+    }
+    Ok(instead)
 }
 
 /// Frequencies that can be asked for at all.
@@ -187,9 +227,12 @@ fn reaching(bat: &Bat, request: &Request, [at, to]: [f64; 2], args: &Args) -> Re
     Frf::new(bat, &request, at, to)
 }
 
-fn frequencies(args: &Args, frf: &Frf) -> Result<Vec<f64>> {
+/// The frequencies; and start and step where they are even.
+fn frequencies(args: &Args, frf: &Frf) -> Result<(Vec<f64>, Option<[f64; 2]>)> {
+    // A universal file has that many digits for them.
+    let held = |f: f64| if args.uff.is_some() { six_digits(f) } else { f };
     if !args.frequencies.is_empty() {
-        return Ok(args.frequencies.clone());
+        return Ok((args.frequencies.iter().map(|f| held(*f)).collect(), None));
     }
     let modes = &frf.solution.modes;
     let first = modes.first().map_or(1.0, |mode| mode.frequency());
@@ -197,13 +240,15 @@ fn frequencies(args: &Args, frf: &Frf) -> Result<Vec<f64>> {
     let low = args.from_hz.unwrap_or_else(|| (0.1 * first).min(0.5 * args.to_hz.unwrap_or(first)));
     let high = args.to_hz.unwrap_or_else(|| (1.2 * last).max(2.0 * low));
     let steps = f64::from(args.points - 1).max(1.0);
-    let at = |k: u32| match f64::from(k) / steps {
-        0.0 => low,
-        1.0 => high,
-        s if args.linear => low + (high - low) * s,
-        s => low * (high / low).powf(s),
+    let even = args.linear.then(|| [held(low), held((high - low) / steps)]);
+    let at = |k: u32| match (f64::from(k) / steps, even) {
+        (_, Some([start, step])) if args.uff.is_some() => start + f64::from(k) * step,
+        (0.0, _) => held(low),
+        (1.0, _) => held(high),
+        (s, Some(_)) => low + (high - low) * s,
+        (s, None) => held(low * (high / low).powf(s)),
     };
-    Ok((0..args.points).map(at).collect())
+    Ok(((0..args.points).map(at).collect(), even))
 }
 
 fn csv(kind: Kind, samples: &[Sample]) -> String {

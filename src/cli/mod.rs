@@ -4,6 +4,7 @@ mod advise;
 mod analyze;
 mod common;
 mod compare;
+mod convert;
 mod extremes_table;
 mod frf;
 mod hit;
@@ -66,12 +67,13 @@ enum Verb {
     Frf(frf::Args),
     Trade(trade::Args),
     Advise(advise::Args),
+    Convert(convert::Args),
     Validate(validate::Args),
     Materials(materials::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] = &["convert", "schema", "fit", "tune", "sweep", "lab", "new"];
+const LATER_VERBS: &[&str] = &["schema", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
 const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
 
@@ -88,6 +90,7 @@ pub fn run() -> Result<Done> {
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Advise(args) => advise::run(&args),
+        Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),
         Verb::Materials(args) => materials::run(&args),
     }

@@ -1,11 +1,14 @@
 //! `sweetspot modes BAT`: natural frequencies, shapes, nodes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use sweetspot::bat::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
+use sweetspot::exchange::npz;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
+use sweetspot::solve::Solution;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved};
@@ -25,7 +28,8 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value = "101", value_parser = shape_points)]
     shape_points: ShapePoints,
 
-    /// Write stiffness.mtx and mass.mtx (Matrix Market) of the mesh into this folder
+    /// Write K and M of the mesh into this folder: stiffness.mtx and mass.mtx (Matrix Market), and
+    /// bat.npz (NumPy, SciPy's CSC parts) with the modes at the nodes
     #[arg(long, value_name = "DIR")]
     matrices: Option<PathBuf>,
 
@@ -40,22 +44,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Done> {
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
-        if !bat.fixtures.none_moving() {
-            let found = "a bat with attachments, joints or supports";
-            return Err(Error::value(
-                "--matrices",
-                found,
-                "a bare bat: K and M are those of its body",
-            ));
-        }
-        let pencil = Pencil::of(&bat, &solution.mesh, solution.degree, solution.theory);
-        let failed = |source| Error::Write { path: folder.clone(), source };
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
-            let mut text = Vec::new();
-            write_matrix_market(matrix, &mut text).map_err(failed)?;
-            file::write(&folder.join(name), &text)?;
-        }
+        write_matrices(folder, &bat, &solution)?;
     }
     let table = format!(
         "{}\n{}\n{}",
@@ -66,6 +55,24 @@ pub fn run(args: &Args) -> Result<Done> {
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);
     Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
+}
+
+fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {
+    if !bat.fixtures.none_moving() {
+        let found = "a bat with attachments, joints or supports";
+        let expected = "a bare bat: K and M are those of its body";
+        return Err(Error::value("--matrices", found, expected));
+    }
+    let pencil = Pencil::of(bat, &solution.mesh, solution.degree, solution.theory);
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
+        let mut text = Vec::new();
+        write_matrix_market(matrix, &mut text).map_err(failed)?;
+        file::write(&folder.join(name), &text)?;
+    }
+    let archive = npz::matrices(&pencil, solution).map_err(failed)?;
+    file::write(&folder.join("bat.npz"), &archive)
 }
 
 fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {

@@ -1,0 +1,183 @@
+//! `sweetspot convert MODES.json --to FORMAT`: modes in the files of other programs.
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::error::{Error, Result};
+use sweetspot::exchange::modes_file::{self, ModeTable};
+use sweetspot::exchange::uff::{self, Stamp};
+use sweetspot::exchange::{csv, modes_uff, npz, vtu};
+use sweetspot::report::file;
+
+use crate::cli::{Done, printable};
+
+/// Modes in the files of other programs: universal file, VTK, NumPy, CSV
+///
+/// MODES.json is what sweetspot modes BAT --json MODES.json wrote. The bat lies along x, knob at 0,
+/// and deflects along y; rotations are about z. Shapes have their largest deflection 1, lengths are
+/// in m.
+///
+/// Example: sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
+#[derive(clap::Args)]
+pub struct Args {
+    /// Modes file (JSON) of sweetspot modes
+    modes: PathBuf,
+
+    /// uff: universal file, datasets 151, 164, 2411, 82 and 55, for modal test programs;
+    /// vtu: VTK, for ParaView; csv: a table for spreadsheets; npz: arrays for NumPy
+    #[arg(long, value_name = "FORMAT")]
+    to: Format,
+
+    /// File to write [default: the name of MODES.json with the format's ending, in this folder];
+    /// - for standard output (not npz). With vtu a name that ends in .pvd makes a collection, one
+    /// file for each mode beside it, that ParaView steps through
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+
+    /// uff: nodes in dataset 15 in place of 2411, for older programs (six digits)
+    #[arg(long)]
+    legacy: bool,
+
+    /// uff: 1 January 1970 for the date of the file, so that equal input gives equal bytes
+    #[arg(long)]
+    reproducible: bool,
+
+    /// vtu: the bat's outer surface with N points around, in place of its axis
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=360))]
+    surface: Option<u16>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Uff,
+    Vtu,
+    Csv,
+    Npz,
+}
+
+impl Format {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Uff => "uff",
+            Self::Vtu => "vtu",
+            Self::Csv => "csv",
+            Self::Npz => "npz",
+        }
+    }
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    check(args)?;
+    let table = modes_file::read(&args.modes)?;
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None => {
+            let stem = args.modes.file_stem().unwrap_or(args.modes.as_os_str());
+            // A stem may have a dot of its own, so that the ending is added, not put in its place.
+            let mut name = stem.to_owned();
+            name.push(format!(".{}", args.to.name()));
+            PathBuf::from(name)
+        }
+    };
+    let files = if is_collection(args) {
+        collection(args, &table, &out)?
+    } else {
+        vec![(out.clone(), contents(args, &table, &out)?)]
+    };
+    if out.as_os_str() == "-" {
+        let [(_, text)] = <[_; 1]>::try_from(files).expect("no collection goes there");
+        let text = String::from_utf8(text).expect("no archive goes there");
+        return Ok(Done::new(text, 0));
+    }
+    for (path, _) in &files {
+        refuse_input(args, path)?;
+    }
+    for (path, contents) in &files {
+        file::write(path, contents)?;
+    }
+    Ok(Done::new(said(&table, &files), 0))
+}
+
+/// Options that fit the format.
+fn check(args: &Args) -> Result<()> {
+    let format = args.to.name();
+    for (option, given, of) in [
+        ("--legacy", args.legacy, Format::Uff),
+        ("--reproducible", args.reproducible, Format::Uff),
+        ("--surface", args.surface.is_some(), Format::Vtu),
+    ] {
+        if given && args.to != of {
+            let found = format!("it with --to {format}");
+            return Err(Error::value(option, found, format!("--to {}, or without it", of.name())));
+        }
+    }
+    let out = args.out.as_deref().unwrap_or(Path::new(""));
+    if args.to == Format::Npz && out.as_os_str() == "-" {
+        return Err(Error::value("--out", "- with --to npz", "a file: an archive is no text"));
+    }
+    if args.to != Format::Vtu && out.extension().is_some_and(|ending| ending == "pvd") {
+        let found = format!("a .pvd file with --to {format}");
+        return Err(Error::value("--out", found, "--to vtu, whose collection that is"));
+    }
+    Ok(())
+}
+
+fn is_collection(args: &Args) -> bool {
+    args.out.as_ref().and_then(|out| out.extension()).is_some_and(|ending| ending == "pvd")
+}
+
+fn contents(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<u8>> {
+    Ok(match args.to {
+        Format::Uff => {
+            let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
+            uff::write(&modes_uff::modes(table, args.legacy, &stamp))?.into_bytes()
+        }
+        Format::Vtu => {
+            vtu::all_modes(table, &vtu::grid(table, args.surface.map(usize::from))).into_bytes()
+        }
+        Format::Csv => csv::modes(table).into_bytes(),
+        Format::Npz => {
+            let failed = |source| Error::Write { path: out.to_owned(), source };
+            npz::modes(table).map_err(failed)?
+        }
+    })
+}
+
+/// A file for each mode, and last the collection, so that it never names what is not there.
+fn collection(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    if stem.contains(char::REPLACEMENT_CHARACTER) {
+        return Err(Error::value("--out", out.display(), "a name in UTF-8, as the files hold it"));
+    }
+    let grid = vtu::grid(table, args.surface.map(usize::from));
+    let name = |k: usize| format!("{stem}_mode_{:02}.vtu", table.modes[k].order);
+    let each = 0..table.modes.len();
+    let one = |k| (out.with_file_name(name(k)), vtu::one_mode(table, &grid, k).into_bytes());
+    let mut files: Vec<_> = each.clone().map(one).collect();
+    let list: Vec<_> = each.map(|k| (table.modes[k].frequency, name(k))).collect();
+    files.push((out.to_owned(), vtu::collection(&list).into_bytes()));
+    Ok(files)
+}
+
+/// The modes file must outlive its conversion.
+fn refuse_input(args: &Args, path: &Path) -> Result<()> {
+    let same = |path: &Path| std::fs::canonicalize(path).ok();
+    match (same(path), same(&args.modes)) {
+        (Some(out), Some(input)) if out == input => {
+            let found = format!("{}, the modes file itself", path.display());
+            Err(Error::value("--out", found, "another file"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn said(table: &ModeTable, files: &[(PathBuf, Vec<u8>)]) -> String {
+    let bytes: usize = files.iter().map(|(_, contents)| contents.len()).sum();
+    let path = files.last().map_or(String::new(), |(path, _)| path.display().to_string());
+    let (modes, places) = (table.modes.len(), table.x.len());
+    let beside = match files.len() {
+        1 => String::new(),
+        n => format!(" and {} files beside it", n - 1),
+    };
+    let kilobytes = bytes.div_ceil(1000);
+    format!("{}{beside}: {modes} modes at {places} places, {kilobytes} kB\n", printable(&path))
+}

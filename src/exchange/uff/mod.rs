@@ -1,0 +1,299 @@
+//! Universal files: the ASCII format in which modal test programs exchange geometry, mode shapes
+//! and measured functions. This module is on its own: of the crate it uses the errors alone.
+//!
+//! A universal file is a list of datasets. Each stands between two fences, lines that hold `-1` in
+//! columns 5 and 6; its first line is its number, and what follows are Fortran records, fields of
+//! fixed widths:
+//!
+//! ```text
+//!     -1
+//!     82
+//!          1         3         0
+//! bat
+//!          1         2         3
+//!     -1
+//! ```
+//!
+//! | dataset | holds | here |
+//! |---|---|---|
+//! | 151 | header: files, programs, dates | [`Header`] |
+//! | 164 | units | [`Units`] |
+//! | 15, 2411 | nodes, in six digits or in all | [`Nodes`] |
+//! | 82 | a line through nodes | [`TraceLine`] |
+//! | 55 | data at nodes: mode shapes | [`NodalData`] |
+//! | 58, 58b | functions at a node: frequency responses, records in time | [`Function`] |
+//!
+//! Other datasets are skipped on reading, and noted. A file whose dataset 164 names other units
+//! than SI is read into SI; without one its numbers are taken as they stand.
+//!
+//! # Digits
+//!
+//! Dataset 2411 has 17 significant digits, 15 and 55 have six, 58 in double precision has 13 for
+//! its values and six for its abscissa ([`six_digits`]).
+//!
+//! # Source
+//!
+//! The dataset descriptions of SDRC I-DEAS as the University of Cincinnati's Structural Dynamics
+//! Research Laboratory keeps them and `pyuff` 2.5.8 repeats them (`pyuff.UFF` and the structure
+//! texts of its datasets); the byte layout of 58b from the same place.
+
+pub mod number;
+mod stamp;
+mod lines;
+mod units;
+mod read_function;
+mod read;
+mod write;
+
+pub use read::{parse, read};
+pub use stamp::Stamp;
+pub use units::Units;
+pub use write::write;
+
+/// A real and an imaginary part.
+pub type Complex = [f64; 2];
+
+/// A universal file that was read, in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Universal {
+    /// In the order of the file.
+    pub datasets: Vec<Dataset>,
+    /// Datasets that this module does not know.
+    pub skipped: Vec<Skipped>,
+    /// The units the file was written in, if they were not SI.
+    pub converted_from: Option<Units>,
+}
+
+/// A dataset that was not read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Skipped {
+    /// Number of the dataset.
+    pub number: i64,
+    /// The line of that number in the file, from 1.
+    pub line: usize,
+}
+
+/// One dataset.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Dataset {
+    /// 151.
+    Header(Header),
+    /// 164.
+    Units(Units),
+    /// 2411 or 15.
+    Nodes(Nodes),
+    /// 82.
+    TraceLine(TraceLine),
+    /// 55.
+    NodalData(NodalData),
+    /// 58.
+    Function(Function),
+}
+
+/// Dataset 151: what the file is and who wrote it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Header {
+    /// The model file.
+    pub model: String,
+    pub description: String,
+    /// The program that made the model.
+    pub made_by: String,
+    /// When the model was made, when it was last changed, when this file was written.
+    pub created: Stamp,
+    pub saved: Stamp,
+    pub written: Stamp,
+    /// Version of the model's database, in two parts.
+    pub version: [i64; 2],
+    /// The program that wrote this file.
+    pub written_by: String,
+}
+
+/// Dataset 2411, or 15 with six digits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nodes {
+    pub nodes: Vec<Node>,
+    /// 15 in place of 2411: obsolete, and the one that older programs read.
+    pub legacy: bool,
+}
+
+/// A node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    pub label: i64,
+    /// Coordinate system in which `at` is given and that of displacements; 0 is the global one.
+    pub systems: [i64; 2],
+    pub color: i64,
+    /// Where it is (m).
+    pub at: [f64; 3],
+}
+
+impl Node {
+    /// A node in the global system.
+    pub fn new(label: i64, at: [f64; 3]) -> Self {
+        Self { label, systems: [0; 2], color: 0, at }
+    }
+}
+
+/// Dataset 82: a line through nodes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TraceLine {
+    pub number: i64,
+    pub color: i64,
+    pub name: String,
+    /// Labels of nodes; 0 lifts the pen. At most [`TraceLine::MOST`].
+    pub nodes: Vec<i64>,
+}
+
+impl TraceLine {
+    /// The most nodes of a line.
+    pub const MOST: usize = 250;
+}
+
+/// Dataset 55: data at nodes, of one mode or one step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodalData {
+    /// Five lines of text.
+    pub ids: [String; 5],
+    /// 0 unknown, 1 structural.
+    pub model: i64,
+    pub analysis: Analysis,
+    /// 1 a scalar, 2 translations x, y, z, 3 translations and rotations about x, y, z, 4 a
+    /// symmetric and 5 a general tensor.
+    pub characteristic: i64,
+    /// What the values are: 8 displacement, 11 velocity, 12 acceleration, …
+    pub quantity: i64,
+    pub complex: bool,
+    /// Numbers per node.
+    pub per_node: usize,
+    /// Label and values of every node; the imaginary parts of real data are 0. A node that is not
+    /// there has zeros.
+    pub values: Vec<(i64, Vec<Complex>)>,
+}
+
+impl NodalData {
+    /// Translations in x, y, z.
+    pub const TRANSLATIONS: i64 = 2;
+    /// Translations in and rotations about x, y, z.
+    pub const MOTIONS: i64 = 3;
+}
+
+/// What was computed or measured, in dataset 55.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Analysis {
+    /// 2: a real mode.
+    NormalMode {
+        load_case: i64,
+        mode: i64,
+        /// Hz.
+        frequency: f64,
+        /// Of the shape as it stands in the file (kg m², or kg where displacements are numbers).
+        modal_mass: f64,
+        /// Damping ratio, of dashpots and of hysteresis.
+        viscous: f64,
+        hysteretic: f64,
+    },
+    /// 3, and 7 where `second_order`: a complex mode.
+    ComplexMode {
+        second_order: bool,
+        load_case: i64,
+        mode: i64,
+        /// rad/s.
+        eigenvalue: Complex,
+        modal_a: Complex,
+        modal_b: Complex,
+    },
+    /// 5: the answer at one frequency (Hz).
+    FrequencyResponse { load_case: i64, step: i64, frequency: f64 },
+    /// Any other type: its integers and reals as they stand.
+    Other { kind: i64, integers: Vec<i64>, reals: Vec<f64> },
+}
+
+/// Dataset 58: a function at a degree of freedom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Function {
+    /// Five lines of text.
+    pub ids: [String; 5],
+    /// 0 unknown, 1 record in time, 2 auto and 3 cross spectrum, 4 frequency response, 6
+    /// coherence, 9 power spectral density, …
+    pub kind: i64,
+    /// Number, version and load case (0: forced at one point).
+    pub number: i64,
+    pub version: i64,
+    pub load_case: i64,
+    pub response: Dof,
+    pub reference: Dof,
+    pub abscissa: Abscissa,
+    pub values: Values,
+    /// Values in 13 digits, else in six.
+    pub double: bool,
+    /// Of the third axis.
+    pub z: f64,
+    /// Abscissa, ordinate (numerator), denominator of the ordinate, third axis.
+    pub axes: [Axis; 4],
+}
+
+/// A node and a direction in it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Dof {
+    /// Name of the component.
+    pub entity: String,
+    pub node: i64,
+    /// 0 scalar, 1 to 3 along x, y, z, 4 to 6 about them; negative: against it.
+    pub direction: i64,
+}
+
+/// Where a function has its values; six digits in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Abscissa {
+    Even { start: f64, step: f64 },
+    Uneven(Vec<f64>),
+}
+
+impl Abscissa {
+    /// Where value `k` is.
+    pub fn at(&self, k: usize) -> f64 {
+        match self {
+            Self::Even { start, step } => start + k as f64 * step,
+            Self::Uneven(places) => places[k],
+        }
+    }
+}
+
+/// The values of a function.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    Real(Vec<f64>),
+    Complex(Vec<Complex>),
+}
+
+impl Values {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Real(values) => values.len(),
+            Self::Complex(values) => values.len(),
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// What an axis of a function shows.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Axis {
+    /// 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17 time, 18
+    /// frequency, …
+    pub quantity: i64,
+    /// Exponents of length, force and temperature, of a general quantity.
+    pub exponents: [i64; 3],
+    pub label: String,
+    pub unit: String,
+}
+
+/// The nearest number that an abscissa, or a value of dataset 55, can be in a file.
+pub fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
