@@ -3,18 +3,22 @@
 
 mod common;
 
+use std::f64::consts::TAU;
+
 use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
 use faer::c64;
 use sweetspot::Bat;
 use sweetspot::bat::Weighed;
 use sweetspot::dowel::{Dowel, Ends, UniformMode};
+use sweetspot::exchange::uff::{Analysis, Dataset, NodalData, Node, Nodes, Universal};
 use sweetspot::fixtures::{Fixtures, Held, Support};
 use sweetspot::material::Material;
 use sweetspot::measured::data::{Measured, MeasuredMode};
 use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured::words::words;
+use sweetspot::measured_file::universal;
 use sweetspot::solve::Request;
 
 /// Even points from end to end.
@@ -392,4 +396,143 @@ fn options_that_would_do_nothing_are_refused() {
     }
     let output = folder.run(&["compare", "bat.json", "bat.json", "--origin", "2 in"]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// The exact free modes on nodes along any line, moving in any direction normal to it, `around` of
+/// them side by side at every place.
+fn universal_file(x: &[f64], [axis, normal]: [[f64; 3]; 2], around: usize) -> Universal {
+    let along = |x: f64, off: f64| [0, 1, 2].map(|k| 2.0 + x * axis[k] + off * normal[k]);
+    let label = |k: usize, turn: usize| (100 * turn + k + 1) as i64;
+    let places = || (0..around).flat_map(|turn| (0..x.len()).map(move |k| (turn, k)));
+    let node = |(turn, k)| Node::new(label(k, turn), along(x[k], 0.02 * turn as f64));
+    let nodes = Nodes { nodes: places().map(node).collect(), legacy: false };
+    let shape = |n: usize| {
+        let w = exact(Ends::FreeFree, n, x);
+        let value = |(turn, k): (usize, usize)| {
+            let moved = normal.map(|part| [part * w[k].re * 0.1, 0.0]);
+            (label(k, turn), moved.to_vec())
+        };
+        let omega = TAU * dowel_frequency(n);
+        Dataset::NodalData(NodalData {
+            ids: Default::default(),
+            model: 1,
+            analysis: match n {
+                2 => Analysis::ComplexMode {
+                    second_order: false,
+                    load_case: 0,
+                    mode: 2,
+                    eigenvalue: [-0.01 * omega, (1.0 - 1e-4_f64).sqrt() * omega],
+                    modal_a: [1.0, 0.0],
+                    modal_b: [1.0, 0.0],
+                },
+                _ => Analysis::NormalMode {
+                    load_case: 0,
+                    mode: n as i64,
+                    frequency: dowel_frequency(n),
+                    modal_mass: 1.0,
+                    viscous: if n == 1 { 0.004 } else { 0.0 },
+                    hysteretic: if n == 3 { 0.01 } else { 0.0 },
+                },
+            },
+            characteristic: NodalData::TRANSLATIONS,
+            quantity: 12,
+            complex: n == 2,
+            per_node: 3,
+            values: places().map(value).collect(),
+        })
+    };
+    let datasets = [Dataset::Nodes(nodes)].into_iter().chain((1..=3).map(shape)).collect();
+    Universal { datasets, skipped: vec![], converted_from: None }
+}
+
+#[test]
+fn a_universal_file_may_have_the_bat_in_any_direction() {
+    let x = points(12);
+    let slanted = [[0.6, 0.0, -0.8], [0.8, 0.0, 0.6]];
+    let plain = [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]];
+    for (directions, around, axis, moving) in [
+        (plain, 1, "axis is z", "along y"),
+        (slanted, 1, "axis is (-0.600, 0.000, 0.800)", "(0.800, 0.000, 0.600)"),
+        (slanted, 3, "36 nodes are taken as 12 points", "(0.800, 0.000, 0.600)"),
+    ] {
+        let measured = universal::of(&universal_file(&x, directions, around), "m.uff").unwrap();
+        let said = measured.assumed.join("; ");
+        assert!(said.contains(axis) && said.contains(moving), "{said}");
+        let ratios: Vec<_> =
+            measured.modes.iter().map(|mode| mode.damping_ratio.unwrap()).collect();
+        for (ratio, known) in ratios.iter().zip([0.004, 0.01, 0.005]) {
+            assert!((ratio - known).abs() < 1e-12);
+        }
+        let study = study(&dowel(), measured, Told::default());
+        for (k, pair) in study.pairs.iter().enumerate() {
+            assert_eq!((pair.measured, pair.computed), (k, k));
+            assert!(1.0 - pair.mac.unwrap() < 1e-9);
+            assert!(pair.difference.unwrap().abs() < 1e-8);
+            assert!((pair.scale.unwrap().norm() - 0.2).abs() < 1e-6);
+        }
+    }
+}
+
+/// Modes written as a universal file by the program itself are its own modes, to six digits.
+#[test]
+fn what_convert_writes_is_measured_as_the_same_bat() {
+    let folder = Folder::new("measured-uff");
+    folder.write("r161.json", std::fs::read_to_string("meshes/r161.json").unwrap());
+    folder.text(&["modes", "r161.json", "-n", "5", "--shape-points", "25", "--json", "m.json"]);
+    folder.text(&["convert", "m.json", "--to", "uff", "--out", "m.uff"]);
+    let json = folder.json(&["compare", "r161.json", "--measured", "m.uff", "--json", "-"]);
+    let pairs = json["pairs"].as_array().unwrap();
+    assert_eq!(pairs.len(), 5);
+    for (k, pair) in pairs.iter().enumerate() {
+        assert_eq!(pair["computed"], k + 1);
+        assert!(pair["mac"].as_f64().unwrap() > 1.0 - 1e-9);
+        assert!(pair["frequency_difference"].as_f64().unwrap().abs() < 1e-5);
+        assert!((pair["scale"]["real"].as_f64().unwrap() - 1.0).abs() < 1e-4);
+    }
+    assert_eq!(json["shapes"]["first_end"], "knob");
+    let text = folder.text(&["compare", "r161.json", "--measured", "m.uff"]);
+    assert!(text.lines().all(|line| line.chars().count() <= 80));
+    // Turned end for end by word, it fits badly and says so.
+    let args = ["compare", "r161.json", "--measured", "m.uff", "--tip-first"];
+    assert!(folder.text(&args).contains("Turned end for end the shapes fit better"));
+}
+
+#[test]
+fn a_universal_file_without_what_is_needed_is_refused() {
+    let x = points(5);
+    let good = universal_file(&x, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    let said = |datasets: Vec<Dataset>| {
+        let bad = Universal { datasets, ..good.clone() };
+        universal::of(&bad, "m.uff").unwrap_err().to_string()
+    };
+    let changed = |change: &dyn Fn(&mut NodalData)| {
+        let mut datasets = good.datasets.clone();
+        if let Some(Dataset::NodalData(data)) = datasets.last_mut() {
+            change(data);
+        }
+        said(datasets)
+    };
+    assert_eq!(said(vec![]), "m.uff: found no modes, expected shapes in datasets 55");
+    assert!(said(good.datasets[1..].to_vec()).contains("found node 1 in a shape"));
+    assert!(changed(&|data| data.values[0].0 = 77).contains("found node 77 in a shape"));
+    assert!(changed(&|data| data.characteristic = 4).contains("characteristic 4"));
+    assert!(changed(&|data| data.values.clear()).contains("nothing but 0"));
+    let few = universal_file(&x[..2], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    let error = universal::of(&few, "m.uff").unwrap_err().to_string();
+    assert!(error.contains("found 2 moving points"), "{error}");
+    // Frequency responses alone: said, with what to do.
+    let folder = Folder::new("measured-frf");
+    folder.write("bat.json", BAT);
+    let file = std::fs::read("tests/foreign/functions.uff").unwrap();
+    folder.write("f.uff", &file);
+    folder.write("broken.unv", &file[..400]);
+    for (name, told) in [
+        ("f.uff", "found 4 functions in datasets 58 and no shapes, expected shapes in datasets 55"),
+        ("broken.unv", "broken.unv:"),
+        ("bat.json", "expected a file whose name ends with .csv, .uff or .unv"),
+    ] {
+        let output = folder.run(&["compare", "bat.json", "--measured", name]);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && error.contains(told), "{error}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Measured modes from a file.
+//! Measured modes from a CSV file.
 //!
 //! A table of shapes, as one types it into a spreadsheet: places from the knob end downwards, modes
 //! side by side, the frequency (and the damping) in lines of their own.
@@ -25,25 +25,12 @@ use crate::error::{Complaint, Error, Result};
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::units::{self, Quantity};
 
-/// Reads measured modes, by the ending of the file's name.
-///
-/// # Errors
-///
-/// [`Error::Value`] for another ending, and those of [`read_csv`].
-pub fn read(path: &Path) -> Result<Measured> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match ending.as_str() {
-        "csv" => read_csv(path),
-        _ => Err(Error::value("--measured", path.display(), "a file named .csv")),
-    }
-}
-
 /// Reads measured modes from CSV.
 ///
 /// # Errors
 ///
 /// [`Error::Read`], and [`Error::Input`] with the line and the column.
-pub fn read_csv(path: &Path) -> Result<Measured> {
+pub fn read(path: &Path) -> Result<Measured> {
     let document = Document::read(path)?;
     let table = Table::new(&document)?;
     let measured = match table.header.cells[0].starts_with("x_") || table.header.cells[0] == "x" {
