@@ -124,6 +124,7 @@ pub mod measured;
 pub mod report;
 pub mod exchange;
 pub mod measured_file;
+pub mod plot;
 pub mod known_hits;
 pub mod validation;
 pub mod published;

@@ -7,6 +7,8 @@ use sweetspot::advise::advice::advise;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::error::{Error, Result};
+use sweetspot::plot::sets::Hits;
+use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{advice, file, hit_json, hit_text, text};
 use sweetspot::solve::{Request, Solution};
@@ -34,6 +36,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Draw everything into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long)]
     reproducible: bool,
@@ -58,6 +64,12 @@ pub fn run(args: &Args) -> Result<Done> {
         (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
     let hits = sweep(&bat, model, &scene, &request, false, &places)?;
     let figures = Figures::new(&bat, (model, hits.effort), (&scene, law), &hits.solution)?;
+    if let Some(folder) = &args.plots {
+        let mut pictures = sets::of_modes(&bat, &solution, Some(scene.pivot));
+        let hits = Hits { bat: &bat, model, scene: &scene, sweep: &hits, spot: &figures.spot };
+        pictures.extend(hits.pictures(None)?);
+        picture::write(folder, &pictures)?;
+    }
     let units = args.output.units;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     let table = format!(

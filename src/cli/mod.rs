@@ -75,7 +75,7 @@ enum Verb {
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] = &["schema", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
+const LATER_OPTIONS: &[&str] = &["--up-to", "--report"];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {

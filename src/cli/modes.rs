@@ -6,6 +6,7 @@ use sweetspot::bat::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
 use sweetspot::exchange::npz;
+use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 use sweetspot::solve::Solution;
@@ -33,6 +34,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     matrices: Option<PathBuf>,
 
+    /// Draw the bat and its mode shapes into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long)]
     reproducible: bool,
@@ -45,6 +50,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     if let Some(folder) = &args.matrices {
         write_matrices(folder, &bat, &solution)?;
+    }
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &sets::of_modes(&bat, &solution, None))?;
     }
     let table = format!(
         "{}\n{}\n{}",

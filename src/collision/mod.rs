@@ -12,6 +12,7 @@ pub mod rigid;
 pub mod energy_loss;
 pub mod pulse;
 pub mod aftermath;
+pub mod history;
 pub mod hit;
 pub mod hitter;
 pub mod sweet_spot;

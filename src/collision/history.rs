@@ -1,0 +1,70 @@
+//! The ball's force and compression in time, from the recorded force.
+//!
+//! The compression is what ball and bat have come nearer: every motion is exact under a force that is
+//! a polynomial in time ([`crate::collision::contact`] has the equations). The ball's law is not
+//! asked, whose force near the end is too small to tell a compression from.
+
+use crate::collision::aftermath::{driven, pushes};
+use crate::collision::collocation::{Pair, polynomial};
+use crate::collision::step::Piece;
+use crate::collision::touch::Felt;
+
+/// The ball at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Since the first touch (s).
+    pub time: f64,
+    /// N
+    pub force: f64,
+    /// m
+    pub compression: f64,
+}
+
+/// The ball from the first touch to the last, so many instants in every piece of the force, ends
+/// included: nearing at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for
+/// each gain.
+pub fn history(
+    pieces: &[Piece],
+    felt: &Felt,
+    modes: &[[f64; 2]],
+    speed: f64,
+    parts: usize,
+) -> Vec<Moment> {
+    let pole = |[omega, ratio]: &[f64; 2]| {
+        [-ratio * omega, omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt()]
+    };
+    let poles: Vec<Pair> = modes.iter().map(pole).collect();
+    let mut memories = vec![[0.0; 2]; poles.len()];
+    let (mut closed, mut closing) = (0.0, speed);
+    let mut all = vec![];
+    for piece in pieces {
+        for k in 0..=parts {
+            let at = k as f64 / parts as f64;
+            let time = at * piece.length;
+            let force = polynomial(&piece.powers, at);
+            let [by, _] = pushes(piece, time);
+            let mut nearer = closed + closing * time - felt.inverse_mass * by - felt.rest * force;
+            for ((pole, memory), gain) in poles.iter().zip(&memories).zip(&felt.gains) {
+                nearer -= gain / pole[1] * driven(*pole, *memory, piece, time)[1];
+            }
+            // What is left of round-off where it ends.
+            let [force, compression] = [force, nearer].map(|value| value.max(0.0));
+            all.push(Moment { time: piece.start + time, force, compression });
+        }
+        let [by, faster] = pushes(piece, piece.length);
+        closed += closing * piece.length - felt.inverse_mass * by;
+        closing -= felt.inverse_mass * faster;
+        for (pole, memory) in poles.iter().zip(&mut memories) {
+            *memory = driven(*pole, *memory, piece, piece.length);
+        }
+    }
+    all
+}
+
+/// The energy (J) that goes into the ball and does not come back: `∮ F dx`, by straight lines.
+pub fn loop_area(moments: &[Moment]) -> f64 {
+    let work = |pair: &[Moment]| {
+        0.5 * (pair[0].force + pair[1].force) * (pair[1].compression - pair[0].compression)
+    };
+    moments.windows(2).map(work).sum()
+}
