@@ -100,7 +100,7 @@ impl Csv {
 }
 
 /// The first byte at or after `offset` that belongs to no comment and no empty line.
-fn row_start(text: &str, mut offset: usize) -> usize {
+pub(crate) fn row_start(text: &str, mut offset: usize) -> usize {
     loop {
         let rest = &text[offset..];
         offset += match rest.bytes().next() {

@@ -5,6 +5,7 @@ mod analyze;
 mod ask;
 mod bat_text;
 mod common;
+mod compare;
 mod convert;
 pub mod diagnostic;
 mod completions;
@@ -83,6 +84,7 @@ enum Verb {
     Analyze(analyze::Args),
     Modes(modes::Args),
     Hit(hit::Args),
+    Compare(compare::Args),
     Ring(ring::Args),
     Frf(frf::Args),
     Trade(trade::Args),
@@ -111,6 +113,7 @@ pub fn run() -> Result<Done> {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
+        Verb::Compare(args) => compare::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),

@@ -17,3 +17,5 @@ pub mod aftermath;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;
+pub mod comparison;
+pub mod measured;

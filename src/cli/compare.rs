@@ -1,0 +1,177 @@
+//! `sweetspot compare A B …`: several bats side by side.
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::comparison::contender::Terms;
+use sweetspot::comparison::table::{Comparison, Entry};
+use sweetspot::error::{Error, Result};
+use sweetspot::measured::place::{End, Told};
+use sweetspot::measured::study::Study;
+use sweetspot::measured_file;
+use sweetspot::report::{self, comparison, file};
+use sweetspot::units::Quantity;
+
+use crate::cli::common::{OutputArgs, Prepared, SceneArgs, SolveArgs, quantity, read};
+use crate::cli::{Done, NOT_REACHED};
+
+/// Bats side by side: what differs, which hits harder where, and whether that is sure
+///
+/// The first bat is the one the others are measured by. A difference within the errors of both is
+/// said to be none.
+///
+/// Example: sweetspot compare meshes/r161.json meshes/torpedo.json
+///
+/// With --measured FILE one bat's computed modes stand beside measured ones: pairs, frequencies,
+/// damping, MAC, and whether the measured shapes are sound. A CSV file has places from the knob end
+/// downwards and modes side by side,
+///
+///     x_in,          mode_1, mode_2
+///     frequency_hz,  178.2,  583.0
+///     damping_ratio, 0.004,  0.005
+///     0,             1.00,   0.90
+///     3,             0.55,   0.12
+///
+/// or the columns mode,frequency_hz,damping_ratio where there are no shapes.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Bat files (JSON), two to eight; one with --measured
+    #[arg(required = true, value_name = "BAT")]
+    bats: Vec<PathBuf>,
+
+    /// Measured modes (CSV or UFF) to stand beside the bat's own
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["SceneArgs", "every", "csv"])]
+    measured: Option<PathBuf>,
+
+    /// The first measured point, the one with the lowest coordinate, is the nearest to the knob
+    #[arg(long, requires = "measured", conflicts_with = "tip_first")]
+    knob_first: bool,
+
+    /// The first measured point is the nearest to the tip
+    #[arg(long, requires = "measured")]
+    tip_first: bool,
+
+    /// Where the first measured point is, from the knob end [default: by its coordinate]
+    #[arg(long, value_name = "X", requires = "measured", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    origin: Option<f64>,
+
+    /// Number of bending modes that count in a hit [default: as many as it needs]
+    #[arg(short = 'n', long = "modes", value_name = "N",
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    count: Option<u16>,
+
+    /// Distance of the places where exit speeds are compared
+    #[arg(long, value_name = "LENGTH", default_value = "1 in", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    every: f64,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// More bats do not fit beside each other.
+const MOST: usize = 8;
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.solve.refuse_budget("compare")?;
+    match &args.measured {
+        Some(file) => measured_beside(args, file),
+        None => bats_beside(args),
+    }
+}
+
+/// Measured modes beside those of one bat.
+fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
+    let [path] = args.bats.as_slice() else {
+        let found = format!("{} bats beside measured modes", args.bats.len());
+        return Err(Error::value("compare", found, "one bat file"));
+    };
+    let measured = measured_file::read(file)?;
+    let bat = read(path, args.output.quiet)?;
+    let modes = args.count.map_or(10, usize::from);
+    let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
+    let first = match (args.knob_first, args.tip_first) {
+        (true, _) => Some(End::Knob),
+        (_, true) => Some(End::Tip),
+        _ => None,
+    };
+    let told = Told { first, origin: args.origin };
+    let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
+    args.solve.say_raised(&study.solution, &args.output);
+    let text = report::measured::text(&bat, &study, args.output.units);
+    let name = path.display().to_string();
+    let text = args.output.deliver(text, || report::measured::json(&bat, &name, &study))?;
+    let code = args.solve.verdict(&study.solution, &args.output);
+    Ok(Done::new(text, code).with(warning))
+}
+
+fn bats_beside(args: &Args) -> Result<Done> {
+    let standard = Some(Path::new("-"));
+    if args.csv.as_deref() == standard && args.output.json.as_deref() == standard {
+        let expected = "one of them on standard output";
+        return Err(Error::value("--csv", "- beside --json -", expected));
+    }
+    if !(2..=MOST).contains(&args.bats.len()) {
+        let found = format!("{} bat", args.bats.len());
+        return Err(Error::value("compare", found, format!("2 to {MOST} bat files")));
+    }
+    let model = args.scene.model()?;
+    let mut warnings = vec![];
+    let mut entries = vec![];
+    for path in &args.bats {
+        let bat = read(path, args.output.quiet)?;
+        let modes = args.count.map_or(10, usize::from);
+        let prepared = args.solve.prepare(bat, modes, &args.output)?;
+        let (scene, law) = args.scene.scene(&prepared.bat)?;
+        warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
+        entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
+    }
+    let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
+    let compared = Comparison::new(entries, terms).map_err(as_option)?;
+    let text = match &args.csv {
+        Some(path) if path.as_os_str() == "-" => comparison::csv(&compared),
+        Some(path) => {
+            file::write(path, comparison::csv(&compared).as_bytes())?;
+            comparison::text(&compared, args.output.units)
+        }
+        None => comparison::text(&compared, args.output.units),
+    };
+    let files: Vec<String> = args.bats.iter().map(|path| path.display().to_string()).collect();
+    let text = args.output.deliver(text, || comparison::json(&compared, &files))?;
+    let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
+    Ok(Done::new(text, verdict(args, &compared)).with(warning))
+}
+
+/// The place step as it is called on the command line.
+fn as_option(error: Error) -> Error {
+    match error {
+        Error::Value(complaint) if complaint.field == "every" => {
+            Error::value("--every", complaint.found, complaint.expected)
+        }
+        other => other,
+    }
+}
+
+/// The exit code, after a word about bats whose exit speeds are less accurate than asked.
+fn verdict(args: &Args, compared: &Comparison) -> u8 {
+    let short = compared.bats.iter().filter(|bat| !bat.sweep.met && args.solve.enforced());
+    let names: Vec<&str> = short.map(|bat| bat.bat.name.as_str()).collect();
+    if names.is_empty() {
+        return 0;
+    }
+    args.output.warn(&format!(
+        "accuracy of the exit speeds not reached for {}: see the errors",
+        names.join(", ")
+    ));
+    NOT_REACHED
+}

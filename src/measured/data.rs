@@ -1,0 +1,53 @@
+//! Modes as a laboratory measured them.
+
+use faer::c64;
+
+/// Measured modes, at the same points all of them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Measured {
+    /// The file they are from, for people.
+    pub source: String,
+    /// By rising frequency.
+    pub modes: Vec<MeasuredMode>,
+    /// Where the points are along the bat's axis (m), rising, in the file's own direction and from
+    /// its own origin; empty where frequencies are all there is.
+    pub along: Vec<f64>,
+    /// Whether they count from the knob end, as the file says.
+    pub from_knob: bool,
+    /// What had to be assumed to read them, one sentence each.
+    pub assumed: Vec<String>,
+}
+
+/// One measured mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredMode {
+    /// What the file calls it.
+    pub name: String,
+    /// The number of the bending mode, where the file says so.
+    pub order: Option<usize>,
+    /// Hz
+    pub frequency: f64,
+    /// Of critical damping.
+    pub damping_ratio: Option<f64>,
+    /// Deflection at every point, in a unit of the laboratory's; empty where it was not measured.
+    pub shape: Vec<c64>,
+}
+
+impl Measured {
+    /// Whether there are shapes and not only frequencies.
+    pub fn has_shapes(&self) -> bool {
+        !self.along.is_empty()
+    }
+
+    /// Sorts the points along the axis, and the modes by frequency.
+    pub fn sorted(mut self) -> Self {
+        let mut order: Vec<usize> = (0..self.along.len()).collect();
+        order.sort_by(|a, b| self.along[*a].total_cmp(&self.along[*b]));
+        self.along = order.iter().map(|k| self.along[*k]).collect();
+        for mode in self.modes.iter_mut().filter(|mode| !mode.shape.is_empty()) {
+            mode.shape = order.iter().map(|k| mode.shape[*k]).collect();
+        }
+        self.modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+        self
+    }
+}

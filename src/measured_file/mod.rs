@@ -1,0 +1,27 @@
+//! Measured modes from a file: a table that somebody typed, or a universal file.
+
+pub mod table;
+pub mod direction;
+pub mod universal;
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::measured::data::Measured;
+
+/// Reads measured modes, by the ending of the file's name.
+///
+/// # Errors
+///
+/// [`Error::Value`] for another ending, and those of [`table::read`] and [`universal::read`].
+pub fn read(path: &Path) -> Result<Measured> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match ending.as_str() {
+        "csv" => table::read(path),
+        "uff" | "unv" => universal::read(path),
+        _ => {
+            let expected = "a file whose name ends with .csv, .uff or .unv";
+            Err(Error::value("measured modes", path.display(), expected))
+        }
+    }
+}
