@@ -118,7 +118,7 @@ fn line(text: &str, offset: usize) -> Range<usize> {
 }
 
 /// Where cell number `column` of the row at `offset` stands, the spaces around it left out.
-fn cell(text: &str, offset: usize, column: usize) -> Range<usize> {
+pub(crate) fn cell(text: &str, offset: usize, column: usize) -> Range<usize> {
     let (mut quoted, mut passed, mut start, mut end) = (false, 0, offset, text.len());
     for (at, byte) in (offset..).zip(text[offset..].bytes()) {
         match byte {

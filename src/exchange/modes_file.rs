@@ -6,8 +6,9 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use crate::bat::Bat;
-use crate::document::{Document, Node, Object};
+use crate::document::Document;
 use crate::error::Result;
+use crate::json_node::{Node, Object};
 
 /// The modes of a bat, sampled along it.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +70,7 @@ pub fn from_text(file: &str, text: &str) -> Result<ModeTable> {
 }
 
 fn parse(document: &Document) -> Result<ModeTable> {
-    let root = document.root()?.members()?;
+    let root = Node::root(document)?.members()?;
     check_format(&root)?;
     root.require("bat", "\"bat\": the bat these modes are of")?;
     let bat = bat(document)?;

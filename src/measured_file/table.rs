@@ -19,7 +19,7 @@ use std::path::Path;
 
 use faer::c64;
 
-use crate::csv_file::{cell_start, row_start};
+use crate::csv_file::row_start;
 use crate::document::Document;
 use crate::error::{Complaint, Error, Result};
 use crate::measured::data::{Measured, MeasuredMode};
@@ -69,7 +69,7 @@ impl<'a> Table<'a> {
         let mut rows = vec![];
         for record in reader.into_records() {
             let record = record.map_err(|error| {
-                document.error(0, Complaint::new("", error.to_string(), "rows of cells"))
+                document.error(0..0, Complaint::new("", error.to_string(), "rows of cells"))
             })?;
             let byte = record.position().map_or(0, |p| p.byte() as usize);
             let offset = row_start(&document.text, byte);
@@ -81,7 +81,7 @@ impl<'a> Table<'a> {
         }
         let expected = "a header such as x_in,mode_1,mode_2 or mode,frequency_hz";
         if rows.is_empty() {
-            return Err(document.error(0, Complaint::new("", "no header", expected)));
+            return Err(document.error(0..0, Complaint::new("", "no header", expected)));
         }
         let header = rows.remove(0);
         let table = Self { document, header, rows };
@@ -105,7 +105,7 @@ impl<'a> Table<'a> {
         found: &str,
         expected: impl Into<String>,
     ) -> Error {
-        let at = cell_start(&self.document.text, row.offset, cell);
+        let at = crate::csv_file::cell(&self.document.text, row.offset, cell);
         self.document.error(at, Complaint::new(field, found, expected))
     }
 

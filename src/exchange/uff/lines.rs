@@ -1,7 +1,7 @@
 //! The lines of a universal file, their fields, and where each stands.
 
 use super::number::{real, whole};
-use crate::error::{Complaint, Error, Place, Result, shortened};
+use crate::error::{Complaint, Error, Excerpt, Place, Result, shortened};
 
 /// Columns of a line of numbers in single precision.
 pub(super) const SINGLES: [usize; 6] = [13; 6];
@@ -232,7 +232,21 @@ impl<'a> Line<'a> {
         expected: impl Into<String>,
     ) -> Error {
         let (file, line) = (self.file.to_owned(), self.number);
-        let place = Place { file, line, column: column + 1 };
-        Error::Input { place, complaint: Complaint::new("", found, expected) }
+        let place = Place { file, line, column: column + 1, excerpt: self.excerpt(column) };
+        Error::Input { place: Box::new(place), complaint: Complaint::new("", found, expected) }
+    }
+
+    /// The line itself, of long ones the surroundings of the column; the word there is marked.
+    fn excerpt(self, column: usize) -> Excerpt {
+        const AROUND: usize = 60;
+        let (before, rest) = self.bytes.split_at(column.min(self.bytes.len()));
+        let word = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        let (marked, after) = rest.split_at(word.min(AROUND));
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Excerpt {
+            before: text(&before[before.len().saturating_sub(AROUND)..]),
+            marked: text(marked),
+            after: text(&after[..after.len().min(AROUND)]),
+        }
     }
 }
