@@ -6,7 +6,7 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{CM, tenths};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, digits};
+use crate::plot::series::{Series, digits, hover};
 use crate::plot::svg::{Anchor, LABEL, Mark, Pen, Point, Svg};
 use crate::plot::theme::{Ink, SERIES, TEXT, TINT};
 
@@ -57,7 +57,7 @@ fn in_time(who: [&str; 2], moments: &[Moment]) -> Picture {
         let curve = Series::curve(name, k, points).units("ms", unit).pen(Pen::new(SERIES[k], 2.0));
         curve.draw(&mut svg, &plane);
         name_peak(&mut svg, &plane, peak, &words);
-        curve.hover(&mut svg, &plane);
+        hover(&mut svg, &plane, &[&curve]);
         if k == 1 {
             plane.below(&mut svg);
         }
@@ -108,7 +108,7 @@ fn hysteresis(who: [&str; 2], moments: &[Moment], lost: f64) -> Picture {
     };
     svg.text([LEFT + 24.0, top + 30.0], LABEL, &lost);
     plane.below(&mut svg);
-    curve.hover(&mut svg, &plane);
+    hover(&mut svg, &plane, &[&curve]);
     let alt = format!(
         "Force against the ball's compression, up and back down, {}, {}: {lost}.",
         who[0], who[1]

@@ -6,7 +6,7 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, legend};
+use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{SERIES, series};
 use crate::units::miles_per_hour;
@@ -47,7 +47,11 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let mut svg = Svg::new(WIDTH, 0.0);
     let (title, name, facts) = words(subjects);
     head(&mut svg, title, [name, &facts]);
-    let keys = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]);
+    let keys = legend(
+        &mut svg,
+        &keys(&curves, alone).iter().collect::<Vec<_>>(),
+        [LEFT, HEAD + 10.0, WIDTH - 12.0],
+    );
     let top = keys + 12.0 + NUMBERS;
     let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
     let bottom = side + 6.0 + place::height(&rows);
@@ -70,7 +74,7 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     }
     place::rows(&mut svg, &strip, &rows);
     strip.below(&mut svg);
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     let alt = described(subjects, &rows);
     Some(Picture::new("exit_speed", title, &alt, svg))
 }
@@ -119,6 +123,17 @@ fn curves(k: usize, subject: &Subject, alone: bool) -> Vec<Series> {
     std::iter::once(bent).chain(rigid).filter(seen).collect()
 }
 
+/// What is named of the curves: of several bats that do not bend, one.
+fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
+    let stiff = |curve: &&Series| !alone && curve.pen.width < 2.0;
+    let mut named: Vec<Series> = curves.iter().filter(|c| !stiff(c)).cloned().collect();
+    if let Some(one) = curves.iter().find(stiff) {
+        let name = "thin: if it did not bend".to_owned();
+        named.push(Series { name, ..one.clone().pen(Pen { ink: SERIES[5], ..one.pen }) });
+    }
+    named
+}
+
 /// Where a single bat's exit speed is within 1 % of its best.
 fn zone(svg: &mut Svg, planes: [&Plane; 2], subjects: &[Subject]) {
     let [one] = subjects else { return };
@@ -159,8 +174,7 @@ fn row(subjects: &[Subject], what: &str, of: impl Fn(&SweetSpot) -> Option<f64>)
         (_, []) => return None,
         ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.length)),
         _ => {
-            let all: Vec<String> = places.iter().map(|(_, x)| format!("{:.1}", CM * x)).collect();
-            format!("{what}: {} cm", all.join(", "))
+            format!("{what}: {}", place::listed(&places))
         }
     };
     Some(Row::of_places(label, places))

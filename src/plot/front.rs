@@ -53,7 +53,7 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
             .pen(Pen::new(TEXT, 1.4))
     };
     keys.extend([&best, &planner]);
-    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0]) + 16.0;
+    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 16.0;
     let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
@@ -73,7 +73,7 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
         );
         (plane.at(at(run)), words)
     };
-    svg.hover(&front(runs).map(told).collect::<Vec<_>>());
+    svg.hover(&front(runs).map(told).collect::<Vec<_>>(), 60);
     let alt = format!("{name}: {facts}. {}", trade.words.join(". "));
     Some(Picture::new("front", title, &alt, svg))
 }

@@ -5,7 +5,7 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{CM, tenths};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, short};
+use crate::plot::series::{Series, hover, short};
 use crate::plot::svg::{Pen, SMALL, Svg};
 use crate::plot::theme::{FRAME, SERIES};
 
@@ -47,7 +47,7 @@ pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
         let curve = Series::curve(name, k, points).units("ms", unit);
         let curve = curve.pen(Pen::new(SERIES[k], 1.7));
         curve.draw(&mut svg, &plane);
-        curve.hover(&mut svg, &plane);
+        hover(&mut svg, &plane, &[&curve]);
         match k {
             0 => svg.text(
                 [LEFT, frame(0).top - 6.0],

@@ -159,7 +159,7 @@ fn draw(
             Some(([low[0], 0.5 * (low[1] + high[1])], words))
         };
         let told: Vec<_> = impacts.iter().zip(&edges).step_by(4).filter_map(energy).collect();
-        svg.hover(&told);
+        svg.hover(&told, 60 / layers.len().max(1));
     }
     let before = |i: &Impact| Some(plane.at([CM * i.x, i.outcome.as_ref()?.energy.initial]));
     let line: Vec<Option<Point>> = impacts.iter().map(before).collect();

@@ -35,6 +35,15 @@ pub fn shown(x: f64, length: f64) -> String {
     }
 }
 
+/// The places of several bats, once where they are the same.
+pub fn listed(places: &[(usize, f64)]) -> String {
+    let all: Vec<String> = places.iter().map(|(_, x)| tenths(CM * x)).collect();
+    match all.first() {
+        Some(one) if all.iter().all(|other| other == one) => format!("{one} cm"),
+        _ => format!("{} cm", all.join(", ")),
+    }
+}
+
 /// A length with one decimal, or as many as a small one needs.
 pub fn tenths(length: f64) -> String {
     match length.abs() {
@@ -42,6 +51,7 @@ pub fn tenths(length: f64) -> String {
         size if size < 1e5 && size > 1.0 => format!("{length:.0}"),
         _ => digits(length, 2),
     }
+    .replace('-', "−")
 }
 
 /// Marked places that belong together: one for each bat, or stretches.
@@ -83,7 +93,7 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) {
         for (bat, stretch) in &row.stretches {
             let [from, to] = stretch.map(across);
             // Of several bats one below the other.
-            let y = y + 4.0 * *bat as f64;
+            let y = y + 4.5 * (*bat as f64 - 0.5 * (row.stretches.len() - 1) as f64);
             svg.line(&[[from, y], [to, y]], Pen { width: 4.0, ..Pen::new(series(*bat).0, 4.0) });
             taken.extend([from - 2.0, to + 2.0]);
         }
@@ -108,7 +118,9 @@ fn arrow(svg: &mut Svg, bat: usize, [x, y]: [f64; 2], side: f64) {
 /// The mark of a bat's place.
 pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
     let mark: Mark = MARKS[bat % MARKS.len()];
-    svg.mark(mark, at, 4.5, series(bat).0, true);
+    // One that lies on another does not hide it.
+    let half = (5.2 - 0.7 * bat as f64).max(3.0);
+    svg.mark(mark, at, half, series(bat).0, true);
 }
 
 /// Thin lines from a height down to the marked places of the rows.
@@ -127,6 +139,9 @@ fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) {
     let first = taken.iter().fold(frame.right, |least, x| least.min(*x));
     let last = taken.iter().fold(frame.left, |most, x| most.max(*x));
     let [before, after] = [first - frame.left - 8.0, frame.right - last - 8.0];
+    // Where there is no room for what and where, what.
+    let whole = width(words, LABEL) <= before.max(after);
+    let words = if whole { words } else { words.split(':').next().unwrap_or(words) };
     let wide = width(words, LABEL);
     if wide > before.max(after) && after.max(before) < 120.0 {
         // Across what is taken all over.

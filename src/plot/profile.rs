@@ -8,7 +8,7 @@ use crate::plot::outline::{Lying, sections};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, digits, legend, short};
+use crate::plot::series::{Series, digits, hover, legend, short};
 use crate::plot::svg::{Anchor, Pen, SMALL, Svg};
 use crate::plot::theme::series;
 use crate::units::{inches, ounces};
@@ -70,9 +70,9 @@ pub fn picture(subjects: &[Subject]) -> Picture {
     strip.below(&mut svg);
     if subjects.len() > 1 {
         let outer: Vec<&Series> = curves.iter().filter(|c| c.pen.width > 1.5).collect();
-        legend(&mut svg, &outer, [LEFT, HEAD + 8.0]);
+        legend(&mut svg, &outer, [LEFT, HEAD + 8.0, WIDTH - 12.0]);
     }
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     Picture::new("profile", &title, &described(subjects, &rows), svg)
 }
 
@@ -180,8 +180,7 @@ fn marked(subjects: &[Subject]) -> Vec<Row> {
         let label = match (subjects, places.as_slice()) {
             ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.bat.length())),
             _ => {
-                let all: Vec<String> = places.iter().map(|(_, x)| place::tenths(CM * x)).collect();
-                format!("{what}: {} cm", all.join(", "))
+                format!("{what}: {}", place::listed(&places))
             }
         };
         (!places.is_empty()).then(|| Row::of_places(label, places))

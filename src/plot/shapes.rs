@@ -51,7 +51,7 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
     if subjects.len() > 1 {
         let lines: Vec<Series> =
             subjects.iter().enumerate().map(|(k, s)| Series::curve(s.name, k, vec![])).collect();
-        legend(&mut svg, &lines.iter().collect::<Vec<_>>(), [LEFT, HEAD + 8.0]);
+        legend(&mut svg, &lines.iter().collect::<Vec<_>>(), [LEFT, HEAD + 8.0, WIDTH - 12.0]);
     }
     plane.above(&mut svg, &tip);
     for order in 0..count {
@@ -165,5 +165,5 @@ fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, alone): (usize, &Mod
         }
     }
     let told = |x: &f64| ([plane.across(CM * x), axis], format!("node at {:.2} cm", CM * x));
-    svg.hover(&mode.nodes.iter().map(told).collect::<Vec<_>>());
+    svg.hover(&mode.nodes.iter().map(told).collect::<Vec<_>>(), 60);
 }

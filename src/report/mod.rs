@@ -4,7 +4,6 @@
 //! [`file::write`] writes a file that is whole or not there. Nothing here computes physics.
 
 pub mod file;
-pub mod svg;
 pub mod curve;
 pub mod resolved;
 pub mod damped;
