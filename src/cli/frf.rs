@@ -107,6 +107,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let modes = args.bat.count().max(1);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
+    let _progress = args.output.progress("modes and answers");
     let mut frf = reaching(&bat, &request, [at, to], args)?;
     let frequencies = frequencies(args, &frf)?;
     let samples = frf.receptances(&frequencies)?;
