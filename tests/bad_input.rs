@@ -1442,7 +1442,7 @@ fn a_wrong_command_line_is_refused() {
             &["neither a blow nor an initial shape", "--at X with --impulse J"],
         ),
         (&["ring", "bat.json", "--at", "0.6"], &["--impulse <J>", "--force <FILE>"]),
-        (&["ring", "bat.json", "--force", "f.csv"], &["--at <X>"]),
+        (&["ring", "bat.json", "--force", "f.csv"], &["--at <m>"]),
         (
             &["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--force", "f.csv"],
             &["cannot be used with"],
@@ -1452,7 +1452,7 @@ fn a_wrong_command_line_is_refused() {
             &["ring", "bat.json", "--at", "0.9", "--force", "f.csv"],
             &["--at: found 0.9 m", "0 to 0.8 m"],
         ),
-        (&["frf", "bat.json"], &["--at <X>"]),
+        (&["frf", "bat.json"], &["--at <m>"]),
         (&["frf", "bat.json", "--at", "0.9"], &["--at: found 0.9 m", "0 to 0.8 m"]),
         (&["frf", "bat.json", "--at", "0.6", "--to", "-1 mm"], &["--to: found -0.001 m"]),
         (&["frf", "bat.json", "--at", "0.6 s"], &["measures a time", "a length"]),
@@ -1485,7 +1485,7 @@ fn a_wrong_command_line_is_refused() {
         (&["frf", "bat.json", "--at", "0.6", "--points", "0"], &["1..="]),
         (&["frf", "bat.json", "--at", "0.6", "--csv", "-", "--json", "-"], &["--csv: found -"]),
         (&["frf", "bat.json", "--at", "0.6", "--budget", "5 ms"], &["--budget", "frf"]),
-        (&["ring", "bat.json", "--impulse", "1"], &["--at <X>"]),
+        (&["ring", "bat.json", "--impulse", "1"], &["--at <m>"]),
         (
             &["ring", "bat.json", "--at", "0.9", "--impulse", "1"],
             &["--at: found 0.9 m", "0 to 0.8 m"],

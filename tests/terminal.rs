@@ -16,34 +16,46 @@ fn mesh(name: &str) -> String {
     format!("{MESHES}/{name}.json")
 }
 
+/// What is wrong with the table of that command: more than 80 columns, but for lines that hold the
+/// bat's own name, or colour in a pipe.
+fn table_faults(folder: &Folder, args: &[&str], name: &str) -> Vec<String> {
+    let output = folder.run(args);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let wide = wider(&text, 80).into_iter().filter(|line| !line.contains(name));
+    let mut faults: Vec<String> = wide.map(|line| format!("{args:?}: {line}")).collect();
+    if output.status.code() != Some(0) || text.contains('\u{1b}') {
+        faults.push(format!("{args:?}: {output:?}"));
+    }
+    faults
+}
+
 #[test]
-fn tables_fit_eighty_columns_on_every_bat_in_every_unit() {
+fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
     let folder = Folder::new("columns");
     let mut faults = Vec::new();
     for entry in fs::read_dir(MESHES).unwrap() {
         let path = entry.unwrap().path();
         let bat = path.to_str().unwrap();
         let name = Bat::from_file(&path).unwrap().name;
-        for units in ["si", "us", "both"] {
-            for args in [
-                &["analyze", bat][..],
-                &["modes", bat, "-n", "30", "--tol", "1e-8"],
-                &["hit", bat, "--points", "5"],
-                &["hit", bat, "--points", "3", "--reference-inertia", "10000 oz in2"],
-                &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
-                &["frf", bat, "--at", "0.6", "--points", "5"],
-                &["advise", bat],
-                &["materials"],
-            ] {
-                let args = [args, &["--units", units]].concat();
-                let output = folder.run(&args);
-                let text = String::from_utf8_lossy(&output.stdout);
-                if output.status.code() != Some(0) || text.contains('\u{1b}') {
-                    faults.push(format!("{args:?}: {output:?}"));
-                }
-                let wide = wider(&text, 80).into_iter().filter(|line| !line.contains(&name));
-                faults.extend(wide.map(|line| format!("{args:?}: {line}")));
-            }
+        for args in [
+            &["analyze", bat][..],
+            &["modes", bat, "-n", "25"],
+            &["hit", bat, "--points", "3", "--reference-inertia", "10000 oz in2"],
+            &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
+            &["frf", bat, "--at", "0.6", "--points", "3"],
+            &["advise", bat],
+        ] {
+            faults.extend(table_faults(&folder, args, &name));
+        }
+        for units in ["si", "us"] {
+            faults.extend(table_faults(&folder, &["modes", bat, "--units", units], &name));
+        }
+    }
+    let bat = mesh("r161");
+    for units in ["si", "us", "both"] {
+        for args in [&["analyze", &bat][..], &["hit", &bat, "--points", "5"], &["materials"]] {
+            let args = [args, &["--units", units]].concat();
+            faults.extend(table_faults(&folder, &args, "Louisville"));
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");
@@ -110,14 +122,14 @@ fn a_long_wait_shows_a_bar_with_the_time_left_and_takes_it_away() {
     let folder = Folder::new("bar");
     let trade = format!("trade {} -n 3 --budget '3 s'", mesh("dowel"));
     let Some(seen) = seen(&folder, &trade, &[]) else { return };
-    let (waiting, table) = seen.split_once("Front: ").unwrap();
+    let (waiting, table) = seen.split_once("Front:").unwrap();
     assert!(waiting.contains(" %, ") && waiting.contains(" left  "), "{waiting}");
     let line = waiting.rsplit("\u{1b}[2K").next().unwrap();
     assert!(!line.contains(" left ") && !table.contains(" left  "), "{line}");
     let quiet = self::seen(&folder, &format!("{trade} --quiet"), &[]).unwrap();
     assert!(!quiet.contains("\u{1b}[2K"), "{quiet}");
     // Nobody waits at a pipe.
-    let output = folder.run(&["trade", &mesh("dowel"), "-n", "3", "--budget", "1 s"]);
+    let output = folder.run(&["trade", &mesh("r161"), "-n", "3", "--budget", "1 s"]);
     assert!(output.stderr.is_empty(), "{output:?}");
 }
 

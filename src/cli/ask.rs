@@ -121,8 +121,9 @@ pub fn station(
         let reason = "the knob end's diameter begins the bat";
         return if last < 0.0 { Err(reason.into()) } else { Ok(None) };
     }
-    // A comma without a space is no separator: whoever writes 1,5 means one and a half.
-    let (x, diameter) = match (text.split_once(", "), suggested) {
+    // Where a diameter alone will do, whoever writes 1,5 means one and a half.
+    let comma = if suggested.is_some() { ", " } else { "," };
+    let (x, diameter) = match (text.split_once(comma), suggested) {
         (Some((x, diameter)), _) => (measured(x, unit)?, diameter),
         (None, Some(x)) => (x, text),
         (None, None) => return Err(format!("{text}: expected a place and its diameter")),

@@ -118,6 +118,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let request = Request { modes: request.modes.max(1), ..request };
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
+    let _progress = args.output.progress("modes and answers");
     let mut frf = reaching(&bat, &request, [at, to], args)?;
     let (frequencies, even) = frequencies(args, &frf)?;
     let samples = frf.receptances(&frequencies)?;

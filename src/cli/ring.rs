@@ -123,6 +123,7 @@ const EXAMPLES: &str = "\
       the deflected dowel after a blow, at three instants";
 
 pub fn run(args: &Args) -> Result<Done> {
+    let _progress = args.output.progress("modes and motion");
     let bat = args.bat.read(&args.output)?;
     if let Some(x) = args.hit {
         return after_hit(args, bat, x);
