@@ -123,6 +123,8 @@ pub mod known_hits;
 pub mod validation;
 pub mod analysis;
 pub mod report;
+pub mod plot;
+pub mod page;
 pub mod published;
 pub mod hit_figure;
 pub mod validation_page;

@@ -5,6 +5,11 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use sweetspot::analysis::{Analysis, Proof, Task};
 use sweetspot::error::{Error, Result};
+use sweetspot::page;
+use sweetspot::page::content::Report;
+use sweetspot::page::file::Kind;
+use sweetspot::page::inputs::Input;
+use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::text::{self, Units};
 use sweetspot::report::{advice, file, hit_json, hit_text};
@@ -16,7 +21,9 @@ use crate::cli::hit::verdict as hit_verdict;
 
 /// Everything about a bat: modes, proof on the dowel, collision, sweet spot
 ///
-/// Example: sweetspot analyze meshes/r161.json --out r161
+/// Example: sweetspot analyze meshes/r161.json --report r161.html
+///
+/// Example: sweetspot analyze meshes/r161.json --out r161 --plots r161
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -32,6 +39,15 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Draw everything into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
+    /// Write a report for people into this file: a page of its own (.html), or Markdown (.md) with
+    /// its pictures in a folder beside it
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long)]
     reproducible: bool,
@@ -42,6 +58,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
+    // A report that cannot be written is told before it is computed.
+    args.report.as_deref().map(Kind::of).transpose()?;
     args.output.progress("solving …");
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
@@ -54,11 +72,30 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.out {
         write_out(args, &analysis, folder)?;
     }
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &sets::of_analysis(&analysis)?)?;
+    }
+    if let Some(path) = &args.report {
+        let mut inputs = Input::of_bat(args.bat.path())?;
+        inputs.extend(args.scene.ball_file().map(Input::read).transpose()?);
+        page::file::write(path, &Report::new(&analysis, command(), inputs)?)?;
+    }
     let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let text = args.output.deliver(table(&analysis, args.output.units), both)?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// The command as it was typed, so that a shell reads it again.
+fn command() -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
+    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
+        true => arg,
+        false => format!("'{}'", arg.replace('\'', "'\\''")),
+    };
+    let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
+    std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
 }
 
 /// Everything on one screen.

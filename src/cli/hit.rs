@@ -1,9 +1,13 @@
 //! `sweetspot hit BAT`: the collision along the barrel.
 
+use std::path::PathBuf;
+
 use sweetspot::bat::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::error::{Error, Result};
+use sweetspot::plot::sets::Hits;
+use sweetspot::plot::{picture, profile};
 use sweetspot::report::{hit_json, hit_text};
 use sweetspot::units::Quantity;
 
@@ -28,6 +32,11 @@ pub struct Args {
 
     #[command(flatten)]
     solve: SolveArgs,
+
+    /// Draw into this folder, as SVG and PNG: the bat, exit speed and energies along it (without
+    /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
 
     #[command(flatten)]
     output: OutputArgs,
@@ -96,6 +105,14 @@ pub fn run(args: &Args) -> Result<Done> {
     let sweep = sweep(&bat, model, &scene, &request, args.bat.asked(), &places)?;
     args.solve.say_raised(&sweep.solution, &args.output);
     let figures = Figures::new(&bat, (model, sweep.effort), (&scene, law), &sweep.solution)?;
+    if let Some(folder) = &args.plots {
+        let subject =
+            profile::Subject { name: &bat.name, bat: &bat, swing_pivot: Some(scene.pivot) };
+        let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
+        let mut pictures = vec![profile::picture(&[subject])];
+        pictures.extend(hits.pictures(args.place.at)?);
+        picture::write(folder, &pictures)?;
+    }
     let units = args.output.units;
     let table = format!(
         "{}{}\n{}\n{}{}{}\n{}\n{}",

@@ -72,7 +72,7 @@ enum Verb {
 const LATER_VERBS: &[&str] =
     &["convert", "schema", "compare", "fit", "tune", "sweep", "lab", "new"];
 /// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] = &["--up-to", "--report", "--plots"];
+const LATER_OPTIONS: &[&str] = &["--up-to"];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
+use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, text};
 
@@ -28,6 +29,10 @@ pub struct Args {
     /// Write stiffness.mtx and mass.mtx (Matrix Market) of the mesh into this folder
     #[arg(long, value_name = "DIR")]
     matrices: Option<PathBuf>,
+
+    /// Draw the bat and its mode shapes into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
 
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long)]
@@ -56,6 +61,9 @@ pub fn run(args: &Args) -> Result<Done> {
             write_matrix_market(matrix, &mut text).map_err(failed)?;
             file::write(&folder.join(name), &text)?;
         }
+    }
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &sets::of_modes(&bat, &solution, None))?;
     }
     let table = format!(
         "{}\n{}\n{}",

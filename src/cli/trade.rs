@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::error::{Error, Result};
+use sweetspot::plot::{front, picture, sets};
 use sweetspot::report::{file, trade, u_curve};
 use sweetspot::solve::Request;
 use sweetspot::trade::measure::measure;
@@ -48,6 +49,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
+    /// Draw the front, or the U-curves of the first and the last mode, into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
     /// No warnings and no progress on standard error
     #[arg(long)]
     quiet: bool,
@@ -73,7 +78,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let theory = request.theory;
     let mut progress = Progress::new(args.quiet);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
-    let (table, document, rows) = if args.u_curve {
+    let (table, document, rows, pictures) = if args.u_curve {
         progress.say("the reference");
         let reference = Reference::of(&bat, modes, theory)?;
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
@@ -81,12 +86,17 @@ pub fn run(args: &Args) -> Result<Done> {
             progress.say(what);
         });
         let document = u_curve::json(&bat, &reference, &columns);
-        (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns))
+        let pictures = sets::of_u_curve(&bat.name, &columns, modes);
+        (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns), pictures)
     } else {
         let say = &mut |what: &str| progress.say(what);
         let trade = measure(&bat, modes, theory, time(TRADE), say)?;
-        (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade))
+        let pictures = front::picture(&bat.name, &trade).into_iter().collect();
+        (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade), pictures)
     };
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &pictures)?;
+    }
     Ok(Done::new(deliver(args, table, &document, rows)?, 0).with(warning))
 }
 

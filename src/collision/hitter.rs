@@ -258,6 +258,12 @@ impl<'a> Hitter<'a> {
         Some(self.collider.as_ref()?.meet_recorded(&felt, &law, closing, SMOOTH).1)
     }
 
+    /// The ball's law in a contact at `x` (m); None where there is none.
+    pub fn law(&self, x: f64) -> Option<ForceLaw> {
+        self.collider.as_ref()?;
+        self.law_at(&self.felt(x), self.closing(x)?)
+    }
+
     /// `1/M_eff` (1/kg): how a bat that does not bend gives way at `x`.
     fn recoil(&self, x: f64) -> f64 {
         if self.held { recoil_between(&self.stiff, x, x) } else { 1.0 / self.bat.recoil_mass(x) }

@@ -11,6 +11,7 @@ pub mod struck;
 pub mod rigid;
 pub mod energy_loss;
 pub mod pulse;
+pub mod history;
 pub mod aftermath;
 pub mod hit;
 pub mod hitter;

@@ -2,13 +2,15 @@
 
 use crate::analysis::Analysis;
 use crate::collision::hit::Model;
+use crate::error::Result;
 use crate::page::accuracy;
 use crate::page::inputs::{self, Input};
-use crate::page::moment::Moment;
+use crate::page::moment::{Moment, moments};
 use crate::page::summary::{NO_HIT, Summary};
 use crate::page::table::Table;
 use crate::page::tables;
 use crate::plot::picture::Picture;
+use crate::plot::sets::of_analysis;
 
 /// What a report is made from.
 #[derive(Debug, Clone)]
@@ -57,6 +59,17 @@ pub enum Part<'a> {
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
+    /// The report of an analysis, asked for by that command with those files.
+    ///
+    /// # Errors
+    ///
+    /// Those of a hit that cannot be computed, as of [`crate::collision::hitter::Hitter::new`].
+    pub fn new(analysis: &'a Analysis, command: String, inputs: Vec<Input>) -> Result<Self> {
+        let (pictures, moments) = (of_analysis(analysis)?, moments(analysis)?);
+        let summary = Summary::new(analysis);
+        Ok(Self { analysis, command, inputs, pictures, moments, summary })
+    }
+
     /// Everything below the summary, in order.
     pub fn sections(&'a self) -> Vec<Section<'a>> {
         let section = |id, title, parts| Section { id, title, parts };
@@ -92,7 +105,8 @@ impl<'a> Report<'a> {
         if !self.hits() {
             return vec![Part::Missing(NO_HIT)];
         }
-        let mut parts: Vec<Part> = accuracy::why(self.analysis).map(Part::Text).into_iter().collect();
+        let mut parts: Vec<Part> =
+            accuracy::why(self.analysis).map(Part::Text).into_iter().collect();
         parts.extend(self.hovered("exit_speed"));
         parts.push(Part::Table(tables::sweet_spots(self.analysis)));
         parts.extend(self.pictured(&["hands"]));
@@ -183,7 +197,6 @@ impl<'a> Report<'a> {
             Part::List(SOURCES.map(str::to_owned).to_vec()),
         ]
     }
-
 }
 
 /// Where the physics comes from.

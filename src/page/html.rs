@@ -18,10 +18,6 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
                       img-src data:; base-uri 'none'; form-action 'none'";
 
 /// The whole page.
-///
-/// # Errors
-///
-/// None but those of a number that JSON cannot hold, of which there is none.
 pub fn page(report: &Report) -> String {
     let sections = report.sections();
     let name = escaped(&report.analysis.bat.name);
@@ -85,8 +81,9 @@ fn contents(sections: &[Section]) -> String {
 
 /// The card with the numbers that are asked for first.
 fn summary(report: &Report) -> String {
-    let mut out =
-        String::from("<section id=\"summary\" aria-labelledby=\"summary-title\">\n<h2 id=\"summary-title\">Summary</h2>\n");
+    let mut out = String::from(
+        "<section id=\"summary\" aria-labelledby=\"summary-title\">\n<h2 id=\"summary-title\">Summary</h2>\n",
+    );
     let headline = report.summary.headline();
     if headline.is_empty() {
         let _ = writeln!(out, "<p class=\"missing\">{}</p>", escaped(NO_HIT));
@@ -151,7 +148,8 @@ fn part(report: &Report, one: &Part) -> String {
 }
 
 fn list(items: &[String]) -> String {
-    let items: Vec<String> = items.iter().map(|item| format!("<li>{}</li>\n", escaped(item))).collect();
+    let items: Vec<String> =
+        items.iter().map(|item| format!("<li>{}</li>\n", escaped(item))).collect();
     format!("<ul>\n{}</ul>\n", items.concat())
 }
 

@@ -1,9 +1,12 @@
 //! What was asked: the scene, the files as they were written, the bat as it was understood.
 
+use std::path::Path;
+
 use serde_json::Value;
 
 use crate::analysis::Analysis;
 use crate::collision::hit::Model;
+use crate::error::{Error, Result};
 use crate::page::shown::{self, NONE, inline, length, speed};
 use crate::page::table::Table;
 use crate::report::hit_json::model_name;
@@ -19,6 +22,34 @@ pub struct Input {
 impl Input {
     /// Longer ones are cut in a page.
     pub const MOST: usize = 60_000;
+
+    /// Reads one, whatever it holds.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |source| Error::Read { path: path.to_owned(), source };
+        let bytes = std::fs::read(path).map_err(failed)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim_start_matches('\u{feff}').to_owned();
+        Ok(Self { name: path.display().to_string(), text })
+    }
+
+    /// A bat file, and the columns that it names.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn of_bat(path: &Path) -> Result<Vec<Self>> {
+        let bat = Self::read(path)?;
+        let document: Value = serde_json::from_str(&bat.text).unwrap_or_default();
+        let mut all = vec![bat];
+        if let Some(columns) = document["profile"]["csv"].as_str() {
+            all.push(Self::read(&path.with_file_name(columns))?);
+        }
+        Ok(all)
+    }
 
     /// The text as a page shows it, and whether that is all of it.
     pub fn shown(&self) -> (&str, bool) {
@@ -43,7 +74,10 @@ pub fn scene(analysis: &Analysis) -> Table {
         }
         Model::Pulse(pulse) => {
             line("duration of the force", format!("{} ms", shown::plain(1e3 * pulse.duration)));
-            line("share of the vibration that the ball does not lose", shown::plain(pulse.loss_share));
+            line(
+                "share of the vibration that the ball does not lose",
+                shown::plain(pulse.loss_share),
+            );
         }
         Model::Rigid | Model::Contact => {}
     }
@@ -64,10 +98,13 @@ pub fn scene(analysis: &Analysis) -> Table {
         let law = format!("{} N/m^α, α = {}", shown::plain(stiffness), shown::plain(exponent));
         line("  its force, k u^α, k", law);
     }
-    line("coefficient of restitution", match ball.cor_by_speed.is_empty() {
-        true => shown::plain(scene.cor),
-        false => "by its speed, see the ball's file".to_owned(),
-    });
+    line(
+        "coefficient of restitution",
+        match ball.cor_by_speed.is_empty() {
+            true => shown::plain(scene.cor),
+            false => "by its speed, see the ball's file".to_owned(),
+        },
+    );
     if !ball.source.is_empty() {
         line("  the ball's source", ball.source.clone());
     }

@@ -22,7 +22,9 @@ pub fn text(report: &Report, pictures: &str) -> String {
         let _ = writeln!(out, "{}\n", escaped(NO_HIT));
     }
     let mut table = Table::of_words("Computed, not certified", &["What", "SI", "US", "Remark"]);
-    for Fact { label, values: [si, us], note, .. } in headline.into_iter().chain(report.summary.facts()) {
+    for Fact { label, values: [si, us], note, .. } in
+        headline.into_iter().chain(report.summary.facts())
+    {
         table.row([label.to_owned(), si, us, note]);
     }
     out += &table.markdown();
@@ -41,7 +43,8 @@ fn part(one: &Part, pictures: &str) -> String {
         Part::Text(text) => format!("{}\n\n", escaped(text)),
         Part::Missing(why) => format!("{}\n\n", escaped(why)),
         Part::List(items) => {
-            let items: Vec<String> = items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
+            let items: Vec<String> =
+                items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
             format!("{}\n", items.concat())
         }
         Part::Table(table) => table.markdown(),

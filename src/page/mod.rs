@@ -17,3 +17,4 @@ pub mod content;
 pub mod players;
 pub mod html;
 pub mod markdown;
+pub mod file;

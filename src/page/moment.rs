@@ -82,7 +82,10 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
         times_ms: times.iter().map(|t| rounded(1e3 * t, 3)).collect(),
         force_kn: instants.iter().map(|now| rounded(1e-3 * now.force, 2)).collect(),
         gap_mm: gaps.map(|gap| rounded(1e3 * gap, 2)).collect(),
-        bending_10_um: bent.iter().map(|w| w.iter().map(|w| (1e5 * w).round() as i32).collect()).collect(),
+        bending_10_um: bent
+            .iter()
+            .map(|w| w.iter().map(|w| (1e5 * w).round() as i32).collect())
+            .collect(),
     })
 }
 
@@ -130,7 +133,8 @@ impl Frame {
         }
         let mut w: Vec<f64> = self.places.iter().map(|x| after.motion(*x, now)[0]).collect();
         let Some(masses) = &self.masses else { return w };
-        let sum = |of: &dyn Fn(usize) -> f64| -> f64 { (0..PLACES).map(|k| masses[k] * of(k)).sum() };
+        let sum =
+            |of: &dyn Fn(usize) -> f64| -> f64 { (0..PLACES).map(|k| masses[k] * of(k)).sum() };
         let mass = sum(&|_| 1.0);
         let middle = sum(&|k| self.places[k]) / mass;
         let moved = sum(&|k| w[k]) / mass;

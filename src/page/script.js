@@ -181,10 +181,10 @@
       ["left in vibration", shown(curve.vibration_j[k], 2, "J")],
     ];
   };
-  const hair = (sheet) => {
-    const picture = sheet.querySelector("svg"), slider = sheet.querySelector(".hair input");
+  const hair = (picture) => {
+    const sheet = picture.parentElement, slider = sheet.querySelector(".hair input");
     const reading = sheet.querySelector(".reading");
-    const [left, top, right, bottom] = sheet.dataset.frame.split(" ").map(Number);
+    const [left, top, right, bottom] = picture.dataset.frame.split(" ").map(Number);
     const [, , width] = picture.getAttribute("viewBox").split(" ").map(Number);
     const line = drawn(picture, "line", { class: "hairline", y1: top, y2: bottom });
     const holder = slider.parentElement;
@@ -221,7 +221,7 @@
   if (film) modes(film);
   if (hit) moment(hit);
   if (places.length > 1) {
-    document.querySelectorAll("[data-frame]").forEach(hair);
+    document.querySelectorAll("svg[data-frame]").forEach(hair);
     const spot = data.summary.sweet_spot_m ?? places[0];
     const near = (best, x, k) => Math.abs(x - spot) < Math.abs(places[best] - spot) ? k : best;
     if (hairs.length) point(places.reduce(near, 0));

@@ -130,7 +130,8 @@ impl Summary {
             facts.push(fact("frequencies_hz", "First bending frequency", values, note));
         }
         if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
-            let note = format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
+            let note =
+                format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
             let values = [format!("{free:.3}"), none()];
             facts.push(fact("bbcor", "BBCOR-like figure", values, note));
         }
@@ -139,6 +140,5 @@ impl Summary {
 }
 
 /// Why there is no headline.
-pub const NO_HIT: &str =
-    "There is no sweet spot to show: in this scene ball and bat do not meet, or the model has no \
+pub const NO_HIT: &str = "There is no sweet spot to show: in this scene ball and bat do not meet, or the model has no \
      solution.";

@@ -66,8 +66,9 @@ impl Table {
             let cells: Vec<String> = cells.iter().map(|cell| escape::markdown(cell)).collect();
             format!("| {} |\n", cells.join(" | "))
         };
-        let rule: Vec<&str> =
-            (0..self.head.len()).map(|k| if k == 0 || self.words { "---" } else { "---:" }).collect();
+        let rule: Vec<&str> = (0..self.head.len())
+            .map(|k| if k == 0 || self.words { "---" } else { "---:" })
+            .collect();
         let mut out = format!("{}:\n\n", escape::markdown(&self.caption));
         out += &line(&self.head);
         let _ = writeln!(out, "| {} |", rule.join(" | "));

@@ -1,0 +1,163 @@
+//! How fast the ball leaves along the bat, and where the sweet spot is by each definition.
+
+use crate::collision::hit::Impact;
+use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::place::{self, CM, Row};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
+use crate::plot::series::{Series, legend};
+use crate::plot::svg::{Pen, Svg};
+use crate::plot::theme::{SERIES, series};
+use crate::units::miles_per_hour;
+
+/// A bat, the name it has in the picture, its hits and its sweet spot.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    pub name: &'a str,
+    /// m
+    pub length: f64,
+    /// By rising place.
+    pub impacts: &'a [Impact],
+    pub spot: &'a SweetSpot,
+}
+
+/// Right of the frame there is a second axis.
+const RIGHT: f64 = 66.0;
+/// Of the curves' diagram (px).
+const DIAGRAM: f64 = 230.0;
+
+/// Exit speed against place, the same of bats that do not bend, and rows of sweet spots; picture
+/// `exit_speed`. None without two places.
+pub fn picture(subjects: &[Subject]) -> Option<Picture> {
+    let places = subjects.iter().flat_map(|s| s.impacts.iter().map(|i| i.x));
+    let [from, to] = places
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [f64::min(a, x), f64::max(b, x)]);
+    let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
+    let values = || curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
+    if from >= to || values().next().is_none() {
+        return None;
+    }
+    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
+    let [knob, tip] = place::axes([from, to], &bats);
+    let y = Axis::around("exit speed (m/s)", values(), 7);
+    let rows = sweet_spots(subjects);
+    let mut svg = Svg::new(WIDTH, 0.0);
+    let (title, second) = words(subjects);
+    head(&mut svg, &title, &second);
+    let keys = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]);
+    let top = keys + 12.0 + NUMBERS;
+    let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
+    let bottom = side + 6.0 + place::height(&rows);
+    svg.height = bottom + NUMBERS + 4.0;
+    svg.read_off = Some([LEFT, top, right, bottom]);
+    let plane = Plane { frame: Frame { left: LEFT, top, right, bottom: side }, x: knob, y };
+    let strip = Frame { left: LEFT, top: side + 6.0, right, bottom };
+    let strip = Plane { frame: strip, ..plane.clone() };
+    zone(&mut svg, [&plane, &strip], subjects);
+    plane.draw(&mut svg);
+    plane.above(&mut svg, &tip);
+    let fast = [plane.y.from, plane.y.to].map(miles_per_hour);
+    plane.right(&mut svg, &Axis::new("exit speed (mph)", fast));
+    curves.iter().rev().for_each(|curve| curve.draw(&mut svg, &plane));
+    for (k, subject) in subjects.iter().enumerate() {
+        if let Some(Peak { x, value }) = subject.spot.exit_speed_max {
+            if plane.x.holds(CM * x) && plane.y.holds(value) {
+                place::mark(&mut svg, k, plane.at([CM * x, value]));
+            }
+        }
+    }
+    place::rows(&mut svg, &strip, &rows);
+    strip.below(&mut svg);
+    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    let alt = described(subjects, &rows);
+    Some(Picture::new("exit_speed", &title, &alt, svg))
+}
+
+fn words(subjects: &[Subject]) -> (String, String) {
+    let second = match subjects {
+        [one] => match one.spot.exit_speed_max {
+            Some(Peak { x, value }) => format!(
+                "{}: at most {value:.1} m/s ({:.1} mph), {}",
+                one.name,
+                miles_per_hour(value),
+                place::shown(x, one.length)
+            ),
+            None => one.name.to_owned(),
+        },
+        _ => "each bat as it is, and if it did not bend".to_owned(),
+    };
+    ("Exit speed along the bat".to_owned(), second)
+}
+
+fn described(subjects: &[Subject], rows: &[Row]) -> String {
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
+    format!(
+        "Exit speed of the ball against where it meets the bat, of {}, with the same if the bat did \
+         not bend. Sweet spots: {}.",
+        names.join(", "),
+        places.join("; ")
+    )
+}
+
+/// As the bat is, and if it did not bend.
+fn curves(k: usize, subject: &Subject) -> Vec<Series> {
+    let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
+        let points = subject.impacts.iter().map(|i| Some([CM * i.x, of(i)?])).collect();
+        Series::curve(name, k, points).units("cm", "m/s")
+    };
+    let name = subject.name;
+    let rigid = curve(&format!("{name}, if it did not bend"), &|i| i.rigid_exit_speed);
+    let pen = if k == 0 { Pen::new(SERIES[5], 1.4) } else { Pen::new(series(k).0, 1.2) };
+    let bent = curve(name, &|i| i.outcome.as_ref().map(|o| o.exit_speed));
+    let curves = [bent, rigid.pen(pen.dashed("5 4"))];
+    curves.into_iter().filter(|curve| curve.points.iter().any(Option::is_some)).collect()
+}
+
+/// Where a single bat's exit speed is within 1 % of its best.
+fn zone(svg: &mut Svg, planes: [&Plane; 2], subjects: &[Subject]) {
+    let [one] = subjects else { return };
+    if let Some(zone) = one.spot.zone {
+        let zone = zone.map(|x| CM * x);
+        planes.iter().for_each(|plane| plane.band(svg, zone, SERIES[0]));
+    }
+}
+
+/// A row for every definition that has a place.
+fn sweet_spots(subjects: &[Subject]) -> Vec<Row> {
+    type Of = fn(&SweetSpot) -> Option<f64>;
+    let all: [(&str, Of); 7] = [
+        ("fastest ball", |s| s.exit_speed_max.map(|p| p.x)),
+        ("least vibration", |s| s.vibration_min.map(|p| p.x)),
+        ("node of mode 1", |s| s.node_mode_1),
+        ("node of mode 2", |s| s.node_mode_2),
+        ("centre of percussion of the swing", |s| s.center_of_percussion),
+        ("slowest at the hands", |s| s.hands_velocity_min.map(|p| p.x)),
+        ("least shaken at the hands", |s| s.hands_acceleration_min.map(|p| p.x)),
+    ];
+    let mut rows: Vec<Row> = all.iter().filter_map(|(what, of)| row(subjects, what, *of)).collect();
+    let zones: Vec<(usize, [f64; 2])> =
+        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, s.spot.zone?))).collect();
+    if let [(_, [from, to])] = zones.as_slice() {
+        let label = format!("within 1 %: {:.1} to {:.1} cm", CM * from, CM * to);
+        rows.insert(1.min(rows.len()), Row::of_stretches(label, zones));
+    } else if !zones.is_empty() {
+        rows.insert(1.min(rows.len()), Row::of_stretches("within 1 %".into(), zones));
+    }
+    rows
+}
+
+fn row(subjects: &[Subject], what: &str, of: impl Fn(&SweetSpot) -> Option<f64>) -> Option<Row> {
+    let places: Vec<(usize, f64)> =
+        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s.spot)?))).collect();
+    let label = match (subjects, places.as_slice()) {
+        (_, []) => return None,
+        ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.length)),
+        _ => {
+            let all: Vec<String> = places.iter().map(|(_, x)| format!("{:.1}", CM * x)).collect();
+            format!("{what}: {} cm", all.join(", "))
+        }
+    };
+    Some(Row::of_places(label, places))
+}

@@ -1,0 +1,76 @@
+//! What the hands feel: displacement and velocity of the handle after a hit.
+
+use crate::collision::aftermath::Aftermath;
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::place::CM;
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
+use crate::plot::series::{Series, short};
+use crate::plot::svg::{Pen, SMALL, Svg};
+use crate::plot::theme::{FRAME, SERIES};
+
+/// Instants of the curves.
+const INSTANTS: usize = 700;
+/// Of each of the diagrams, and between them (px).
+const DIAGRAM: f64 = 150.0;
+const BETWEEN: f64 = 18.0;
+
+/// Displacement and velocity at `x` (m) against time; picture `hands`. None where there is no force.
+pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
+    let until = span(after, x);
+    if until <= 0.0 {
+        return None;
+    }
+    let times: Vec<f64> = (0..=INSTANTS).map(|k| until * k as f64 / INSTANTS as f64).collect();
+    let motions: Vec<[f64; 4]> = after
+        .at(&times)
+        .iter()
+        .map(|now| {
+            let [moved, speed, pulled] = after.motion(x, now);
+            [1e3 * now.time, 1e3 * moved, speed, pulled]
+        })
+        .collect();
+    let frame = |k: usize| {
+        let top = HEAD + 20.0 + k as f64 * (DIAGRAM + BETWEEN);
+        Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
+    };
+    let mut svg = Svg::new(WIDTH, frame(1).bottom + NUMBERS + 4.0);
+    let title = "What the hands feel";
+    let second = format!(
+        "{name}, {:.1} cm from the knob end, against the swing; hit at {:.1} cm, + is forwards",
+        CM * x,
+        CM * after.place
+    );
+    head(&mut svg, title, &second);
+    let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
+    let rows = [("displacement (mm)", "displacement", "mm"), ("velocity (m/s)", "velocity", "m/s")];
+    let mut peaks = vec![];
+    for (k, (label, name, unit)) in rows.into_iter().enumerate() {
+        let points: Vec<_> = motions.iter().map(|m| Some([m[0], m[k + 1]])).collect();
+        let y = Axis::around(label, motions.iter().map(|m| m[k + 1]).chain([0.0]), 6);
+        let plane = Plane { frame: frame(k), x: along.clone(), y };
+        plane.band(&mut svg, [0.0, 1e3 * after.end()], SERIES[5]);
+        plane.draw(&mut svg);
+        let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
+        svg.line(&zero, Pen::new(FRAME, 1.2));
+        let curve = Series::curve(name, k, points).units("ms", unit);
+        let curve = curve.pen(Pen::new(SERIES[k], 1.7));
+        curve.draw(&mut svg, &plane);
+        curve.hover(&mut svg, &plane);
+        match k {
+            0 => svg.text([LEFT, frame(0).top - 6.0], SMALL, "tinted: the ball is on the bat"),
+            _ => plane.below(&mut svg),
+        }
+        let most = motions.iter().map(|m| m[k + 1].abs()).fold(0.0, f64::max);
+        peaks.push(format!("{name} up to {} {unit}", short(most)));
+    }
+    let alt = format!("Motion of the handle in time: {second}. {}.", peaks.join(", "));
+    Some(Picture::new("hands", title, &alt, svg))
+}
+
+/// How long is shown (s): the touch a few times, and three swings of the first mode.
+fn span(after: &Aftermath, x: f64) -> f64 {
+    let touch = 5.0 * after.end();
+    let slowest = after.lines(x).first().map_or(0.0, |line| 3.0 / line.frequency);
+    touch.max(slowest.min(40.0 * after.end()))
+}

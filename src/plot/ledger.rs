@@ -1,0 +1,170 @@
+//! Where the energy of a hit goes, along the bat.
+
+use crate::collision::hit::{Energy, Impact};
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::place::{self, CM};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
+use crate::plot::series::{Tag, room, short, tags};
+use crate::plot::svg::{Pen, Point, Svg};
+use crate::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
+
+/// Modes that have a layer each.
+const MODES: usize = 3;
+/// Of the diagram (px).
+const DIAGRAM: f64 = 300.0;
+/// Part of the energy below which a layer is not seen anywhere.
+const UNSEEN: f64 = 1e-4;
+
+/// A part of the energy along the bat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    pub name: String,
+    /// J, one for each impact; None where there was no hit.
+    pub energies: Vec<Option<f64>>,
+    look: (Ink, f64),
+}
+
+/// All parts, from the one that is drawn lowest: their sum is the initial energy where the model loses
+/// none.
+pub fn layers(impacts: &[Impact]) -> Vec<Layer> {
+    let energies = || impacts.iter().filter_map(|i| Some(&i.outcome.as_ref()?.energy));
+    let count = energies().map(|e| e.vibration_by_mode.len()).max().unwrap_or(0);
+    let layer = |name: String, look, of: &dyn Fn(&Energy) -> f64| Layer {
+        name,
+        energies: impacts.iter().map(|i| Some(of(&i.outcome.as_ref()?.energy))).collect(),
+        look,
+    };
+    let [blue, vermilion, green, purple, ochre, grey] = SERIES;
+    let shades = [1.0, 0.7, 0.45];
+    let mut all = vec![
+        layer("ball".into(), (blue, 0.85), &|e| e.ball),
+        layer("lost in the ball".into(), (ochre, 0.6), &|e| e.dissipated_ball),
+    ];
+    for k in 0..MODES.min(count) {
+        let name = format!("vibration, mode {}", k + 1);
+        let of = move |e: &Energy| e.vibration_by_mode.get(k).copied().unwrap_or(0.0);
+        all.push(layer(name, (vermilion, shades[k]), &of));
+    }
+    if count > MODES {
+        let name = match count - MODES {
+            1 => format!("vibration, mode {count}"),
+            _ => format!("vibration, modes {} to {count}", MODES + 1),
+        };
+        let of = |e: &Energy| e.vibration_by_mode.iter().skip(MODES).sum();
+        all.push(layer(name, (purple, 0.7), &of));
+    }
+    all.push(layer("damped in the bat".into(), (MUTED, 0.8), &|e| e.dissipated_damping));
+    all.push(layer("wall of the barrel".into(), (green, 0.9), &|e| e.wall));
+    all.push(layer("bat as a whole".into(), (grey, 0.3), &|e| e.bat_rigid));
+    all
+}
+
+/// The energies stacked, picture `ledger`. None without two hits side by side.
+pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
+    let initial: Vec<f64> =
+        impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.initial)).collect();
+    let greatest = initial.iter().copied().fold(0.0, f64::max);
+    let (first, last) = (impacts.first()?.x, impacts.last()?.x);
+    if initial.len() < 2 || first >= last || greatest <= 0.0 {
+        return None;
+    }
+    let seen = |layer: &Layer| layer.energies.iter().flatten().any(|e| *e > UNSEEN * greatest);
+    let layers: Vec<Layer> = layers(impacts).into_iter().filter(seen).collect();
+    let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
+    let [knob, tip] = place::axes([first, last], &[(name, length)]);
+    let top = HEAD + NUMBERS;
+    let right = WIDTH - room(&names, 220.0);
+    let frame = Frame { left: LEFT, top, right, bottom: top + DIAGRAM };
+    let stacks = stacked(&layers);
+    let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest]);
+    let y = Axis::around("energy (J)", heights, 8);
+    let plane = Plane { frame, x: knob, y };
+    let mut svg = Svg::new(WIDTH, frame.bottom + NUMBERS + 4.0);
+    svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
+    let least = initial.iter().copied().fold(f64::INFINITY, f64::min);
+    let sum = if greatest - least < 1e-6 * greatest {
+        format!("{} J before the hit", short(greatest))
+    } else {
+        format!("{} to {} J before the hit", short(least), short(greatest))
+    };
+    let title = "Where the energy goes";
+    let second = format!("{name}: {sum}, {}", books(impacts, greatest));
+    head(&mut svg, title, &second);
+    plane.draw(&mut svg);
+    draw(&mut svg, &plane, impacts, (&layers, &stacks));
+    plane.above(&mut svg, &tip);
+    plane.below(&mut svg);
+    let alt = format!("{second}. Stacked against the place of the hit: {}.", names.join(", "));
+    Some(Picture::new("ledger", title, &alt, svg))
+}
+
+/// Whether everything is there after the hit.
+fn books(impacts: &[Impact], greatest: f64) -> String {
+    let off = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.imbalance().abs()));
+    let most = off.fold(0.0, f64::max);
+    match most < 1e-3 * greatest {
+        true => "all of it accounted for".into(),
+        false => {
+            format!("of which the model misplaces up to {} J (line: before the hit)", short(most))
+        }
+    }
+}
+
+/// The upper edges of the layers, each on the ones below (J).
+pub fn stacked(layers: &[Layer]) -> Vec<Vec<Option<f64>>> {
+    let mut sum = vec![0.0; layers.first().map_or(0, |layer| layer.energies.len())];
+    let on_top = |layer: &Layer| {
+        let all = layer.energies.iter().zip(&mut sum).map(|(energy, sum)| {
+            *sum += (*energy)?;
+            Some(*sum)
+        });
+        all.collect()
+    };
+    layers.iter().map(on_top).collect()
+}
+
+fn draw(
+    svg: &mut Svg,
+    plane: &Plane,
+    impacts: &[Impact],
+    (layers, stacks): (&[Layer], &[Vec<Option<f64>>]),
+) {
+    let floor = vec![Some(0.0); impacts.len()];
+    let mut names: Vec<Tag> = vec![];
+    for (k, layer) in layers.iter().enumerate() {
+        let below = if k == 0 { &floor } else { &stacks[k - 1] };
+        let (ink, opacity) = layer.look;
+        let edges: Vec<Option<[Point; 2]>> = impacts
+            .iter()
+            .zip(below.iter().zip(&stacks[k]))
+            .map(|(i, (low, high))| {
+                let at = |v: &Option<f64>| Some(plane.at([CM * i.x, (*v)?]));
+                Some([at(low)?, at(high)?])
+            })
+            .collect();
+        for run in edges.split(Option::is_none) {
+            let lower = run.iter().flatten().map(|edge| edge[0]);
+            let upper = run.iter().flatten().rev().map(|edge| edge[1]);
+            let around: Vec<Point> = lower.chain(upper).collect();
+            svg.area(&around, ink, opacity, Some(Pen::new(PAPER, 0.8)));
+        }
+        if let Some([low, high]) = edges.iter().flatten().last() {
+            names.push((0.5 * (low[1] + high[1]), layer.name.clone(), TEXT));
+        }
+        let energy = |(i, at): (&Impact, &Option<[Point; 2]>)| {
+            let ([low, high], e) = ((*at)?, i.outcome.as_ref()?);
+            let index = impacts.iter().position(|other| other.x == i.x)?;
+            let joules = layer.energies[index]?;
+            let words =
+                format!("{}: {} J of {}", layer.name, short(joules), short(e.energy.initial));
+            Some(([low[0], 0.5 * (low[1] + high[1])], words))
+        };
+        let told: Vec<_> = impacts.iter().zip(&edges).step_by(4).filter_map(energy).collect();
+        svg.hover(&told);
+    }
+    let before = |i: &Impact| Some(plane.at([CM * i.x, i.outcome.as_ref()?.energy.initial]));
+    let line: Vec<Point> = impacts.iter().filter_map(before).collect();
+    svg.line(&line, Pen::new(TEXT, 1.5));
+    tags(svg, plane.frame, &names);
+}

@@ -1,0 +1,45 @@
+//! A picture with its name, and its files.
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::plot::svg::Svg;
+use crate::report::file;
+
+/// One picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Of its files, without extension, such as `exit_speed`.
+    pub name: String,
+    pub title: String,
+    /// What is to be seen, for those who cannot.
+    pub alt: String,
+    /// The whole picture, which needs nothing beside it: `<svg …>…</svg>`.
+    pub svg: String,
+}
+
+impl Picture {
+    /// What was drawn, under that name.
+    pub fn new(name: &str, title: &str, alt: &str, svg: Svg) -> Self {
+        let whole = svg.finish(title, alt);
+        Self { name: name.into(), title: title.into(), alt: alt.into(), svg: whole }
+    }
+}
+
+/// Writes every picture into that folder, which is made if there is none: as SVG, and as PNG of
+/// twice the size where the crate has its feature `png`.
+///
+/// # Errors
+///
+/// [`Error::Write`].
+pub fn write(folder: &Path, pictures: &[Picture]) -> Result<()> {
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    for picture in pictures {
+        let path = folder.join(format!("{}.svg", picture.name));
+        file::write(&path, picture.svg.as_bytes())?;
+        #[cfg(feature = "png")]
+        file::write(&path.with_extension("png"), &crate::plot::png::png(&picture.svg, 2.0))?;
+    }
+    Ok(())
+}
