@@ -46,7 +46,7 @@ pub fn certified(analysis: &Analysis) -> Vec<String> {
     ));
     told.extend(exit_speeds(analysis));
     told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, Units::Both)));
-    told
+    told.iter().map(|text| shown::sentence(text)).collect()
 }
 
 /// Whether it is certain that no mode is missing.
@@ -108,22 +108,21 @@ pub fn method(analysis: &Analysis) -> Vec<String> {
     if !solution.damping.modes.is_empty() {
         told.push(format!("Damping: {}.", solution.damping.kind));
     }
-    told.extend(one_line(hit_text::meaning(analysis.task.model)).map(|meaning| {
-        let mut letters = meaning.chars();
-        let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
-        format!("The hit: {first}{}.", letters.as_str())
-    }));
-    told
+    let meaning = one_line(hit_text::meaning(analysis.task.model));
+    told.extend(meaning.map(|meaning| format!("The hit: {meaning}.")));
+    told.iter().map(|text| shown::sentence(text)).collect()
 }
 
 /// What the model left out and what that costs.
 pub fn left_out(analysis: &Analysis) -> Vec<String> {
-    ignored(&analysis.bat, &analysis.solution)
+    let ignored = ignored(&analysis.bat, &analysis.solution);
+    ignored.iter().map(|text| shown::sentence(text)).collect()
 }
 
 /// What the model needs on this bat.
 pub fn needed(analysis: &Analysis) -> Vec<String> {
-    analysis.advice.as_ref().map_or(vec![], advice::recommendation)
+    let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
+    told.iter().map(|text| shown::sentence(text)).collect()
 }
 
 /// Why the ball leaves fastest where it does.

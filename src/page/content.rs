@@ -47,6 +47,8 @@ pub enum Part<'a> {
     Picture(&'a Picture),
     /// A picture of something along the barrel, which a script can read off place by place.
     Hovered(&'a Picture),
+    /// How the report was made.
+    Command(&'a str),
     /// A file of the user's.
     File(&'a Input),
     /// Something long under a line that opens it.
@@ -56,6 +58,9 @@ pub enum Part<'a> {
     Moment,
 }
 
+const NOTHING: &str = "Without a hit there is nothing to show here.";
+const HELD: &str = "The bat is held: energies are as its hands see them, the bat at rest before the \
+                    hit, and swinging in what holds it counts as vibration.";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
@@ -115,9 +120,12 @@ impl<'a> Report<'a> {
 
     fn energy(&'a self) -> Vec<Part<'a>> {
         if !self.hits() {
-            return vec![Part::Missing(NO_HIT)];
+            return vec![Part::Missing(NOTHING)];
         }
         let mut parts = vec![];
+        if self.analysis.bat.fixtures.holding() {
+            parts.push(Part::Text(HELD.to_owned()));
+        }
         if matches!(self.analysis.task.model, Model::Rigid) {
             parts.push(Part::Missing("A bat that does not bend takes no vibration."));
         }
@@ -128,7 +136,7 @@ impl<'a> Report<'a> {
 
     fn hit(&'a self) -> Vec<Part<'a>> {
         if !self.hits() {
-            return vec![Part::Missing(NO_HIT)];
+            return vec![Part::Missing(NOTHING)];
         }
         if self.moments.is_empty() {
             return vec![Part::Missing(
@@ -156,7 +164,7 @@ impl<'a> Report<'a> {
     fn figures(&'a self) -> Vec<Part<'a>> {
         let figures = tables::figures(self.analysis);
         if figures.rows.is_empty() {
-            return vec![Part::Missing(NO_HIT)];
+            return vec![Part::Missing(NOTHING)];
         }
         vec![Part::Table(figures), Part::Table(tables::moves(self.analysis))]
     }
@@ -176,7 +184,8 @@ impl<'a> Report<'a> {
     }
 
     fn inputs(&'a self) -> Vec<Part<'a>> {
-        let mut parts = vec![Part::Table(inputs::scene(self.analysis))];
+        let mut parts = vec![Part::Command(&self.command)];
+        parts.push(Part::Table(inputs::scene(self.analysis)));
         let files = self.inputs.iter().map(Part::File).collect();
         parts.push(Part::Folded("The files as they were written, with their own units", files));
         let values = inputs::values(self.analysis);

@@ -41,8 +41,7 @@ pub fn page(report: &Report) -> String {
     out += "</main>\n";
     let _ = writeln!(
         out,
-        "<footer><p>Made with <code>{}</code></p>\n<p>sweetspot {}: computed, not certified.</p></footer>",
-        escaped(&report.command),
+        "<footer><p>sweetspot {}: computed, not certified.</p></footer>",
         env!("CARGO_PKG_VERSION")
     );
     let data = Data::new(report.analysis, &report.summary, &report.moments);
@@ -58,9 +57,16 @@ pub fn page(report: &Report) -> String {
 
 fn header(report: &Report) -> String {
     let bat = &report.analysis.bat;
-    let source = match bat.source.is_empty() {
-        true => String::new(),
-        false => format!("<p class=\"source\">{}</p>\n", escaped(&bat.source)),
+    /// Longer ones are folded, so that the summary is near.
+    const SHORT: usize = 200;
+    let source = escaped(&bat.source);
+    let source = match bat.source.chars().count() {
+        0 => String::new(),
+        1..=SHORT => format!("<p class=\"source\">{source}</p>\n"),
+        _ => format!(
+            "<details class=\"source\">\n<summary>Where its numbers come from</summary>\n\
+             <p>{source}</p>\n</details>\n"
+        ),
     };
     format!(
         "<header>\n<p class=\"kind\">Bat report</p>\n<h1>{}</h1>\n{source}</header>\n",
@@ -91,7 +97,6 @@ fn summary(report: &Report) -> String {
         out += &facts("headline", &headline);
     }
     out += &facts("facts", &report.summary.facts());
-    out += "<p class=\"remark\">Computed, not certified.</p>\n";
     out + "</section>\n"
 }
 
@@ -135,8 +140,9 @@ fn part(report: &Report, one: &Part) -> String {
         Part::Missing(why) => format!("<p class=\"missing\">{}</p>\n", escaped(why)),
         Part::List(items) => list(items),
         Part::Table(table) => table.html(),
-        Part::Picture(picture) => figure(picture, ""),
-        Part::Hovered(picture) => figure(picture, &players::hair_line(picture)),
+        Part::Picture(picture) => figure(picture, ["", ""]),
+        Part::Hovered(picture) => figure(picture, [&players::hair_line(picture), players::READING]),
+        Part::Command(command) => format!("<p>Made with <code>{}</code></p>\n", escaped(command)),
         Part::File(input) => file(input),
         Part::Folded(title, parts) => {
             let inner: String = parts.iter().map(|inner| part(report, inner)).collect();
@@ -153,13 +159,13 @@ fn list(items: &[String]) -> String {
     format!("<ul>\n{}</ul>\n", items.concat())
 }
 
-/// A picture with what else belongs to it.
-fn figure(picture: &Picture, more: &str) -> String {
+/// A picture with what belongs to it on its sheet and below.
+fn figure(picture: &Picture, [within, below]: [&str; 2]) -> String {
     let Picture { name, title, svg, .. } = picture;
     let title = escaped(title);
     format!(
         "<figure id=\"plot-{name}\">\n<div class=\"scroll plot\" tabindex=\"0\" role=\"region\" \
-         aria-label=\"{title}\">\n<div class=\"sheet\">\n{svg}{more}</div>\n</div>\n</figure>\n"
+         aria-label=\"{title}\">\n<div class=\"sheet\">\n{svg}{within}</div>\n</div>\n{below}</figure>\n"
     )
 }
 

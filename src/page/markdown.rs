@@ -32,8 +32,6 @@ pub fn text(report: &Report, pictures: &str) -> String {
         let _ = writeln!(out, "## {title}\n");
         parts.iter().for_each(|one| out += &part(one, pictures));
     }
-    let fence = fence(&report.command);
-    let _ = writeln!(out, "Made with\n\n{fence}text\n{}\n{fence}", report.command);
     out
 }
 
@@ -49,6 +47,10 @@ fn part(one: &Part, pictures: &str) -> String {
         }
         Part::Table(table) => table.markdown(),
         Part::Picture(picture) | Part::Hovered(picture) => image(picture, pictures),
+        Part::Command(command) => {
+            let fence = fence(command);
+            format!("Made with\n\n{fence}text\n{command}\n{fence}\n\n")
+        }
         Part::File(input) => file(input),
         Part::Folded(title, parts) => {
             let inner: String = parts.iter().map(|inner| part(inner, pictures)).collect();

@@ -64,12 +64,14 @@ fn player(id: &str, title: &str, choice: &str, note: &str) -> String {
     )
 }
 
-/// A hair-line that reads a picture off, by pointer and by keyboard.
+/// The slider of a hair-line that reads a picture off, by pointer and by keyboard.
 pub fn hair_line(picture: &Picture) -> String {
-    let title = escaped(&picture.title);
     format!(
         "<div class=\"moving hair\">\n<input type=\"range\" min=\"0\" max=\"100\" value=\"0\" \
-         aria-label=\"Position along the barrel: {title}\">\n</div>\n\
-         <p class=\"moving reading\" aria-live=\"polite\"></p>\n"
+         aria-label=\"Position along the barrel: {}\">\n</div>\n",
+        escaped(&picture.title)
     )
 }
+
+/// Where what it reads is told.
+pub const READING: &str = "<p class=\"moving reading\" aria-live=\"polite\"></p>\n";

@@ -47,7 +47,10 @@ pub fn inline([si, us]: [String; 2]) -> String {
 /// So many decimals, or a power of ten where that would be all zeros or very long; 0 is not −0.
 pub fn decimals(value: f64, decimals: i32) -> String {
     match value.abs() {
-        0.0 | 1e-2..1e6 => format!("{:.*}", decimals.max(0) as usize, rounded(value, decimals)),
+        0.0 | 1e-2..1e6 => {
+            let shown = format!("{:.*}", decimals.max(0) as usize, rounded(value, decimals));
+            shown.replace('-', "−")
+        }
         _ => scientific(value, 2),
     }
 }
@@ -76,14 +79,40 @@ pub fn scientific(value: f64, decimals: usize) -> String {
     ten_to(mantissa, power)
 }
 
+/// A text of this program as a page sets it: `1e-4` as 10⁻⁴.
+pub fn typeset(text: &str) -> String {
+    let parts = text.split_inclusive([' ', '(', ')', ',', ';']);
+    let part = |part: &str| {
+        let end = part.trim_end_matches([' ', '(', ')', ',', ';', '.', ':']).len();
+        let (word, rest) = part.split_at(end);
+        let number = |word: &str| {
+            let (mantissa, power) = word.split_once('e')?;
+            let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+            let sound = mantissa.split('.').all(digits) && digits(power.trim_start_matches('-'));
+            sound.then(|| ten_to(mantissa.strip_suffix(".0").unwrap_or(mantissa), power))
+        };
+        number(word).unwrap_or(word.to_owned()) + rest
+    };
+    parts.map(part).collect()
+}
+
+/// The same as a sentence of its own.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
+    typeset(&format!("{first}{}{end}", letters.as_str()))
+}
+
 fn ten_to(mantissa: &str, power: &str) -> String {
     let raised = |c: char| match c.to_digit(10) {
         Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
         None => '⁻',
     };
     let power: String = power.chars().map(raised).collect();
-    match (mantissa, power.as_str()) {
-        (_, "⁰") => mantissa.to_owned(),
+    let mantissa = mantissa.replace('-', "−");
+    match (mantissa.as_str(), power.as_str()) {
+        (_, "⁰") => mantissa,
         ("1", _) => format!("10{power}"),
         _ => format!("{mantissa} × 10{power}"),
     }
@@ -101,8 +130,13 @@ mod tests {
         assert_eq!(plain(1.814e10), "1.814 × 10¹⁰");
         assert_eq!(plain(649.0), "649");
         assert_eq!(plain(0.5), "0.5");
-        assert_eq!(decimals(-0.001, 1), "-1.00 × 10⁻³");
+        assert_eq!(decimals(-0.001, 1), "−1.00 × 10⁻³");
         assert_eq!(decimals(-0.0, 1), "0.0");
+        assert_eq!(
+            typeset("within 1.5e-4, x (3.0e-3 m/s) e2 2e"),
+            "within 1.5 × 10⁻⁴, x (3 × 10⁻³ m/s) e2 2e"
+        );
+        assert_eq!(sentence("hands: none, 1e-4"), "Hands: none, 10⁻⁴.");
         assert_eq!(place(0.3048), "30.48 cm (12.00 in)");
     }
 }

@@ -25,6 +25,9 @@ pub struct Summary {
     /// At the sweet spot, of the free bat and of one held 6 in from the knob.
     pub bbcor: Option<f64>,
     pub bbcor_pivoted: Option<f64>,
+    /// The swing and the pitch of that hit.
+    pub swing_rad_s: f64,
+    pub ball_speed_m_s: f64,
 }
 
 /// One number of the summary, in SI and in US units, and what it is.
@@ -40,7 +43,7 @@ pub struct Fact {
 
 impl Summary {
     pub fn new(analysis: &Analysis) -> Self {
-        let Analysis { bat, solution, figures, .. } = analysis;
+        let Analysis { bat, solution, task, figures, .. } = analysis;
         let inertia = bat.inertia();
         let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
         Self {
@@ -55,6 +58,8 @@ impl Summary {
             zone_m: figures.spot.zone,
             bbcor: best.map(|outcome| outcome.bbcor),
             bbcor_pivoted: best.map(|outcome| outcome.bbcor_pivoted),
+            swing_rad_s: task.scene.swing,
+            ball_speed_m_s: task.scene.ball_speed,
         }
     }
 
@@ -76,7 +81,11 @@ impl Summary {
                 key: "exit_speed_m_s",
                 label: "Best exit speed",
                 values: shown::speed(speed),
-                note: "of a ball met there".to_owned(),
+                note: format!(
+                    "swing {} rad/s, pitch {}",
+                    shown::decimals(self.swing_rad_s, 1),
+                    shown::inline(shown::speed(self.ball_speed_m_s))
+                ),
             },
             Fact {
                 key: "zone_m",

@@ -11,8 +11,9 @@ use crate::report::text::rounded;
 
 /// m/s².
 const STANDARD_GRAVITY: f64 = 9.806_65;
-/// So many modes have their nodes and their energies listed.
+/// So many modes have their nodes listed, and so many their energies.
 const LISTED: usize = 6;
+const LARGEST: usize = 3;
 
 /// Frequencies with their errors, modal masses, damping where there is any.
 pub fn modes(analysis: &Analysis) -> Table {
@@ -108,8 +109,13 @@ pub fn ledger(analysis: &Analysis) -> Table {
     line("after: the ball flies on with", energy.ball);
     line("the bat's swing keeps", energy.bat_rigid);
     line("the bat's vibration takes", energy.vibration());
-    for (k, mode) in energy.vibration_by_mode.iter().take(LISTED.min(3)).enumerate() {
+    let (first, others) =
+        energy.vibration_by_mode.split_at(energy.vibration_by_mode.len().min(LARGEST));
+    for (k, mode) in first.iter().enumerate() {
         line(&format!("  of it mode {}", k + 1), *mode);
+    }
+    if !others.is_empty() {
+        line("  of it all others", others.iter().sum());
     }
     line("lost in the ball", energy.dissipated_ball);
     line("lost by the bat's damping", energy.dissipated_damping);
@@ -179,8 +185,14 @@ fn hit(impact: Option<&Impact>) -> Option<(&Impact, &crate::collision::hit::Outc
 
 /// A change of speed.
 fn signed(change: f64) -> [String; 2] {
-    let us = rounded(crate::units::miles_per_hour(change), 1);
-    [format!("{:+.2} m/s", rounded(change, 2)), format!("{us:+.1} mph")]
+    let us = with_sign(crate::units::miles_per_hour(change), 1);
+    [format!("{} m/s", with_sign(change, 2)), format!("{us} mph")]
+}
+
+/// A change, to so many decimals.
+fn with_sign(value: f64, decimals: i32) -> String {
+    let shown = format!("{:+.*}", decimals.max(0) as usize, rounded(value, decimals));
+    shown.replace('-', "−")
 }
 
 /// How the sweet spots and the best speed move with the scene; empty where no ball is hit.
@@ -200,9 +212,7 @@ pub fn moves(analysis: &Analysis) -> Table {
     }
     for (what, moved) in &analysis.figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            (Some(before), Some(after)) => {
-                format!("{:+.1}", rounded(1e3 * (after.x - before.x), 1))
-            }
+            (Some(before), Some(after)) => with_sign(1e3 * (after.x - before.x), 1),
             _ => NONE.to_owned(),
         };
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
