@@ -1,20 +1,20 @@
 //! `sweetspot analyze BAT`: everything about a bat on one screen.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use sweetspot::Bat;
-use sweetspot::advise::advice::advise;
-use sweetspot::collision::figures::Figures;
-use sweetspot::collision::sweep::sweep_telling;
-use sweetspot::collision::sweet_spot::SweetSpot;
+use serde_json::{Value, json};
+use sweetspot::analysis::{Analysis, Proof, Task};
 use sweetspot::error::{Error, Result};
-use sweetspot::plot::sets::Hits;
+use sweetspot::page;
+use sweetspot::page::content::Report;
+use sweetspot::page::file::Kind;
+use sweetspot::page::inputs::Input;
 use sweetspot::plot::{picture, sets};
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::sketch::{self, Row};
-use sweetspot::report::{advice, file, hit_json, hit_text, text};
-use sweetspot::solve::{Request, Solution};
-use sweetspot::validation;
+use sweetspot::report::text;
+use sweetspot::report::{advice, file, hit_json, hit_text};
+use sweetspot::solve::Request;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv, examples};
@@ -48,6 +48,11 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
+    /// Write a report for people into this file: a page of its own (.html), or Markdown (.md) with
+    /// its pictures in a folder beside it
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    report: Option<PathBuf>,
+
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long, help_heading = "Output")]
     reproducible: bool,
@@ -60,106 +65,130 @@ const EXAMPLES: &str = "\
   sweetspot analyze meshes/r161.json
       a wooden bat of the major leagues, swung at 50 rad/s against a pitch of 90 mph
 
+  sweetspot analyze meshes/r161.json --report r161.html
+      and a report as a page of its own, to look at, to print and to send
+
   sweetspot analyze meshes/torpedo.json --units us --swing-speed \"55 rad/s\"
       in inches, ounces and miles an hour, with a faster swing
 
-  sweetspot analyze meshes/r161.json --out r161
-      and modes.json, hit.json and curve.csv in the folder r161";
-
-/// Impact points along the outer half of the bat.
-const POINTS: usize = 101;
+  sweetspot analyze meshes/r161.json --out r161 --plots r161
+      and modes.json, hit.json, curve.csv and pictures in the folder r161";
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
+    // A report that cannot be written is told before it is computed.
+    args.report.as_deref().map(Kind::of).transpose()?;
     let progress = args.output.progress("modes");
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;
     let modes = args.solve.modes_within(10, bat.profile.pieces.len());
-    let request = Request { theory: solution.theory, ..args.solve.request(modes) };
-    let half = 0.5 * bat.length();
-    let places: Vec<f64> =
-        (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
-    let tell = |share: f64, what: &str| progress.say(0.5 * share, what);
-    let hits = sweep_telling(&bat, (model, &scene), (&request, false), &places, &tell)?;
-    progress.say(0.5, "the sweet spot");
-    let figures = Figures::new(&bat, (model, hits.effort), (&scene, law), &hits.solution)?;
-    if let Some(folder) = &args.plots {
-        let mut pictures = sets::of_modes(&bat, &solution, Some(scene.pivot));
-        let hits = Hits { bat: &bat, model, scene: &scene, sweep: &hits, spot: &figures.spot };
-        pictures.extend(hits.pictures(None)?);
-        picture::write(folder, &pictures)?;
-    }
-    progress.say(0.8, "what the model needs");
-    let units = args.output.units;
-    let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
-    let table = format!(
-        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
-        text::summary(&bat, units),
-        args.output.sketch(&bat, &sketch(&bat, &solution, &figures.spot)),
-        text::modes(&bat, &solution, 3, units),
-        text::model(&bat, &solution),
-        proof(args, &solution)?,
-        advice(args, &bat),
-        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
-        hit_text::meaning(model),
-        hit_text::impacts(&bat, &few, units),
-        hit_text::curve(&hits.impacts, units),
-        hit_text::sweet_spot(&bat, &figures.spot, units),
-        hit_text::why(&figures, units),
-        hit_text::beyond(&hits, &scene, units),
-        hit_text::figures(&figures, units)
-    );
+    let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
+    let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));
+    let task = Task { model, scene, law, hits, proof };
+    let tell = |share: f64, what: &str| progress.say(share, what);
+    let analysis = Analysis::telling(bat, solution, task, &tell)?;
     drop(progress);
-    let modes = json::modes(&bat, &solution, ShapePoints::Even(101), !args.reproducible);
-    let mut hit = hit_json::hit(&bat, model, &scene, &hits.impacts, &figures.spot);
-    hit["figures"] = hit_json::figures(&figures);
     if let Some(folder) = &args.out {
-        let failed = |source| Error::Write { path: folder.clone(), source };
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        file::write(&folder.join("modes.json"), format!("{modes:#}\n").as_bytes())?;
-        file::write(&folder.join("hit.json"), format!("{hit:#}\n").as_bytes())?;
-        file::write(&folder.join("curve.csv"), curve_csv(&hits.impacts).as_bytes())?;
+        write_out(args, &analysis, folder)?;
     }
-    let both = serde_json::json!({ "modes": modes, "hit": hit });
-    let code = args.solve.verdict(&solution, &args.output);
-    let code = code.max(hit_verdict(&args.solve, &hits, &args.output));
-    Ok(Done::new(args.output.deliver(table, || both)?, code).with(warning))
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &sets::of_analysis(&analysis)?)?;
+    }
+    if let Some(path) = &args.report {
+        let mut inputs = Input::of_bat(args.bat.path())?;
+        inputs.extend(args.scene.ball_file().map(Input::read).transpose()?);
+        page::file::write(path, &Report::new(&analysis, command(), inputs)?)?;
+    }
+    let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
+    let code = args.solve.verdict(&analysis.solution, &args.output);
+    let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
+    let text = args.output.deliver(table(&analysis, &args.output), both)?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 /// The nodes of the first three modes and the sweet spot.
-fn sketch(bat: &Bat, solution: &Solution, spot: &SweetSpot) -> Vec<Row> {
-    let mut rows = sketch::of_modes(bat, solution);
+fn rows(analysis: &Analysis) -> Vec<Row> {
+    let mut rows = sketch::of_modes(&analysis.bat, &analysis.solution);
     // The balance point is the last of them.
     rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
-    rows.extend(sketch::of_sweet_spot(spot));
+    rows.extend(sketch::of_sweet_spot(&analysis.figures.spot));
     rows
 }
 
-/// What the model needs, in short; nothing for a bat of so many pieces that it would take long, nor
-/// where there is none to give.
-fn advice(args: &Args, bat: &Bat) -> String {
-    const MODES: usize = 5;
-    const MOST_PIECES: usize = 1000;
-    if bat.profile.pieces.len() > MOST_PIECES {
-        return "Advice: see sweetspot advise\n".to_owned();
-    }
-    match advise(bat, MODES, args.solve.tol) {
-        Ok(found) => advice::short(&found),
-        Err(_) => "Advice: see sweetspot advise\n".to_owned(),
+/// The command as it was typed, so that a shell reads it again.
+fn command() -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
+    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
+        true => arg,
+        false => format!("'{}'", arg.replace('\'', "'\\''")),
+    };
+    let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
+    std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
+}
+
+/// Everything on one screen.
+fn table(analysis: &Analysis, output: &OutputArgs) -> String {
+    let units = output.units;
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
+    format!(
+        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
+        text::summary(bat, units),
+        output.sketch(bat, &rows(analysis)),
+        text::modes(bat, solution, 3, units),
+        text::model(bat, solution),
+        proof(analysis),
+        advice(analysis),
+        hit_text::scene(bat, &task.scene, hit_json::model_name(task.model), units),
+        hit_text::meaning(task.model),
+        hit_text::impacts(bat, &few, units),
+        hit_text::curve(&hits.impacts, units),
+        hit_text::sweet_spot(bat, &figures.spot, units),
+        hit_text::why(figures, units),
+        hit_text::beyond(hits, &task.scene, units),
+        hit_text::figures(figures, units)
+    )
+}
+
+fn modes_json(args: &Args, analysis: &Analysis) -> Value {
+    let shapes = ShapePoints::Even(101);
+    json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible)
+}
+
+fn hit_json(analysis: &Analysis) -> Value {
+    let Analysis { bat, task, hits, figures, .. } = analysis;
+    let mut hit = hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot);
+    hit["figures"] = hit_json::figures(figures);
+    hit
+}
+
+fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let [modes, hit] = [modes_json(args, analysis), hit_json(analysis)];
+    file::write(&folder.join("modes.json"), format!("{modes:#}\n").as_bytes())?;
+    file::write(&folder.join("hit.json"), format!("{hit:#}\n").as_bytes())?;
+    file::write(&folder.join("curve.csv"), curve_csv(&analysis.hits.impacts).as_bytes())
+}
+
+/// What the model needs, in short.
+fn advice(analysis: &Analysis) -> String {
+    match &analysis.advice {
+        Some(found) => advice::short(found),
+        None => "Advice: see sweetspot advise\n".to_owned(),
     }
 }
 
 /// The same solver on the uniform dowel, whose frequencies are known in closed form.
-fn proof(args: &Args, solution: &Solution) -> Result<String> {
-    let count = args.solve.modes_within(solution.modes.len().max(10), 1);
-    let [truth, stated] = validation::dowel_proof(&args.solve.request(count))?;
-    let here = match solution.modes.is_empty() {
+fn proof(analysis: &Analysis) -> String {
+    let Proof { modes, truth, stated } = analysis.proof;
+    let here = match analysis.solution.modes.is_empty() {
         true => String::new(),
-        false => format!("; on this bat it says {:.1e}", solution.worst()),
+        false => format!("; on this bat it says {:.1e}", analysis.solution.worst()),
     };
-    Ok(format!(
-        "Proof: on the uniform dowel the same solver misses the exact modes 1 to {count} by\n       \
+    format!(
+        "Proof: on the uniform dowel the same solver misses the exact modes 1 to {modes} by\n       \
          {truth:.1e} at most and says {stated:.1e}{here}\n"
-    ))
+    )
 }

@@ -53,6 +53,11 @@ pub struct BatArgs {
 }
 
 impl BatArgs {
+    /// The bat's file.
+    pub fn path(&self) -> &Path {
+        &self.bat
+    }
+
     /// Number of bending modes where no frequency was given.
     pub fn count(&self) -> usize {
         self.count.unwrap_or(10).into()
@@ -429,6 +434,12 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
+    /// The ball's file, if it has one.
+    pub fn ball_file(&self) -> Option<&Path> {
+        let built_in = matches!(self.ball.as_str(), "baseball" | "softball");
+        (!built_in).then(|| Path::new(&self.ball))
+    }
+
     /// The scene on that bat, and where its swing is from.
     pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
         let mut ball = match self.ball.as_str() {

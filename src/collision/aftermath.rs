@@ -122,22 +122,10 @@ impl<'a> Aftermath<'a> {
     /// The bat at those times (s), which rise.
     pub fn at(&self, when: &[f64]) -> Vec<Instant> {
         let mut instants: Vec<Instant> = when.iter().map(|t| self.still(*t)).collect();
+        let driven_by_force = self.pushed(when);
         for (k, pushed) in self.rigid.iter().enumerate() {
-            let (mut moved, mut speed, mut next) = (0.0, 0.0, 0);
-            for instant in &mut instants {
-                while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= instant.time) {
-                    let [by, faster] = pushes(piece, piece.length);
-                    moved += speed * piece.length + by;
-                    speed += faster;
-                    next += 1;
-                }
-                let rest = instant.time - self.start_of(next);
-                let [by, faster] = match self.pieces.get(next) {
-                    Some(piece) if rest > 0.0 => pushes(piece, rest),
-                    _ => [0.0; 2],
-                };
-                let now = [moved + speed * rest + by, speed + faster, instant.force];
-                instant.rigid[k] = now.map(|value| -pushed.gain * value);
+            for (instant, [moved, speed]) in instants.iter_mut().zip(&driven_by_force) {
+                instant.rigid[k] = [*moved, *speed, instant.force].map(|v| -pushed.gain * v);
             }
         }
         for (k, rung) in self.modes.iter().enumerate() {
@@ -162,6 +150,27 @@ impl<'a> Aftermath<'a> {
             }
         }
         instants
+    }
+
+    /// `∫∫F dt²` (N s²) and `∫F dt` (N s) until those times (s), which rise: what the force alone does
+    /// to a unit mass, such as the ball's.
+    pub fn pushed(&self, when: &[f64]) -> Vec<[f64; 2]> {
+        let (mut moved, mut speed, mut next) = (0.0, 0.0, 0);
+        let until = |time: &f64| {
+            while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= *time) {
+                let [by, faster] = pushes(piece, piece.length);
+                moved += speed * piece.length + by;
+                speed += faster;
+                next += 1;
+            }
+            let rest = time - self.start_of(next);
+            let [by, faster] = match self.pieces.get(next) {
+                Some(piece) if rest > 0.0 => pushes(piece, rest),
+                _ => [0.0; 2],
+            };
+            [moved + speed * rest + by, speed + faster]
+        };
+        when.iter().map(until).collect()
     }
 
     /// Displacement (m), velocity (m/s) and acceleration (m/s²) at `x` (m).

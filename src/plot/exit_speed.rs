@@ -56,6 +56,7 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
     let bottom = side + 6.0 + place::height(&rows);
     svg.height = bottom + NUMBERS + 4.0;
+    svg.read_off = Some([LEFT, top, right, bottom]);
     let plane = Plane { frame: Frame { left: LEFT, top, right, bottom: side }, x: knob, y };
     let strip = Frame { left: LEFT, top: side + 6.0, right, bottom };
     let strip = Plane { frame: strip, ..plane.clone() };

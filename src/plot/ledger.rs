@@ -81,6 +81,7 @@ pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
     let y = Axis::around("energy (J)", heights, ticks_up(DIAGRAM));
     let plane = Plane { frame, x: knob, y };
     let mut svg = Svg::new(WIDTH, frame.bottom + NUMBERS + 4.0);
+    svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
     let least = initial.iter().copied().fold(f64::INFINITY, f64::min);
     let sum = if greatest - least < 1e-6 * greatest {
         format!("{} J before the hit", short(greatest))

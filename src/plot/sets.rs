@@ -1,5 +1,6 @@
 //! The pictures that belong to a result.
 
+use crate::analysis::Analysis;
 use crate::bat::Bat;
 use crate::collision::aftermath::Aftermath;
 use crate::collision::hit::{Model, Scene};
@@ -53,6 +54,19 @@ impl Hits<'_> {
         }
         Ok(all)
     }
+}
+
+/// All that belong to an analysis: the bat and its modes, and its hits.
+///
+/// # Errors
+///
+/// As [`Hits::pictures`].
+pub fn of_analysis(analysis: &Analysis) -> Result<Vec<Picture>> {
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let mut pictures = of_modes(bat, solution, Some(task.scene.pivot));
+    let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
+    pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(None)?);
+    Ok(pictures)
 }
 
 /// The error of the first and of the last mode of a U-curve.

@@ -15,6 +15,9 @@ pub type Point = [f64; 2];
 pub struct Svg {
     pub width: f64,
     pub height: f64,
+    /// Left, upper, right and lower edge (px) of the frame in which places along the bat can be read
+    /// off, from the first place to the last, for a page that does so.
+    pub read_off: Option<[f64; 4]>,
     body: String,
 }
 
@@ -102,18 +105,20 @@ pub const MARKS: [Mark; 6] =
 impl Svg {
     /// Empty paper.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, body: String::new() }
+        Self { width, height, read_off: None, body: String::new() }
     }
 
     /// The picture with its title and, for those who cannot see it, what is to be seen.
     pub fn finish(self, title: &str, description: &str) -> String {
-        let Self { width, height, body } = self;
+        let Self { width, height, read_off, body } = self;
         let [width, height] = [width, height].map(px);
+        let read_off = read_off
+            .map_or(String::new(), |edges| format!(" data-frame=\"{}\"", edges.map(px).join(" ")));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\" role=\"img\" \
              viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
              font-family=\"system-ui, sans-serif\" fill=\"none\" stroke-linejoin=\"round\" \
-             stroke-linecap=\"butt\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n\
+             stroke-linecap=\"butt\"{read_off}>\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n\
              <rect class=\"ss-f-paper\" fill=\"{}\" width=\"{width}\" height=\"{height}\"/>\n\
              {body}</svg>\n",
             escaped(title),

@@ -276,7 +276,7 @@ fn model(model: &Model) -> String {
 }
 
 /// The model that will do, and how it was checked.
-fn recommendation(advice: &Advice) -> Vec<String> {
+pub fn recommendation(advice: &Advice) -> Vec<String> {
     let smallest = &advice.smallest;
     let tolerance = percent_of(advice.tolerance);
     let own = &smallest.solved.model;

@@ -1,0 +1,94 @@
+//! Everything there is to say of a bat and its hits, computed once, for whoever shows it.
+
+use crate::advise::advice::{Advice, advise};
+use crate::bat::Bat;
+use crate::collision::figures::{Figures, SwingLaw};
+use crate::collision::hit::{Model, Scene};
+use crate::collision::sweep::{Sweep, sweep_telling};
+use crate::error::Result;
+use crate::solve::{Request, Solution};
+use crate::telling::{Tell, nobody};
+use crate::validation::dowel_proof;
+
+/// Impact points along the outer half of the bat.
+pub const POINTS: usize = 101;
+
+/// What is analysed besides the modes.
+#[derive(Debug, Clone)]
+pub struct Task {
+    pub model: Model,
+    /// Swing, pitch and ball, and where the swing is from.
+    pub scene: Scene,
+    pub law: Option<SwingLaw>,
+    /// What is asked of the hits: their tolerance and theory.
+    pub hits: Request,
+    /// What is asked of the proof on the dowel.
+    pub proof: Request,
+}
+
+/// The same solver where the truth is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proof {
+    /// So many modes of the uniform dowel.
+    pub modes: usize,
+    /// The largest relative error of a frequency, and the largest that the solver states.
+    pub truth: f64,
+    pub stated: f64,
+}
+
+/// A bat, its modes, its hits, its figures, and how far all of them may be trusted.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    pub bat: Bat,
+    pub solution: Solution,
+    pub task: Task,
+    /// Hits at [`POINTS`] even places from the middle of the bat to its tip.
+    pub hits: Sweep,
+    pub figures: Figures,
+    pub proof: Proof,
+    /// What the model needs; None for a bat of so many pieces that it would take long, and where
+    /// there is none to give.
+    pub advice: Option<Advice>,
+}
+
+impl Analysis {
+    /// All of it, for a bat whose modes are found.
+    ///
+    /// # Errors
+    ///
+    /// As [`sweep_telling`] and [`Figures::new`].
+    pub fn new(bat: Bat, solution: Solution, task: Task) -> Result<Self> {
+        Self::telling(bat, solution, task, &nobody)
+    }
+
+    /// The same, telling how far it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn telling(bat: Bat, solution: Solution, task: Task, tell: Tell) -> Result<Self> {
+        let half = 0.5 * bat.length();
+        let places: Vec<f64> =
+            (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
+        let Task { model, scene, law, .. } = &task;
+        let half_of_it = |share: f64, what: &str| tell(0.5 * share, what);
+        let asked = (&task.hits, false);
+        let hits = sweep_telling(&bat, (*model, scene), asked, &places, &half_of_it)?;
+        tell(0.5, "the sweet spot");
+        let figures = Figures::new(&bat, (*model, hits.effort), (scene, *law), &hits.solution)?;
+        let [truth, stated] = dowel_proof(&task.proof)?;
+        let proof = Proof { modes: task.proof.modes, truth, stated };
+        tell(0.8, "what the model needs");
+        let advice = advice(&bat, task.hits.tolerance);
+        Ok(Self { bat, solution, task, hits, figures, proof, advice })
+    }
+}
+
+fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {
+    const MODES: usize = 5;
+    const MOST_PIECES: usize = 1000;
+    if bat.profile.pieces.len() > MOST_PIECES {
+        return None;
+    }
+    advise(bat, MODES, tolerance).ok()
+}

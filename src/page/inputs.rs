@@ -1,0 +1,206 @@
+//! What was asked: the scene, the files as they were written, the bat as it was understood.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::analysis::Analysis;
+use crate::collision::hit::Model;
+use crate::error::{Error, Result};
+use crate::page::shown::{self, NONE, inline, length, speed};
+use crate::page::table::Table;
+use crate::report::hit_json::model_name;
+use crate::report::resolved::resolved;
+
+/// A file as the user wrote it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    pub name: String,
+    pub text: String,
+}
+
+impl Input {
+    /// Longer ones are cut in a page.
+    pub const MOST: usize = 60_000;
+
+    /// Reads one, whatever it holds.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |source| Error::Read { path: path.to_owned(), source };
+        let bytes = std::fs::read(path).map_err(failed)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim_start_matches('\u{feff}').to_owned();
+        Ok(Self { name: path.display().to_string(), text })
+    }
+
+    /// A bat file, and the columns that it names.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn of_bat(path: &Path) -> Result<Vec<Self>> {
+        let bat = Self::read(path)?;
+        let document: Value = serde_json::from_str(&bat.text).unwrap_or_default();
+        let mut all = vec![bat];
+        if let Some(columns) = document["profile"]["csv"].as_str() {
+            all.push(Self::read(&path.with_file_name(columns))?);
+        }
+        Ok(all)
+    }
+
+    /// The text as a page shows it, and whether that is all of it.
+    pub fn shown(&self) -> (&str, bool) {
+        match self.text.char_indices().nth(Self::MOST) {
+            Some((end, _)) => (&self.text[..end], false),
+            None => (&self.text, true),
+        }
+    }
+}
+
+/// Swing, pitch and ball, in both units.
+pub fn scene(analysis: &Analysis) -> Table {
+    let task = &analysis.task;
+    let (scene, ball) = (&task.scene, &task.scene.ball);
+    let mut table = Table::of_words("The scene", &["What", "Value"]);
+    let mut line = |what: &str, value: String| table.row([what.to_owned(), value]);
+    line("model of the collision", model_name(task.model).to_owned());
+    match task.model {
+        Model::EnergyLoss(loss) => {
+            line("size of the empirical loss, γ", shown::plain(loss.gamma));
+            line("its decay with the mode, p", shown::plain(loss.decay));
+        }
+        Model::Pulse(pulse) => {
+            line("duration of the force", format!("{} ms", shown::plain(1e3 * pulse.duration)));
+            line(
+                "share of the vibration that the ball does not lose",
+                shown::plain(pulse.loss_share),
+            );
+        }
+        Model::Rigid | Model::Contact => {}
+    }
+    line("swing", format!("{:.2} rad/s", scene.swing));
+    if let Some(law) = task.law {
+        line("  of the reference bat", format!("{:.2} rad/s", law.of_reference));
+        line("  which has a swing weight of", inline(shown::inertia(law.reference)));
+        line("  speed against swing weight, exponent", shown::plain(law.exponent));
+    }
+    let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
+    let pivot = inline(length(scene.pivot.abs()));
+    line("rotation centre of the swing", format!("{pivot} {side} the knob end"));
+    line("pitch", inline(speed(scene.ball_speed)));
+    line("ball", ball.name.clone());
+    line("  its mass", inline(shown::mass(ball.mass)));
+    line("  its radius", inline(length(ball.radius)));
+    if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
+        let law = format!("{} N/m^α, α = {}", shown::plain(stiffness), shown::plain(exponent));
+        line("  its force, k u^α, k", law);
+    }
+    line(
+        "coefficient of restitution",
+        match ball.cor_by_speed.is_empty() {
+            true => shown::plain(scene.cor),
+            false => "by its speed, see the ball's file".to_owned(),
+        },
+    );
+    if !ball.source.is_empty() {
+        line("  the ball's source", ball.source.clone());
+    }
+    line("hands feel the hit at", format!("{} from the knob", shown::place(scene.hands)));
+    if let Some(wall) = scene.wall {
+        line("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness)));
+        line("  its mass", format!("{} kg", shown::plain(wall.mass)));
+    }
+    if analysis.bat.fixtures.holding() {
+        line("the bat is held", "energies are as its hands see them".to_owned());
+    }
+    table
+}
+
+/// The bat as it was understood: every value in SI but the columns of the profile.
+pub fn values(analysis: &Analysis) -> Table {
+    let head = ["Key", "Value", "Unit"];
+    let mut table = Table::new("The bat as it was understood, in SI", &head);
+    let bat = resolved(&analysis.bat);
+    for (key, value) in bat.as_object().into_iter().flatten() {
+        if !matches!(key.as_str(), "format" | "name" | "source" | "profile") {
+            flat(key, value, &mut table);
+        }
+    }
+    if let Some(interpolation) = bat["profile"]["interpolation"].as_str() {
+        table.row(["profile.interpolation", interpolation, ""]);
+    }
+    let [density, modulus] = analysis.bat.factors;
+    if analysis.bat.factors != [1.0; 2] {
+        table.row(["factor on all densities, as weighed", &shown::plain(density), ""]);
+        table.row(["factor on all moduli, as tapped", &shown::plain(modulus), ""]);
+    }
+    table
+}
+
+/// A value and all that is within it.
+fn flat(path: &str, value: &Value, table: &mut Table) {
+    match value {
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| flat(&format!("{path}.{key}"), value, table));
+        }
+        Value::Array(items) => {
+            let items = items.iter().enumerate();
+            items.for_each(|(k, item)| flat(&format!("{path}[{k}]"), item, table));
+        }
+        Value::Number(number) => {
+            let shown = number.as_f64().map_or(number.to_string(), shown::plain);
+            table.row([path, &shown, unit(path)]);
+        }
+        Value::String(text) => table.row([path, text.as_str(), ""]),
+        Value::Bool(_) | Value::Null => table.row([path, NONE, ""]),
+    }
+}
+
+/// The SI unit of a key of a bat file.
+fn unit(path: &str) -> &'static str {
+    let grip = path.starts_with("grip");
+    match path.rsplit('.').next().unwrap_or_default() {
+        "x" | "from" | "to" | "offset" | "balance_point" => "m",
+        "mass" => "kg",
+        "density" => "kg/m³",
+        "youngs_modulus" | "shear_modulus" => "Pa",
+        "rotary_inertia" => "kg m²",
+        "rotational_stiffness" => "N m/rad",
+        "stiffness" if grip => "N/m²",
+        "damping" if grip => "N s/m²",
+        "stiffness" => "N/m",
+        "damping" => "N s/m",
+        "first_bending_hz" => "Hz",
+        _ => "",
+    }
+}
+
+/// The columns of the profile in SI, the first many of them; formulas as they were written.
+pub fn profile(analysis: &Analysis) -> Table {
+    const MOST: usize = 400;
+    let profile = &analysis.bat.profile;
+    if let Some(formulas) = &profile.formulas {
+        let mut table = Table::of_words("The profile", &["From, m", "To, m", "Radius", "Bore"]);
+        for piece in &formulas.pieces {
+            let bore = piece.inner.as_ref().map_or("none", |inner| inner.text());
+            let [from, to] = [piece.from, piece.to].map(shown::plain);
+            table.row([&from, &to, piece.outer.text(), bore]);
+        }
+        return table;
+    }
+    let stations = &profile.stations;
+    let count = stations.x.len();
+    let caption = match count > MOST {
+        true => format!("The profile: the first {MOST} of {count} stations"),
+        false => "The profile".to_owned(),
+    };
+    let mut table = Table::new(caption, &["x, m", "Radius, m", "Inner radius, m"]);
+    let metres = |x: f64| format!("{:.5}", x);
+    for k in 0..count.min(MOST) {
+        table.row([stations.x[k], stations.outer[k], stations.inner[k]].map(metres));
+    }
+    table
+}

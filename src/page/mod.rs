@@ -1,0 +1,20 @@
+//! The report: everything about a bat on one page, for whoever makes or swings it.
+//!
+//! What it says ([`content`]) is the same whether it is written as a page ([`html`]) or as Markdown
+//! ([`markdown`]). The page is one file that fetches nothing; what moves on it is drawn by its own
+//! script from the numbers in [`data`], and all the rest is there without.
+
+pub mod escape;
+pub mod shown;
+pub mod table;
+pub mod summary;
+pub mod tables;
+pub mod accuracy;
+pub mod inputs;
+pub mod moment;
+pub mod data;
+pub mod content;
+pub mod players;
+pub mod html;
+pub mod markdown;
+pub mod file;

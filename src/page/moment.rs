@@ -1,0 +1,148 @@
+//! The moment of the hit, picture by picture: how the ball is squeezed and the bat bends.
+
+use serde::Serialize;
+
+use crate::analysis::Analysis;
+use crate::bat::Bat;
+use crate::collision::aftermath::{Aftermath, Instant};
+use crate::collision::hit::Model;
+use crate::collision::hitter::Hitter;
+use crate::error::Result;
+use crate::report::text::rounded;
+
+/// A hit in time, as numbers for drawing: rounded to what a picture shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Moment {
+    /// What place it is.
+    pub label: String,
+    /// Where the ball meets the bat (m), and how long it stays (ms).
+    pub x_m: f64,
+    pub contact_ms: f64,
+    /// How many times too large the bending should be drawn.
+    pub factor: u32,
+    pub times_ms: Vec<f64>,
+    pub force_kn: Vec<f64>,
+    /// How far the ball is from the bat (mm); negative while it is squeezed, by that much.
+    pub gap_mm: Vec<f64>,
+    /// At every instant the bat's bending at [`PLACES`] even places from knob to tip, in hundredths
+    /// of a millimetre, positive the way the bat swings.
+    pub bending_10_um: Vec<Vec<i32>>,
+}
+
+/// Places along the bat at which its bending is told.
+pub const PLACES: usize = 41;
+/// Pictures from before the touch to the end.
+const PICTURES: usize = 141;
+/// How long before the touch it begins (s).
+const BEFORE: f64 = 5e-4;
+/// How far inside the sweet spot the other hit is (m).
+const INSIDE: f64 = 0.1;
+
+/// The hits at the sweet spot and 10 cm inside of it; none where the model knows no force in time or
+/// no ball is hit.
+///
+/// # Errors
+///
+/// As [`Hitter::new`].
+pub fn moments(analysis: &Analysis) -> Result<Vec<Moment>> {
+    let Analysis { bat, task, hits, figures, .. } = analysis;
+    let (Model::Contact, Some(best)) = (task.model, figures.spot.exit_speed_max) else {
+        return Ok(vec![]);
+    };
+    let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
+    let inside = best.x - INSIDE;
+    let places = [("at the sweet spot", best.x), ("10 cm inside of it", inside)];
+    let places = places.into_iter().filter(|(_, x)| *x >= 0.0);
+    Ok(places.filter_map(|(label, x)| moment(analysis, &hitter, label, x)).collect())
+}
+
+/// One hit; None if there is none.
+fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<Moment> {
+    let Analysis { bat, task, hits, .. } = analysis;
+    let after = Aftermath::new(bat, &hits.solution, x, hitter.force(x)?);
+    let impact = hitter.strike(x);
+    let closing = impact.bat_speed + task.scene.ball_speed;
+    let times = times(analysis, after.end());
+    let instants = after.at(&times);
+    let pushed = after.pushed(&times);
+    // Ball and bat near each other at the closing speed; the force drives the ball away, and the
+    // bat's surface back.
+    let gap = |(now, [moved, _]): (&Instant, &[f64; 2])| {
+        moved / task.scene.ball.mass - closing * now.time - after.motion(x, now)[0]
+    };
+    let gaps = instants.iter().zip(&pushed).map(gap);
+    let frame = Frame::new(bat);
+    let bent: Vec<Vec<f64>> = instants.iter().map(|now| frame.bending(&after, now)).collect();
+    let largest = bent.iter().flatten().fold(0.0_f64, |most, w| most.max(w.abs()));
+    Some(Moment {
+        label: label.to_owned(),
+        x_m: x,
+        contact_ms: rounded(1e3 * after.end(), 4),
+        factor: factor(largest / bat.length()),
+        times_ms: times.iter().map(|t| rounded(1e3 * t, 3)).collect(),
+        force_kn: instants.iter().map(|now| rounded(1e-3 * now.force, 2)).collect(),
+        gap_mm: gaps.map(|gap| rounded(1e3 * gap, 2)).collect(),
+        bending_10_um: bent
+            .iter()
+            .map(|w| w.iter().map(|w| (1e5 * w).round() as i32).collect())
+            .collect(),
+    })
+}
+
+/// From shortly before the touch until the bat has swung to and fro once after it (s).
+fn times(analysis: &Analysis, end: f64) -> Vec<f64> {
+    /// A picture book of a slow motion would show the hit in a picture or two.
+    const LONGEST: f64 = 0.012;
+    let period = analysis.solution.modes.first().map_or(0.0, |mode| 1.0 / mode.frequency());
+    let last = (4.0 * end).max(LONGEST.min(1.5 * period));
+    (0..PICTURES).map(|k| -BEFORE + (last + BEFORE) * k as f64 / (PICTURES - 1) as f64).collect()
+}
+
+/// By how much a bending of that share of the length is enlarged to be seen.
+fn factor(share: f64) -> u32 {
+    const SEEN: f64 = 0.07;
+    let most = SEEN / share.max(1e-9);
+    [100, 50, 20, 10, 5, 2].into_iter().find(|f| f64::from(*f) <= most).unwrap_or(1)
+}
+
+/// The bat as seen by who moves with it: the straight motion that carries its mass is taken off.
+struct Frame {
+    places: Vec<f64>,
+    /// Mass at every place (kg); none of a bat that is held, which is seen from where it is held.
+    masses: Option<Vec<f64>>,
+}
+
+impl Frame {
+    fn new(bat: &Bat) -> Self {
+        let step = bat.length() / (PLACES - 1) as f64;
+        let places: Vec<f64> = (0..PLACES).map(|k| step * k as f64).collect();
+        let mut masses: Vec<f64> = places.iter().map(|x| step * bat.worth_at(*x).mass).collect();
+        (masses[0], masses[PLACES - 1]) = (0.5 * masses[0], 0.5 * masses[PLACES - 1]);
+        for [mass, x, _] in bat.fixtures.masses() {
+            let nearest = (x / step).round().clamp(0.0, (PLACES - 1) as f64);
+            masses[nearest as usize] += mass;
+        }
+        let free = bat.fixtures.supports.is_empty();
+        Self { places, masses: free.then_some(masses) }
+    }
+
+    /// The bending at every place (m).
+    fn bending(&self, after: &Aftermath, now: &Instant) -> Vec<f64> {
+        if now.time <= 0.0 {
+            return vec![0.0; PLACES];
+        }
+        let mut w: Vec<f64> = self.places.iter().map(|x| after.motion(*x, now)[0]).collect();
+        let Some(masses) = &self.masses else { return w };
+        let sum =
+            |of: &dyn Fn(usize) -> f64| -> f64 { (0..PLACES).map(|k| masses[k] * of(k)).sum() };
+        let mass = sum(&|_| 1.0);
+        let middle = sum(&|k| self.places[k]) / mass;
+        let moved = sum(&|k| w[k]) / mass;
+        let turned = sum(&|k| w[k] * (self.places[k] - middle))
+            / sum(&|k| (self.places[k] - middle).powi(2));
+        for (w, x) in w.iter_mut().zip(&self.places) {
+            *w -= moved + turned * (x - middle);
+        }
+        w
+    }
+}

@@ -1,0 +1,266 @@
+// What moves on the page: modes, the moment of the hit, and hair-lines that read pictures off.
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+  const length = data.outline.length_mm;
+  document.documentElement.classList.add("js");
+
+  /** A new SVG element within another. */
+  const drawn = (parent, name, attributes) => {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    return parent.appendChild(element);
+  };
+
+  /** Scrolls by itself, by keyboard too, only where it is too wide. */
+  const scrolls = new ResizeObserver((seen) => seen.forEach(({ target }) => {
+    if (target.scrollWidth > target.clientWidth) target.setAttribute("tabindex", 0);
+    else target.removeAttribute("tabindex");
+  }));
+  document.querySelectorAll(".scroll").forEach((part) => scrolls.observe(part));
+
+  /** The value at a share between 0 and 1 of a list of even samples. */
+  const at = (list, share) => {
+    const place = Math.min(Math.max(share, 0), 1) * (list.length - 1);
+    const k = Math.min(Math.floor(place), list.length - 2);
+    return list[k] + (place - k) * (list[k + 1] - list[k]);
+  };
+
+  /** The outline of the bat (mm), its middle line bent by so much at every place, up being positive. */
+  const outline = (bent) => {
+    const { x_mm: places, radius_mm: radii } = data.outline, last = places.length - 1;
+    const upper = [], lower = [];
+    places.forEach((x, k) => {
+      // The slope between the neighbours that are not at the same place.
+      let [a, b] = [Math.max(k - 1, 0), Math.min(k + 1, last)];
+      if (places[a] === x && a > 0) a -= 1;
+      if (places[b] === x && b < last) b += 1;
+      const slope = (bent[b] - bent[a]) / (places[b] - places[a]), long = Math.hypot(1, slope);
+      const [along, up] = [-slope / long * radii[k], radii[k] / long];
+      upper.push(`${(x + along).toFixed(2)} ${(-bent[k] - up).toFixed(2)}`);
+      lower.push(`${(x - along).toFixed(2)} ${(-bent[k] + up).toFixed(2)}`);
+    });
+    return `M${upper.join("L")}L${lower.reverse().join("L")}Z`;
+  };
+  const straight = data.outline.x_mm.map(() => 0);
+  const radiusAt = (x) => data.outline.radius_mm[data.outline.x_mm.findLastIndex((place) => place <= x)];
+
+  /**
+   * Time that goes on while Play is pressed, a quarter as fast with Slow, and follows the slider.
+   * `draw(share)` shows the share of a round of so many seconds; `say(share)` is that in words.
+   */
+  const player = (root, { seconds, round, first, draw, say }) => {
+    const [play, slow] = [".play", ".slow"].map((name) => root.querySelector(name));
+    const scrub = root.querySelector(".scrub input"), now = root.querySelector(".now");
+    let share = first, before = 0, playing = false, untouched = true;
+    const show = () => {
+      scrub.value = Math.round(1000 * share);
+      const words = say(share);
+      scrub.setAttribute("aria-valuetext", words);
+      now.textContent = words;
+      draw(share);
+    };
+    const set = (on) => {
+      playing = on;
+      play.textContent = on ? "Pause" : "Play";
+      play.setAttribute("aria-pressed", on);
+      before = 0;
+      if (on) requestAnimationFrame(step);
+    };
+    const step = (time) => {
+      if (!playing) return;
+      const pace = slow.getAttribute("aria-pressed") === "true" ? 0.25 : 1;
+      // A page that was out of sight does not jump.
+      const passed = before ? Math.min(time - before, 100) : 0;
+      before = time;
+      share += pace * passed / 1000 / seconds;
+      if (share >= 1) {
+        share = round ? share % 1 : 1;
+        if (!round) set(false);
+      }
+      show();
+      if (playing) requestAnimationFrame(step);
+    };
+    play.addEventListener("click", () => {
+      // What ends begins anew, and what has not been looked at yet from its beginning.
+      if (!playing && !round && (share >= 1 || untouched)) share = 0;
+      untouched = false;
+      set(!playing);
+    });
+    slow.addEventListener("click", () =>
+      slow.setAttribute("aria-pressed", slow.getAttribute("aria-pressed") !== "true"));
+    scrub.addEventListener("input", () => {
+      set(false);
+      untouched = false;
+      share = scrub.value / 1000;
+      show();
+    });
+    const rewind = (to = first) => {
+      [share, untouched] = [to, true];
+      set(false);
+      show();
+    };
+    show();
+    return { show, rewind, play: () => set(true) };
+  };
+
+  /** Calls back with the number of the chosen one, now and whenever it is another. */
+  const chosen = (root, name, then) => {
+    for (const input of root.querySelectorAll(`input[name="${name}"]`)) {
+      input.addEventListener("change", () => then(Number(input.value)));
+    }
+  };
+
+  const modes = (root) => {
+    const stage = root.querySelector(".stage");
+    const widest = Math.max(...data.outline.radius_mm);
+    // Largest bending, as drawn (mm).
+    const size = 0.09 * length, high = size + widest + 12;
+    stage.setAttribute("viewBox", `-20 ${-high} ${length + 40} ${2 * high}`);
+    drawn(stage, "path", { class: "rest", d: outline(straight) });
+    const bat = drawn(stage, "path", { class: "bat" });
+    const dots = drawn(stage, "g", {});
+    let mode = data.modes[0];
+    const mark = () => {
+      dots.replaceChildren();
+      for (const x of mode.nodes_mm) drawn(dots, "circle", { class: "node", cx: x, cy: 0, r: 7 });
+    };
+    mark();
+    const swing = (share) => Math.sin(2 * Math.PI * share);
+    const film = player(root, {
+      seconds: 2, round: true, first: 0.25,
+      draw: (share) => bat.setAttribute("d", outline(mode.deflection.map((w) => size * swing(share) * w))),
+      say: (share) => `Mode ${mode.order}: ${mode.frequency_hz.toFixed(1)} Hz, ` +
+        `${(1000 * share / mode.frequency_hz).toFixed(2)} of ${(1000 / mode.frequency_hz).toFixed(2)} ms, ` +
+        `shown ${Math.round(2 * mode.frequency_hz)} times slower`,
+    });
+    chosen(root, "mode", (k) => { mode = data.modes[k]; mark(); film.show(); });
+    // It begins by itself when it is first seen, where nobody asked for less motion.
+    if (!calm.matches) {
+      const watch = new IntersectionObserver((seen) => {
+        if (seen.some((entry) => entry.isIntersecting)) { watch.disconnect(); film.play(); }
+      }, { threshold: 0.6 });
+      watch.observe(stage);
+      calm.addEventListener("change", () => { if (calm.matches) film.rewind(); });
+    }
+  };
+
+  const moment = (root) => {
+    const stage = root.querySelector(".stage");
+    const radius = data.ball_radius_mm;
+    const above = 5.2 * radius, below = 0.09 * length + 30;
+    stage.setAttribute("viewBox", `-20 ${-above} ${length + 40} ${above + below}`);
+    drawn(stage, "path", { class: "rest", d: outline(straight) });
+    const bat = drawn(stage, "path", { class: "bat" });
+    const ball = drawn(stage, "ellipse", { class: "ball" });
+    const arrow = drawn(stage, "path", { class: "force" });
+    let hit = data.moments[0];
+    const most = Math.max(...data.moments.flatMap((one) => one.force_kn));
+    const draw = (share) => {
+      const place = share * (hit.times_ms.length - 1);
+      const k = Math.min(Math.floor(place), hit.times_ms.length - 2), part = place - k;
+      const [one, next] = [hit.bending_10_um[k], hit.bending_10_um[k + 1]];
+      const w = one.map((value, i) => hit.factor * (value + part * (next[i] - value)) / 100);
+      bat.setAttribute("d", outline(data.outline.x_mm.map((place) => at(w, place / length))));
+      const there = 1000 * hit.x_m / length;
+      const gap = at(hit.gap_mm, share), force = at(hit.force_kn, share);
+      const flat = radius - Math.max(0, -gap) / 2;
+      const foot = -at(w, there) - radiusAt(1000 * hit.x_m);
+      const middle = foot - Math.max(0, gap) - flat;
+      // As much ball as before, squeezed flatter.
+      const shape = { cx: 1000 * hit.x_m, cy: middle, rx: radius * Math.sqrt(radius / flat), ry: flat };
+      for (const [key, value] of Object.entries(shape)) ball.setAttribute(key, value.toFixed(2));
+      const tall = 1.6 * radius * force / most, x = 1000 * hit.x_m;
+      arrow.setAttribute("d", tall < 1 ? "" : `M${x - 3} ${middle}v${-tall}h-6l9 -14l9 14h-6v${tall}Z`);
+    };
+    const seconds = 12, span = () => hit.times_ms.at(-1) - hit.times_ms[0];
+    const say = (share) => {
+      const time = at(hit.times_ms, share), gap = at(hit.gap_mm, share);
+      const state = time < 0 ? "the ball comes" : time > hit.contact_ms ? "the ball is gone"
+        : `the ball is squeezed by ${Math.max(0, -gap).toFixed(1)} mm`;
+      return `${time.toFixed(2)} ms: force ${at(hit.force_kn, share).toFixed(1)} kN, ${state}. ` +
+        `Bending ${hit.factor} times too large, ${Math.round(1000 * seconds / span())} times slower than life`;
+    };
+    // Until it is played, the instant of the largest force is shown.
+    const first = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);
+    const film = player(root, { seconds, round: false, first: first(), draw, say });
+    chosen(root, "moment", (k) => { hit = data.moments[k]; film.rewind(first()); });
+  };
+
+  /** A hair-line over every picture of something along the barrel; all of them go together. */
+  const hairs = [];
+  const places = data.curve.x_m;
+  const point = (k) => hairs.forEach((hair) => hair(k));
+  const shown = (value, digits, unit) => value === null ? "none" : `${value.toFixed(digits)} ${unit}`;
+  const told = (k, energies) => {
+    const x = places[k], tip = data.summary.length_m - x, { curve } = data;
+    const place = (x) => `${(100 * x).toFixed(1)} cm (${(x / 0.0254).toFixed(1)} in)`;
+    const speed = (v) => v === null ? "none" : `${v.toFixed(2)} m/s (${(v / 0.44704).toFixed(1)} mph)`;
+    return [["From the knob", place(x)], ["From the tip", place(tip)], ...(energies ? [
+      ["Ball, after", shown(curve.ball_j[k], 1, "J")],
+      ["Lost in the ball", shown(curve.lost_in_ball_j[k], 1, "J")],
+      ["Vibration", shown(curve.vibration_j[k], 2, "J")],
+      ["Bat as a whole", shown(curve.bat_j[k], 1, "J")],
+    ] : [
+      ["Exit speed", speed(curve.exit_speed_m_s[k])],
+      ["If it did not bend", speed(curve.rigid_exit_speed_m_s[k])],
+      ["Left in vibration", shown(curve.vibration_j[k], 2, "J")],
+    ])];
+  };
+  const hair = (picture) => {
+    const sheet = picture.parentElement, slider = sheet.querySelector(".hair input");
+    const reading = sheet.closest("figure").querySelector(".reading");
+    const energies = sheet.closest("figure").id === "plot-ledger";
+    const [left, top, right, bottom] = picture.dataset.frame.split(" ").map(Number);
+    const [, , width] = picture.getAttribute("viewBox").split(" ").map(Number);
+    const line = drawn(picture, "line", { class: "hairline", y1: top, y2: bottom });
+    const holder = slider.parentElement;
+    // The middle of the slider's handle stands below the line.
+    holder.style.paddingLeft = `calc(${100 * left / width}% - 8px)`;
+    holder.style.paddingRight = `calc(${100 * (1 - right / width)}% - 8px)`;
+    slider.max = places.length - 1;
+    const last = places.length - 1, [from, to] = [places[0], places[last]];
+    hairs.push((k) => {
+      const x = left + (right - left) * (places[k] - from) / (to - from);
+      line.setAttribute("x1", x);
+      line.setAttribute("x2", x);
+      slider.value = k;
+      const words = told(k, energies);
+      slider.setAttribute("aria-valuetext", words.slice(0, 2).map((pair) => pair.join(" ")).join(", "));
+      reading.replaceChildren(...words.map(([what, value]) => {
+        const span = document.createElement("span"), name = document.createElement("i");
+        name.textContent = what;
+        span.append(name, value);
+        return span;
+      }));
+    });
+    const follow = (event) => {
+      const box = picture.getBoundingClientRect();
+      const share = ((event.clientX - box.left) / box.width * width - left) / (right - left);
+      if (share >= -0.02 && share <= 1.02) point(Math.round(Math.min(Math.max(share, 0), 1) * last));
+    };
+    picture.addEventListener("pointermove", follow);
+    picture.addEventListener("pointerdown", follow);
+    slider.addEventListener("input", () => point(Number(slider.value)));
+    // On a narrow screen the line is in sight.
+    const scroll = sheet.parentElement;
+    requestAnimationFrame(() => {
+      const x = line.getAttribute("x1") / width * sheet.clientWidth;
+      scroll.scrollLeft = x - scroll.clientWidth / 2;
+    });
+  };
+
+  const [film, hit] = ["modes-player", "moment-player"].map((id) => document.getElementById(id));
+  if (film) modes(film);
+  if (hit) moment(hit);
+  if (places.length > 1) {
+    document.querySelectorAll("svg[data-frame]").forEach(hair);
+    const spot = data.summary.sweet_spot_m ?? places[0];
+    const near = (best, x, k) => Math.abs(x - spot) < Math.abs(places[best] - spot) ? k : best;
+    if (hairs.length) point(places.reduce(near, 0));
+  }
+  // A closed part is no part of a printed page.
+  addEventListener("beforeprint", () =>
+    document.querySelectorAll("details:not(.source)").forEach((part) => { part.open = true; }));
+})();

@@ -1,0 +1,153 @@
+//! The summary: the numbers a bat maker asks for first.
+
+use serde::Serialize;
+
+use crate::analysis::Analysis;
+use crate::bat::STANDARD_PIVOT;
+use crate::page::shown;
+
+/// The numbers of the summary, in SI, as they stand in the page's data; None where there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    pub length_m: f64,
+    pub mass_kg: f64,
+    pub balance_point_m: f64,
+    /// About the point 6 in from the knob end.
+    pub inertia_pivot_kg_m2: f64,
+    /// For a pivot there.
+    pub center_of_percussion_m: Option<f64>,
+    /// Of the first modes, three at most.
+    pub frequencies_hz: Vec<f64>,
+    /// Where the ball leaves fastest, how fast, and where it does within 1 % of that.
+    pub sweet_spot_m: Option<f64>,
+    pub exit_speed_m_s: Option<f64>,
+    pub zone_m: Option<[f64; 2]>,
+    /// At the sweet spot, of the free bat and of one held 6 in from the knob.
+    pub bbcor: Option<f64>,
+    pub bbcor_pivoted: Option<f64>,
+    /// The swing and the pitch of that hit.
+    pub swing_rad_s: f64,
+    pub ball_speed_m_s: f64,
+}
+
+/// One number of the summary, in SI and in US units, and what it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fact {
+    /// What it is called in the page's data.
+    pub key: &'static str,
+    pub label: &'static str,
+    pub values: [String; 2],
+    /// A word more; may be empty.
+    pub note: String,
+}
+
+impl Summary {
+    pub fn new(analysis: &Analysis) -> Self {
+        let Analysis { bat, solution, task, figures, .. } = analysis;
+        let inertia = bat.inertia();
+        let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+        Self {
+            length_m: bat.length(),
+            mass_kg: inertia.mass,
+            balance_point_m: inertia.balance_point,
+            inertia_pivot_kg_m2: inertia.about(STANDARD_PIVOT),
+            center_of_percussion_m: inertia.center_of_percussion(STANDARD_PIVOT),
+            frequencies_hz: solution.modes.iter().take(3).map(|mode| mode.frequency()).collect(),
+            sweet_spot_m: figures.spot.exit_speed_max.map(|peak| peak.x),
+            exit_speed_m_s: figures.spot.exit_speed_max.map(|peak| peak.value),
+            zone_m: figures.spot.zone,
+            bbcor: best.map(|outcome| outcome.bbcor),
+            bbcor_pivoted: best.map(|outcome| outcome.bbcor_pivoted),
+            swing_rad_s: task.scene.swing,
+            ball_speed_m_s: task.scene.ball_speed,
+        }
+    }
+
+    /// What stands out: sweet spot, exit speed, zone. Empty where no ball is hit.
+    pub fn headline(&self) -> Vec<Fact> {
+        let (Some(x), Some(speed), Some([from, to])) =
+            (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
+        else {
+            return vec![];
+        };
+        vec![
+            Fact {
+                key: "sweet_spot_m",
+                label: "Sweet spot, from the knob",
+                values: shown::length(x),
+                note: format!("{} from the tip", shown::place(self.length_m - x)),
+            },
+            Fact {
+                key: "exit_speed_m_s",
+                label: "Best exit speed",
+                values: shown::speed(speed),
+                note: format!(
+                    "swing {} rad/s, pitch {}",
+                    shown::decimals(self.swing_rad_s, 1),
+                    shown::inline(shown::speed(self.ball_speed_m_s))
+                ),
+            },
+            Fact {
+                key: "zone_m",
+                label: "Sweet zone, within 1 %",
+                values: shown::length(to - from),
+                note: format!(
+                    "from {} to {} cm ({} to {} in)",
+                    shown::centimetres(from),
+                    shown::centimetres(to),
+                    shown::in_inches(from),
+                    shown::in_inches(to)
+                ),
+            },
+        ]
+    }
+
+    /// All the rest, those left out that there are no numbers for.
+    pub fn facts(&self) -> Vec<Fact> {
+        let fact = |key, label, values, note: String| Fact { key, label, values, note };
+        let from_tip = |x: f64| format!("{} from the tip", shown::place(self.length_m - x));
+        let none = String::new;
+        let mut facts = vec![
+            fact("length_m", "Length", shown::length(self.length_m), none()),
+            fact("mass_kg", "Mass", shown::mass(self.mass_kg), none()),
+            fact(
+                "balance_point_m",
+                "Balance point, from the knob",
+                shown::length(self.balance_point_m),
+                from_tip(self.balance_point_m),
+            ),
+            fact(
+                "inertia_pivot_kg_m2",
+                "Swing weight",
+                shown::inertia(self.inertia_pivot_kg_m2),
+                "moment of inertia about a point 6 in from the knob".to_owned(),
+            ),
+        ];
+        if let Some(x) = self.center_of_percussion_m {
+            let note = format!("{}, pivot 6 in from the knob", from_tip(x));
+            let label = "Centre of percussion, from the knob";
+            facts.push(fact("center_of_percussion_m", label, shown::length(x), note));
+        }
+        if let Some((first, others)) = self.frequencies_hz.split_first() {
+            let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
+            let note = match others.len() {
+                0 => none(),
+                1 => format!("then {} Hz", others[0]),
+                _ => format!("then {} Hz", others.join(" and ")),
+            };
+            let values = [format!("{} Hz", shown::decimals(*first, 1)), none()];
+            facts.push(fact("frequencies_hz", "First bending frequency", values, note));
+        }
+        if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
+            let note =
+                format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
+            let values = [format!("{free:.3}"), none()];
+            facts.push(fact("bbcor", "BBCOR-like figure", values, note));
+        }
+        facts
+    }
+}
+
+/// Why there is no headline.
+pub const NO_HIT: &str = "There is no sweet spot to show: in this scene ball and bat do not meet, or the model has no \
+     solution.";

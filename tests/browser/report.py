@@ -1,0 +1,329 @@
+#!/usr/bin/env python3
+"""The report in a real browser: nothing fails, nothing is fetched, what moves does when it should,
+everything is readable at 390 px and 1440 px, in light and dark, on paper, and by keyboard alone.
+
+    python3 tests/browser/report.py PROGRAM
+
+makes reports with that program and looks at them with a headless Chromium. Exit code 1 if anything
+is not as it should be. Contrast is that of the Web Content Accessibility Guidelines 2.1, 1.4.3.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+from chromium import Browser, program
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+failures = []
+
+
+def check(true, what):
+    """Keeps what is not true."""
+    if not true:
+        failures.append(what)
+        print(f"  NOT SO: {what}", flush=True)
+
+
+def make(sweetspot, folder):
+    """Reports of several bats; their names and files."""
+    evil = json.load(open(f"{ROOT}/meshes/dowel.json"))
+    evil["name"] = "</script><script>document.title='x'</script><img src=x onerror=\"document.title='x'\">"
+    with open(f"{folder}/evil.json", "w") as file:
+        json.dump(evil, file)
+    mesh = f"{ROOT}/meshes"
+    asked = {
+        "r161": [f"{mesh}/r161.json"],
+        "two_piece": [f"{mesh}/two_piece.json"],
+        "evil": [f"{folder}/evil.json"],
+        "rigid": [f"{mesh}/dowel.json", "--model", "rigid", "--modes", "0"],
+        "no_hit": [f"{mesh}/dowel.json", "--swing-speed", "-50 rad/s", "--pitch", "1 m/s"],
+    }
+    made = {}
+    for name, args in asked.items():
+        made[name] = f"{folder}/{name}.html"
+        command = [sweetspot, "analyze", *args, "--quiet", "--report", made[name]]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return made
+
+
+# What a page can be asked. Each is an expression that gives a list of complaints or a value.
+
+TOO_WIDE = "document.documentElement.scrollWidth > innerWidth"
+
+SMALL_TEXT = """[...document.querySelectorAll("body *")].filter(e => !e.closest("svg, script, style")
+  && e.checkVisibility() && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())
+  && parseFloat(getComputedStyle(e).fontSize) < 16)
+  .map(e => e.tagName + " " + e.textContent.slice(0, 30) + " " + getComputedStyle(e).fontSize)"""
+
+OVERLAPS = """(() => {
+  const boxes = [...document.querySelectorAll(".headline > div, .facts > div, .headline dd, .facts dd, .headline dt, .facts dt")];
+  const told = [], slack = 0.6;
+  boxes.forEach((a, i) => boxes.slice(i + 1).forEach(b => {
+    if (a.contains(b) || b.contains(a)) return;
+    const [p, q] = [a.getBoundingClientRect(), b.getBoundingClientRect()];
+    if (Math.min(p.right, q.right) - Math.max(p.left, q.left) > slack
+      && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > slack) told.push(a.textContent + " / " + b.textContent);
+  }));
+  boxes.filter(b => b.scrollWidth > b.clientWidth + 1 && b.clientWidth).forEach(b => told.push("cut: " + b.textContent));
+  return told;
+})()"""
+
+CONTRAST = """(() => {
+  const parse = text => { const n = text.match(/[\\d.]+/g); return n ? n.map(Number) : [0, 0, 0, 0]; };
+  const over = (top, below) => { const a = top[3] ?? 1; return [0, 1, 2].map(k => a * top[k] + (1 - a) * below[k]); };
+  const light = c => { const [r, g, b] = c.map(v => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const ground = e => {
+    if (!e) return [255, 255, 255];
+    const own = parse(getComputedStyle(e).backgroundColor);
+    return own.length > 3 && own[3] === 0 ? ground(e.parentElement) : over(own, ground(e.parentElement));
+  };
+  const told = [];
+  let seen = 0;
+  for (const e of document.querySelectorAll("body *")) {
+    if (e.closest("script, style, noscript, title, desc, .ss-hover") || !e.checkVisibility()) continue;
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())) continue;
+    const style = getComputedStyle(e), svg = e.closest("svg");
+    const paper = svg && svg.querySelector(":scope > rect");
+    const below = paper ? over(parse(getComputedStyle(paper).fill), ground(svg)) : ground(e);
+    const ink = over(parse(svg ? style.fill : style.color), below);
+    const [a, b] = [light(ink), light(below)].sort((x, y) => y - x);
+    const size = parseFloat(style.fontSize), large = size >= 24 || (size >= 18.66 && style.fontWeight >= 700);
+    seen += 1;
+    if ((a + 0.05) / (b + 0.05) < (large ? 3 : 4.5)) told.push(e.tagName + " " + e.textContent.slice(0, 30) + " " + ((a + 0.05) / (b + 0.05)).toFixed(2));
+  }
+  return seen > 20 ? told : ["nothing seen"];
+})()"""
+
+# All that the keyboard should reach, in the order of the page: of radio buttons the chosen one.
+REACHABLE = """[...document.querySelectorAll("a[href], button, input, summary, [tabindex]")]
+  .filter(e => e.tabIndex >= 0 && e.checkVisibility() && !(e.type === "radio" && !e.checked))
+  .map(e => (e.dataset.order = ++window.order, e.dataset.order))"""
+
+FOCUSED = """(() => { const e = document.activeElement; if (!e || e === document.body) return null;
+  const style = getComputedStyle(e.type === "radio" ? e.nextElementSibling : e), box = e.getBoundingClientRect();
+  return [e.dataset.order ?? e.outerHTML.slice(0, 80), parseFloat(style.outlineWidth) >= 2 && style.outlineStyle !== "none",
+    box.width > 0 && box.bottom > 0 && box.top < innerHeight]; })()"""
+
+SHAPE = "document.querySelector('#{0} .bat').getAttribute('d')"
+VALUE = "Number(document.querySelector('#{0} .scrub input').value)"
+
+
+def quiet(browser, what):
+    """Nothing was complained of, and nothing but the file itself was asked for."""
+    browser.run("1")
+    for event in browser.events:
+        method, told = event["method"], json.dumps(event.get("params"))[:300]
+        bad = method in ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Audits.issueAdded",
+                         "Page.javascriptDialogOpening")
+        bad = bad or method == "Log.entryAdded"
+        check(not bad, f"{what}: {method} {told}")
+        if method == "Network.requestWillBeSent":
+            address = event["params"]["request"]["url"]
+            check(address.startswith("file://") and address.endswith(".html"), f"{what}: asks for {address}")
+
+
+def readable(browser, name, path):
+    """At both widths, in light and in dark."""
+    for width in (390, 1440):
+        for dark in (False, True):
+            what = f"{name} at {width} px{', dark' if dark else ''}"
+            browser.open(path, width=width, dark=dark, calm=True)
+            quiet(browser, what)
+            check(not browser.run(TOO_WIDE), f"{what}: scrolls sideways")
+            check(browser.run("parseFloat(getComputedStyle(document.body).fontSize)") >= 16, f"{what}: small")
+            for query in (SMALL_TEXT, OVERLAPS, CONTRAST):
+                for told in browser.run(query):
+                    check(False, f"{what}: {told}")
+
+
+def waited(browser, true, seconds=3.0):
+    """Whether that becomes true in time."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if browser.run(true):
+            return True
+        time.sleep(0.03)
+    return False
+
+
+def moving(browser, path):
+    """Nothing moves for who asked for that, until Play is pressed; else the modes do when seen."""
+    browser.open(path, calm=True)
+    for player in ("modes-player", "moment-player"):
+        shape = SHAPE.format(player)
+        browser.run(f"document.querySelector('#{player} .stage').scrollIntoView({{ block: 'center' }})")
+        before = browser.run(shape)
+        time.sleep(0.6)
+        check(browser.run(shape) == before, f"{player}: moves though less motion is asked for")
+        play = f"document.querySelector('#{player} .play')"
+        browser.run(f"{play}.focus()")
+        browser.key(" ", "Space", 32, " ")
+        check(browser.run(f"{play}.getAttribute('aria-pressed')") == "true", f"{player}: Space does not play")
+        check(waited(browser, f"{shape} !== {json.dumps(before)}"), f"{player}: Play moves nothing")
+        browser.key(" ", "Space", 32, " ")
+        time.sleep(0.1)
+        still = browser.run(shape)
+        time.sleep(0.3)
+        check(browser.run(shape) == still, f"{player}: Pause does not stop it")
+        check(browser.run(f"{play}.textContent") == "Play", f"{player}: the button says otherwise")
+        speed(browser, player)
+        scrub(browser, player)
+    browser.open(path, calm=False)
+    browser.run("document.querySelector('#modes-player .stage').scrollIntoView({ block: 'center' })")
+    before = browser.run(SHAPE.format("modes-player"))
+    moved = waited(browser, f"{SHAPE.format('modes-player')} !== {json.dumps(before)}")
+    check(moved, "the modes do not begin to move when they are seen")
+    quiet(browser, "what moves")
+
+
+def speed(browser, player):
+    """Slow is a quarter as fast: the way that the slider makes in equal times."""
+    ways = []
+    for slow in (False, True):
+        way = browser.run(f"""new Promise(done => {{
+          const root = document.querySelector('#{player}'), slider = root.querySelector('.scrub input');
+          const slow = root.querySelector('.slow'), play = root.querySelector('.play');
+          if ((slow.getAttribute('aria-pressed') === 'true') !== {str(slow).lower()}) slow.click();
+          slider.value = 200; slider.dispatchEvent(new Event('input'));
+          play.click();
+          requestAnimationFrame(first => {{
+            const from = Number(slider.value);
+            const look = now => now - first < 800 ? requestAnimationFrame(look)
+              : (play.click(), done((slider.value - from) / (now - first)));
+            requestAnimationFrame(look);
+          }});
+        }})""")
+        ways.append(way)
+    check(ways[1] > 0 and 2.5 < ways[0] / ways[1] < 6, f"{player}: slow is {ways}")
+
+
+def scrub(browser, player):
+    """The slider shows another instant by keyboard."""
+    slider = f"document.querySelector('#{player} .scrub input')"
+    browser.run(f"{slider}.focus()")
+    before = browser.run(f"[{VALUE.format(player)}, {SHAPE.format(player)}, document.querySelector('#{player} .now').textContent]")
+    for _ in range(9):
+        browser.key("ArrowRight", number=39)
+    after = browser.run(f"[{VALUE.format(player)}, {SHAPE.format(player)}, document.querySelector('#{player} .now').textContent]")
+    check(after[0] == before[0] + 9, f"{player}: the slider does not follow the keys")
+    check(after[1] != before[1] and after[2] != before[2], f"{player}: the slider shows nothing new")
+    named = browser.run(f"{slider}.getAttribute('aria-valuetext') === document.querySelector('#{player} .now').textContent")
+    check(named, f"{player}: the slider does not say what it shows")
+
+
+def choosing(browser, path):
+    """Arrows choose another mode and another hit."""
+    browser.open(path, calm=True)
+    for player, name in (("modes-player", "mode"), ("moment-player", "moment")):
+        before = browser.run(SHAPE.format(player))
+        browser.run(f"document.querySelector('input[name={name}]').focus()")
+        browser.key("ArrowRight", number=39)
+        check(browser.run(f"document.querySelector('input[name={name}]:checked').value") == "1", f"{name}: arrows")
+        check(browser.run(SHAPE.format(player)) != before, f"{name}: shows the same")
+
+
+def hair_lines(browser, path):
+    """They follow pointer and arrows, all together, and say what they read."""
+    browser.open(path, calm=True)
+    lines = "[...document.querySelectorAll('.hairline')].map(e => Number(e.getAttribute('x1')))"
+    check(len(browser.run(lines)) == 2, "two pictures have a hair-line")
+    for figure in ("exit_speed", "ledger"):
+        slider = f"document.querySelector('#plot-{figure} .hair input')"
+        reading = f"document.querySelector('#plot-{figure} .reading').textContent"
+        browser.run(f"{slider}.scrollIntoView({{ block: 'end' }})")
+        browser.run(f"{slider}.focus()")
+        before, told = browser.run(lines), browser.run(reading)
+        browser.key("ArrowRight", number=39)
+        browser.key("ArrowRight", number=39)
+        after = browser.run(lines)
+        check(all(b > a for a, b in zip(before, after)), f"{figure}: arrows do not move the hair-lines")
+        check(browser.run(reading) != told, f"{figure}: arrows read nothing else")
+        # The reading is the curve's own number there.
+        same = browser.run(f"""(() => {{ const data = JSON.parse(document.getElementById('data').textContent);
+          const k = Number({slider}.value), x = data.curve.x_m[k];
+          return {reading}.includes((100 * x).toFixed(1) + ' cm') && {reading}.includes(data.curve.vibration_j[k].toFixed(2) + ' J'); }})()""")
+        check(same, f"{figure}: the reading is not the curve's")
+        box = browser.run(f"""(() => {{ const picture = document.querySelector('#plot-{figure} svg');
+          const b = picture.getBoundingClientRect(), [l, t, r, u] = picture.dataset.frame.split(' ').map(Number);
+          const s = b.width / picture.viewBox.baseVal.width;
+          return [b.left + s * (l + 0.25 * (r - l)), b.top + s * (t + 0.5 * (u - t)), l + 0.25 * (r - l)]; }})()""")
+        browser.move(box[0], box[1])
+        there = browser.run(f"Number(document.querySelector('#plot-{figure} .hairline').getAttribute('x1'))")
+        check(abs(there - box[2]) < 5, f"{figure}: the hair-line is at {there}, the pointer at {box[2]}")
+    live = browser.run("[...document.querySelectorAll('.reading')].every(e => e.getAttribute('aria-live') === 'polite')")
+    check(live, "readings are not said")
+
+
+def keyboard(browser, path, width):
+    """Tab reaches everything, in the order of the page, with its focus to be seen."""
+    browser.open(path, width=width, calm=True)
+    time.sleep(0.2)
+    browser.run("window.order = 0")
+    wanted = browser.run(REACHABLE)
+    reached = []
+    for _ in range(len(wanted) + 3):
+        browser.key("Tab", number=9)
+        focused = browser.run(FOCUSED)
+        if focused is None or focused[0] in reached:
+            break
+        reached.append(focused[0])
+        check(focused[1], f"{width} px: the focus of {focused[0]} is not seen")
+        check(focused[2], f"{width} px: {focused[0]} is out of sight")
+    check(reached == wanted, f"{width} px: Tab reaches {reached}, there are {wanted}")
+    check(browser.run("document.querySelector('.skip').getAttribute('href')") == "#main", "no skip link")
+
+
+def paper(browser, path):
+    """In print no controls, dark ink on white, whatever the screen is."""
+    browser.open(path, width=700, dark=True, media="print")
+    left = browser.run("[...document.querySelectorAll('button, input, nav, .hairline, .reading')].filter(e => e.checkVisibility()).length")
+    check(left == 0, f"print: {left} controls")
+    check(browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)", "print: not white")
+    check(browser.run("getComputedStyle(document.body).color") == "rgb(0, 0, 0)", "print: not black")
+    for told in browser.run(CONTRAST):
+        check(False, f"print: {told}")
+    check(browser.run("document.querySelector('#plot-shapes svg').checkVisibility()"), "print: no mode shapes")
+    check(not browser.run(TOO_WIDE), "print: too wide")
+
+
+def without_script(browser, path):
+    """Everything that stands still is there without a script."""
+    browser.send("Emulation.setScriptExecutionDisabled", value=True)
+    browser.open(path)
+    hidden = browser.run("[...document.querySelectorAll('section, figure svg, table, h2')].filter(e => !e.checkVisibility() && !e.closest('details')).length")
+    check(hidden == 0, f"without a script {hidden} parts are hidden")
+    check(browser.run("[...document.querySelectorAll('button, input')].every(e => !e.checkVisibility())"),
+          "without a script there are controls that do nothing")
+    check("needs JavaScript" in browser.run("document.body.innerText"), "without a script nothing says so")
+    browser.send("Emulation.setScriptExecutionDisabled", value=False)
+
+
+def main():
+    if program() is None:
+        sys.exit("error: no Chromium found; install the package chromium")
+    with tempfile.TemporaryDirectory() as folder:
+        pages = make(sys.argv[1], folder)
+        with Browser() as browser:
+            for name, path in pages.items():
+                print(f"  {name}: {os.path.getsize(path) // 1000} kB", flush=True)
+                readable(browser, name, path)
+            browser.open(pages["evil"])
+            check(browser.run("document.title").startswith("</script>"), "a name changed the page")
+            moving(browser, pages["r161"])
+            choosing(browser, pages["r161"])
+            hair_lines(browser, pages["r161"])
+            for width in (390, 1440):
+                keyboard(browser, pages["two_piece"], width)
+            paper(browser, pages["two_piece"])
+            without_script(browser, pages["r161"])
+    print(f"{len(failures)} failures" if failures else "the report reads, moves and obeys in Chromium")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()

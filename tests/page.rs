@@ -1,0 +1,351 @@
+//! The report: one page that needs nothing, tells what was computed and shows any text as text.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use common::folder::Folder;
+use serde_json::{Value, json};
+use sweetspot::analysis::{Analysis, Task};
+use sweetspot::collision::history::history;
+use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::page::content::Report;
+use sweetspot::page::html::page;
+use sweetspot::theory::Theory;
+use sweetspot::{Bat, Request, solve};
+
+fn mesh(name: &str) -> String {
+    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The page of a bat, and standard output.
+fn made(folder: &Folder, bat: &str, more: &[&str]) -> (String, String) {
+    let args = [&["analyze", bat, "--report", "page.html", "--quiet"], more].concat();
+    let told = folder.text(&args);
+    (folder.read("page.html"), told)
+}
+
+/// What stands between two marks, after the first of them.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
+    let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("no {from}"));
+    rest.split_once(to).unwrap_or_else(|| panic!("no {to}")).0
+}
+
+fn data(page: &str) -> Value {
+    let block = between(page, "<script type=\"application/json\" id=\"data\">", "</script>");
+    assert!(!block.contains('<'));
+    serde_json::from_str(block).unwrap()
+}
+
+/// A tag: its name, whether it ends or is empty, its attributes.
+struct Tag {
+    name: String,
+    closes: bool,
+    empty: bool,
+    attributes: Vec<(String, String)>,
+    /// What stands after it, until the next tag.
+    text: String,
+}
+
+impl Tag {
+    fn get(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+    }
+}
+
+/// The tags of a page; what is within scripts and styles is none.
+fn tags(page: &str) -> Vec<Tag> {
+    const VOID: [&str; 5] = ["meta", "input", "br", "img", "link"];
+    let mut all = vec![];
+    let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a page of today");
+    while let Some(start) = rest.find('<') {
+        let end = start + rest[start..].find('>').expect("every tag ends");
+        let inner = &rest[start + 1..end];
+        let (inner, own) = inner.strip_suffix('/').map_or((inner, false), |inner| (inner, true));
+        let closes = inner.starts_with('/');
+        let inner = inner.trim_start_matches('/');
+        let (name, mut given) = inner.split_once([' ', '\n']).unwrap_or((inner, ""));
+        let mut attributes = vec![];
+        while let Some((key, more)) = given.split_once("=\"") {
+            let (value, more) = more.split_once('"').expect("every value ends");
+            let key = key.trim().rsplit(' ').next().unwrap_or_default();
+            attributes.push((key.to_owned(), value.to_owned()));
+            given = more;
+        }
+        rest = &rest[end + 1..];
+        if !closes && ["script", "style"].contains(&name) {
+            rest = &rest[rest.find(&format!("</{name}>")).expect("it ends")..];
+        }
+        let text = rest.split('<').next().unwrap_or_default().to_owned();
+        let empty = own || VOID.contains(&name);
+        all.push(Tag { name: name.to_owned(), closes, empty, attributes, text });
+    }
+    all
+}
+
+#[test]
+fn the_page_is_one_file_that_fetches_nothing() {
+    let folder = Folder::new("page-alone");
+    let (page, _) = made(&folder, &mesh("northwestern_aluminium"), &[]);
+    assert_eq!(folder.names(), ["page.html"]);
+    assert!(page.len() < 400_000, "{} bytes", page.len());
+    assert!(page.contains("default-src 'none'"));
+    for tag in tags(&page) {
+        assert!(!["link", "iframe", "object", "embed", "base", "img"].contains(&tag.name.as_str()));
+        for (key, value) in &tag.attributes {
+            assert!(!["src", "srcset", "data", "action", "xlink:href"].contains(&key.as_str()));
+            assert!(key != "href" || value.starts_with('#'), "{value}");
+            assert!(!key.starts_with("on"), "{key}");
+        }
+    }
+    let known = "http://www.w3.org/2000/svg";
+    for told in ["http:", "https:", "url(", "@import", "fetch(", "import(", "XMLHttp", "//cdn"] {
+        assert_eq!(page.replace(known, "").find(told), None, "{told}");
+    }
+}
+
+#[test]
+fn every_tag_ends_every_name_is_one_and_every_control_is_named() {
+    let folder = Folder::new("page-form");
+    for (bat, more) in [("two_piece", &[][..]), ("dowel", &["--modes", "0", "--model", "rigid"])] {
+        let (page, _) = made(&folder, &mesh(bat), more);
+        let tags = tags(&page);
+        let (mut open, mut ids, mut level) = (vec![], BTreeSet::new(), 0);
+        let mut links = vec![];
+        for tag in &tags {
+            let name = tag.name.as_str();
+            if tag.closes {
+                assert_eq!(open.pop(), Some(name), "{bat}");
+                continue;
+            }
+            if let Some(id) = tag.get("id") {
+                assert!(ids.insert(id), "{bat}: {id} twice");
+            }
+            links.extend(tag.get("href").map(|link| link.trim_start_matches('#')));
+            links.extend(tag.get("aria-labelledby"));
+            if let Some(now) = name.strip_prefix('h').and_then(|n| n.parse::<u32>().ok()) {
+                assert!(now <= level + 1, "{bat}: h{now} after h{level}");
+                level = now;
+            }
+            let named = tag.get("aria-label").is_some_and(|label| !label.is_empty());
+            match name {
+                "input" => assert!(named || open.contains(&"label"), "{bat}"),
+                "button" | "summary" | "a" | "legend" => {
+                    assert!(named || !tag.text.trim().is_empty(), "{bat}: {name}")
+                }
+                _ if tag.get("role").is_some() && name != "svg" => assert!(named, "{bat}: {name}"),
+                _ => {}
+            }
+            if !tag.empty {
+                open.push(name);
+            }
+        }
+        assert!(open.is_empty(), "{bat}: {open:?}");
+        assert!(links.iter().all(|link| ids.contains(link)), "{bat}: {links:?} {ids:?}");
+        assert_eq!(tags.iter().filter(|tag| tag.name == "h1" && !tag.closes).count(), 1);
+        assert!(page.contains("<html lang=\"en\">") && page.contains("<title>"));
+    }
+}
+
+#[test]
+fn whatever_a_bat_is_called_it_is_shown_as_text() {
+    let folder = Folder::new("page-names");
+    let evil = "</script><script>alert(1)</script> \"><img src=x onerror=alert(2)> 'a' ![x](y) |`";
+    let mut bat: Value =
+        serde_json::from_str(&std::fs::read_to_string(mesh("dowel")).unwrap()).unwrap();
+    bat["name"] = json!(evil);
+    bat["source"] = json!(evil);
+    folder.write("<b>.json", bat.to_string());
+    let ball = json!({ "format": "sweetspot-ball/1", "name": evil, "source": evil, "mass": "5 oz",
+        "radius": "36 mm", "stiffness": 6.53e7, "exponent": 1.84, "cor": 0.5 });
+    folder.write("ball.json", ball.to_string());
+    let (page, _) = made(&folder, "<b>.json", &["--ball", "ball.json"]);
+    let scripts = tags(&page).iter().filter(|tag| tag.name == "script" && !tag.closes).count();
+    assert_eq!(scripts, 2);
+    assert!(!page.contains("<script>alert") && !page.contains("<img") && !page.contains("<b>"));
+    let shown = "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;";
+    assert!(between(&page, "<h1>", "</h1>").contains(shown));
+    assert!(page.matches(shown).count() > 4);
+    data(&page);
+
+    folder.text(&["analyze", "<b>.json", "--ball", "ball.json", "--report", "a b.md", "--quiet"]);
+    let text = folder.read("a b.md");
+    let outside: String = text.split("```").step_by(2).collect();
+    assert!(!outside.replace("\\<", "").contains('<'), "{outside}");
+    assert!(text.contains("](a%20b_pictures/exit_speed.svg"));
+}
+
+#[test]
+fn the_summary_has_the_numbers_of_the_analysis() {
+    let folder = Folder::new("page-numbers");
+    for bat in ["r161", "two_piece"] {
+        let (page, told) = made(&folder, &mesh(bat), &["--json", "-"]);
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let summary = &data(&page)["summary"];
+        let (modes, hit) = (&told["modes"], &told["hit"]);
+        for key in ["length_m", "mass_kg", "balance_point_m", "inertia_pivot_kg_m2"] {
+            assert_eq!(summary[key], modes["summary"][key], "{bat}: {key}");
+        }
+        let center = &modes["summary"]["center_of_percussion_m"];
+        assert_eq!(&summary["center_of_percussion_m"], center);
+        for k in 0..3 {
+            assert_eq!(summary["frequencies_hz"][k], modes["modes"][k]["frequency_hz"]);
+        }
+        let spot = &hit["sweet_spot"];
+        assert_eq!(summary["sweet_spot_m"], spot["exit_speed_max"]["x_m"]);
+        assert_eq!(summary["exit_speed_m_s"], spot["exit_speed_max"]["value"]);
+        assert_eq!(summary["zone_m"], spot["zone_m"]);
+        assert_eq!(summary["bbcor"], hit["figures"]["bbcor"]);
+        assert_eq!(summary["bbcor_pivoted"], hit["figures"]["bbcor_pivoted"]);
+        // What is seen is that number, rounded.
+        let zone = summary["zone_m"][1].as_f64().unwrap() - summary["zone_m"][0].as_f64().unwrap();
+        let number = |key: &str| summary[key].as_f64().unwrap();
+        for (key, value, within) in [
+            ("length_m", 100.0 * number("length_m"), 0.005),
+            ("mass_kg", number("mass_kg"), 5e-5),
+            ("balance_point_m", 100.0 * number("balance_point_m"), 0.005),
+            ("inertia_pivot_kg_m2", number("inertia_pivot_kg_m2"), 5e-6),
+            ("center_of_percussion_m", 100.0 * number("center_of_percussion_m"), 0.005),
+            ("frequencies_hz", summary["frequencies_hz"][0].as_f64().unwrap(), 0.05),
+            ("sweet_spot_m", 100.0 * number("sweet_spot_m"), 0.005),
+            ("exit_speed_m_s", number("exit_speed_m_s"), 0.005),
+            ("zone_m", 100.0 * zone, 0.005),
+            ("bbcor", number("bbcor"), 5e-4),
+        ] {
+            let shown =
+                between(&page, &format!("data-key=\"{key}\"><span class=\"si\">"), "</span>");
+            let seen: f64 = shown.split(' ').next().unwrap().parse().unwrap();
+            assert!((seen - value).abs() <= within * (1.0 + 1e-9), "{key}: {shown}, {value}");
+        }
+        // The curve too.
+        let curve = &data(&page)["curve"];
+        for (k, impact) in hit["impacts"].as_array().unwrap().iter().enumerate() {
+            let apart = |a: &Value, b: &Value| (a.as_f64().unwrap() - b.as_f64().unwrap()).abs();
+            assert!(apart(&curve["exit_speed_m_s"][k], &impact["exit_speed_m_s"]) <= 5.1e-4);
+            assert!(apart(&curve["vibration_j"][k], &impact["energy_j"]["vibration"]) <= 5.1e-4);
+            assert!(apart(&curve["x_m"][k], &impact["x_m"]) <= 5.1e-7);
+        }
+    }
+}
+
+#[test]
+fn equal_input_gives_equal_bytes() {
+    let folder = Folder::new("page-equal");
+    let (one, _) = made(&folder, &mesh("cone"), &[]);
+    assert_eq!(made(&folder, &mesh("cone"), &[]).0, one);
+}
+
+#[test]
+fn what_there_is_not_is_told() {
+    let folder = Folder::new("page-missing");
+    let (page, _) = made(&folder, &mesh("dowel"), &["--model", "rigid", "--modes", "0"]);
+    for told in ["knows no force in time", "No bending modes were asked for", "does not bend"] {
+        assert!(page.contains(told), "{told}");
+    }
+    assert!(!page.contains("id=\"modes-player\"") && !page.contains("id=\"moment-player\""));
+    let (page, _) =
+        made(&folder, &mesh("dowel"), &["--swing-speed", "-50 rad/s", "--pitch", "1 m/s"]);
+    assert!(page.contains("There is no sweet spot to show"));
+    assert_eq!(data(&page)["summary"]["sweet_spot_m"], Value::Null);
+    assert!(!page.contains("NaN") && !page.contains("inf"));
+    let (page, _) = made(&folder, &mesh("dowel"), &["--model", "pulse", "--ball", "softball"]);
+    assert!(page.contains("softball") && page.contains("id=\"plot-exit_speed\""));
+}
+
+#[test]
+fn the_files_stand_in_the_page_as_they_were_written() {
+    let folder = Folder::new("page-files");
+    folder.write(
+        "bat.json",
+        r#"{ "format": "sweetspot-bat/1", "name": "mine",
+            "material": "white-ash", "weighed": { "mass": "31.5 oz" },
+            "profile": { "csv": "turned.csv" } }"#,
+    );
+    folder.write("turned.csv", "x_in,diameter_in\n0,1\n17,1.3\n33,2.6\n");
+    let (page, _) = made(&folder, "bat.json", &["--theory", "euler-bernoulli"]);
+    for told in ["&quot;31.5 oz&quot;", "x_in,diameter_in\n0,1\n17,1.3\n33,2.6"] {
+        assert!(page.contains(told), "{told}");
+    }
+    assert!(page.contains("sweetspot analyze bat.json --report page.html"));
+}
+
+#[test]
+fn markdown_says_the_same_with_its_pictures_beside_it() {
+    let folder = Folder::new("page-markdown");
+    folder.text(&["analyze", &mesh("r161"), "--report", "r161.md"]);
+    assert_eq!(folder.names(), ["r161.md", "r161_pictures"]);
+    let text = folder.read("r161.md");
+    let (page, _) = made(&folder, &mesh("r161"), &[]);
+    for tag in
+        tags(&page).iter().filter(|tag| ["h1", "h2"].contains(&tag.name.as_str()) && !tag.closes)
+    {
+        let marks = if tag.name == "h1" { "#" } else { "##" };
+        assert!(text.contains(&format!("{marks} {}\n", tag.text)), "{}", tag.text);
+    }
+    let pictures = Folder(folder.0.join("r161_pictures"));
+    for name in pictures.names() {
+        assert_eq!(text.matches(&format!("](r161_pictures/{name} \"")).count(), 1, "{name}");
+        assert!(pictures.read(&name).trim_end().ends_with("</svg>"));
+    }
+    assert_eq!(text.matches("](r161_pictures/").count(), pictures.names().len());
+    // Every row of a table has as many cells as its head.
+    let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+    let lines: Vec<&str> = text.lines().collect();
+    for pair in lines.windows(2).filter(|pair| pair.iter().all(|line| line.starts_with("| "))) {
+        assert_eq!(cells(pair[0]), cells(pair[1]), "{pair:?}");
+    }
+}
+
+#[test]
+fn another_kind_of_report_is_refused_before_anything_is_done() {
+    let folder = Folder::new("page-kinds");
+    for name in ["report.pdf", "report", "html"] {
+        let output = folder.run(&["analyze", &mesh("dowel"), "--report", name, "--out", "out"]);
+        assert_eq!(output.status.code(), Some(2));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(".html or .md"), "{told}");
+    }
+    let output = folder.run(&["analyze", &mesh("dowel"), "--report", "missing/page.html"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(folder.names().is_empty());
+}
+
+fn analysed(bat: Bat) -> Analysis {
+    let hits = Request { theory: Theory::Timoshenko, ..Request::default() };
+    let solution = solve(&bat, &hits).unwrap();
+    let (scene, proof) = (Scene::default(), Request::default());
+    let task = Task { model: Model::Contact, scene, law: None, hits, proof };
+    Analysis::new(bat, solution, task).unwrap()
+}
+
+/// The ball's own law tells how far it is squeezed under the force, the motions of ball and bat how
+/// near they are: both are the same.
+#[test]
+fn the_ball_is_squeezed_as_much_as_ball_and_bat_are_nearer_than_touching() {
+    let analysis = analysed(Bat::from_file(mesh("r161")).unwrap());
+    let report = Report::new(&analysis, String::new(), vec![]).unwrap();
+    let Analysis { bat, task, hits, .. } = &analysis;
+    let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort).unwrap();
+    assert_eq!(report.moments.len(), 2);
+    for moment in &report.moments {
+        let force = hitter.force(moment.x_m).unwrap();
+        let past = history(&force, &hitter.law(moment.x_m).unwrap(), 200);
+        let deepest = past.iter().map(|now| 1e3 * now.compression).fold(0.0, f64::max);
+        let nearest = moment.gap_mm.iter().copied().fold(0.0, f64::min);
+        assert!((deepest + nearest).abs() < 0.15, "{deepest} mm, {nearest} mm");
+        // It has left when the force has ended.
+        let outcome = hitter.strike(moment.x_m).outcome.unwrap();
+        let last = moment.times_ms.len() - 1;
+        assert!(moment.gap_mm[last] > 0.0 && moment.force_kn[last] == 0.0);
+        let most = moment.force_kn.iter().copied().fold(0.0, f64::max);
+        assert!(most <= 1e-3 * outcome.peak_force.unwrap() + 0.006 && most > 0.0);
+        assert!((moment.contact_ms - 1e3 * outcome.contact_time.unwrap()).abs() < 1e-3);
+        // Seen from the bat as a whole its bending moves neither its mass nor turns it: it is at
+        // rest before the touch, and bends to both sides after it.
+        assert!(moment.bending_10_um[0].iter().all(|w| *w == 0));
+        let all = || moment.bending_10_um[last].iter();
+        assert!(all().any(|w| *w > 0) && all().any(|w| *w < 0));
+    }
+    assert!(page(&report).len() < 400_000);
+}
