@@ -70,8 +70,21 @@ fn no_module_reaches_back() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut complaints = reaching_back(&source, "lib.rs", "crate");
     let rooms = [
-        "beam", "eigen", "trade", "advise", "collision", "schema", "comparison", "measured",
-        "report", "exchange", "exchange/uff", "measured_file", "plot", "page", "extremes",
+        "beam",
+        "eigen",
+        "trade",
+        "advise",
+        "collision",
+        "schema",
+        "comparison",
+        "measured",
+        "report",
+        "exchange",
+        "exchange/uff",
+        "measured_file",
+        "plot",
+        "page",
+        "extremes",
     ];
     for room in rooms {
         let prefix = format!("crate::{}", room.replace('/', "::"));

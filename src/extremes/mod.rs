@@ -7,9 +7,9 @@
 //! error says why not, wrong otherwise.
 
 mod judge;
-mod meshes;
 mod shapes;
 mod sizes;
+mod meshes;
 mod sameness;
 
 use crate::error::Result;
