@@ -152,6 +152,36 @@ fn functions_of_pyuff_are_read() {
     }
 }
 
+/// Dataset 58b by its description: an abscissa has four bytes, a double eight, in either order.
+#[test]
+fn bytes_of_either_order_are_read() {
+    let places = vec![0.5, 1.5, 2.25];
+    let values = Values::Complex(vec![[1.0, -2.0], [0.1, 1e-300], [3.5, 0.0]]);
+    let written = function(Abscissa::Uneven(places.clone()), values.clone(), true);
+    let text = write(&[Dataset::Function(Box::new(written.clone()))]).unwrap();
+    let head: String = text.split_inclusive('\n').take(13).collect();
+    let Values::Complex(pairs) = &values else { panic!() };
+    for (order, little) in [(1, true), (2, false)] {
+        let line = format!("    58b     {order}     2          11          60     0     0\n");
+        let mut bytes = head.replacen("    58\n", &line, 1).into_bytes();
+        for (x, pair) in places.iter().zip(pairs) {
+            let x = *x as f32;
+            bytes.extend(if little { x.to_le_bytes() } else { x.to_be_bytes() });
+            let part = |v: &f64| if little { v.to_le_bytes() } else { v.to_be_bytes() };
+            bytes.extend(pair.iter().flat_map(part));
+        }
+        // Some programs end the bytes with a line end, most do not.
+        for end in ["    -1\n", "\n    -1\n", "\r\n    -1"] {
+            let read = parse("f.uff", &[&bytes[..], end.as_bytes()].concat()).unwrap();
+            assert_eq!(read.datasets, [Dataset::Function(Box::new(written.clone()))]);
+        }
+        let short = parse("f.uff", &bytes[..bytes.len() - 1]).unwrap_err().to_string();
+        assert!(short.contains("expected 60 bytes of 3 values, then -1"), "{short}");
+    }
+    let vax = head.replacen("    58\n", "    58b     1     1          11\n", 1);
+    assert!(said(&vax).contains("found number format 1, expected 2"), "{}", said(&vax));
+}
+
 /// The file divided by its factors is SI: 1 ft is 1/3.2808… m.
 #[test]
 fn a_file_in_feet_is_read_in_metres() {
