@@ -27,9 +27,9 @@ pub struct Args {
     #[arg(long, value_name = "FORMAT")]
     to: Format,
 
-    /// File to write [default: the name of MODES.json with the format's ending, in this folder];
-    /// - for standard output (not npz). With vtu a name that ends in .pvd makes a collection, one
-    /// file for each mode beside it, that ParaView steps through
+    /// File to write (- = standard output, but for npz); with vtu a name that ends in .pvd makes a
+    /// collection, one file for each mode beside it, that ParaView steps through [default: the name
+    /// of MODES.json with the format's ending, in this folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 

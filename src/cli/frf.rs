@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use serde_json::json;
+use serde_json::{Value, json};
 use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result, nearest};
 use sweetspot::exchange::frf_uff::{self, Measured};
@@ -125,35 +125,39 @@ pub fn run(args: &Args) -> Result<Done> {
     let measured = Measured { bat: &bat.name, kind: args.kind, at, to, even };
     let table = || table(args.kind, [at, to], &frf, &samples);
     let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
-    let document = || {
-        let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
-        let value = |s: &Sample| s.receptance * args.kind.of(s.frequency);
-        let unit = args.kind.unit();
-        let mut document = json!({
-            "format": "sweetspot-frf/1",
-            "generator": json::generator(),
-            "kind": args.kind.name(),
-            "at_m": at,
-            "to_m": to,
-            "theory": frf.solution.theory.name(),
-            "modes": frf.solution.modes.len(),
-            "strains": frf.strains(),
-            "static_compliance_m_per_n": frf.static_compliance(),
-            "rigid_modes": frf.solution.rigid_modes,
-            "frequency_hz": frequencies,
-        });
-        document[format!("real_{unit}")] = json!(of(&|s| value(s).re));
-        document[format!("imaginary_{unit}")] = json!(of(&|s| value(s).im));
-        document[format!("truncation_{unit}")] =
-            json!(of(&|s| s.truncation * args.kind.of(s.frequency).norm()));
-        document["frequencies_within"] = json!(frf.solution.worst());
-        document
-    };
+    let document = || document(&measured, &frequencies, &samples, &frf);
     let code = match frf.solution.worst() <= args.solve.tol {
         true => 0,
         false => args.solve.verdict(&frf.solution, &args.output),
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// The `sweetspot-frf/1` document.
+fn document(measured: &Measured, frequencies: &[f64], samples: &[Sample], frf: &Frf) -> Value {
+    let kind = measured.kind;
+    let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
+    let value = |s: &Sample| s.receptance * kind.of(s.frequency);
+    let unit = kind.unit();
+    let mut document = json!({
+        "format": "sweetspot-frf/1",
+        "generator": json::generator(),
+        "kind": kind.name(),
+        "at_m": measured.at,
+        "to_m": measured.to,
+        "theory": frf.solution.theory.name(),
+        "modes": frf.solution.modes.len(),
+        "strains": frf.strains(),
+        "static_compliance_m_per_n": frf.static_compliance(),
+        "rigid_modes": frf.solution.rigid_modes,
+        "frequency_hz": frequencies,
+    });
+    document[format!("real_{unit}")] = json!(of(&|s| value(s).re));
+    document[format!("imaginary_{unit}")] = json!(of(&|s| value(s).im));
+    document[format!("truncation_{unit}")] =
+        json!(of(&|s| s.truncation * kind.of(s.frequency).norm()));
+    document["frequencies_within"] = json!(frf.solution.worst());
+    document
 }
 
 /// Standard output is for one document.

@@ -36,7 +36,7 @@ pub fn response(measured: &Measured, samples: &[Sample], stamp: &Stamp) -> Vec<D
         Dataset::Header(header(measured.bat, "frequency response of a bat", stamp)),
         Dataset::Units(Units::si()),
         Dataset::Nodes(Nodes { nodes, legacy: false }),
-        Dataset::Function(function),
+        Dataset::Function(Box::new(function)),
     ]
 }
 
@@ -45,18 +45,7 @@ fn function(measured: &Measured, samples: &[Sample], node: i64) -> Function {
         let value = sample.receptance * measured.kind.of(sample.frequency);
         [value.re, value.im]
     };
-    let (quantity, unit) = match measured.kind {
-        Kind::Receptance => (8, "m"),
-        Kind::Mobility => (11, "m/s"),
-        Kind::Accelerance => (12, "m/s^2"),
-    };
     let dof = |node| Dof { entity: String::new(), node, direction: 2 };
-    let axis = |quantity, label: &str, unit: &str| Axis {
-        quantity,
-        exponents: [0; 3],
-        label: label.into(),
-        unit: unit.into(),
-    };
     let name = measured.kind.name();
     Function {
         ids: [
@@ -79,11 +68,23 @@ fn function(measured: &Measured, samples: &[Sample], node: i64) -> Function {
         values: Values::Complex(samples.iter().map(value).collect()),
         double: true,
         z: 0.0,
-        axes: [
-            axis(18, "frequency", "Hz"),
-            axis(quantity, name, unit),
-            axis(13, "force", "N"),
-            Axis::default(),
-        ],
+        axes: axes(measured.kind),
     }
+}
+
+/// Frequency, answer, force, and no third axis.
+fn axes(kind: Kind) -> [Axis; 4] {
+    let axis = |quantity, label: &str, unit: &str| Axis {
+        quantity,
+        exponents: [0; 3],
+        label: label.into(),
+        unit: unit.into(),
+    };
+    let (quantity, unit) = match kind {
+        Kind::Receptance => (8, "m"),
+        Kind::Mobility => (11, "m/s"),
+        Kind::Accelerance => (12, "m/s^2"),
+    };
+    let answer = axis(quantity, kind.name(), unit);
+    [axis(18, "frequency", "Hz"), answer, axis(13, "force", "N"), Axis::default()]
 }

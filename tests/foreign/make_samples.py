@@ -1,6 +1,6 @@
 """Universal files as pyuff writes them, for tests/uff.rs.
 
-    python -m venv venv && venv/bin/pip install pyuff==2.5.8
+    python3 -m venv venv && venv/bin/pip install pyuff==2.5.8
     venv/bin/python tests/foreign/make_samples.py tests/foreign
 
 The files beside this script were made so. Every number in them is a formula of its place, which

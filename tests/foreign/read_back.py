@@ -1,6 +1,8 @@
 """Reads what sweetspot wrote with the programs it was written for, and compares every number.
 
-    python -m venv venv && venv/bin/pip install pyuff==2.5.8 meshio==5.3.5 vtk numpy scipy
+    python3 -m venv venv
+    venv/bin/pip install pyuff==2.5.8 meshio==5.3.5 numpy==2.4.6 scipy==1.17.1
+    venv/bin/pip install --no-deps vtk==9.7.2
     venv/bin/python tests/foreign/read_back.py FOLDER
 
 FOLDER holds what tests/foreign/write.sh wrote. Exits with 1 and says where if anything differs by
@@ -18,8 +20,12 @@ import pyuff
 import scipy.io
 import scipy.linalg
 import scipy.sparse
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
+from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter, vtkTubeFilter
+from vtkmodules.vtkFiltersGeneral import vtkWarpVector
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 FOLDER = Path(sys.argv[1])
 # Half a unit in the last of six and of thirteen digits.
@@ -159,7 +165,7 @@ def vtu_with_meshio(name, modes, around, one=None):
 
 
 def vtk_grid(name):
-    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(FOLDER / name))
     reader.Update()
     holds(f"{name}: VTK reads it", reader.GetErrorCode() == 0)
@@ -175,9 +181,9 @@ def vtu_with_vtk(name, modes, around):
     frequency = vtk_to_numpy(grid.GetFieldData().GetArray("frequency_hz"))
     same(f"{name}: frequency in VTK", frequency, modes.frequency)
     # What a user does: warp, and make a tube of the line.
-    surface = vtk.vtkGeometryFilter()
+    surface = vtkGeometryFilter()
     surface.SetInputData(grid)
-    warp = vtk.vtkWarpVector()
+    warp = vtkWarpVector()
     warp.SetInputConnection(surface.GetOutputPort())
     warp.SetInputArrayToProcess(0, 0, 0, 0, "mode_01")
     warp.SetScaleFactor(0.05)
@@ -186,7 +192,7 @@ def vtu_with_vtk(name, modes, around):
     deflected = 0.05 * np.abs(modes.deflection[0]).max()
     holds(f"{name}: it warps", np.abs(moved[:, 1]).max() > 0.9 * deflected)
     if not around:
-        tube = vtk.vtkTubeFilter()
+        tube = vtkTubeFilter()
         tube.SetInputConnection(surface.GetOutputPort())
         tube.SetInputArrayToProcess(0, 0, 0, 0, "radius_m")
         tube.SetVaryRadiusToVaryRadiusByAbsoluteScalar()
@@ -195,8 +201,8 @@ def vtu_with_vtk(name, modes, around):
         box = tube.GetOutput().GetBounds()
         holds(f"{name}: a tube as thick as the bat", 0.02 < box[3] < 0.05)
     else:
-        mass = vtk.vtkMassProperties()
-        triangles = vtk.vtkTriangleFilter()
+        mass = vtkMassProperties()
+        triangles = vtkTriangleFilter()
         triangles.SetInputConnection(surface.GetOutputPort())
         mass.SetInputConnection(triangles.GetOutputPort())
         return mass.GetVolume()
@@ -299,7 +305,7 @@ def main():
     archive("modes.npz", modes, radius)
     matrices("matrices", modes)
     print(f"{compared} numbers read back with pyuff {pyuff.__version__}, meshio "
-          f"{meshio.__version__}, VTK {vtk.vtkVersion.GetVTKVersion()}, NumPy {np.__version__}")
+          f"{meshio.__version__}, VTK {vtkVersion.GetVTKVersion()}, NumPy {np.__version__}")
 
 
 main()

@@ -87,7 +87,7 @@ pub enum Dataset {
     /// 55.
     NodalData(NodalData),
     /// 58.
-    Function(Function),
+    Function(Box<Function>),
 }
 
 /// Dataset 151: what the file is and who wrote it.

@@ -101,7 +101,7 @@ fn dataset(number: i64, binary: Option<&Binary>, lines: &mut Lines) -> Result<Op
     Ok(Some(match number {
         15 => Dataset::Nodes(nodes_15(lines)?),
         55 => Dataset::NodalData(nodal_data(lines)?),
-        58 => Dataset::Function(function(lines, binary)?),
+        58 => Dataset::Function(Box::new(function(lines, binary)?)),
         82 => Dataset::TraceLine(trace_line(lines)?),
         151 => Dataset::Header(header(lines)),
         164 => Dataset::Units(units(lines)?),
