@@ -10,6 +10,7 @@ use std::ops::Range;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
+use crate::broken_json;
 use crate::document::Document;
 use crate::error::{Complaint, Error, Result, nearest, shortened};
 use crate::mistakes::{self, Mistakes};
@@ -33,7 +34,7 @@ impl<'a> Node<'a> {
         }
         match serde_json::from_str::<&RawValue>(&document.text) {
             Ok(raw) => Ok(Self { document, path: String::new(), raw: raw.get() }),
-            Err(error) => Err(broken(document, &error)),
+            Err(error) => Err(broken_json::told(document, &error)),
         }
     }
 
@@ -361,67 +362,6 @@ impl<'a> Object<'a> {
     }
 }
 
-/// What `serde_json` says of text that is not JSON, in found and expected, with its place.
-fn broken(document: &Document, error: &serde_json::Error) -> Error {
-    let text = &document.text;
-    let line = text.split_inclusive('\n').take(error.line().saturating_sub(1));
-    let offset = line.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
-    let mut offset = if error.is_eof() { text.trim_end().len() } else { offset.min(text.len()) };
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    let said = error.to_string();
-    let said = said.split(" at line ").next().unwrap_or_default();
-    let here = word(&text[offset..]);
-    let complaint = match said.strip_prefix("expected ") {
-        _ if error.is_eof() => {
-            let rest = said.strip_prefix("EOF while parsing ").unwrap_or("the text");
-            let complaint =
-                Complaint::new("", "the end of the file", format!("the rest of {rest}"));
-            return document.error(offset..offset, complaint.hinted(unclosed(rest)));
-        }
-        Some("value") => {
-            let expected = "a JSON value (and numbers as in 0.5 or -1e3)";
-            Complaint::new("", shortened(here, 20), expected)
-        }
-        Some(expected) => Complaint::new("", shortened(here, 20), expected),
-        None => Complaint::new("", format!("broken JSON, {said}"), "JSON"),
-    };
-    document
-        .error(offset..offset + here.len(), complaint.hinted(mended(&text[..offset], said, here)))
-}
-
-/// The word that a text begins with, or the one character that ends words.
-fn word(text: &str) -> &str {
-    let ends = |c: char| c.is_whitespace() || ",:[]{}".contains(c);
-    let one = text.chars().next().map_or(0, char::len_utf8);
-    &text[..text.find(ends).unwrap_or(text.len()).max(one)]
-}
-
-/// What is missing at the end of a file.
-fn unclosed(rest: &str) -> &'static str {
-    match rest {
-        "an object" => "a closing } is missing",
-        "a list" => "a closing ] is missing",
-        "a string" => "a closing quote is missing",
-        _ => "",
-    }
-}
-
-/// What to do about the commonest slips in JSON: what stood before, what was said and what is here.
-fn mended(before: &str, said: &str, here: &str) -> &'static str {
-    let after_comma = before.trim_end().ends_with(',');
-    match here.chars().next() {
-        Some('/' | '#') => "JSON has no comments: write them as \"comment\": \"…\"",
-        Some('\'') => "texts stand in double quotes",
-        Some('"') if said.starts_with("expected `,`") => "is a comma missing before it?",
-        Some(']' | '}') if after_comma => "no comma follows the last one of a list or an object",
-        Some(',') if after_comma => "one comma is enough",
-        _ if said == "key must be a string" => "keys stand in double quotes",
-        _ => "",
-    }
-}
-
 /// An object as its keys and raw values, duplicates kept for us to find.
 struct Entries<'a>(Vec<(String, &'a RawValue)>);
 
@@ -503,26 +443,6 @@ mod tests {
         let item = Node::root(&document).unwrap().nearest("a[1]");
         let said = item.locate(Complaint::new("a[1].x", "5 m", "less")).to_string();
         assert_eq!(said, "f:1:20: a[1].x: found 5 m, expected less");
-    }
-
-    #[test]
-    fn broken_json_is_placed_where_it_breaks() {
-        for (text, says) in [
-            ("{\n \"a\": 1,,\n}", &["f:2:9: ", "one comma is enough"][..]),
-            ("{\n \"a\": 1\n \"b\": 2\n}", &["f:3:2: found \"b\"", "a comma missing before"]),
-            ("{ \"a\": [1, 2,] }", &["f:1:14: found ]", "no comma follows"]),
-            ("{ \"a\": 1, }", &["f:1:11: ", "no comma follows"]),
-            ("{ a: 1 }", &["f:1:3: ", "keys stand in double quotes"]),
-            ("{ \"a\": }", &["f:1:8: found }, expected a JSON value"]),
-            ("{ // a bat\n}", &["f:1:3: ", "JSON has no comments", "\"comment\""]),
-            ("{ \"a\": 'b' }", &["f:1:8: found 'b'", "double quotes"]),
-            ("{ \"a\": [1, 2", &["f:1:13: found the end of the file", "a closing ]"]),
-            ("{ \"a\": \u{a0}1 }", &["f:1:8: found \u{a0}"]),
-        ] {
-            let document = Document::new("f".into(), text);
-            let said = Node::root(&document).err().unwrap().to_string();
-            assert!(says.iter().all(|words| said.contains(words)), "{said}");
-        }
     }
 
     #[test]

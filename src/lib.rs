@@ -200,6 +200,7 @@ pub mod fixtures;
 mod fixtures_check;
 pub mod bat;
 mod document;
+mod broken_json;
 mod json_node;
 mod csv_file;
 mod station_table;
