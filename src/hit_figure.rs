@@ -3,7 +3,11 @@
 
 use crate::error::Result;
 use crate::known_hits::Seen;
-use crate::report::svg::{Axis, Drawn, Panel, Series, picture};
+use crate::plot::axis::Axis;
+use crate::plot::plane::{Frame, Plane};
+use crate::plot::series::{Series, legend};
+use crate::plot::svg::{Anchor, LABEL, Mark, Pen, Svg};
+use crate::plot::theme::SERIES;
 use crate::solve::{Request, solve};
 use crate::validation::{Case, Known, bundled_case};
 
@@ -17,10 +21,9 @@ const READ: f64 = 0.4;
 /// Modes in the WPI report's loss.
 const REPORT_MODES: usize = 10;
 
-const OURS: &str = "#0b5fa5";
-const RIGID: &str = "#777777";
-const LOSS: &str = "#c46a00";
-const THEIRS: &str = "#b00020";
+/// Of the picture, and of each of its diagrams (px).
+const SIZE: [f64; 2] = [1040.0, 420.0];
+const DIAGRAM: [f64; 2] = [430.0, 286.0];
 
 /// The picture.
 ///
@@ -36,22 +39,28 @@ pub fn svg() -> Result<String> {
     let game = bundled_case("r161_hit_nathan")?;
     let mut fast = curves(&game)?;
     fast.push(known(&game, "Nathan's Fig. 10, read off", READ));
-    let place = || Axis { label: "from the knob end (cm)".into(), from: 40.0, to: 85.0, tick: 5.0 };
-    let speed = |to, tick| Axis { label: "exit speed (m/s)".into(), from: 0.0, to, tick };
-    Ok(picture(&[
-        Panel {
-            title: "R161 at rest, ball at 1 m/s".into(),
-            x: place(),
-            y: speed(0.5, 0.1),
-            series: slow,
-        },
-        Panel {
-            title: "R161 at game speed, ball at 40 m/s".into(),
-            x: place(),
-            y: speed(50.0, 10.0),
-            series: fast,
-        },
-    ]))
+    let mut svg = Svg::new(SIZE[0], SIZE[1]);
+    diagram(&mut svg, 70.0, ("R161 at rest, ball at 1 m/s", 0.5), &slow);
+    diagram(&mut svg, 590.0, ("R161 at game speed, ball at 40 m/s", 50.0), &fast);
+    let title = "Exit speed along an R161";
+    let alt = "Exit speed against the place of the hit, of a bat at rest and of a swung one: this \
+               project's curve, a rigid bat's, and what others measured and computed.";
+    Ok(svg.finish(title, alt))
+}
+
+/// One diagram from that pixel on, to that speed (m/s).
+fn diagram(svg: &mut Svg, left: f64, (title, most): (&str, f64), series: &[Series]) {
+    const TOP: f64 = 84.0;
+    let frame = Frame { left, top: TOP, right: left + DIAGRAM[0], bottom: TOP + DIAGRAM[1] };
+    let x = Axis::new("from the knob end (cm)", [40.0, 85.0]);
+    let plane = Plane { frame, x, y: Axis::new("exit speed (m/s)", [0.0, most]) };
+    let middle = 0.5 * (frame.left + frame.right);
+    svg.text([middle, 24.0], LABEL.at(Anchor::Middle).sized(16.0), title);
+    plane.draw(svg);
+    series.iter().for_each(|series| series.draw(svg, &plane));
+    plane.below(svg);
+    let all: Vec<&Series> = series.iter().collect();
+    legend(svg, &all, [left, 50.0, frame.right]);
 }
 
 /// Ours, the rigid bat's and the WPI report's loss.
@@ -65,16 +74,14 @@ fn curves(case: &Case) -> Result<Vec<Series>> {
         Some(throw) => throw.curves(&bat, [&solution, &ten], &places)?,
         None => Default::default(),
     };
-    let series = |name: &str, color, dashed, points: Vec<[f64; 2]>| Series {
-        name: name.into(),
-        color,
-        drawn: Drawn::Line { dashed },
-        points: points.iter().map(|[x, v]| [100.0 * x, *v]).collect(),
+    let series = |name: &str, pen, points: Vec<[f64; 2]>| {
+        let points = points.iter().map(|[x, v]| Some([100.0 * x, *v])).collect();
+        Series::curve(name, 0, points).pen(pen)
     };
     Ok(vec![
-        series("ours, contact, with shear", OURS, false, ours),
-        series("the same bat, rigid", RIGID, true, rigid),
-        series("WPI report's energy loss", LOSS, true, loss),
+        series("ours, contact, with shear", Pen::new(SERIES[0], 2.2), ours),
+        series("the same bat, rigid", Pen::new(SERIES[5], 1.6).dashed("7 5"), rigid),
+        series("WPI report's energy loss", Pen::new(SERIES[4], 1.8).dashed("2 3"), loss),
     ])
 }
 
@@ -82,10 +89,7 @@ fn curves(case: &Case) -> Result<Vec<Series>> {
 fn known(case: &Case, name: &str, error: f64) -> Series {
     let wanted = Known::Hit(Seen::ExitSpeedMPerS);
     let checks = case.checks.iter().filter(|check| check.quantity == wanted);
-    Series {
-        name: name.into(),
-        color: THEIRS,
-        drawn: Drawn::Dots { error },
-        points: checks.filter_map(|check| Some([100.0 * check.at?, check.expected])).collect(),
-    }
+    let points = checks.filter_map(|check| Some(Some([100.0 * check.at?, check.expected])));
+    let points = Series::curve(name, 1, points.collect());
+    Series { joined: false, mark: Some(Mark::Circle), error, ..points }
 }

@@ -84,8 +84,8 @@ pub struct Sting {
     pub begins: f64,
 }
 
-/// Of the values in a step of time; the state at its end.
-fn driven(s: Pair, memory: Pair, piece: &Piece, length: f64) -> Pair {
+/// The memory `v` of a mode, that long (s) after a piece of the force began, from what it was then.
+pub fn driven(s: Pair, memory: Pair, piece: &Piece, length: f64) -> Pair {
     let (whole, all) = moments::<POINTS>([s[0] * length, s[1] * length]);
     let mut sum = times(whole, memory);
     let mut scale = length;
@@ -277,7 +277,7 @@ fn ends(piece: &Piece) -> f64 {
 }
 
 /// What a piece's force moves a unit mass by after that time (s), and how fast it then is.
-fn pushes(piece: &Piece, time: f64) -> [f64; 2] {
+pub fn pushes(piece: &Piece, time: f64) -> [f64; 2] {
     let (mut by, mut speed, mut scale) = (0.0, 0.0, time);
     for (k, power) in piece.powers.iter().enumerate() {
         let k = k as f64;

@@ -117,7 +117,7 @@ impl ForceLaw {
 
     /// The compression (m) at that force (N), where there is one.
     #[inline(always)]
-    pub fn at(&self, force: f64, top: Option<Top>) -> f64 {
+    fn at(&self, force: f64, top: Option<Top>) -> f64 {
         match top {
             None => (force / self.stiffness).powf(1.0 / self.exponent),
             Some(top) => top.compression * (force / top.force).powf(1.0 / self.unloading),

@@ -1,11 +1,13 @@
-//! The ball's force and compression in time, from a recorded force.
+//! The ball's force and compression in time, from the recorded force.
 //!
-//! The force tells the compression by the ball's law: on the first branch while it is larger than
-//! ever before, on the second one below that ([`crate::collision::force_law`]).
+//! The compression is what ball and bat have come nearer: every motion is exact under a force that is
+//! a polynomial in time ([`crate::collision::contact`] has the equations). The ball's law is not
+//! asked, whose force near the end is too small to tell a compression from.
 
-use crate::collision::collocation::polynomial;
-use crate::collision::force_law::{ForceLaw, Top};
+use crate::collision::aftermath::{driven, pushes};
+use crate::collision::collocation::{Pair, polynomial};
 use crate::collision::step::Piece;
+use crate::collision::touch::Felt;
 
 /// The ball at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,28 +21,47 @@ pub struct Moment {
 }
 
 /// The ball from the first touch to the last, so many instants in every piece of the force, ends
-/// included.
-pub fn history(pieces: &[Piece], law: &ForceLaw, parts: usize) -> Vec<Moment> {
-    let mut top = Top { compression: 0.0, force: 0.0 };
+/// included: nearing at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for
+/// each gain.
+pub fn history(
+    pieces: &[Piece],
+    felt: &Felt,
+    modes: &[[f64; 2]],
+    speed: f64,
+    parts: usize,
+) -> Vec<Moment> {
+    let pole = |[omega, ratio]: &[f64; 2]| {
+        [-ratio * omega, omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt()]
+    };
+    let poles: Vec<Pair> = modes.iter().map(pole).collect();
+    let mut memories = vec![[0.0; 2]; poles.len()];
+    let (mut closed, mut closing) = (0.0, speed);
     let mut all = vec![];
     for piece in pieces {
         for k in 0..=parts {
             let at = k as f64 / parts as f64;
+            let time = at * piece.length;
+            let force = polynomial(&piece.powers, at);
+            let [by, _] = pushes(piece, time);
+            let mut nearer = closed + closing * time - felt.inverse_mass * by - felt.rest * force;
+            for ((pole, memory), gain) in poles.iter().zip(&memories).zip(&felt.gains) {
+                nearer -= gain / pole[1] * driven(*pole, *memory, piece, time)[1];
+            }
             // What is left of round-off where it ends.
-            let force = polynomial(&piece.powers, at).max(0.0);
-            let compression = if force >= top.force {
-                top = Top { compression: law.at(force, None), force };
-                top.compression
-            } else {
-                law.at(force, Some(top))
-            };
-            all.push(Moment { time: piece.start + at * piece.length, force, compression });
+            let [force, compression] = [force, nearer].map(|value| value.max(0.0));
+            all.push(Moment { time: piece.start + time, force, compression });
+        }
+        let [by, faster] = pushes(piece, piece.length);
+        closed += closing * piece.length - felt.inverse_mass * by;
+        closing -= felt.inverse_mass * faster;
+        for (pole, memory) in poles.iter().zip(&mut memories) {
+            *memory = driven(*pole, *memory, piece, piece.length);
         }
     }
     all
 }
 
-/// The energy (J) that goes into the ball and does not come back: `∮ F dx`.
+/// The energy (J) that goes into the ball and does not come back: `∮ F dx`, by straight lines.
 pub fn loop_area(moments: &[Moment]) -> f64 {
     let work = |pair: &[Moment]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].compression - pair[0].compression)

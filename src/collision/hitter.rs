@@ -8,6 +8,7 @@ use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::contact::{Collider, Encounter};
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::force_law::ForceLaw;
+use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene};
 use crate::collision::pulse::Pulse;
 use crate::collision::rigid::{Motion, RigidBat};
@@ -142,9 +143,8 @@ impl<'a> Hitter<'a> {
                 let touching = law.compression(0.5 * mass * speed * speed) / speed;
                 // A quarter of the way to the deepest compression, more or less.
                 let longest = if touching.is_finite() { 0.28 * touching } else { 1.0 };
-                let wall = scene.wall.filter(|wall| wall.mass > 0.0);
-                let wall = wall.map(|wall| [(wall.stiffness / wall.mass).sqrt(), 0.0]);
-                let all: Vec<[f64; 2]> = wall.into_iter().chain(modes.iter().copied()).collect();
+                let all: Vec<[f64; 2]> =
+                    wall(scene).into_iter().chain(modes.iter().copied()).collect();
                 Some(Collider::new(&all, longest))
             }
             _ => None,
@@ -258,10 +258,12 @@ impl<'a> Hitter<'a> {
         Some(self.collider.as_ref()?.meet_recorded(&felt, &law, closing, SMOOTH).1)
     }
 
-    /// The ball's law in a contact at `x` (m); None where there is none.
-    pub fn law(&self, x: f64) -> Option<ForceLaw> {
-        self.collider.as_ref()?;
-        self.law_at(&self.felt(x), self.closing(x)?)
+    /// Force and compression of the ball at `x` (m) in time, of a contact, so many instants in every
+    /// piece of the force; None where there is none.
+    pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
+        let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
+        let modes: Vec<[f64; 2]> = wall(self.scene).into_iter().chain(self.modes.clone()).collect();
+        Some(history(&pieces, &felt, &modes, speed, parts))
     }
 
     /// `1/M_eff` (1/kg): how a bat that does not bend gives way at `x`.
@@ -492,6 +494,12 @@ impl<'a> Hitter<'a> {
             (met.impulse.is_finite() && !met.endless).then_some(met)
         })
     }
+}
+
+/// ω (rad/s) and damping ratio of a wall that has a mass.
+fn wall(scene: &Scene) -> Option<[f64; 2]> {
+    let wall = scene.wall.filter(|wall| wall.mass > 0.0)?;
+    Some([(wall.stiffness / wall.mass).sqrt(), 0.0])
 }
 
 /// How much farther from the truth than those with fewer modes an answer may be where a second

@@ -32,20 +32,25 @@ impl Axis {
     /// From end to end, as given; ends that are the same are moved apart.
     pub fn new(label: &str, [from, to]: [f64; 2]) -> Self {
         let [from, to] = if from.is_finite() && to.is_finite() { [from, to] } else { [0.0, 1.0] };
-        // A billionth of the value is as much as is told apart in ticks.
-        let same = (to - from).abs() <= 1e-9 * from.abs().max(to.abs());
-        let by = if from == 0.0 { 1.0 } else { 0.5 * from.abs() };
-        let [from, to] = if same { [from - by, to + by] } else { [from, to] };
+        // Closer ends would have ticks of more digits than anybody reads.
+        let least = 1e-3 * from.abs().max(to.abs());
+        let by = if least == 0.0 { 1.0 } else { least };
+        let same = (to - from).abs() <= least;
+        let [from, to] = if same { [from.min(to) - by, from.max(to) + by] } else { [from, to] };
         Self { label: label.into(), from, to, scale: Scale::Linear }
     }
 
     /// As long as those values need, with a tick at both ends, and no more ticks than that.
     pub fn around(label: &str, values: impl Iterator<Item = f64>, most: usize) -> Self {
         let axis = Self::new(label, ends(values).unwrap_or([0.0, 1.0]));
-        let step = step(axis.to - axis.from, most);
-        // A value that is a tick but for its last digits is one.
-        let from = step * (axis.from / step + 1e-9).floor();
-        let to = step * (axis.to / step - 1e-9).ceil();
+        let [mut from, mut to] = [axis.from, axis.to];
+        // The longer axis may have longer steps, which may make it longer again.
+        for _ in 0..4 {
+            let step = step(to - from, most);
+            // A value that is a tick but for its last digits is one.
+            from = step * (axis.from / step + 1e-9).floor();
+            to = step * (axis.to / step - 1e-9).ceil();
+        }
         Self { from, to, ..axis }
     }
 

@@ -5,8 +5,8 @@ use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Series, legend};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{SERIES, series};
 use crate::units::miles_per_hour;
@@ -23,7 +23,7 @@ pub struct Subject<'a> {
 }
 
 /// Right of the frame there is a second axis.
-const RIGHT: f64 = 66.0;
+const RIGHT: f64 = 74.0;
 /// Of the curves' diagram (px).
 const DIAGRAM: f64 = 230.0;
 
@@ -33,19 +33,25 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let places = subjects.iter().flat_map(|s| s.impacts.iter().map(|i| i.x));
     let [from, to] = places
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [f64::min(a, x), f64::max(b, x)]);
-    let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
+    let alone = subjects.len() == 1;
+    let all = subjects.iter().enumerate();
+    let curves: Vec<Series> = all.flat_map(|(k, s)| curves(k, s, alone)).collect();
     let values = || curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
     if from >= to || values().next().is_none() {
         return None;
     }
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
     let [knob, tip] = place::axes([from, to], &bats);
-    let y = Axis::around("exit speed (m/s)", values(), 7);
+    let y = Axis::around("exit speed (m/s)", values(), ticks_up(DIAGRAM));
     let rows = sweet_spots(subjects);
     let mut svg = Svg::new(WIDTH, 0.0);
-    let (title, second) = words(subjects);
-    head(&mut svg, &title, &second);
-    let keys = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]);
+    let (title, name, facts) = words(subjects);
+    head(&mut svg, title, [name, &facts]);
+    let keys = legend(
+        &mut svg,
+        &keys(&curves, alone).iter().collect::<Vec<_>>(),
+        [LEFT, HEAD + 10.0, WIDTH - 12.0],
+    );
     let top = keys + 12.0 + NUMBERS;
     let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
     let bottom = side + 6.0 + place::height(&rows);
@@ -69,25 +75,21 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     }
     place::rows(&mut svg, &strip, &rows);
     strip.below(&mut svg);
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     let alt = described(subjects, &rows);
-    Some(Picture::new("exit_speed", &title, &alt, svg))
+    Some(Picture::new("exit_speed", title, &alt, svg))
 }
 
-fn words(subjects: &[Subject]) -> (String, String) {
-    let second = match subjects {
-        [one] => match one.spot.exit_speed_max {
-            Some(Peak { x, value }) => format!(
-                "{}: at most {value:.1} m/s ({:.1} mph), {}",
-                one.name,
-                miles_per_hour(value),
-                place::shown(x, one.length)
-            ),
-            None => one.name.to_owned(),
-        },
-        _ => "each bat as it is, and if it did not bend".to_owned(),
+fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
+    let title = "Exit speed along the bat";
+    let [one] = subjects else {
+        return (title, "", "each bat as it bends, and if it did not".to_owned());
     };
-    ("Exit speed along the bat".to_owned(), second)
+    let most = one.spot.exit_speed_max.map(|Peak { x, value }| {
+        let mph = miles_per_hour(value);
+        format!("at most {value:.1} m/s ({mph:.1} mph), {}", place::shown(x, one.length))
+    });
+    (title, one.name, most.unwrap_or_default())
 }
 
 fn described(subjects: &[Subject], rows: &[Row]) -> String {
@@ -102,17 +104,35 @@ fn described(subjects: &[Subject], rows: &[Row]) -> String {
 }
 
 /// As the bat is, and if it did not bend.
-fn curves(k: usize, subject: &Subject) -> Vec<Series> {
+fn curves(k: usize, subject: &Subject, alone: bool) -> Vec<Series> {
     let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
         let points = subject.impacts.iter().map(|i| Some([CM * i.x, of(i)?])).collect();
         Series::curve(name, k, points).units("cm", "m/s")
     };
-    let name = subject.name;
-    let rigid = curve(&format!("{name}, if it did not bend"), &|i| i.rigid_exit_speed);
-    let pen = if k == 0 { Pen::new(SERIES[5], 1.4) } else { Pen::new(series(k).0, 1.2) };
+    let name = if alone { "as it bends" } else { subject.name };
+    let stiff = match alone {
+        true => "if it did not bend".to_owned(),
+        false => format!("{name}, if it did not bend"),
+    };
+    let rigid = curve(&stiff, &|i| i.rigid_exit_speed);
+    let pen = if alone { Pen::new(SERIES[5], 1.4) } else { Pen::new(series(k).0, 1.2) };
     let bent = curve(name, &|i| i.outcome.as_ref().map(|o| o.exit_speed));
-    let curves = [bent, rigid.pen(pen.dashed("5 4"))];
-    curves.into_iter().filter(|curve| curve.points.iter().any(Option::is_some)).collect()
+    // A bat that does not bend in the model has one curve.
+    let rigid =
+        if bent.points == rigid.points { vec![] } else { vec![rigid.pen(pen.dashed("5 4"))] };
+    let seen = |curve: &Series| curve.points.iter().any(Option::is_some);
+    std::iter::once(bent).chain(rigid).filter(seen).collect()
+}
+
+/// What is named of the curves: of several bats that do not bend, one.
+fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
+    let stiff = |curve: &&Series| !alone && curve.pen.width < 2.0;
+    let mut named: Vec<Series> = curves.iter().filter(|c| !stiff(c)).cloned().collect();
+    if let Some(one) = curves.iter().find(stiff) {
+        let name = "thin: if it did not bend".to_owned();
+        named.push(Series { name, ..one.clone().pen(Pen { ink: SERIES[5], ..one.pen }) });
+    }
+    named
 }
 
 /// Where a single bat's exit speed is within 1 % of its best.
@@ -132,7 +152,7 @@ fn sweet_spots(subjects: &[Subject]) -> Vec<Row> {
         ("least vibration", |s| s.vibration_min.map(|p| p.x)),
         ("node of mode 1", |s| s.node_mode_1),
         ("node of mode 2", |s| s.node_mode_2),
-        ("centre of percussion of the swing", |s| s.center_of_percussion),
+        ("centre of percussion", |s| s.center_of_percussion),
         ("slowest at the hands", |s| s.hands_velocity_min.map(|p| p.x)),
         ("least shaken at the hands", |s| s.hands_acceleration_min.map(|p| p.x)),
     ];
@@ -155,8 +175,7 @@ fn row(subjects: &[Subject], what: &str, of: impl Fn(&SweetSpot) -> Option<f64>)
         (_, []) => return None,
         ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.length)),
         _ => {
-            let all: Vec<String> = places.iter().map(|(_, x)| format!("{:.1}", CM * x)).collect();
-            format!("{what}: {} cm", all.join(", "))
+            format!("{what}: {}", place::listed(&places))
         }
     };
     Some(Row::of_places(label, places))

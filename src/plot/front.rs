@@ -42,9 +42,9 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
     let best = best.pen(Pen::new(TEXT, 1.4));
     let title = "Speed against accuracy";
     let count = trade.reference.omegas.len();
-    let second = format!("{name}: {count} frequencies, every run measured here and now");
+    let facts = format!("{count} frequencies, every run measured here and now");
     let mut svg = Svg::new(WIDTH, 0.0);
-    head(&mut svg, title, &second);
+    head(&mut svg, title, [name, &facts]);
     let mut keys: Vec<&Series> = curves.iter().collect();
     let planner = Series {
         joined: false,
@@ -53,7 +53,7 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
             .pen(Pen::new(TEXT, 1.4))
     };
     keys.extend([&best, &planner]);
-    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0]) + 16.0;
+    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 16.0;
     let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
@@ -73,8 +73,8 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
         );
         (plane.at(at(run)), words)
     };
-    svg.hover(&front(runs).map(told).collect::<Vec<_>>());
-    let alt = format!("{second}. {}", trade.words.join(". "));
+    svg.hover(&front(runs).map(told).collect::<Vec<_>>(), 60);
+    let alt = format!("{name}: {facts}. {}", trade.words.join(". "));
     Some(Picture::new("front", title, &alt, svg))
 }
 

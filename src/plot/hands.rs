@@ -1,11 +1,11 @@
 //! What the hands feel: displacement and velocity of the handle after a hit.
 
-use crate::collision::aftermath::Aftermath;
+use crate::collision::aftermath::{Aftermath, Instant};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
-use crate::plot::place::CM;
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
-use crate::plot::series::{Series, short};
+use crate::plot::place::{CM, tenths};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::plot::series::{Series, hover, short};
 use crate::plot::svg::{Pen, SMALL, Svg};
 use crate::plot::theme::{FRAME, SERIES};
 
@@ -22,32 +22,23 @@ pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
         return None;
     }
     let times: Vec<f64> = (0..=INSTANTS).map(|k| until * k as f64 / INSTANTS as f64).collect();
-    let motions: Vec<[f64; 4]> = after
-        .at(&times)
-        .iter()
-        .map(|now| {
-            let [moved, speed, pulled] = after.motion(x, now);
-            [1e3 * now.time, 1e3 * moved, speed, pulled]
-        })
-        .collect();
+    let motions = motions(after, x, &times);
     let frame = |k: usize| {
         let top = HEAD + 20.0 + k as f64 * (DIAGRAM + BETWEEN);
         Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
     };
     let mut svg = Svg::new(WIDTH, frame(1).bottom + NUMBERS + 4.0);
     let title = "What the hands feel";
-    let second = format!(
-        "{name}, {:.1} cm from the knob end, against the swing; hit at {:.1} cm, + is forwards",
-        CM * x,
-        CM * after.place
-    );
-    head(&mut svg, title, &second);
+    let facts =
+        format!("{} cm from the knob end, hit at {} cm", tenths(CM * x), tenths(CM * after.place));
+    head(&mut svg, title, [name, &facts]);
     let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
     let rows = [("displacement (mm)", "displacement", "mm"), ("velocity (m/s)", "velocity", "m/s")];
     let mut peaks = vec![];
     for (k, (label, name, unit)) in rows.into_iter().enumerate() {
         let points: Vec<_> = motions.iter().map(|m| Some([m[0], m[k + 1]])).collect();
-        let y = Axis::around(label, motions.iter().map(|m| m[k + 1]).chain([0.0]), 6);
+        let y =
+            Axis::around(label, motions.iter().map(|m| m[k + 1]).chain([0.0]), ticks_up(DIAGRAM));
         let plane = Plane { frame: frame(k), x: along.clone(), y };
         plane.band(&mut svg, [0.0, 1e3 * after.end()], SERIES[5]);
         plane.draw(&mut svg);
@@ -56,16 +47,37 @@ pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
         let curve = Series::curve(name, k, points).units("ms", unit);
         let curve = curve.pen(Pen::new(SERIES[k], 1.7));
         curve.draw(&mut svg, &plane);
-        curve.hover(&mut svg, &plane);
+        hover(&mut svg, &plane, &[&curve]);
         match k {
-            0 => svg.text([LEFT, frame(0).top - 6.0], SMALL, "tinted: the ball is on the bat"),
+            0 => svg.text(
+                [LEFT, frame(0).top - 6.0],
+                SMALL,
+                "tinted: the ball is on the bat; upwards is the way of the swing",
+            ),
             _ => plane.below(&mut svg),
         }
         let most = motions.iter().map(|m| m[k + 1].abs()).fold(0.0, f64::max);
         peaks.push(format!("{name} up to {} {unit}", short(most)));
     }
-    let alt = format!("Motion of the handle in time: {second}. {}.", peaks.join(", "));
+    let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
     Some(Picture::new("hands", title, &alt, svg))
+}
+
+/// Time (ms), displacement (mm) and velocity (m/s) at a place; where hardly anything moves beside the
+/// place of the hit, as on a clamp, nothing does.
+fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
+    const NOTHING: f64 = 1e-9;
+    let instants = after.at(times);
+    let speed = |x: f64| {
+        let speeds = instants.iter().map(|now| after.motion(x, now)[1].abs());
+        speeds.fold(0.0, f64::max)
+    };
+    let still = speed(x) <= NOTHING * speed(after.place);
+    let motion = |now: &Instant| {
+        let [moved, speed, _] = if still { [0.0; 3] } else { after.motion(x, now) };
+        [1e3 * now.time, 1e3 * moved, speed]
+    };
+    instants.iter().map(motion).collect()
 }
 
 /// How long is shown (s): the touch a few times, and three swings of the first mode.

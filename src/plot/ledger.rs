@@ -4,8 +4,8 @@ use crate::collision::hit::{Energy, Impact};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Tag, room, short, tags};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::series::{Tag, digits, room, short, tags};
 use crate::plot::svg::{Pen, Point, Svg};
 use crate::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
 
@@ -78,7 +78,7 @@ pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
     let frame = Frame { left: LEFT, top, right, bottom: top + DIAGRAM };
     let stacks = stacked(&layers);
     let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest]);
-    let y = Axis::around("energy (J)", heights, 8);
+    let y = Axis::around("energy (J)", heights, ticks_up(DIAGRAM));
     let plane = Plane { frame, x: knob, y };
     let mut svg = Svg::new(WIDTH, frame.bottom + NUMBERS + 4.0);
     svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
@@ -89,13 +89,14 @@ pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
         format!("{} to {} J before the hit", short(least), short(greatest))
     };
     let title = "Where the energy goes";
-    let second = format!("{name}: {sum}, {}", books(impacts, greatest));
-    head(&mut svg, title, &second);
+    let facts = format!("{sum}, {}", books(impacts, greatest));
+    head(&mut svg, title, [name, &facts]);
     plane.draw(&mut svg);
     draw(&mut svg, &plane, impacts, (&layers, &stacks));
     plane.above(&mut svg, &tip);
     plane.below(&mut svg);
-    let alt = format!("{second}. Stacked against the place of the hit: {}.", names.join(", "));
+    let alt =
+        format!("{name}: {facts}. Stacked against the place of the hit: {}.", names.join(", "));
     Some(Picture::new("ledger", title, &alt, svg))
 }
 
@@ -105,9 +106,7 @@ fn books(impacts: &[Impact], greatest: f64) -> String {
     let most = off.fold(0.0, f64::max);
     match most < 1e-3 * greatest {
         true => "all of it accounted for".into(),
-        false => {
-            format!("of which the model misplaces up to {} J (line: before the hit)", short(most))
-        }
+        false => format!("the line; the model misplaces up to {} J", digits(most, 3)),
     }
 }
 
@@ -161,10 +160,13 @@ fn draw(
             Some(([low[0], 0.5 * (low[1] + high[1])], words))
         };
         let told: Vec<_> = impacts.iter().zip(&edges).step_by(4).filter_map(energy).collect();
-        svg.hover(&told);
+        svg.hover(&told, 60 / layers.len().max(1));
     }
     let before = |i: &Impact| Some(plane.at([CM * i.x, i.outcome.as_ref()?.energy.initial]));
-    let line: Vec<Point> = impacts.iter().filter_map(before).collect();
-    svg.line(&line, Pen::new(TEXT, 1.5));
+    let line: Vec<Option<Point>> = impacts.iter().map(before).collect();
+    for run in line.split(Option::is_none) {
+        let run: Vec<Point> = run.iter().flatten().copied().collect();
+        svg.line(&run, Pen::new(TEXT, 1.5));
+    }
     tags(svg, plane.frame, &names);
 }

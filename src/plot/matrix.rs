@@ -2,7 +2,7 @@
 
 use crate::plot::picture::Picture;
 use crate::plot::plane::{HEAD, head};
-use crate::plot::svg::{Anchor, LABEL, Pen, SMALL, Svg, Type, fitted, width};
+use crate::plot::svg::{Anchor, LABEL, Pen, SMALL, Svg, TITLE, Type, fitted, width};
 use crate::plot::theme::{FRAME, PAPER, SERIES};
 
 /// Numbers by row and column.
@@ -36,13 +36,10 @@ pub fn picture(matrix: &Matrix) -> Picture {
     let wide = ((760.0 - left - SCALE) / count).min(CELL[0]);
     let top = HEAD + 46.0;
     let (right, bottom) = (left + wide * count, top + CELL[1] * matrix.rows.len() as f64);
-    let titles = [
-        width(&matrix.title, Type { bold: true, size: 17.0, ..LABEL }),
-        width(&matrix.second, SMALL),
-    ];
+    let titles = [width(&matrix.title, TITLE), width(&matrix.second, SMALL)];
     let needed = titles.into_iter().fold(right + SCALE, |most, w| most.max(w + 40.0));
     let mut svg = Svg::new(needed.min(760.0), bottom.max(top + 130.0) + 18.0);
-    head(&mut svg, &matrix.title, &matrix.second);
+    head(&mut svg, &matrix.title, ["", &matrix.second]);
     let [rows, columns] = &matrix.sides;
     svg.text([0.5 * (left + right), top - 26.0], SMALL.at(Anchor::Middle), columns);
     let turned = Type { upwards: true, ..SMALL.at(Anchor::Middle) };

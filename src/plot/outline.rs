@@ -52,7 +52,8 @@ impl Lying<'_> {
     pub fn draw(&self, svg: &mut Svg, bat: &Bat, ink: Ink) {
         const MOST: usize = 300;
         let all = sections(&bat.profile, MOST);
-        svg.area(&self.around(&all, |section| section.outer), ink, TINT, None);
+        let pen = Some(Pen::new(ink, 1.5));
+        svg.area(&self.around(&all, |section| section.outer), ink, TINT, pen);
         self.regions(svg, bat);
         // The bore is as empty as the paper, or as full as its core.
         for run in all.split(|(_, section)| section.inner <= 0.0).filter(|run| run.len() > 1) {
@@ -60,8 +61,6 @@ impl Lying<'_> {
             svg.area(&bore, PAPER, 1.0, Some(Pen::new(MUTED, 0.9)));
         }
         self.cores(svg, bat);
-        let outline = self.around(&all, |section| section.outer);
-        svg.area(&outline, ink, 0.0, Some(Pen::new(ink, 1.5)));
         self.fixtures(svg, bat);
     }
 

@@ -2,9 +2,9 @@
 
 use crate::plot::axis::Axis;
 use crate::plot::plane::{Frame, Plane};
-use crate::plot::series::spread;
+use crate::plot::series::digits;
 use crate::plot::svg::{Anchor, LABEL, MARKS, Mark, Pen, SMALL, Svg, fitted, width};
-use crate::plot::theme::{FRAME, GRID, series};
+use crate::plot::theme::{PAPER, series};
 use crate::units::inches;
 
 /// cm in a metre: positions stand in cm from the knob end.
@@ -28,7 +28,30 @@ pub fn axes([from, to]: [f64; 2], bats: &[(&str, f64)]) -> [Axis; 2] {
 
 /// A place as it stands beside its mark.
 pub fn shown(x: f64, length: f64) -> String {
-    format!("{:.1} cm, {:.1} in from the tip", CM * x, inches(length - x))
+    match x {
+        x if x < 0.0 => format!("{} cm beyond the knob end", tenths(-CM * x)),
+        x if x > length => format!("{} cm beyond the tip", tenths(CM * (x - length))),
+        _ => format!("{} cm, {} in from tip", tenths(CM * x), tenths(inches(length - x))),
+    }
+}
+
+/// The places of several bats, once where they are the same.
+pub fn listed(places: &[(usize, f64)]) -> String {
+    let all: Vec<String> = places.iter().map(|(_, x)| tenths(CM * x)).collect();
+    match all.first() {
+        Some(one) if all.iter().all(|other| other == one) => format!("{one} cm"),
+        _ => format!("{} cm", all.join(", ")),
+    }
+}
+
+/// A length with one decimal, or as many as a small one needs.
+pub fn tenths(length: f64) -> String {
+    match length.abs() {
+        size if size == 0.0 || (0.95..1e3).contains(&size) => format!("{length:.1}"),
+        size if size < 1e5 && size > 1.0 => format!("{length:.0}"),
+        _ => digits(length, 2),
+    }
+    .replace('-', "−")
 }
 
 /// Marked places that belong together: one for each bat, or stretches.
@@ -60,33 +83,55 @@ pub fn height(rows: &[Row]) -> f64 {
 }
 
 /// The rows in a frame, a line each, their words where there is most room beside the marks. A place
-/// beyond the frame is at its edge.
+/// beyond the frame is an arrow at its edge.
 pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) {
     let Frame { left, top, right, .. } = plane.frame;
     for (k, row) in rows.iter().enumerate() {
         let y = top + ROW * (k as f64 + 0.5) + 4.0;
-        svg.line(&[[left, y], [right, y]], Pen::new(GRID, 1.0));
         let across = |x: f64| plane.across(CM * x).clamp(left, right);
         let mut taken = vec![];
         for (bat, stretch) in &row.stretches {
             let [from, to] = stretch.map(across);
             // Of several bats one below the other.
-            let y = y + 4.0 * *bat as f64;
+            let y = y + 4.5 * (*bat as f64 - 0.5 * (row.stretches.len() - 1) as f64);
             svg.line(&[[from, y], [to, y]], Pen { width: 4.0, ..Pen::new(series(*bat).0, 4.0) });
             taken.extend([from - 2.0, to + 2.0]);
         }
         for (bat, x) in &row.places {
-            mark(svg, *bat, [across(*x), y]);
+            match plane.x.share(CM * x) {
+                share if share < -1e-9 => arrow(svg, *bat, [left, y], -1.0),
+                share if share > 1.0 + 1e-9 => arrow(svg, *bat, [right, y], 1.0),
+                _ => mark(svg, *bat, [across(*x), y]),
+            }
             taken.extend([across(*x) - 7.0, across(*x) + 7.0]);
         }
         words(svg, plane.frame, y, (&row.label, &taken));
     }
 }
 
+/// A place beyond the frame, on that side of it.
+fn arrow(svg: &mut Svg, bat: usize, [x, y]: [f64; 2], side: f64) {
+    let points = [[x + 5.0 * side, y], [x - 4.0 * side, y - 5.0], [x - 4.0 * side, y + 5.0]];
+    svg.area(&points, series(bat).0, 1.0, None);
+}
+
 /// The mark of a bat's place.
 pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
     let mark: Mark = MARKS[bat % MARKS.len()];
-    svg.mark(mark, at, 4.5, series(bat).0, true);
+    // One that lies on another does not hide it.
+    let half = (5.2 - 0.7 * bat as f64).max(3.0);
+    svg.mark(mark, at, half, series(bat).0, true);
+}
+
+/// Thin lines from a height down to the marked places of the rows.
+pub fn guides(svg: &mut Svg, plane: &Plane, all: &[Row], from: f64) {
+    for (k, row) in all.iter().enumerate() {
+        let to = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
+        for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(CM * x)) {
+            let x = plane.across(CM * x);
+            svg.line(&[[x, from], [x, to]], Pen::new(series(*bat).0, 0.8).dashed("1 3"));
+        }
+    }
 }
 
 /// A row's words, beside what is taken in it.
@@ -94,24 +139,25 @@ fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) {
     let first = taken.iter().fold(frame.right, |least, x| least.min(*x));
     let last = taken.iter().fold(frame.left, |most, x| most.max(*x));
     let [before, after] = [first - frame.left - 8.0, frame.right - last - 8.0];
+    // Where there is no room for what and where, what.
+    let whole = width(words, LABEL) <= before.max(after);
+    let words = if whole { words } else { words.split(':').next().unwrap_or(words) };
     let wide = width(words, LABEL);
+    if wide > before.max(after) && after.max(before) < 120.0 {
+        // Across what is taken all over.
+        let middle = 0.5 * (frame.left + frame.right);
+        svg.rect(
+            [[middle - 0.5 * wide, y - 8.0], [middle + 0.5 * wide, y + 8.0]],
+            PAPER,
+            1.0,
+            None,
+        );
+        svg.text([middle, y + 4.4], LABEL.at(Anchor::Middle), words);
+        return;
+    }
     let (x, anchor, most) = match after >= wide || after >= before {
         true => (last + 5.0, Anchor::Start, after),
         false => (first - 5.0, Anchor::End, before),
     };
     svg.text([x, y + 4.4], LABEL.at(anchor), &fitted(words, LABEL, most));
-}
-
-/// Heights (px) at which places that are labelled above each other stand, at least a line apart.
-pub fn lines(wanted: &[f64], frame: Frame) -> Vec<f64> {
-    spread(wanted, 15.0, [frame.top, frame.bottom])
-}
-
-/// A thin line through a frame at a place (m).
-pub fn guide(svg: &mut Svg, plane: &Plane, x: f64) {
-    if plane.x.holds(CM * x) {
-        let across = plane.across(CM * x);
-        let Frame { top, bottom, .. } = plane.frame;
-        svg.line(&[[across, top], [across, bottom]], Pen::new(FRAME, 1.0).dashed("2 2"));
-    }
 }

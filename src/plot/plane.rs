@@ -7,13 +7,13 @@ use crate::plot::theme::{FRAME, GRID, Ink, TINT};
 /// Width of every picture (px).
 pub const WIDTH: f64 = 760.0;
 /// From the left edge to the frames, so that those above each other are in line (px).
-pub const LEFT: f64 = 66.0;
+pub const LEFT: f64 = 70.0;
 /// From a frame to the right edge, where nothing else stands there (px).
 pub const RIGHT: f64 = 28.0;
 /// What numbers and label of an axis take beside a frame (px).
 pub const NUMBERS: f64 = 42.0;
 /// What title and second line take at the top (px).
-pub const HEAD: f64 = 58.0;
+pub const HEAD: f64 = 60.0;
 
 /// A rectangle of the picture (px).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,11 +32,19 @@ pub struct Plane {
     pub y: Axis,
 }
 
-/// The title and, standing back, what it is of.
-pub fn head(svg: &mut Svg, title: &str, second: &str) {
+/// The title and, standing back, what it is of and what is to be known of it; where there is not room
+/// for all, the name is cut.
+pub fn head(svg: &mut Svg, title: &str, [name, facts]: [&str; 2]) {
     let most = svg.width - 40.0;
-    svg.text([20.0, 27.0], TITLE, &fitted(title, TITLE, most));
-    svg.text([20.0, 46.0], SMALL, &fitted(second, SMALL, most));
+    svg.text([20.0, 29.0], TITLE, &fitted(title, TITLE, most));
+    let between = if name.is_empty() || facts.is_empty() { "" } else { ": " };
+    let name = fitted(name, SMALL, (most - width(facts, SMALL) - 10.0).max(0.0));
+    svg.text([20.0, 48.0], SMALL, &fitted(&format!("{name}{between}{facts}"), SMALL, most));
+}
+
+/// As many ticks as there is room for along y.
+pub fn ticks_up(height: f64) -> usize {
+    ((height / 24.0) as usize).clamp(3, 9)
 }
 
 impl Plane {
@@ -51,9 +59,8 @@ impl Plane {
         self.frame.left + (self.frame.right - self.frame.left) * self.x.share(a)
     }
 
-    /// As many ticks as there is room for along y.
     fn ticks_up(&self) -> usize {
-        (((self.frame.bottom - self.frame.top) / 34.0) as usize).clamp(3, 8)
+        ticks_up(self.frame.bottom - self.frame.top)
     }
 
     /// Lines to count along, the frame's left and lower side, the numbers and the label of y.
@@ -69,7 +76,7 @@ impl Plane {
             svg.line(&[[x, top], [x, bottom]], Pen::new(GRID, 1.0));
         }
         svg.line(&[[left, top], [left, bottom], [right, bottom]], Pen::new(FRAME, 1.0));
-        self.label_up(svg, left - 48.0, &self.y.label);
+        self.label_up(svg, left - 54.0, &self.y.label);
     }
 
     /// Words along y, as near to its middle as they fit on the picture.
@@ -101,7 +108,7 @@ impl Plane {
             svg.line(&[[right, y], [right + 5.0, y]], Pen::new(FRAME, 1.0));
             svg.text([right + 9.0, y + 4.4], LABEL, &tick.text);
         }
-        self.label_up(svg, right + 52.0, &axis.label);
+        self.label_up(svg, right + 60.0, &axis.label);
     }
 
     /// A stretch of x, tinted from top to bottom.

@@ -2,13 +2,14 @@
 
 use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::fixtures::Held;
+use crate::material::Material;
 use crate::plot::axis::Axis;
 use crate::plot::outline::{Lying, sections};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Series, legend};
-use crate::plot::svg::{Pen, SMALL, Svg};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::series::{Series, digits, hover, legend, short};
+use crate::plot::svg::{Anchor, Pen, SMALL, Svg};
 use crate::plot::theme::series;
 use crate::units::{inches, ounces};
 
@@ -22,7 +23,7 @@ pub struct Subject<'a> {
 }
 
 /// Right of the frame there is a second axis.
-const RIGHT: f64 = 66.0;
+const RIGHT: f64 = 74.0;
 /// Of the diameters' diagram (px).
 const DIAGRAM: f64 = 130.0;
 /// Heights that a bat from the side may have (px).
@@ -45,8 +46,8 @@ pub fn picture(subjects: &[Subject]) -> Picture {
     let frame = |top, bottom| Frame { left: LEFT, top, right, bottom };
     let bottom = below + place::height(&rows);
     let mut svg = Svg::new(WIDTH, bottom + NUMBERS + 6.0);
-    let (title, second) = words(subjects);
-    head(&mut svg, &title, &second);
+    let (title, facts) = words(subjects);
+    head(&mut svg, &title, ["", &facts]);
     let shapes = Plane { frame: frame(top, side), x: knob.clone(), y: Axis::new("", [0.0, 1.0]) };
     shapes.above(&mut svg, &tip);
     for (k, subject) in subjects.iter().enumerate() {
@@ -55,21 +56,23 @@ pub fn picture(subjects: &[Subject]) -> Picture {
         lying.draw(&mut svg, subject.bat, series(k).0);
     }
     proportions(&mut svg, times, [right, top + 14.0]);
-    let y = Axis::around("diameter (cm)", diameters(subjects), 6);
+    let y = Axis::around("diameter (cm)", diameters(subjects), ticks_up(DIAGRAM));
     let in_inches = Axis::new("diameter (in)", [y.from, y.to].map(|d| inches(d / CM)));
     let plane = Plane { frame: frame(side, side + DIAGRAM), x: knob.clone(), y };
     plane.draw(&mut svg);
     plane.right(&mut svg, &in_inches);
     let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
     curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
+    let first = top + 0.5 * each + 4.0;
     let strip = Plane { frame: frame(below, bottom), x: knob, y: shapes.y.clone() };
+    place::guides(&mut svg, &strip, &rows, first);
     place::rows(&mut svg, &strip, &rows);
     strip.below(&mut svg);
     if subjects.len() > 1 {
         let outer: Vec<&Series> = curves.iter().filter(|c| c.pen.width > 1.5).collect();
-        legend(&mut svg, &outer, [LEFT, HEAD + 8.0]);
+        legend(&mut svg, &outer, [LEFT, HEAD + 8.0, WIDTH - 12.0]);
     }
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     Picture::new("profile", &title, &described(subjects, &rows), svg)
 }
 
@@ -78,15 +81,19 @@ fn words(subjects: &[Subject]) -> (String, String) {
     match subjects {
         [Subject { name, bat, .. }] => {
             let (mass, length) = (bat.inertia().mass, bat.length());
-            let second = format!(
-                "{:.1} cm ({:.2} in) long, {:.0} g ({:.1} oz), at most {:.2} cm ({:.2} in) thick",
-                CM * length,
-                inches(length),
-                1e3 * mass,
-                ounces(mass),
-                2.0 * CM * widest(bat),
-                inches(2.0 * widest(bat))
+            let thick = 2.0 * widest(bat);
+            let mut second = format!(
+                "{} cm ({} in) long, {} g ({} oz), at most {} cm ({} in) thick",
+                short(CM * length),
+                short(inches(length)),
+                digits(1e3 * mass, 3),
+                digits(ounces(mass), 3),
+                digits(CM * thick, 3),
+                digits(inches(thick), 3)
             );
+            if bat.profile.stations.inner.iter().any(|r| *r > 0.0) {
+                second += "; thin line: the bore";
+            }
             ((*name).to_owned(), second)
         }
         _ => ("Profiles".to_owned(), "outer diameter solid or dashed, bore thin".to_owned()),
@@ -129,8 +136,8 @@ fn thickness(radius: f64, along: f64) -> [f64; 2] {
 
 fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
     if times != 1.0 {
-        let words = format!("drawn {} times as thick", crate::plot::series::short(times));
-        svg.text(at, SMALL.at(crate::plot::svg::Anchor::End), &words);
+        let words = format!("drawn {} times as thick", short(times));
+        svg.text(at, SMALL.at(Anchor::End), &words);
     }
 }
 
@@ -173,9 +180,7 @@ fn marked(subjects: &[Subject]) -> Vec<Row> {
         let label = match (subjects, places.as_slice()) {
             ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.bat.length())),
             _ => {
-                let all: Vec<String> =
-                    places.iter().map(|(_, x)| format!("{:.1}", CM * x)).collect();
-                format!("{what}: {} cm", all.join(", "))
+                format!("{what}: {}", place::listed(&places))
             }
         };
         (!places.is_empty()).then(|| Row::of_places(label, places))
@@ -186,9 +191,9 @@ fn marked(subjects: &[Subject]) -> Vec<Row> {
     let mut rows: Vec<Row> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),
-        of("centre of percussion for it", &standard),
+        of("its centre of percussion", &standard),
         of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
-        of("centre of percussion for it", &swung),
+        of("its centre of percussion", &swung),
     ]
     .into_iter()
     .flatten()
@@ -206,14 +211,17 @@ fn fastened(bat: &Bat) -> Vec<Row> {
     let place = |label: String, x| Row::of_places(label, vec![(0, x)]);
     let mut rows = vec![];
     for region in &fixtures.regions {
-        let name = |name: &Option<String>, other: &str| name.clone().unwrap_or(other.to_owned());
+        let name = |material: &Material| match &material.name {
+            Some(name) => name.clone(),
+            None => format!("{} kg/m³", short(material.density)),
+        };
         let outer = &region.layup.outer;
-        let wall = (outer != bat.material()).then(|| name(&outer.name, "another material"));
-        let core = region.layup.core.as_ref().map(|core| name(&core.name, "another material"));
+        let wall = (outer != bat.material()).then(|| name(outer));
+        let core = region.layup.core.as_ref().map(name);
         let label = match (wall, core) {
-            (Some(wall), Some(core)) => format!("{wall} with a core of {core}, hatched"),
-            (Some(wall), None) => format!("{wall}, hatched"),
-            (None, Some(core)) => format!("core of {core}, hatched"),
+            (Some(wall), Some(core)) => format!("hatched: {wall} with a core of {core}"),
+            (Some(wall), None) => format!("hatched: {wall}"),
+            (None, Some(core)) => format!("hatched: core of {core}"),
             (None, None) => continue,
         };
         rows.push(stretch(label, region.from, region.to));

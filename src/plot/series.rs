@@ -71,20 +71,6 @@ impl Series {
         }
     }
 
-    /// What stands where a pointer rests on it.
-    pub fn hover(&self, svg: &mut Svg, plane: &Plane) {
-        let Some([x, y]) = self.units else { return };
-        let words = |[a, b]: [f64; 2]| format!("{}: {} {x}, {} {y}", self.name, short(a), short(b));
-        let all = self.runs(plane).concat();
-        let points: Vec<_> = all.into_iter().map(|at| (plane.at(at), words(at))).collect();
-        svg.hover(&points);
-    }
-
-    /// Its last point inside of the frame.
-    pub fn end(&self, plane: &Plane) -> Option<Point> {
-        self.runs(plane).concat().last().map(|point| plane.at(*point))
-    }
-
     /// A sample of it, that wide.
     fn sample(&self, svg: &mut Svg, [x, y]: Point, wide: f64) {
         if self.joined {
@@ -96,8 +82,29 @@ impl Series {
     }
 }
 
+/// What stands where a pointer rests on curves: sixty places on them in all, no curve needs more to
+/// be read.
+pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[&Series]) {
+    const MOST: usize = 60;
+    for curve in curves {
+        let Some([x, y]) = curve.units else { continue };
+        let words = |[a, b]: [f64; 2]| {
+            let value = format!("{}: {} {x}, {} {y}", curve.name, short(a), short(b));
+            value.trim_end().to_owned()
+        };
+        let all = curve.runs(plane).concat();
+        let points: Vec<_> = all.into_iter().map(|at| (plane.at(at), words(at))).collect();
+        svg.hover(&points, (MOST / curves.len()).max(8));
+    }
+}
+
 /// A number with four digits, without zeros at its end.
 pub fn short(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A number with so many digits, without zeros at its end.
+pub fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".into();
     }
@@ -105,22 +112,23 @@ pub fn short(value: f64) -> String {
     if !(-4..7).contains(&places) {
         return format!("{value:.2e}").replace('-', "−");
     }
-    let text = format!("{value:.*}", (3 - places).max(0) as usize).replace('-', "−");
+    let decimals = (count - 1 - places).max(0) as usize;
+    let text = format!("{value:.decimals$}").replace('-', "−");
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
     }
 }
 
-/// Names in a row with samples, from the left; as many rows as they need, the first at `y`. The base
-/// line of the last is given back.
-pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y]: Point) -> f64 {
+/// Names in a row with samples, between those ends; as many rows as they need, the first at `y`. The
+/// base line of the last is given back.
+pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3]) -> f64 {
     const SAMPLE: f64 = 28.0;
     let mut x = left;
     for series in series {
-        let name = fitted(&series.name, LABEL, svg.width - left - SAMPLE - 40.0);
+        let name = fitted(&series.name, LABEL, right - left - SAMPLE - 7.0);
         let wide = SAMPLE + 7.0 + width(&name, LABEL);
-        if x > left && x + wide > svg.width - 12.0 {
+        if x > left && x + wide > right {
             (x, y) = (left, y + 18.0);
         }
         series.sample(svg, [x, y - 4.4], SAMPLE);

@@ -7,7 +7,7 @@ use crate::plot::outline::sections;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Series, legend};
+use crate::plot::series::{Series, digits, legend};
 use crate::plot::svg::{Anchor, LABEL, Pen, Point, SMALL, Svg, width};
 use crate::plot::theme::{FRAME, MUTED, TINT, series};
 use crate::profile::Section;
@@ -27,7 +27,7 @@ pub const MODES: usize = 5;
 const ROW: f64 = 80.0;
 const DEFLECTED: f64 = 20.0;
 const THICK: f64 = 10.0;
-/// From the left edge, where a mode is named, and right of the frames.
+/// Right of the frame, where a mode is named.
 const RIGHT: f64 = 96.0;
 
 /// The first modes, at most so many, a row each; picture `shapes`. None where there are no modes.
@@ -46,12 +46,12 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
     let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom };
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     let mut svg = Svg::new(WIDTH, bottom + NUMBERS + 4.0);
-    let (title, second) = words(subjects);
-    head(&mut svg, &title, &second);
+    let (title, name, facts) = words(subjects);
+    head(&mut svg, title, [name, &facts]);
     if subjects.len() > 1 {
         let lines: Vec<Series> =
             subjects.iter().enumerate().map(|(k, s)| Series::curve(s.name, k, vec![])).collect();
-        legend(&mut svg, &lines.iter().collect::<Vec<_>>(), [LEFT, HEAD + 8.0]);
+        legend(&mut svg, &lines.iter().collect::<Vec<_>>(), [LEFT, HEAD + 8.0, WIDTH - 12.0]);
     }
     plane.above(&mut svg, &tip);
     for order in 0..count {
@@ -59,18 +59,18 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
         mode_row(&mut svg, &plane, axis, (subjects, order));
     }
     plane.below(&mut svg);
-    Some(Picture::new("shapes", &title, &described(subjects, count), svg))
+    Some(Picture::new("shapes", title, &described(subjects, count), svg))
 }
 
-fn words(subjects: &[Subject]) -> (String, String) {
-    let drawn = "thickness and deflection not to scale";
+fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
+    let title = "Bending modes and their nodes";
+    let drawn = "not to scale";
     match subjects {
-        [Subject { name, bat, solution }] => {
-            let held = bat.fixtures.freedom();
-            let second = format!("{name}; {held}, {}; {drawn}", solution.theory.name());
-            ("Bending modes and their nodes".to_owned(), second)
+        [Subject { name, bat, .. }] => {
+            let held = if bat.fixtures.holding() { "held" } else { "free" };
+            (title, name, format!("{held}; nodes in cm from the knob end; {drawn}"))
         }
-        _ => ("Bending modes and their nodes".to_owned(), drawn.to_owned()),
+        _ => (title, "", drawn.to_owned()),
     }
 }
 
@@ -95,7 +95,6 @@ fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Subje
     let lines = 18.0 * if alone { 1.0 } else { subjects.len() as f64 };
     let mut y = axis - 0.5 * lines;
     svg.text([right + 14.0, y], SMALL, &format!("mode {}", order + 1));
-    svg.text([left - 12.0, axis + 4.4], LABEL.at(Anchor::End), &format!("{}", order + 1));
     for (k, subject) in subjects.iter().enumerate() {
         let Some(mode) = subject.solution.modes.get(order) else { continue };
         bent(svg, plane, axis, (k, subject.bat, mode));
@@ -116,6 +115,7 @@ fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Subje
 /// Four digits and the unit.
 fn frequency(hertz: f64) -> String {
     match hertz {
+        f if f < 99.95 => format!("{} Hz", digits(f, 3)),
         f if f < 9_999.5 => format!("{f:.1} Hz"),
         f if f < 9_999_500.0 => format!("{:.2} kHz", 1e-3 * f),
         f => format!("{f:.3e} Hz"),
@@ -153,7 +153,7 @@ fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, alone): (usize, &Mod
     for x in &mode.nodes {
         let across = plane.across(CM * x);
         place::mark(svg, k, [across, axis]);
-        let words = format!("{:.1}", CM * x);
+        let words = place::tenths(CM * x);
         let half = 0.5 * width(&words, SMALL);
         if alone && across - half >= free {
             svg.text([across, axis + 0.5 * ROW - 5.0], SMALL.at(Anchor::Middle), &words);
@@ -165,5 +165,5 @@ fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, alone): (usize, &Mod
         }
     }
     let told = |x: &f64| ([plane.across(CM * x), axis], format!("node at {:.2} cm", CM * x));
-    svg.hover(&mode.nodes.iter().map(told).collect::<Vec<_>>());
+    svg.hover(&mode.nodes.iter().map(told).collect::<Vec<_>>(), 60);
 }

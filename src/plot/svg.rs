@@ -72,7 +72,7 @@ pub const LABEL: Type =
 /// What stands back.
 pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 /// The first line of a picture.
-pub const TITLE: Type = Type { size: 17.0, bold: true, ..LABEL };
+pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
     pub const fn at(self, anchor: Anchor) -> Self {
@@ -81,6 +81,10 @@ impl Type {
 
     pub const fn ink(self, ink: Ink) -> Self {
         Self { ink, ..self }
+    }
+
+    pub const fn sized(self, size: f64) -> Self {
+        Self { size, ..self }
     }
 }
 
@@ -203,14 +207,13 @@ impl Svg {
         let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{look}/>");
     }
 
-    /// Words that show where a pointer rests, at some of the points: no curve needs more to be read.
-    pub fn hover(&mut self, points: &[(Point, String)]) {
-        const MOST: usize = 60;
+    /// Words that show where a pointer rests, at so many of the points at most.
+    pub fn hover(&mut self, points: &[(Point, String)], most: usize) {
         if points.is_empty() {
             return;
         }
         self.body += "<g class=\"ss-hover\" fill=\"#000\" fill-opacity=\"0\">\n";
-        let every = points.len().div_ceil(MOST);
+        let every = points.len().div_ceil(most.max(1));
         for ([x, y], words) in points.iter().step_by(every) {
             let (x, y) = (px(*x), px(*y));
             let words = escaped(words);
@@ -223,19 +226,44 @@ impl Svg {
     }
 }
 
-/// A path through points; those that share a pixel with the last are left out.
+/// A path through points, without those that it passes by anyway.
 fn route(points: &[Point]) -> String {
     let mut out = String::new();
-    let mut last = [String::new(), String::new()];
-    for (k, point) in points.iter().enumerate() {
-        let at = point.map(px);
-        if at != last || k == 0 {
-            let verb = if k == 0 { 'M' } else { 'L' };
-            let _ = write!(out, "{verb}{} {}", at[0], at[1]);
-            last = at;
-        }
+    for (k, point) in bends(points).into_iter().enumerate() {
+        let verb = if k == 0 { 'M' } else { 'L' };
+        let [x, y] = point.map(px);
+        let _ = write!(out, "{verb}{x} {y}");
     }
     out
+}
+
+/// The first point, the last one, and between them those without which a line would pass another by
+/// more than can be seen.
+fn bends(points: &[Point]) -> Vec<Point> {
+    /// px
+    const SEEN: f64 = 0.06;
+    /// No more points than this are left out in a row.
+    const MOST: usize = 60;
+    let Some(first) = points.first() else { return vec![] };
+    let (mut kept, mut from) = (vec![*first], 0);
+    for to in 2..points.len() {
+        let passed = |point: &Point| distance(*point, points[from], points[to]) <= SEEN;
+        if to - from > MOST || !points[from + 1..to].iter().all(passed) {
+            from = to - 1;
+            kept.push(points[from]);
+        }
+    }
+    kept.extend(points.last().filter(|_| points.len() > 1));
+    kept
+}
+
+/// From a point to a stretch between two (px).
+fn distance([x, y]: Point, [a, b]: Point, [c, d]: Point) -> f64 {
+    let (along, up) = (c - a, d - b);
+    let square = along * along + up * up;
+    let share = if square > 0.0 { ((x - a) * along + (y - b) * up) / square } else { 0.0 };
+    let share = share.clamp(0.0, 1.0);
+    (x - a - share * along).hypot(y - b - share * up)
 }
 
 fn fill(ink: Ink) -> String {
@@ -323,7 +351,23 @@ mod tests {
     fn coordinates_are_short_and_always_numbers() {
         let shown = [1.0, 0.25, -0.01, f64::NAN, f64::INFINITY, 12.34].map(px);
         assert_eq!(shown, ["1", "0.3", "0", "0", "0", "12.3"]);
-        assert_eq!(route(&[[0.0, 0.0], [0.01, 0.0], [1.0, 2.0]]), "M0 0L1 2");
+        assert_eq!(route(&[[0.0, 0.0], [0.5, 1.0], [1.0, 2.0], [2.0, 0.0]]), "M0 0L1 2L2 0");
+    }
+
+    #[test]
+    fn a_line_of_fewer_points_passes_all_of_them() {
+        let wave: Vec<Point> =
+            (0..500).map(|k| f64::from(k)).map(|x| [x, 40.0 * (0.05 * x).sin()]).collect();
+        let kept = bends(&wave);
+        assert!(kept.len() < 200, "{}", kept.len());
+        for point in &wave {
+            let near = kept.windows(2).map(|pair| distance(*point, pair[0], pair[1]));
+            assert!(near.fold(f64::INFINITY, f64::min) <= 0.06);
+        }
+        // A line that turns back on itself keeps its turn.
+        assert_eq!(bends(&[[0.0, 0.0], [9.0, 0.0], [4.0, 0.0]]).len(), 3);
+        assert!(bends(&[]).is_empty());
+        assert_eq!(bends(&[[1.0, 1.0]]).len(), 1);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
-use crate::plot::series::{Series, legend};
+use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{MARKS, Pen, Svg};
 use crate::plot::theme::SERIES;
 use crate::trade::reference::solver_name;
@@ -20,7 +20,8 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let mut curves = vec![];
     for (k, column) in columns.iter().enumerate() {
         for way in column.ways() {
-            curves.push(curve(column, *way, (k, mode)));
+            let curve = curve(column, *way, (k, mode));
+            curves.extend(Some(curve).filter(|curve| !curve.points.is_empty()));
         }
     }
     let points = || curves.iter().flat_map(|c: &Series| c.points.iter().flatten());
@@ -28,25 +29,25 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let x = Axis::logarithmic("number of cubic elements", points().map(|at| at[0]));
     let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
     let title = format!("Error against elements, mode {}", mode + 1);
-    let second = format!(
-        "{name}; own: by the solver's eigenvalue, again: strain over kinetic energy of its shape"
-    );
+    let facts = "own: as the solver's eigenvalue says; again: from the energies of its shape";
     let mut svg = Svg::new(WIDTH, 0.0);
-    head(&mut svg, &title, &second);
-    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]) + 16.0;
+    head(&mut svg, &title, [name, facts]);
+    let top =
+        legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - 12.0])
+            + 16.0;
     let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);
     curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
     plane.below(&mut svg);
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     let file = match mode {
         0 => "u_curve".to_owned(),
         _ => format!("u_curve_mode_{}", mode + 1),
     };
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
-    let alt = format!("{title} of {second}. Curves: {}.", names.join(", "));
+    let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
     Some(Picture::new(&file, &title, &alt, svg))
 }
 

@@ -1,7 +1,6 @@
 //! Everything a user asked for, ready to print or to write.
 
 pub mod file;
-pub mod svg;
 pub mod curve;
 pub mod resolved;
 pub mod damped;
