@@ -7,7 +7,6 @@ use std::collections::BTreeSet;
 use common::folder::Folder;
 use serde_json::{Value, json};
 use sweetspot::analysis::{Analysis, Task};
-use sweetspot::collision::history::history;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::page::content::Report;
@@ -329,13 +328,14 @@ fn the_ball_is_squeezed_as_much_as_ball_and_bat_are_nearer_than_touching() {
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort).unwrap();
     assert_eq!(report.moments.len(), 2);
     for moment in &report.moments {
-        let force = hitter.force(moment.x_m).unwrap();
-        let past = history(&force, &hitter.law(moment.x_m).unwrap(), 200);
-        let deepest = past.iter().map(|now| 1e3 * now.compression).fold(0.0, f64::max);
+        let outcome = hitter.strike(moment.x_m).outcome.unwrap();
+        // The first loading, F = k uᵅ.
+        let ball = &task.scene.ball;
+        let [k, alpha] = [ball.stiffness, ball.exponent].map(Option::unwrap);
+        let deepest = 1e3 * (outcome.peak_force.unwrap() / k).powf(1.0 / alpha);
         let nearest = moment.gap_mm.iter().copied().fold(0.0, f64::min);
         assert!((deepest + nearest).abs() < 0.15, "{deepest} mm, {nearest} mm");
         // It has left when the force has ended.
-        let outcome = hitter.strike(moment.x_m).outcome.unwrap();
         let last = moment.times_ms.len() - 1;
         assert!(moment.gap_mm[last] > 0.0 && moment.force_kn[last] == 0.0);
         let most = moment.force_kn.iter().copied().fold(0.0, f64::max);

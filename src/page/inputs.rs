@@ -95,8 +95,8 @@ pub fn scene(analysis: &Analysis) -> Table {
     line("  its mass", inline(shown::mass(ball.mass)));
     line("  its radius", inline(length(ball.radius)));
     if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
-        let law = format!("{} N/m^α, α = {}", shown::plain(stiffness), shown::plain(exponent));
-        line("  its force, k u^α, k", law);
+        let law = format!("k = {} N/m^α, α = {}", shown::plain(stiffness), shown::plain(exponent));
+        line("  its force, k·u^α", law);
     }
     line(
         "coefficient of restitution",
@@ -151,7 +151,7 @@ fn flat(path: &str, value: &Value, table: &mut Table) {
             items.for_each(|(k, item)| flat(&format!("{path}[{k}]"), item, table));
         }
         Value::Number(number) => {
-            let shown = number.as_f64().map_or(number.to_string(), shown::plain);
+            let shown = number.as_f64().map_or(number.to_string(), shown::digits);
             table.row([path, &shown, unit(path)]);
         }
         Value::String(text) => table.row([path, text.as_str(), ""]),

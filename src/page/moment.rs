@@ -1,4 +1,7 @@
 //! The moment of the hit, picture by picture: how the ball is squeezed and the bat bends.
+//!
+//! Ball and bat near each other at the closing speed v until the force drives them apart: the gap
+//! is `∫∫F dt²/m − v t − w(a)`, w the bat's motion against its swing ([`crate::collision::aftermath`]).
 
 use serde::Serialize;
 
@@ -65,8 +68,6 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
     let times = times(analysis, after.end());
     let instants = after.at(&times);
     let pushed = after.pushed(&times);
-    // Ball and bat near each other at the closing speed; the force drives the ball away, and the
-    // bat's surface back.
     let gap = |(now, [moved, _]): (&Instant, &[f64; 2])| {
         moved / task.scene.ball.mass - closing * now.time - after.motion(x, now)[0]
     };

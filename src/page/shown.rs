@@ -67,6 +67,11 @@ pub fn plain(value: f64) -> String {
     }
 }
 
+/// A value with seven digits, without zeros at its end.
+pub fn digits(value: f64) -> String {
+    plain(format!("{value:.6e}").parse().unwrap_or(value))
+}
+
 /// An error: one digit and its power of ten.
 pub fn error(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { scientific(value, 0) }

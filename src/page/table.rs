@@ -37,7 +37,12 @@ impl Table {
             return String::new();
         }
         let caption = escape::html(&self.caption);
-        let kind = if self.words { "words" } else { "numbers" };
+        let short = self.rows.iter().all(|row| row[0].chars().count() < 8);
+        let kind = match (self.words, short) {
+            (true, _) => "words",
+            (false, true) => "short",
+            (false, false) => "numbers",
+        };
         let mut out = format!(
             "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\">\n\
              <table class=\"{kind}\">\n<caption>{caption}</caption>\n<thead><tr>"
