@@ -96,14 +96,14 @@ fn a_longer_bat_is_compared_from_both_ends() {
     assert!(both.by_knob.iter().all(|row| row.values.iter().all(Option::is_some)));
 }
 
-/// Against hits of the same bat computed a thousand times more accurately.
+/// Against hits of the same bat computed far more accurately.
 #[test]
 fn what_is_stated_of_an_error_holds() {
     let names = ["r161", "torpedo", "cone"];
     let bats = names.map(|name| Bat::from_file(format!("meshes/{name}.json")).unwrap());
     let pulse = Model::Pulse(Pulse::default());
-    for (model, tolerances) in [(Model::Contact, &[1e-2, 1e-3, 1e-4][..]), (pulse, &[1e-3])] {
-        let truth = compare_by(model, &bats, 1e-7);
+    for (model, tolerances) in [(Model::Contact, &[1e-2, 1e-4][..]), (pulse, &[1e-3])] {
+        let truth = compare_by(model, &bats, 1e-6);
         for tolerance in tolerances {
             let rough = compare_by(model, &bats, *tolerance);
             for (known, row) in all(&truth).zip(all(&rough)) {
@@ -216,12 +216,27 @@ fn more_bats_have_a_table_of_all_and_a_rigid_one_no_vibration() {
 }
 
 #[test]
+fn six_bats_fit_into_the_pictures_too() {
+    let folder = meshes("pictures");
+    let bats = ["r161.json", "torpedo.json", "house.json"];
+    let six: Vec<&str> = bats.into_iter().cycle().take(6).collect();
+    let args = [&["compare"], &six[..], &["--plots", "p", "--every", "2 in"]].concat();
+    let table = folder.text(&args);
+    assert!(table.contains("\nF beside A") && table.lines().all(|l| l.chars().count() <= 80));
+    for name in ["profile", "shapes", "exit_speed", "difference"] {
+        let svg = folder.read(&format!("p/{name}.svg"));
+        assert!(svg.starts_with("<svg") && svg.contains("F: House"), "{name}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+    }
+}
+
+#[test]
 fn what_cannot_be_compared_is_refused() {
     let folder = meshes("refused");
-    let nine = ["r161.json"; 9];
+    let seven = ["r161.json"; 7];
     let cases: [(&[&str], &str); 5] = [
-        (&["r161.json"], "expected 2 to 8 bat files"),
-        (&nine, "expected 2 to 8 bat files"),
+        (&["r161.json"], "expected 2 to 6 bat files"),
+        (&seven, "expected 2 to 6 bat files"),
         (&["r161.json", "house.json", "--every", "0"], "--every: found 0.0 m"),
         (&["r161.json", "house.json", "--csv", "-", "--json", "-"], "one of them"),
         (&["r161.json", "missing.json"], "missing.json"),

@@ -302,7 +302,11 @@ fn a_table_of_shapes_goes_from_a_spreadsheet_to_a_table_and_to_json() {
         let damping = |k: usize| &json["measured"][k]["damping_ratio"];
         assert_eq!((damping(0).as_f64(), damping(1).as_f64()), (Some(0.004), None));
         assert_eq!(json["shapes"]["mac"].as_array().unwrap().len(), 3);
-        let text = folder.text(&args);
+        let text = folder.text(&[&args[..], &["--plots", "p"]].concat());
+        for name in ["mac", "mass_orthogonality", "measured_shapes"] {
+            let svg = folder.read(&format!("p/{name}.svg"));
+            assert!(svg.starts_with("<svg") && svg.contains("c, 1269 Hz"), "{name}");
+        }
         assert!(text.lines().all(|line| line.chars().count() <= 80));
         assert!(text.contains("0.40 %") && text.contains("4.0 % softer"), "{text}");
     }

@@ -8,6 +8,7 @@ use sweetspot::error::{Error, Result};
 use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured_file;
+use sweetspot::plot::{self, picture};
 use sweetspot::report::{self, comparison, file};
 use sweetspot::units::Quantity;
 
@@ -34,7 +35,7 @@ use crate::cli::{Done, NOT_REACHED};
 /// or the columns mode,frequency_hz,damping_ratio where there are no shapes.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Bat files (JSON), two to eight; one with --measured
+    /// Bat files (JSON), two to six; one with --measured
     #[arg(required = true, value_name = "BAT")]
     bats: Vec<PathBuf>,
 
@@ -69,6 +70,11 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
+    /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences; of
+    /// measured modes the MAC, what shapes have in common, and the shapes on each other
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
     #[command(flatten)]
     scene: SceneArgs,
 
@@ -80,7 +86,7 @@ pub struct Args {
 }
 
 /// More bats do not fit beside each other.
-const MOST: usize = 8;
+const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("compare")?;
@@ -108,6 +114,9 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let told = Told { first, origin: args.origin };
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &plot::measured::pictures(&bat.name, &study))?;
+    }
     let text = report::measured::text(&bat, &study, args.output.units);
     let name = path.display().to_string();
     let text = args.output.deliver(text, || report::measured::json(&bat, &name, &study))?;
@@ -138,6 +147,9 @@ fn bats_beside(args: &Args) -> Result<Done> {
     }
     let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
     let compared = Comparison::new(entries, terms).map_err(as_option)?;
+    if let Some(folder) = &args.plots {
+        picture::write(folder, &plot::compared::pictures(&compared))?;
+    }
     let text = match &args.csv {
         Some(path) if path.as_os_str() == "-" => comparison::csv(&compared),
         Some(path) => {

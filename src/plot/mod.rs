@@ -25,3 +25,5 @@ pub mod front;
 pub mod u_curve;
 pub mod matrix;
 pub mod sets;
+pub mod compared;
+pub mod measured;
