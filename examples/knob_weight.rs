@@ -10,10 +10,9 @@ use std::env;
 use sweetspot::bat::{STANDARD_PIVOT, Weighed};
 use sweetspot::choice;
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::Looked;
+use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::fixtures::Attachment;
 use sweetspot::units::{inches, miles_per_hour, ounce_square_inches};
 use sweetspot::{Bat, Request, Result};
@@ -78,20 +77,11 @@ fn main() -> Result<()> {
         rows.push([balance, weight, f1, node, spot, same, energy]);
     }
     println!("  speeds within {error:.0e} mph by the program's own estimate\n");
-    let (bare, heavy) = (rows[0], rows[3]);
-    let by = |k: usize| heavy[k] - bare[k];
-    let share = |k: usize| 100.0 * (heavy[k] / bare[k] - 1.0);
-    println!("Three ounces move the balance point by {:+.2} in, the swing weight by", by(0));
-    println!(
-        "{:+.1} %, the first frequency by {:+.1} % and its barrel node by",
-        share(1),
-        share(2)
-    );
-    println!(
-        "{:+.2} in; the sweet spot by {:+.2} in. Swung as fast, the ball leaves",
-        by(3),
-        by(4)
-    );
-    println!("{:+.2} mph faster; with the same energy {:+.2} mph.", by(5), by(6));
+    let by = |k: usize| rows[3][k] - rows[0][k];
+    let share = |k: usize| 100.0 * (rows[3][k] / rows[0][k] - 1.0);
+    println!("Three ounces: balance point {:+.2} in, swing weight {:+.1} %,", by(0), share(1));
+    println!("first frequency {:+.1} %, its barrel node {:+.2} in from the tip,", share(2), by(3));
+    println!("sweet spot {:+.2} in; the ball leaves {:+.2} mph faster swung as", by(4), by(5));
+    println!("fast, {:+.2} mph swung with the same energy.", by(6));
     Ok(())
 }

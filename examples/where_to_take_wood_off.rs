@@ -12,10 +12,9 @@ use std::env;
 use sweetspot::bat::STANDARD_PIVOT;
 use sweetspot::choice;
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Effort, Model, Scene};
-use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::collision::sweet_spot::Looked;
+use sweetspot::collision::{Effort, Hitter, Model, Scene};
 use sweetspot::profile::Radii;
 use sweetspot::units::{miles_per_hour, ounce_square_inches};
 use sweetspot::{Bat, Error, Request, Result, Solution, solve};
@@ -33,21 +32,15 @@ fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
     bat.profile.cut(from);
     bat.profile.cut(to);
     for piece in bat.profile.pieces.iter_mut().filter(|piece| piece.is_within(from, to)) {
-        match &mut piece.radii {
-            Radii::Cubic(cubics) => {
-                let walls = cubics.outer.iter().zip(&cubics.inner);
-                let thinnest = walls.map(|(r, ri)| r - ri).fold(f64::INFINITY, f64::min);
-                if thinnest <= DEPTH {
-                    let found = format!("{:.2} mm at {from:.3} m", 1e3 * thinnest);
-                    return Err(Error::value("wall", found, "more than comes off"));
-                }
-                // A cubic in Bernstein form goes down as a whole.
-                cubics.outer.iter_mut().for_each(|r| *r -= DEPTH);
-            }
-            Radii::Formula(_) => {
-                return Err(Error::value("profile", "formulas", "stations: a bat to be turned"));
-            }
+        let Radii::Cubic(cubics) = &mut piece.radii else {
+            return Err(Error::value("profile", "formulas", "stations: a bat to be turned"));
+        };
+        if cubics.outer.iter().zip(&cubics.inner).any(|(r, inner)| r - inner <= DEPTH) {
+            let found = format!("a thinner one at {from:.3} m");
+            return Err(Error::value("wall", found, "one that half a millimetre leaves"));
         }
+        // A cubic in Bernstein form goes down as a whole.
+        cubics.outer.iter_mut().for_each(|r| *r -= DEPTH);
     }
     Ok(bat)
 }
@@ -62,11 +55,6 @@ fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f
     let closing = hit.bat_speed + scene.ball_speed;
     let outcome = hit.outcome.expect("it met it there");
     Ok([outcome.exit_speed, outcome.error * closing])
-}
-
-/// In thousandths, without the sign of a nothing.
-fn shown(value: f64) -> f64 {
-    (1e3 * value).round() / 1e3 + 0.0
 }
 
 fn main() -> Result<()> {
@@ -98,7 +86,8 @@ fn main() -> Result<()> {
         let swing_weight = inertia.about(STANDARD_PIVOT) - reference;
         let as_fast = best(&less, SWING, &solved, sweep.effort)?;
         let as_strong = best(&less, batter.swing(&less), &solved, sweep.effort)?;
-        let [same, energy] = [as_fast, as_strong].map(|[v, _]| shown(miles_per_hour(v - now[0])));
+        let [same, energy] = [as_fast, as_strong]
+            .map(|[v, _]| (1e3 * miles_per_hour(v - now[0])).round() / 1e3 + 0.0);
         worst = worst.max(now[1] + f64::max(as_fast[1], as_strong[1]));
         let mass = 1e3 * (inertia.mass - body.mass);
         let pitch = solved.modes[0].frequency() - solution.modes[0].frequency();

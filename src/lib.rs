@@ -17,11 +17,9 @@
 //! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
 //!
 //! ```
-//! use sweetspot::collision::{hit, hitter::Hitter, sweep::sweep, sweet_spot::SweetSpot};
-//! use sweetspot::material::Material;
-//! use sweetspot::profile::{Interpolation, Profile, Stations};
-//! use sweetspot::theory::Theory;
-//! use sweetspot::{Bat, Request, solve};
+//! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot, sweep::sweep};
+//! use sweetspot::profile::{Interpolation, Stations};
+//! use sweetspot::{Bat, Material, Profile, Request, Theory, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
 //! let inches = [0.0, 0.5, 1.25, 3.0, 6.0, 12.0, 18.0, 24.0, 30.0, 33.5];
@@ -44,15 +42,15 @@
 //! }
 //!
 //! // A swing meets a pitch; exit speeds within 1e-4 of the closing speed.
-//! let scene = hit::Scene { swing: 45.0, ball_speed: 38.0, ..hit::Scene::default() };
+//! let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
 //! let asked = Request { tolerance: 1e-4, theory, ..Request::default() };
-//! let hits = sweep(&bat, hit::Model::Contact, &scene, &asked, false, &[0.6, 0.7, 0.8])?;
+//! let hits = sweep(&bat, Model::Contact, &scene, &asked, false, &[0.6, 0.7, 0.8])?;
 //! for (x, outcome) in hits.impacts.iter().filter_map(|at| Some((at.x, at.outcome.as_ref()?))) {
 //!     println!("a ball met {x} m from the knob leaves at {:.2} m/s", outcome.exit_speed);
 //! }
 //!
 //! // The sweet spot, and why it is there.
-//! let hitter = Hitter::new(hit::Model::Contact, &scene, &bat, &hits.solution, hits.effort)?;
+//! let hitter = Hitter::new(Model::Contact, &scene, &bat, &hits.solution, hits.effort)?;
 //! let spot = SweetSpot::find(&bat, &scene, &hits.solution, &hitter);
 //! let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
 //! let energy = hitter.strike(best.x).outcome.expect("it met it there").energy;
@@ -252,5 +250,8 @@ pub mod extremes;
 
 pub use bat::Bat;
 pub use error::{Error, Result};
+pub use material::Material;
 pub use modes::Mode;
+pub use profile::Profile;
 pub use solve::{Request, Solution, Solver, solve};
+pub use theory::Theory;

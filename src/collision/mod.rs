@@ -33,3 +33,9 @@ pub mod hitter;
 pub mod sweet_spot;
 pub mod figures;
 pub mod sweep;
+
+pub use ball::Ball;
+pub use hit::{Effort, Impact, Model, Outcome, Scene};
+pub use hitter::Hitter;
+pub use sweep::Sweep;
+pub use sweet_spot::SweetSpot;
