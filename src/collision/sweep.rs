@@ -137,7 +137,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
     let struck = AtomicUsize::new(0);
     let told = |impact: Impact| {
         let count = struck.fetch_add(1, Ordering::Relaxed) + 1;
-        if count % OFTEN == 0 {
+        if count.is_multiple_of(OFTEN) {
             tell(count as f64 / places.len() as f64, "hits");
         }
         impact

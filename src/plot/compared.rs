@@ -5,7 +5,7 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::CM;
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, legend};
+use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::FRAME;
 use crate::plot::{exit_speed, profile, shapes};
@@ -63,7 +63,8 @@ fn difference(comparison: &Comparison, names: &[String]) -> Option<Picture> {
     let mut svg = Svg::new(WIDTH, 0.0);
     let title = "Exit speed less that of the first bat";
     head(&mut svg, title, ["", &format!("at the same distance from the tip; 0 is {}", names[0])]);
-    let keys = legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0]);
+    let keys =
+        legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - RIGHT]);
     let top = keys + 12.0 + NUMBERS;
     let bottom = top + DIAGRAM;
     svg.height = bottom + NUMBERS + 4.0;
@@ -78,7 +79,7 @@ fn difference(comparison: &Comparison, names: &[String]) -> Option<Picture> {
     let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
     svg.line(&zero, Pen::new(FRAME, 1.4));
     curves.iter().rev().for_each(|curve| curve.draw(&mut svg, &plane));
-    curves.iter().for_each(|curve| curve.hover(&mut svg, &plane));
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
     Some(Picture::new("difference", title, &described(&curves, names), svg))
 }
 

@@ -6,7 +6,7 @@ use crate::plot::matrix::{self, Matrix};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Series, digits, legend};
+use crate::plot::series::{Series, digits, hover, legend};
 use crate::plot::svg::{LABEL, MARKS, Pen, SMALL, Svg, fitted};
 use crate::plot::theme::{FRAME, SERIES};
 
@@ -99,12 +99,12 @@ fn on_each_other(bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
         let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
         svg.line(&zero, Pen::new(FRAME, 1.0));
         if k == 0 {
-            legend(&mut svg, &[&curve, &points], [LEFT, HEAD + 10.0]);
+            legend(&mut svg, &[&curve, &points], [LEFT, HEAD + 10.0, WIDTH - RIGHT]);
             plane.above(&mut svg, &tip);
         }
         for series in [&curve, &points] {
             series.draw(&mut svg, &plane);
-            series.hover(&mut svg, &plane);
+            hover(&mut svg, &plane, &[series]);
         }
         beside(&mut svg, plane.frame, study, pair);
         if k + 1 == pairs.len() {

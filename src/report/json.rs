@@ -56,7 +56,7 @@ pub fn modes_file(
         },
         rigid_modes: solution.rigid_modes,
         modes: (0..solution.modes.len()).map(|k| mode(solution, k, &places)).collect(),
-        timing: timing.then(|| file::Timing {
+        timing: timing.then_some(file::Timing {
             plan_s: solution.timing.plan.as_secs_f64(),
             assemble_s: solution.timing.assemble.as_secs_f64(),
             solve_s: solution.timing.solve.as_secs_f64(),
