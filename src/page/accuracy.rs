@@ -94,9 +94,9 @@ fn small(value: f64) -> [String; 2] {
 pub fn method(analysis: &Analysis) -> Vec<String> {
     let solution = &analysis.solution;
     let theory = match solution.theory {
-        Theory::EulerBernoulli => "Euler–Bernoulli’s theory",
-        Theory::Rayleigh => "Rayleigh’s theory (with rotary inertia)",
-        Theory::Timoshenko => "Timoshenko’s theory (with rotary inertia and shear)",
+        Theory::EulerBernoulli => "Euler–Bernoulli's theory",
+        Theory::Rayleigh => "Rayleigh's theory (with rotary inertia)",
+        Theory::Timoshenko => "Timoshenko's theory (with rotary inertia and shear)",
     };
     let mut told = vec![format!(
         "The bat is a beam by {theory}: {} elements of degree {}, solver {} ({}).",

@@ -178,7 +178,7 @@ impl<'a> Report<'a> {
         ];
         let needed = accuracy::needed(self.analysis);
         if !needed.is_empty() {
-            parts.extend([Part::Heading("What this bat’s model needs"), Part::List(needed)]);
+            parts.extend([Part::Heading("What this bat's model needs"), Part::List(needed)]);
         }
         parts
     }

@@ -32,7 +32,7 @@ pub fn script(json: &str) -> String {
 
 /// For a line of Markdown, tables included: every sign that could mean something is escaped.
 pub fn markdown(text: &str) -> String {
-    const MEANING: &str = "\\`*_{}[]<>()#+!|~$&\"";
+    const MEANING: &str = "\\`*_[]<>|~$&";
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -43,6 +43,15 @@ pub fn markdown(text: &str) -> String {
         }
     }
     out
+}
+
+/// The same at the beginning of a line, where more signs mean something: headings, lists.
+pub fn markdown_line(text: &str) -> String {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let (first, rest) = text.split_at(digits);
+    let signs: &[char] = if digits > 0 { &['.', ')'] } else { &['#', '+', '-', '=', ':'] };
+    let mark = if rest.starts_with(signs) { "\\" } else { "" };
+    format!("{first}{mark}{}", markdown(rest))
 }
 
 /// A fence of backticks that the text does not hold.
@@ -80,6 +89,10 @@ mod tests {
     #[test]
     fn a_line_of_markdown_stays_one_and_a_fence_is_longer_than_any_within() {
         assert_eq!(markdown("a|b\n*c*"), "a\\|b \\*c\\*");
+        assert_eq!(markdown_line("# a (b) + 1"), "\\# a (b) + 1");
+        assert_eq!(markdown_line("12. a"), "12\\. a");
+        assert_eq!(markdown_line("12 a"), "12 a");
+        assert_eq!(markdown("<b>![x](y)"), "\\<b\\>!\\[x\\](y)");
         assert_eq!(fence("none"), "```");
         assert_eq!(fence("a ```` b"), "`````");
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::analysis::Analysis;
-use crate::collision::hit::Model;
+use crate::collision::hit::{Model, Scene};
 use crate::error::{Error, Result};
 use crate::page::shown::{self, NONE, inline, length, speed};
 use crate::page::table::Table;
@@ -62,61 +62,80 @@ impl Input {
 
 /// Swing, pitch and ball, in both units.
 pub fn scene(analysis: &Analysis) -> Table {
-    let task = &analysis.task;
-    let (scene, ball) = (&task.scene, &task.scene.ball);
+    let scene = &analysis.task.scene;
     let mut table = Table::of_words("The scene", &["What", "Value"]);
-    let mut line = |what: &str, value: String| table.row([what.to_owned(), value]);
-    line("model of the collision", model_name(task.model).to_owned());
-    match task.model {
-        Model::EnergyLoss(loss) => {
-            line("size of the empirical loss, γ", shown::plain(loss.gamma));
-            line("its decay with the mode, p", shown::plain(loss.decay));
-        }
-        Model::Pulse(pulse) => {
-            line("duration of the force", format!("{} ms", shown::plain(1e3 * pulse.duration)));
-            line(
-                "share of the vibration that the ball does not lose",
-                shown::plain(pulse.loss_share),
-            );
-        }
+    let mut line = |(what, value): (&str, String)| table.row([what.to_owned(), value]);
+    model(analysis).into_iter().for_each(&mut line);
+    swing(analysis).into_iter().for_each(&mut line);
+    line(("pitch", inline(speed(scene.ball_speed))));
+    ball(scene).into_iter().for_each(&mut line);
+    line(("hands feel the hit at", format!("{} from the knob", shown::place(scene.hands))));
+    if let Some(wall) = scene.wall {
+        line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
+        line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
+    }
+    if analysis.bat.fixtures.holding() {
+        line(("the bat is held", "energies are as its hands see them".to_owned()));
+    }
+    table
+}
+
+/// A name and a value.
+type Line = (&'static str, String);
+
+fn model(analysis: &Analysis) -> Vec<Line> {
+    let model = analysis.task.model;
+    let mut lines = vec![("model of the collision", model_name(model).to_owned())];
+    match model {
+        Model::EnergyLoss(loss) => lines.extend([
+            ("size of the empirical loss, γ", shown::plain(loss.gamma)),
+            ("its decay with the mode, p", shown::plain(loss.decay)),
+        ]),
+        Model::Pulse(pulse) => lines.extend([
+            ("duration of the force", format!("{} ms", shown::digits(1e3 * pulse.duration))),
+            ("share of the vibration that the ball does not lose", shown::plain(pulse.loss_share)),
+        ]),
         Model::Rigid | Model::Contact => {}
     }
-    line("swing", format!("{:.2} rad/s", scene.swing));
-    if let Some(law) = task.law {
-        line("  of the reference bat", format!("{:.2} rad/s", law.of_reference));
-        line("  which has a swing weight of", inline(shown::inertia(law.reference)));
-        line("  speed against swing weight, exponent", shown::plain(law.exponent));
+    lines
+}
+
+fn swing(analysis: &Analysis) -> Vec<Line> {
+    let scene = &analysis.task.scene;
+    let mut lines = vec![("swing", format!("{:.2} rad/s", scene.swing))];
+    if let Some(law) = analysis.task.law {
+        lines.extend([
+            ("  of the reference bat", format!("{:.2} rad/s", law.of_reference)),
+            ("  which has a swing weight of", inline(shown::inertia(law.reference))),
+            ("  speed against swing weight, exponent", shown::plain(law.exponent)),
+        ]);
     }
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
     let pivot = inline(length(scene.pivot.abs()));
-    line("rotation centre of the swing", format!("{pivot} {side} the knob end"));
-    line("pitch", inline(speed(scene.ball_speed)));
-    line("ball", ball.name.clone());
-    line("  its mass", inline(shown::mass(ball.mass)));
-    line("  its radius", inline(length(ball.radius)));
+    lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
+    lines
+}
+
+fn ball(scene: &Scene) -> Vec<Line> {
+    let ball = &scene.ball;
+    let mut lines = vec![
+        ("ball", ball.name.clone()),
+        ("  its mass", inline(shown::mass(ball.mass))),
+        ("  its radius", inline(length(ball.radius))),
+    ];
     if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
-        let law = format!("k = {} N/m^α, α = {}", shown::plain(stiffness), shown::plain(exponent));
-        line("  its force, k·u^α", law);
+        let [k, alpha] = [stiffness, exponent].map(shown::plain);
+        lines.push(("  its force, k·u^α", format!("k = {k} N/m^α, α = {alpha}")));
     }
-    line(
-        "coefficient of restitution",
-        match ball.cor_by_speed.is_empty() {
-            true => shown::plain(scene.cor),
-            false => "by its speed, see the ball's file".to_owned(),
-        },
-    );
+    let cor = match ball.cor_by_speed.is_empty() {
+        true => shown::plain(scene.cor),
+        false => "by its speed, see the ball's file".to_owned(),
+    };
+    lines.push(("  coefficient of restitution", cor));
     if !ball.source.is_empty() {
-        line("  the ball's source", ball.source.clone());
+        lines.push(("  source", ball.source.clone()));
     }
-    line("hands feel the hit at", format!("{} from the knob", shown::place(scene.hands)));
-    if let Some(wall) = scene.wall {
-        line("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness)));
-        line("  its mass", format!("{} kg", shown::plain(wall.mass)));
-    }
-    if analysis.bat.fixtures.holding() {
-        line("the bat is held", "energies are as its hands see them".to_owned());
-    }
-    table
+    lines
 }
 
 /// The bat as it was understood: every value in SI but the columns of the profile.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::page::content::{Part, Report, Section};
-use crate::page::escape::{fence, markdown as escaped};
+use crate::page::escape::{fence, markdown as escaped, markdown_line};
 use crate::page::inputs::Input;
 use crate::page::summary::{Fact, NO_HIT};
 use crate::page::table::Table;
@@ -38,11 +38,11 @@ pub fn text(report: &Report, pictures: &str) -> String {
 fn part(one: &Part, pictures: &str) -> String {
     match one {
         Part::Heading(title) => format!("### {title}\n\n"),
-        Part::Text(text) => format!("{}\n\n", escaped(text)),
-        Part::Missing(why) => format!("{}\n\n", escaped(why)),
+        Part::Text(text) => format!("{}\n\n", markdown_line(text)),
+        Part::Missing(why) => format!("{}\n\n", markdown_line(why)),
         Part::List(items) => {
             let items: Vec<String> =
-                items.iter().map(|item| format!("- {}\n", escaped(item))).collect();
+                items.iter().map(|item| format!("- {}\n", markdown_line(item))).collect();
             format!("{}\n", items.concat())
         }
         Part::Table(table) => table.markdown(),
@@ -65,7 +65,8 @@ fn image(picture: &Picture, pictures: &str) -> String {
     let Picture { name, title, alt, .. } = picture;
     // Signs that end a link's target are written as in an address.
     let folder: String = pictures.chars().map(address).collect();
-    format!("![{}]({folder}/{name}.svg \"{}\")\n\n", escaped(alt), escaped(title))
+    let title = escaped(title).replace('"', "\\\"");
+    format!("![{}]({folder}/{name}.svg \"{title}\")\n\n", escaped(alt))
 }
 
 /// A character of a relative address.

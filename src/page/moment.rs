@@ -101,7 +101,7 @@ fn times(analysis: &Analysis, end: f64) -> Vec<f64> {
 
 /// By how much a bending of that share of the length is enlarged to be seen.
 fn factor(share: f64) -> u32 {
-    const SEEN: f64 = 0.07;
+    const SEEN: f64 = 0.1;
     let most = SEEN / share.max(1e-9);
     [100, 50, 20, 10, 5, 2].into_iter().find(|f| f64::from(*f) <= most).unwrap_or(1)
 }

@@ -149,7 +149,7 @@
   const moment = (root) => {
     const stage = root.querySelector(".stage");
     const radius = data.ball_radius_mm;
-    const above = 5.2 * radius, below = 0.09 * length + 30;
+    const above = 5.2 * radius, below = 0.1 * length + 45;
     stage.setAttribute("viewBox", `-20 ${-above} ${length + 40} ${above + below}`);
     drawn(stage, "path", { class: "rest", d: outline(straight) });
     const bat = drawn(stage, "path", { class: "bat" });

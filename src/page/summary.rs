@@ -104,45 +104,48 @@ impl Summary {
 
     /// All the rest, those left out that there are no numbers for.
     pub fn facts(&self) -> Vec<Fact> {
-        let fact = |key, label, values, note: String| Fact { key, label, values, note };
-        let from_tip = |x: f64| format!("{} from the tip", shown::place(self.length_m - x));
-        let none = String::new;
-        let mut facts = vec![
-            fact("length_m", "Length", shown::length(self.length_m), none()),
-            fact("mass_kg", "Mass", shown::mass(self.mass_kg), none()),
-            fact(
-                "balance_point_m",
-                "Balance point, from the knob",
-                shown::length(self.balance_point_m),
-                from_tip(self.balance_point_m),
-            ),
-            fact(
-                "inertia_pivot_kg_m2",
-                "Swing weight",
-                shown::inertia(self.inertia_pivot_kg_m2),
-                "moment of inertia about a point 6 in from the knob".to_owned(),
-            ),
-        ];
-        if let Some(x) = self.center_of_percussion_m {
-            let note = format!("{}, pivot 6 in from the knob", from_tip(x));
-            let label = "Centre of percussion, from the knob";
-            facts.push(fact("center_of_percussion_m", label, shown::length(x), note));
-        }
+        let mut facts = self.body();
         if let Some((first, others)) = self.frequencies_hz.split_first() {
             let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
-            let note = match others.len() {
-                0 => none(),
-                1 => format!("then {} Hz", others[0]),
-                _ => format!("then {} Hz", others.join(" and ")),
+            let note = match others.is_empty() {
+                true => String::new(),
+                false => format!("then {} Hz", others.join(" and ")),
             };
-            let values = [format!("{} Hz", shown::decimals(*first, 1)), none()];
-            facts.push(fact("frequencies_hz", "First bending frequency", values, note));
+            let values = [format!("{} Hz", shown::decimals(*first, 1)), String::new()];
+            let label = "First bending frequency";
+            facts.push(Fact { key: "frequencies_hz", label, values, note });
         }
         if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
             let note =
                 format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
-            let values = [format!("{free:.3}"), none()];
-            facts.push(fact("bbcor", "BBCOR-like figure", values, note));
+            let values = [format!("{free:.3}"), String::new()];
+            facts.push(Fact { key: "bbcor", label: "BBCOR-like figure", values, note });
+        }
+        facts
+    }
+
+    /// The bat as a rigid body.
+    fn body(&self) -> Vec<Fact> {
+        let fact = |key, label, values, note: String| Fact { key, label, values, note };
+        let from_tip = |x: f64| format!("{} from the tip", shown::place(self.length_m - x));
+        let along = shown::length;
+        let about = "moment of inertia about a point 6 in from the knob".to_owned();
+        let (balance, weight) = (self.balance_point_m, shown::inertia(self.inertia_pivot_kg_m2));
+        let mut facts = vec![
+            fact("length_m", "Length", along(self.length_m), String::new()),
+            fact("mass_kg", "Mass", shown::mass(self.mass_kg), String::new()),
+            fact(
+                "balance_point_m",
+                "Balance point, from the knob",
+                along(balance),
+                from_tip(balance),
+            ),
+            fact("inertia_pivot_kg_m2", "Swing weight", weight, about),
+        ];
+        if let Some(x) = self.center_of_percussion_m {
+            let note = format!("{}, pivot 6 in from the knob", from_tip(x));
+            let label = "Centre of percussion, from the knob";
+            facts.push(fact("center_of_percussion_m", label, along(x), note));
         }
         facts
     }

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::analysis::Analysis;
-use crate::collision::hit::Impact;
+use crate::collision::figures::Swung;
+use crate::collision::hit::Outcome;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::page::shown::{self, NONE, centimetres, decimals, in_inches, inline, speed};
 use crate::page::table::Table;
@@ -43,7 +44,7 @@ pub fn modes(analysis: &Analysis) -> Table {
 
 /// Where the first modes are at rest.
 pub fn nodes(analysis: &Analysis) -> Table {
-    let head = ["Mode", "From the knob, cm", "From the tip, cm", "From the tip, in"];
+    let head = ["Mode", "From the knob, cm", "From the tip, in"];
     let mut table = Table::new("Nodes: where a mode is at rest", &head);
     let length = analysis.bat.length();
     for mode in analysis.solution.modes.iter().take(LISTED) {
@@ -54,7 +55,6 @@ pub fn nodes(analysis: &Analysis) -> Table {
         table.row([
             mode.order.to_string(),
             list(&|x| format!("{:.1}", 100.0 * x)),
-            list(&|x| format!("{:.1}", 100.0 * (length - x))),
             list(&|x| format!("{:.1}", crate::units::inches(length - x))),
         ]);
     }
@@ -131,56 +131,61 @@ pub fn figures(analysis: &Analysis) -> Table {
     let figures = &analysis.figures;
     let head = ["Figure", "SI", "US"];
     let mut table = Table::new("Figures at the sweet spot (computed, not certified)", &head);
-    let Some((best, outcome)) = hit(figures.best.as_ref()) else { return table };
-    let none = || NONE.to_owned();
-    let mut pair = |what: &str, [si, us]: [String; 2]| table.row([what.to_owned(), si, us]);
-    pair("bat speed there", speed(best.bat_speed));
-    pair("exit speed of the ball", speed(outcome.exit_speed));
-    let efficiency = format!("{:.3}", outcome.collision_efficiency);
-    pair("collision efficiency e_A", [efficiency, none()]);
-    pair("BBCOR, of a free bat", [format!("{:.3}", outcome.bbcor), none()]);
-    let held = "BBCOR, of a bat held 6 in from the knob";
-    pair(held, [format!("{:.3}", outcome.bbcor_pivoted), none()]);
+    let Some(best) = &figures.best else { return table };
+    let Some(outcome) = &best.outcome else { return table };
+    let mut pair = |(what, [si, us]): (String, [String; 2])| table.row([what, si, us]);
+    pair(("bat speed there".into(), speed(best.bat_speed)));
+    of_the_hit(outcome).into_iter().for_each(&mut pair);
     for (what, peak) in [
         ("largest BBCOR, of a free bat", figures.bbcor_max),
         ("largest BBCOR, of a bat held 6 in from the knob", figures.bbcor_pivoted_max),
     ] {
-        if let Some(peak) = peak {
-            let [si, us] = shown::length(peak.x);
-            pair(what, [format!("{:.3} at {si}", peak.value), format!("at {us}")]);
-        }
-    }
-    pair("impulse on the ball", [format!("{:.3} N s", outcome.impulse), none()]);
-    if let Some(time) = outcome.contact_time {
-        pair("time of contact", [format!("{:.3} ms", 1e3 * time), none()]);
-    }
-    if let Some(force) = outcome.peak_force {
-        pair("largest force", [format!("{:.2} kN", 1e-3 * force), none()]);
+        let Some(peak) = peak else { continue };
+        let [si, us] = shown::length(peak.x);
+        pair((what.into(), [format!("{:.3} at {si}", peak.value), format!("at {us}")]));
     }
     if let Some([knob, tip]) = figures.spot.inch_off {
-        let lost = |v: Option<f64>| match v {
-            Some(v) => signed(v - outcome.exit_speed),
-            None => ["no hit".to_owned(), none()],
+        let lost = |v: Option<f64>| {
+            v.map_or(["no hit".to_owned(), NONE.to_owned()], |v| signed(v - outcome.exit_speed))
         };
-        pair("1 in off towards the knob", lost(knob));
-        pair("1 in off towards the tip", lost(tip));
+        pair(("1 in off towards the knob".into(), lost(knob)));
+        pair(("1 in off towards the tip".into(), lost(tip)));
     }
-    for swung in &figures.swings {
-        let what = match swung.exponent {
-            0.0 => "swung at the same angular speed".to_owned(),
-            0.5 => "swung with the same energy of rotation".to_owned(),
-            n => format!("swung at a speed as (swing weight)^{}", -n),
-        };
-        let best = swung.best.map_or(["no hit".to_owned(), none()], |best| speed(best.value));
-        pair(&format!("{what}, {:.2} rad/s", swung.swing), best);
-    }
+    figures.swings.iter().map(swung).for_each(pair);
     table
 }
 
-/// A hit, if there was one.
-fn hit(impact: Option<&Impact>) -> Option<(&Impact, &crate::collision::hit::Outcome)> {
-    let impact = impact?;
-    Some((impact, impact.outcome.as_ref()?))
+/// A name and a value in both systems of units.
+type Pair = (String, [String; 2]);
+
+fn of_the_hit(outcome: &Outcome) -> Vec<Pair> {
+    let plain = |value: String| [value, NONE.to_owned()];
+    let three = |value: f64| plain(format!("{value:.3}"));
+    let mut pairs: Vec<Pair> = vec![
+        ("exit speed of the ball".into(), speed(outcome.exit_speed)),
+        ("collision efficiency e_A".into(), three(outcome.collision_efficiency)),
+        ("BBCOR, of a free bat".into(), three(outcome.bbcor)),
+        ("BBCOR, of a bat held 6 in from the knob".into(), three(outcome.bbcor_pivoted)),
+        ("impulse on the ball".into(), plain(format!("{:.3} N s", outcome.impulse))),
+    ];
+    if let Some(time) = outcome.contact_time {
+        pairs.push(("time of contact".into(), plain(format!("{:.3} ms", 1e3 * time))));
+    }
+    if let Some(force) = outcome.peak_force {
+        pairs.push(("largest force".into(), plain(format!("{:.2} kN", 1e-3 * force))));
+    }
+    pairs
+}
+
+/// The fastest ball of a batter who swings bats by that law.
+fn swung(swung: &Swung) -> Pair {
+    let what = match swung.exponent {
+        0.0 => "swung at the same angular speed".to_owned(),
+        0.5 => "swung with the same energy of rotation".to_owned(),
+        n => format!("swung at a speed as (swing weight)^{}", -n),
+    };
+    let best = swung.best.map_or(["no hit".into(), NONE.into()], |best| speed(best.value));
+    (format!("{what}, {:.2} rad/s", swung.swing), best)
 }
 
 /// A change of speed.
