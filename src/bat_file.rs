@@ -14,7 +14,6 @@ use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
     "format",
-    "comment",
     "name",
     "source",
     "material",
@@ -27,9 +26,9 @@ const KEYS: &[&str] = &[
     "joints",
     "supports",
     "grip",
+    "comment",
 ];
 const PROFILE_KEYS: &[&str] = &[
-    "comment",
     "interpolation",
     "unit",
     "measured_from",
@@ -41,6 +40,7 @@ const PROFILE_KEYS: &[&str] = &[
     "inner_radius",
     "inner_diameter",
     "wall_thickness",
+    "comment",
 ];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),
