@@ -17,7 +17,6 @@ use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
     "format",
-    "comment",
     "name",
     "source",
     "material",
@@ -30,9 +29,9 @@ const KEYS: &[&str] = &[
     "joints",
     "supports",
     "grip",
+    "comment",
 ];
 const PROFILE_KEYS: &[&str] = &[
-    "comment",
     "interpolation",
     "unit",
     "measured_from",
@@ -44,6 +43,7 @@ const PROFILE_KEYS: &[&str] = &[
     "inner_radius",
     "inner_diameter",
     "wall_thickness",
+    "comment",
 ];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),

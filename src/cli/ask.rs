@@ -176,7 +176,8 @@ pub fn mass(text: &str) -> Read<String> {
     if text.parse::<f64>().is_ok() {
         return Err(format!("{text} of what? Such as \"{text} oz\" or \"{text} g\""));
     }
-    let kilograms = units::parse(text, Quantity::Mass).map_err(|c| c.to_string())?;
+    let with_unit = |found: &str| format!("found {found}, expected a mass such as \"31.5 oz\"");
+    let kilograms = units::parse(text, Quantity::Mass).map_err(|c| with_unit(&c.found))?;
     if (0.1..=5.0).contains(&kilograms) {
         return Ok(text.to_owned());
     }

@@ -8,6 +8,7 @@ use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
 use sweetspot::report::file;
+use sweetspot::report::text::wrapped;
 use sweetspot::telling::Tell;
 use sweetspot::validation::{CASES, Row, run as run_case};
 use sweetspot::validation_page;
@@ -109,7 +110,7 @@ fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
     }
     file::write(path, text.as_bytes())?;
     file::write(&path.with_file_name(hit_figure::FILE), hit_figure::svg()?.as_bytes())?;
-    Ok(Done::new(format!("{}\n", validation_page::verdict(&answers)), code))
+    Ok(Done::new(wrapped(&validation_page::verdict(&answers), 0), code))
 }
 
 /// Every known answer beside ours; whether none is missed.
