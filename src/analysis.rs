@@ -16,9 +16,11 @@ pub const POINTS: usize = 101;
 /// What is analysed besides the modes.
 #[derive(Debug, Clone)]
 pub struct Task {
+    /// How ball and bat meet: rigid, energy-loss, pulse or contact.
     pub model: Model,
     /// Swing, pitch and ball, and where the swing is from.
     pub scene: Scene,
+    /// How the swing goes with the bat's swing weight; None where it is given.
     pub law: Option<SwingLaw>,
     /// What is asked of the hits: their tolerance and theory.
     pub hits: Request,
@@ -31,20 +33,26 @@ pub struct Task {
 pub struct Proof {
     /// So many modes of the uniform dowel.
     pub modes: usize,
-    /// The largest relative error of a frequency, and the largest that the solver states.
+    /// The largest relative error of a frequency.
     pub truth: f64,
+    /// The largest relative error that the solver states of them.
     pub stated: f64,
 }
 
 /// A bat, its modes, its hits, its figures, and how far all of them may be trusted.
 #[derive(Debug, Clone)]
 pub struct Analysis {
+    /// The bat that is analysed.
     pub bat: Bat,
+    /// Its bending modes.
     pub solution: Solution,
+    /// What was asked.
     pub task: Task,
     /// Hits at [`POINTS`] even places from the middle of the bat to its tip.
     pub hits: Sweep,
+    /// The figures by which bats are compared, and the sweet spot.
     pub figures: Figures,
+    /// The same solver on a dowel, whose frequencies are known.
     pub proof: Proof,
     /// What the model needs; None for a bat of so many pieces that it would take long, and where
     /// there is none to give.

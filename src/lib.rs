@@ -77,7 +77,7 @@
 //!
 //! | module | question it answers |
 //! |---|---|
-//! | [`error`], [`units`] | what did the caller get wrong; what is a number with a unit in SI |
+//! | [`error`], [`telling`], [`units`] | what did the caller get wrong; how far is long work; what is a number with a unit in SI |
 //! | [`real`], [`lanes`], [`quadrature`] | what do we count with, how do we integrate |
 //! | [`material`], [`theory`] | how stiff, how heavy; which beam |
 //! | [`formula`], [`profile`], [`layup`] | what is the section at `x`, and what is it worth |
@@ -90,13 +90,21 @@
 //! | [`flexible`], [`reduced`], [`damping`] | how does it give way, how do its motions die out |
 //! | [`certificate`], [`factored`] | how far may a mode be trusted; what do other solvers say |
 //! | [`survey`], [`plan`], [`solve`](mod@solve), [`batch`] | which elements does an accuracy need: plan, solve, refine |
+//! | [`up_to`] | how many modes are there up to a frequency |
 //! | [`trade`] | what does a digit cost on this bat |
 //! | [`ignored`], [`choice`], [`weighed`], [`advise`] | what was left out and what does it cost; which theory; how stiff by a tap; which physics |
 //! | [`dowel`] | what does a uniform beam do, in closed form |
 //! | [`response`], [`ringing`], [`frf`] | how does the bat move after a blow, under a force, at a frequency |
 //! | [`collision`] | what do ball and bat do when they meet; where is the sweet spot |
-//! | [`report`] | how is all of it printed, drawn and written |
-//! | [`known_hits`], [`validation`], [`published`], [`hit_figure`], [`validation_page`] | are known answers reproduced |
+//! | [`schema`] | what stands in a file, and what does its JSON Schema say |
+//! | [`known_hits`], [`validation`] | are known answers reproduced |
+//! | [`comparison`] | which of several bats hits harder, where, and is the difference more than the errors |
+//! | [`analysis`] | what is there to say of one bat and its hits, all at once |
+//! | [`measured`] | which measured mode is which computed one, and is the measurement sound |
+//! | [`report`] | how is all of it printed and written |
+//! | [`exchange`], [`measured_file`] | how do other programs read it; how did a laboratory write down its modes |
+//! | [`plot`], [`page`] | what does it look like; what does all of it say on one page |
+//! | [`published`], [`hit_figure`], [`validation_page`] | are published figures reproduced; what does the page of proofs show |
 //! | [`promise`], [`extremes`] | do stated errors hold; does what no bat is stay right |
 //!
 //! # What is promised

@@ -6,13 +6,21 @@ use crate::comparison::contender::{Contender, Figure};
 /// What a row is measured in, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
+    /// m, a length or a place.
     Metres,
+    /// kg
     Kilograms,
+    /// kg m², a moment of inertia.
     KilogramSquareMetres,
+    /// Hz
     Hertz,
+    /// rad/s, an angular speed.
     RadiansPerSecond,
+    /// m/s
     MetresPerSecond,
+    /// J
     Joules,
+    /// A pure number.
     One,
 }
 
@@ -35,8 +43,11 @@ impl Unit {
 /// Where a place is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
+    /// The figure is no place.
     Nowhere,
+    /// From the knob end.
     Knob,
+    /// From the tip, towards the knob.
     Tip,
 }
 
@@ -47,7 +58,9 @@ pub struct Row {
     pub key: String,
     /// For people, without the unit.
     pub name: String,
+    /// What the values are in.
     pub unit: Unit,
+    /// Where the values count from, if they are places.
     pub from: From,
     /// A value for each bat that has one.
     pub values: Vec<Option<Figure>>,
@@ -56,6 +69,7 @@ pub struct Row {
 /// How a bat differs from the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
+    /// That bat's value less the reference's, in the row's unit.
     pub by: f64,
     /// How far that may be off: both errors.
     pub within: f64,

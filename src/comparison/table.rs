@@ -12,23 +12,32 @@ use crate::solve::Request;
 /// A bat with its own swing and its own request: theories may differ.
 #[derive(Debug, Clone)]
 pub struct Entry {
+    /// The bat to be hit with.
     pub bat: Bat,
+    /// Its swing and the ball it meets.
     pub scene: Scene,
+    /// How that swing follows from its swing weight; None where it was given.
     pub law: Option<SwingLaw>,
+    /// The accuracy and the theory of its modes and hits.
     pub request: Request,
 }
 
 /// All figures of several bats; the first is the one the others are compared with.
 #[derive(Debug, Clone)]
 pub struct Comparison {
+    /// What is the same for all bats.
     pub terms: Terms,
+    /// Every bat with its hits, in the order of the entries.
     pub bats: Vec<Contender>,
+    /// One row for every figure of the bats.
     pub figures: Vec<Row>,
     /// Distances from the tip (m), a quarter of the asked one apart, and the exit speeds there.
     pub from_tip: Vec<f64>,
+    /// The exit speeds (m/s) at those distances, a row for each.
     pub by_tip: Vec<Row>,
     /// The same from the knob end, where all bats have a place, the asked distance apart.
     pub from_knob: Vec<f64>,
+    /// The exit speeds (m/s) there, a row for each.
     pub by_knob: Vec<Row>,
 }
 

@@ -11,9 +11,11 @@ use crate::frf::{Kind, Sample};
 pub struct Measured<'a> {
     /// Name of the bat.
     pub bat: &'a str,
+    /// Whether the answer is a displacement, a velocity or an acceleration.
     pub kind: Kind,
-    /// Places of the force and of the answer (m).
+    /// Where the force is (m from the knob end).
     pub at: f64,
+    /// Where the answer is watched (m from the knob end).
     pub to: f64,
     /// Start and step of the frequencies (Hz) where they are even.
     pub even: Option<[f64; 2]>,

@@ -13,6 +13,7 @@ use crate::json_node::{Node, Object};
 /// The modes of a bat, sampled along it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeTable {
+    /// The resolved bat that stands in the file.
     pub bat: Bat,
     /// Version of the program that found the modes; empty where the file does not say.
     pub version: String,
@@ -29,6 +30,7 @@ pub struct SampledMode {
     pub order: u32,
     /// Hz.
     pub frequency: f64,
+    /// Share of critical damping; 0 without damping.
     pub damping_ratio: f64,
     /// Of the shape as it is here (kg).
     pub modal_mass: f64,

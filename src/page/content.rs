@@ -15,13 +15,17 @@ use crate::plot::sets::of_analysis;
 /// What a report is made from.
 #[derive(Debug, Clone)]
 pub struct Report<'a> {
+    /// All results.
     pub analysis: &'a Analysis,
     /// The command as it was typed.
     pub command: String,
     /// The files as they were written.
     pub inputs: Vec<Input>,
+    /// Every picture of the analysis.
     pub pictures: Vec<Picture>,
+    /// Hits in time; none where the model knows no force in time.
     pub moments: Vec<Moment>,
+    /// The numbers at the top.
     pub summary: Summary,
 }
 
@@ -30,7 +34,9 @@ pub struct Report<'a> {
 pub struct Section<'a> {
     /// What links call it.
     pub id: &'static str,
+    /// The heading as people read it.
     pub title: &'static str,
+    /// What stands under it, from top to bottom.
     pub parts: Vec<Part<'a>>,
 }
 
@@ -39,11 +45,15 @@ pub struct Section<'a> {
 pub enum Part<'a> {
     /// A heading of second order.
     Heading(&'static str),
+    /// A paragraph.
     Text(String),
     /// What there is not, and why.
     Missing(&'static str),
+    /// One line for each item.
     List(Vec<String>),
+    /// Numbers or words in rows.
     Table(Table),
+    /// A drawing with its caption.
     Picture(&'a Picture),
     /// A picture of something along the barrel, which a script can read off place by place.
     Hovered(&'a Picture),
@@ -55,6 +65,7 @@ pub enum Part<'a> {
     Folded(&'static str, Vec<Part<'a>>),
     /// What moves, where there is a script.
     Modes,
+    /// The moment of the hit.
     Moment,
 }
 

@@ -12,41 +12,62 @@ use crate::report::text::rounded;
 /// Everything that the script needs.
 #[derive(Debug, Clone, Serialize)]
 pub struct Data<'a> {
+    /// `sweetspot-page/1`
     pub format: &'static str,
+    /// The numbers at the top of the page, not rounded.
     pub summary: &'a Summary,
+    /// What the bat looks like.
     pub outline: Outline,
+    /// What hits along the barrel do.
     pub curve: Curve,
+    /// The first modes, [`MOVING`] at most.
     pub modes: Vec<Motion>,
+    /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
+    /// How large the ball is drawn (mm).
     pub ball_radius_mm: f64,
 }
 
 /// The bat's outline at rising places, a step being two at the same; shapes are told there too.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outline {
+    /// From the knob end to the tip (mm).
     pub length_mm: f64,
+    /// Places from the knob end (mm), not falling.
     pub x_mm: Vec<f64>,
+    /// Outer radius there (mm).
     pub radius_mm: Vec<f64>,
 }
 
 /// Hits along the barrel; null where no ball is hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Curve {
+    /// Where the ball meets the bat (m from the knob end), rising.
     pub x_m: Vec<f64>,
+    /// Speed of the ball off the bat (m/s).
     pub exit_speed_m_s: Vec<Option<f64>>,
+    /// The same if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Vec<Option<f64>>,
+    /// What stays in the bat's bending (J).
     pub vibration_j: Vec<Option<f64>>,
+    /// What the ball takes with it (J).
     pub ball_j: Vec<Option<f64>>,
+    /// What is lost in the ball's own squeezing (J).
     pub lost_in_ball_j: Vec<Option<f64>>,
+    /// What the bat's rigid motion keeps (J).
     pub bat_j: Vec<Option<f64>>,
 }
 
 /// One mode: what moves, and how fast.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Motion {
+    /// Number of the bending mode, from 1.
     pub order: usize,
+    /// Natural frequency (Hz).
     pub frequency_hz: f64,
+    /// Where it does not move (mm from the knob end).
     pub nodes_mm: Vec<f64>,
+    /// At the places of the outline, the largest of the whole shape 1.
     pub deflection: Vec<f64>,
 }
 
@@ -56,6 +77,7 @@ const POINTS: usize = 121;
 pub const MOVING: usize = 6;
 
 impl<'a> Data<'a> {
+    /// The numbers of an analysis, rounded but for the summary.
     pub fn new(analysis: &Analysis, summary: &'a Summary, moments: &'a [Moment]) -> Self {
         let outline = Outline::new(&analysis.bat.profile);
         let modes = analysis.solution.modes.iter().take(MOVING);

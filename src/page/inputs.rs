@@ -15,7 +15,9 @@ use crate::report::resolved::resolved;
 /// A file as the user wrote it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
+    /// Its path as it was given.
     pub name: String,
+    /// What it holds, without a byte order mark.
     pub text: String,
 }
 

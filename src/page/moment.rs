@@ -18,12 +18,15 @@ use crate::report::text::rounded;
 pub struct Moment {
     /// What place it is.
     pub label: String,
-    /// Where the ball meets the bat (m), and how long it stays (ms).
+    /// Where the ball meets the bat (m from the knob end).
     pub x_m: f64,
+    /// From the first touch to the last (ms).
     pub contact_ms: f64,
     /// How many times too large the bending should be drawn.
     pub factor: u32,
+    /// Instants (ms), 0 at the first touch.
     pub times_ms: Vec<f64>,
+    /// Force between ball and bat at every instant (kN).
     pub force_kn: Vec<f64>,
     /// How far the ball is from the bat (mm); negative while it is squeezed, by that much.
     pub gap_mm: Vec<f64>,

@@ -26,14 +26,17 @@ pub fn length(x: f64) -> [String; 2] {
     [format!("{} cm", centimetres(x)), format!("{} in", in_inches(x))]
 }
 
+/// A mass (kg) in kilograms and in ounces.
 pub fn mass(value: f64) -> [String; 2] {
     [format!("{value:.4} kg"), format!("{:.2} oz", ounces(value))]
 }
 
+/// A moment of inertia (kg m²) in kg m² and in oz in².
 pub fn inertia(value: f64) -> [String; 2] {
     [format!("{value:.5} kg m²"), format!("{:.0} oz in²", ounce_square_inches(value))]
 }
 
+/// A speed (m/s) in m/s and in miles per hour.
 pub fn speed(value: f64) -> [String; 2] {
     let us = rounded(miles_per_hour(value), 1);
     [format!("{:.2} m/s", rounded(value, 2)), format!("{us:.1} mph")]

@@ -9,8 +9,11 @@ use crate::page::shown;
 /// The numbers of the summary, in SI, as they stand in the page's data; None where there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
+    /// From the knob end to the tip (m).
     pub length_m: f64,
+    /// Mass with everything attached (kg).
     pub mass_kg: f64,
+    /// Centre of mass, from the knob end (m).
     pub balance_point_m: f64,
     /// About the point 6 in from the knob end.
     pub inertia_pivot_kg_m2: f64,
@@ -18,15 +21,19 @@ pub struct Summary {
     pub center_of_percussion_m: Option<f64>,
     /// Of the first modes, three at most.
     pub frequencies_hz: Vec<f64>,
-    /// Where the ball leaves fastest, how fast, and where it does within 1 % of that.
+    /// Where the ball leaves fastest (m from the knob end).
     pub sweet_spot_m: Option<f64>,
+    /// The exit speed there (m/s).
     pub exit_speed_m_s: Option<f64>,
+    /// From where to where it is within 1 % of that (m from the knob end).
     pub zone_m: Option<[f64; 2]>,
-    /// At the sweet spot, of the free bat and of one held 6 in from the knob.
+    /// Bat-ball coefficient of restitution at the sweet spot, of the free bat.
     pub bbcor: Option<f64>,
+    /// The same of a bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
-    /// The swing and the pitch of that hit.
+    /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,
+    /// Speed of the ball towards the bat (m/s).
     pub ball_speed_m_s: f64,
 }
 
@@ -35,13 +42,16 @@ pub struct Summary {
 pub struct Fact {
     /// What it is called in the page's data.
     pub key: &'static str,
+    /// What people call it.
     pub label: &'static str,
+    /// The number with its unit, in SI and in US units; the second may be empty.
     pub values: [String; 2],
     /// A word more; may be empty.
     pub note: String,
 }
 
 impl Summary {
+    /// The summary of an analysis.
     pub fn new(analysis: &Analysis) -> Self {
         let Analysis { bat, solution, task, figures, .. } = analysis;
         let inertia = bat.inertia();

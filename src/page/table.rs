@@ -7,8 +7,11 @@ use crate::page::escape;
 /// What it shows, its columns, its rows; the first column names the rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Table {
+    /// What it shows, as a line above it.
     pub caption: String,
+    /// The columns' names, with units where they have one.
     pub head: Vec<String>,
+    /// As many cells each as the head has.
     pub rows: Vec<Vec<String>>,
     /// Whether the other columns are words, not numbers.
     pub words: bool,

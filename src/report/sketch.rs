@@ -21,7 +21,9 @@ const THICKER: f64 = 3.0;
 /// What it is drawn with: block elements, or ASCII for terminals that know no others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Glyphs {
+    /// Unicode's full and half blocks.
     Blocks,
+    /// `#`, `.`, `'` and `-`.
     Ascii,
 }
 
@@ -38,14 +40,18 @@ impl Glyphs {
 /// Places below the bat (m), and what they are called.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
+    /// What stands left of the drawing, ten columns at most.
     pub label: String,
+    /// What is marked below the bat.
     pub places: Places,
 }
 
 /// Single places, or a stretch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Places {
+    /// A mark at each of them (m from the knob end).
     Points(Vec<f64>),
+    /// From one place to another (m from the knob end).
     Zone([f64; 2]),
 }
 

@@ -11,7 +11,9 @@ use crate::units::Quantity;
 /// A bare number, or a text such as `"33 in"`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amount {
+    /// In the SI unit of what is meant, or in the unit that the profile names.
     Number(f64),
+    /// Such as `33 in`.
     WithUnit(String),
 }
 

@@ -23,7 +23,9 @@ use crate::units::Quantity;
     without("youngs_modulus", "first_bending_hz"),
 ]))]
 pub struct BatFile {
+    /// Name of the format and its version: sweetspot-bat/1.
     pub format: BatFormat,
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// What the bat is called in tables and plots.
     #[schemars(example = &"Ash dowel, 33 in")]
@@ -33,7 +35,9 @@ pub struct BatFile {
     /// What the bat is made of where no region says otherwise. Density and Young's modulus may be
     /// left to what was weighed and tapped.
     pub material: Material,
+    /// Outer and inner radius along the bat, as columns of stations or as formulas.
     pub profile: Profile,
+    /// What a scale and a tap said of the bat.
     pub weighed: Option<Weighed>,
     /// Stretches of other materials, which do not overlap.
     pub regions: Option<Vec<Region>>,
@@ -47,6 +51,7 @@ pub struct BatFile {
     pub joints: Option<Vec<Joint>>,
     /// Places that are held, one support at one place; none is a free bat.
     pub supports: Option<Vec<Support>>,
+    /// Hands that hold the bat as an elastic bed.
     pub grip: Option<Grip>,
 }
 
@@ -79,6 +84,7 @@ fn without(number: &str, measured: &str) -> Value {
     "inner_diameter": { "properties": nothing_of(&["wall_thickness"]) },
 }))]
 pub struct Profile {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// How the radius runs between stations: pchip (a smooth curve without overshoot), linear
     /// (straight lines) or constant (a station's value holds to the next; the last one closes).
@@ -126,11 +132,15 @@ fn nothing_of(keys: &[&str]) -> Value {
     keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect()
 }
 
+/// How a curve runs between stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, JsonSchema)]
 #[schemars(inline, rename_all = "lowercase")]
 pub enum Interpolation {
+    /// A smooth curve that does not overshoot: rising stations give a rising curve.
     Pchip,
+    /// A straight line from station to station.
     Linear,
+    /// A station's value holds up to the next one.
     Constant,
 }
 
@@ -138,6 +148,7 @@ pub enum Interpolation {
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Piece {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where it begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
@@ -163,6 +174,7 @@ pub struct Piece {
     { "required": ["first_bending_hz"] },
 ]))]
 pub struct Weighed {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Mass with everything attached.
     #[schemars(transform = Measures(Quantity::Mass), extend("exclusiveMinimum" = 0))]

@@ -13,6 +13,7 @@ use crate::units::Quantity;
 #[schemars(deny_unknown_fields)]
 #[schemars(extend("anyOf" = [{ "required": ["material"] }, { "required": ["core"] }]))]
 pub struct Region {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where it begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
@@ -44,10 +45,12 @@ fn whole() -> Value {
 ]))]
 #[schemars(extend("dependentRequired" = { "offset": ["mass"] }))]
 pub struct Attachment {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where it is fixed.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
+    /// How heavy it is, as a point at `x` and `offset`.
     #[schemars(transform = Measures(Quantity::Mass), example = &"1 oz")]
     #[schemars(extend("minimum" = 0, "maximum" = 1e8))]
     pub mass: Option<Amount>,
@@ -72,6 +75,7 @@ pub struct Attachment {
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Tape {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where it begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
@@ -90,10 +94,12 @@ pub struct Tape {
 #[schemars(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [{ "required": ["stiffness"] }, { "required": ["frequency"] }]))]
 pub struct Absorber {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where it hangs.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
+    /// How heavy what swings is.
     #[schemars(transform = Measures(Quantity::Mass), example = &"1 oz")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1e8))]
     pub mass: Amount,
@@ -114,7 +120,9 @@ pub struct Absorber {
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Joint {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
+    /// Where it gives way.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub x: Amount,
     /// Bending moment per angle between both sides.
@@ -127,7 +135,9 @@ pub struct Joint {
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Support {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
+    /// Where it is held.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
     /// pinned: it does not move but may turn; clamped: neither.
@@ -140,6 +150,7 @@ pub struct Support {
 #[schemars(deny_unknown_fields)]
 #[schemars(extend("anyOf" = [{ "required": ["stiffness"] }, { "required": ["damping"] }]))]
 pub struct Grip {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// Where the hands begin.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]

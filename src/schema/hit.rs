@@ -11,15 +11,20 @@ use crate::schema::modes::Generator;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "Hit file of sweetspot, sweetspot-hit/1")]
 pub struct HitFile {
+    /// Name of the format and its version: sweetspot-hit/1.
     pub format: HitFormat,
+    /// The program that wrote the file.
     pub generator: Generator,
     /// How the bat's bending is counted.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
+    /// How the bat is swung, and what ball it meets.
     pub scene: Scene,
     /// As many as places were asked for, in their order.
     pub impacts: Vec<Impact>,
+    /// The sweet spot of this scene, by each of its definitions.
     pub sweet_spot: SweetSpot,
+    /// The figures by which bats are compared; left out where they were not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figures: Option<Figures>,
 }
@@ -28,6 +33,7 @@ pub struct HitFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(inline)]
 pub enum HitFormat {
+    /// Version 1.
     #[serde(rename = "sweetspot-hit/1")]
     One,
 }
@@ -39,6 +45,7 @@ pub struct Scene {
     pub bat_pivot_m: f64,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,
+    /// The ball, with its force law and its restitution.
     pub ball: Ball,
     /// Speed of the ball towards the bat (m/s).
     pub ball_speed_m_s: f64,
@@ -49,6 +56,7 @@ pub struct Scene {
     /// Who sees the energies: the ground, or of a held bat its hands.
     #[schemars(extend("enum" = ["ground", "hands"]))]
     pub energies_seen_from: String,
+    /// How the barrel gives way under the ball; left out where it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
 }
@@ -56,6 +64,7 @@ pub struct Scene {
 /// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Ball {
+    /// What the ball is called.
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
@@ -121,6 +130,7 @@ pub struct Impact {
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
     pub energy_j: Option<Energy>,
+    /// How far the numbers above may be off.
     pub error: HitError,
 }
 
@@ -232,6 +242,7 @@ pub struct Swung {
 /// The sweet spot of another scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Moved {
+    /// The sweet spot where that is different.
     #[serde(flatten)]
     pub sweet_spot: SweetSpot,
     /// What is different there, in words.

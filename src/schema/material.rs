@@ -11,7 +11,9 @@ use crate::units::Quantity;
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum Comment {
+    /// One text.
     Text(String),
+    /// A text for each line.
     Lines(Vec<String>),
 }
 
@@ -19,7 +21,9 @@ pub enum Comment {
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum Material {
+    /// The name of a built-in material.
     Named(#[schemars(schema_with = "names")] String),
+    /// The numbers of a material of your own.
     Numbers(MaterialNumbers),
 }
 
@@ -32,13 +36,18 @@ fn names(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
+/// The numbers of a material, along the axis where it is wood. Density and Young's modulus may be
+/// left out where something that was weighed or tapped stands in for them.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[schemars(extend("dependentRequired" = { "shear_modulus": ["youngs_modulus"] }))]
 pub struct MaterialNumbers {
+    /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
+    /// Mass per volume.
     #[schemars(transform = Measures(Quantity::Density), extend("exclusiveMinimum" = 0))]
     pub density: Option<Amount>,
+    /// Stiffness against bending and stretching along the axis.
     #[schemars(transform = Measures(Quantity::Pressure), extend("exclusiveMinimum" = 0))]
     pub youngs_modulus: Option<Amount>,
     /// Needed, or Poisson's ratio instead, for shear to count.

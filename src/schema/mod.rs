@@ -27,12 +27,16 @@ use serde_json::{Map, Value, json};
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum File {
+    /// What is read: a bat.
     Bat,
+    /// What `sweetspot modes --json` writes.
     Modes,
+    /// What `sweetspot hit --json` writes.
     Hit,
 }
 
 impl File {
+    /// Every kind, in this order.
     pub const ALL: [Self; 3] = [Self::Bat, Self::Modes, Self::Hit];
 
     /// Its name on the command line.
@@ -149,7 +153,8 @@ fn without_null(member: &mut Map<String, Value>) {
     if let [Value::Object(one)] = &alternatives[..] {
         let one = one.clone();
         member.remove("anyOf");
-        member.extend(one);
+        // What is said of the member itself stands before what is said of its type.
+        one.into_iter().for_each(|(key, value)| drop(member.entry(key).or_insert(value)));
     }
 }
 

@@ -12,10 +12,15 @@ use crate::theory::Theory;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "Modes file of sweetspot, sweetspot-modes/1")]
 pub struct ModesFile {
+    /// Name of the format and its version: sweetspot-modes/1.
     pub format: ModesFormat,
+    /// The program that wrote the file.
     pub generator: Generator,
+    /// The bat as it was understood, a bat file in its own right.
     pub bat: ResolvedBat,
+    /// The bat as a rigid body: length, mass, balance point, moments of inertia.
     pub summary: Summary,
+    /// What was computed, and how.
     pub model: Model,
     /// How many motions of the bat are rigid, at 0 Hz: 2 of a free bat. They are not among `modes`.
     #[schemars(range(max = 2))]
@@ -31,6 +36,7 @@ pub struct ModesFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(inline)]
 pub enum ModesFormat {
+    /// Version 1.
     #[serde(rename = "sweetspot-modes/1")]
     One,
 }
@@ -38,6 +44,7 @@ pub enum ModesFormat {
 /// Which program wrote this.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Generator {
+    /// Its name.
     pub program: String,
     /// Of the program, not of the format.
     pub version: String,
@@ -68,6 +75,7 @@ pub struct Summary {
     pub inertia_pivot_kg_m2: f64,
     /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
     pub center_of_percussion_m: Option<f64>,
+    /// What the weighed and tapped values changed; only of a bat of which something was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<WeighedFactors>,
 }
@@ -112,6 +120,7 @@ pub struct Model {
     pub no_mode_missing: bool,
     /// What was left out and what it costs, a sentence each.
     pub ignored: Vec<String>,
+    /// How the damping was found; only of a damped bat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damping>,
 }
@@ -142,8 +151,11 @@ pub struct Mode {
     pub modal_mass_kg: f64,
     /// Isolated interior zeros of the deflection (m), from the knob.
     pub nodes_m: Vec<f64>,
+    /// How far the numbers above may be off.
     pub error: ModeError,
+    /// The deflection along the bat.
     pub shape: Shape,
+    /// How the mode dies out; only of a damped bat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damped>,
 }

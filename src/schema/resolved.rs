@@ -7,12 +7,15 @@ use serde::{Deserialize, Serialize};
 /// in its own right, of the same bat. Positions count from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResolvedBat {
+    /// Name of the format and its version: sweetspot-bat/1.
     pub format: BatFormat,
+    /// What the bat is called.
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
     /// What it is made of where no region says otherwise.
     pub material: Material,
+    /// Outer and inner radius along the bat.
     pub profile: Profile,
     /// Stretches of other materials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -32,8 +35,10 @@ pub struct ResolvedBat {
     /// Places that are held.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
+    /// Hands that hold the bat as an elastic bed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip: Option<Grip>,
+    /// What a scale and a tap said of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<Weighed>,
 }
@@ -42,6 +47,7 @@ pub struct ResolvedBat {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(inline)]
 pub enum BatFormat {
+    /// Version 1.
     #[serde(rename = "sweetspot-bat/1")]
     One,
 }
@@ -70,13 +76,16 @@ pub struct Material {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Profile {
+    /// Stations and the curve between them.
     Columns(Columns),
+    /// Formulas.
     Pieces(Pieces),
 }
 
 /// Stations from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Columns {
+    /// How the radius runs between stations.
     pub interpolation: Interpolation,
     /// Unit of the columns: m.
     pub unit: String,
@@ -94,13 +103,16 @@ pub struct Columns {
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
 pub enum Interpolation {
+    /// A smooth curve that does not overshoot.
     Pchip,
+    /// A straight line from station to station.
     Linear,
 }
 
 /// Formulas, touching end to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pieces {
+    /// The end from which the formulas' `x` counts.
     pub measured_from: End,
     /// One after the other.
     pub pieces: Vec<Piece>,
@@ -111,7 +123,9 @@ pub struct Pieces {
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
 pub enum End {
+    /// From the knob end to the tip.
     Knob,
+    /// From the tip to the knob end.
     Tip,
 }
 
@@ -198,6 +212,7 @@ pub struct Joint {
 pub struct Support {
     /// Where (m).
     pub x: f64,
+    /// What is held there.
     #[serde(rename = "type")]
     pub kind: Held,
 }
@@ -207,7 +222,9 @@ pub struct Support {
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
 pub enum Held {
+    /// It does not move but may turn.
     Pinned,
+    /// It neither moves nor turns.
     Clamped,
 }
 

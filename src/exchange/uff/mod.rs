@@ -95,12 +95,15 @@ pub enum Dataset {
 pub struct Header {
     /// The model file.
     pub model: String,
+    /// What the model is, in words.
     pub description: String,
     /// The program that made the model.
     pub made_by: String,
-    /// When the model was made, when it was last changed, when this file was written.
+    /// When the model was made.
     pub created: Stamp,
+    /// When the model was last changed.
     pub saved: Stamp,
+    /// When this file was written.
     pub written: Stamp,
     /// Version of the model's database, in two parts.
     pub version: [i64; 2],
@@ -111,6 +114,7 @@ pub struct Header {
 /// Dataset 2411, or 15 with six digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nodes {
+    /// In the order of the file.
     pub nodes: Vec<Node>,
     /// 15 in place of 2411: obsolete, and the one that older programs read.
     pub legacy: bool,
@@ -119,9 +123,11 @@ pub struct Nodes {
 /// A node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
+    /// Its number, by which the other datasets name it.
     pub label: i64,
     /// Coordinate system in which `at` is given and that of displacements; 0 is the global one.
     pub systems: [i64; 2],
+    /// Number of a colour; programs differ in which.
     pub color: i64,
     /// Where it is (m).
     pub at: [f64; 3],
@@ -137,8 +143,11 @@ impl Node {
 /// Dataset 82: a line through nodes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TraceLine {
+    /// Number of the line.
     pub number: i64,
+    /// Number of a colour; programs differ in which.
     pub color: i64,
+    /// What the line is called.
     pub name: String,
     /// Labels of nodes; 0 lifts the pen. At most [`TraceLine::MOST`].
     pub nodes: Vec<i64>,
@@ -156,12 +165,14 @@ pub struct NodalData {
     pub ids: [String; 5],
     /// 0 unknown, 1 structural.
     pub model: i64,
+    /// Of which mode, frequency or step the values are.
     pub analysis: Analysis,
     /// 1 a scalar, 2 translations x, y, z, 3 translations and rotations about x, y, z, 4 a
     /// symmetric and 5 a general tensor.
     pub characteristic: i64,
     /// What the values are: 8 displacement, 11 velocity, 12 acceleration, …
     pub quantity: i64,
+    /// Whether the imaginary parts stand in the file.
     pub complex: bool,
     /// Numbers per node.
     pub per_node: usize,
@@ -182,30 +193,52 @@ impl NodalData {
 pub enum Analysis {
     /// 2: a real mode.
     NormalMode {
+        /// Number of the load case.
         load_case: i64,
+        /// Number of the mode.
         mode: i64,
         /// Hz.
         frequency: f64,
         /// Of the shape as it stands in the file (kg m², or kg where displacements are numbers).
         modal_mass: f64,
-        /// Damping ratio, of dashpots and of hysteresis.
+        /// Damping ratio of dashpots.
         viscous: f64,
+        /// Damping ratio of hysteresis.
         hysteretic: f64,
     },
     /// 3, and 7 where `second_order`: a complex mode.
     ComplexMode {
+        /// Whether it is of type 7, of a system of second order.
         second_order: bool,
+        /// Number of the load case.
         load_case: i64,
+        /// Number of the mode.
         mode: i64,
         /// rad/s.
         eigenvalue: Complex,
+        /// Modal A of the state space, as it stands in the file but for units.
         modal_a: Complex,
+        /// Modal B of the state space, as it stands in the file but for units.
         modal_b: Complex,
     },
-    /// 5: the answer at one frequency (Hz).
-    FrequencyResponse { load_case: i64, step: i64, frequency: f64 },
+    /// 5: the answer at one frequency.
+    FrequencyResponse {
+        /// Number of the load case.
+        load_case: i64,
+        /// Number of the frequency.
+        step: i64,
+        /// Hz.
+        frequency: f64,
+    },
     /// Any other type: its integers and reals as they stand.
-    Other { kind: i64, integers: Vec<i64>, reals: Vec<f64> },
+    Other {
+        /// Number of the type.
+        kind: i64,
+        /// Its integers, the load case first.
+        integers: Vec<i64>,
+        /// Its reals.
+        reals: Vec<f64>,
+    },
 }
 
 /// Dataset 58: a function at a degree of freedom.
@@ -216,13 +249,19 @@ pub struct Function {
     /// 0 unknown, 1 record in time, 2 auto and 3 cross spectrum, 4 frequency response, 6
     /// coherence, 9 power spectral density, …
     pub kind: i64,
-    /// Number, version and load case (0: forced at one point).
+    /// Number of the function.
     pub number: i64,
+    /// Version of the function.
     pub version: i64,
+    /// Number of the load case; 0 where it is forced at one point.
     pub load_case: i64,
+    /// Where, and along what, the answer was watched.
     pub response: Dof,
+    /// Where, and along what, it was forced.
     pub reference: Dof,
+    /// Where its values are, such as frequencies (Hz) or times (s).
     pub abscissa: Abscissa,
+    /// As many as the abscissa has places.
     pub values: Values,
     /// Values in 13 digits, else in six.
     pub double: bool,
@@ -237,6 +276,7 @@ pub struct Function {
 pub struct Dof {
     /// Name of the component.
     pub entity: String,
+    /// Label of the node.
     pub node: i64,
     /// 0 scalar, 1 to 3 along x, y, z, 4 to 6 about them; negative: against it.
     pub direction: i64,
@@ -245,7 +285,14 @@ pub struct Dof {
 /// Where a function has its values; six digits in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Abscissa {
-    Even { start: f64, step: f64 },
+    /// At even steps.
+    Even {
+        /// The first place, in the unit of its axis.
+        start: f64,
+        /// From one place to the next.
+        step: f64,
+    },
+    /// Each place by itself.
     Uneven(Vec<f64>),
 }
 
@@ -262,7 +309,9 @@ impl Abscissa {
 /// The values of a function.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
+    /// Such as a record in time or a power spectrum.
     Real(Vec<f64>),
+    /// Such as a frequency response.
     Complex(Vec<Complex>),
 }
 
@@ -289,7 +338,9 @@ pub struct Axis {
     pub quantity: i64,
     /// Exponents of length, force and temperature, of a general quantity.
     pub exponents: [i64; 3],
+    /// What the axis is called, such as `force`.
     pub label: String,
+    /// Name of the unit, such as `N`; the numbers are in SI whatever it says.
     pub unit: String,
 }
 

@@ -5,7 +5,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// Date `DD-MMM-YY` and time `HH:MM:SS`, as texts.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Stamp {
+    /// As `05-MAR-24`, empty where unknown.
     pub date: String,
+    /// As `14:07:33`, empty where unknown.
     pub time: String,
 }
 

@@ -7,12 +7,17 @@ use super::{Analysis, Dataset, Function, NodalData, Values};
 pub struct Units {
     /// 1 for SI, 2 foot and pound-force, … 9 the user's own. The factors count, not the code.
     pub code: i64,
+    /// The units in words.
     pub description: String,
     /// 1 absolute, 2 relative temperatures.
     pub temperature_mode: i64,
+    /// The file's units of length in a metre.
     pub length: f64,
+    /// The file's units of force in a newton.
     pub force: f64,
+    /// The file's degrees in a kelvin.
     pub temperature: f64,
+    /// Offset of the file's temperatures; they are left as they stand.
     pub temperature_offset: f64,
 }
 
