@@ -6,8 +6,9 @@ use crate::known_hits::Seen;
 use crate::plot::axis::Axis;
 use crate::plot::plane::{Frame, Plane};
 use crate::plot::series::{Series, legend};
-use crate::plot::svg::{Anchor, LABEL, Mark, Pen, Svg};
+use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::SERIES;
+use crate::plot::words::{Anchor, LABEL};
 use crate::solve::{Request, solve};
 use crate::validation::{Case, Known, bundled_case};
 

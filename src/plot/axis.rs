@@ -126,7 +126,7 @@ pub fn shown(value: f64, step: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    if decimals > 5 || value.abs() >= 1e6 {
+    if decimals > 4 || value.abs() >= 1e6 {
         let digits = (value.abs().log10().floor() - places).max(0.0) as usize;
         return format!("{value:.digits$e}").replace('-', "−");
     }

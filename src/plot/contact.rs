@@ -6,9 +6,11 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{CM, tenths};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::plot::route::Point;
 use crate::plot::series::{Series, digits, hover};
-use crate::plot::svg::{Anchor, LABEL, Mark, Pen, Point, Svg};
+use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{Ink, SERIES, TEXT, TINT};
+use crate::plot::words::{Anchor, LABEL};
 
 /// Instants in every piece of the recorded force.
 const PARTS: usize = 6;

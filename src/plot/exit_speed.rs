@@ -23,7 +23,7 @@ pub struct Subject<'a> {
 }
 
 /// Right of the frame there is a second axis.
-const RIGHT: f64 = 74.0;
+const RIGHT: f64 = 86.0;
 /// Of the curves' diagram (px).
 const DIAGRAM: f64 = 230.0;
 
@@ -40,44 +40,45 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     if from >= to || values().next().is_none() {
         return None;
     }
-    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
-    let [knob, tip] = place::axes([from, to], &bats);
-    let y = Axis::around("exit speed (m/s)", values(), ticks_up(DIAGRAM));
     let rows = sweet_spots(subjects);
     let mut svg = Svg::new(WIDTH, 0.0);
     let (title, name, facts) = words(subjects);
     head(&mut svg, title, [name, &facts]);
-    let keys = legend(
-        &mut svg,
-        &keys(&curves, alone).iter().collect::<Vec<_>>(),
-        [LEFT, HEAD + 10.0, WIDTH - 12.0],
-    );
-    let top = keys + 12.0 + NUMBERS;
+    let keys = keys(&curves, alone);
+    let keys: Vec<&Series> = keys.iter().collect();
+    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 12.0 + NUMBERS;
     let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
     let bottom = side + 6.0 + place::height(&rows);
     svg.height = bottom + NUMBERS + 4.0;
     svg.read_off = Some([LEFT, top, right, bottom]);
-    let plane = Plane { frame: Frame { left: LEFT, top, right, bottom: side }, x: knob, y };
+    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
+    let [x, tip] = place::axes([from, to], &bats);
+    let y = Axis::around("exit speed (m/s)", values(), ticks_up(DIAGRAM));
+    let plane = Plane { frame: Frame { left: LEFT, top, right, bottom: side }, x, y };
     let strip = Frame { left: LEFT, top: side + 6.0, right, bottom };
     let strip = Plane { frame: strip, ..plane.clone() };
     zone(&mut svg, [&plane, &strip], subjects);
-    plane.draw(&mut svg);
     plane.above(&mut svg, &tip);
-    let fast = [plane.y.from, plane.y.to].map(miles_per_hour);
-    plane.right(&mut svg, &Axis::new("exit speed (mph)", fast));
-    curves.iter().rev().for_each(|curve| curve.draw(&mut svg, &plane));
-    for (k, subject) in subjects.iter().enumerate() {
-        if let Some(Peak { x, value }) = subject.spot.exit_speed_max {
-            if plane.x.holds(CM * x) && plane.y.holds(value) {
-                place::mark(&mut svg, k, plane.at([CM * x, value]));
-            }
-        }
-    }
+    diagram(&mut svg, &plane, (subjects, &curves));
     place::rows(&mut svg, &strip, &rows);
     strip.below(&mut svg);
-    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
-    let alt = described(subjects, &rows);
-    Some(Picture::new("exit_speed", title, &alt, svg))
+    Some(Picture::new("exit_speed", title, &described(subjects, &rows), svg))
+}
+
+/// The curves, and the fastest ball on each.
+fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[Subject], &[Series])) {
+    plane.draw(svg);
+    let fast = [plane.y.from, plane.y.to].map(miles_per_hour);
+    plane.right(svg, &Axis::new("exit speed (mph)", fast));
+    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
+    for (k, subject) in subjects.iter().enumerate() {
+        let peak = subject.spot.exit_speed_max.map(|peak| [CM * peak.x, peak.value]);
+        let seen = |at: &[f64; 2]| plane.x.holds(at[0]) && plane.y.holds(at[1]);
+        if let Some(at) = peak.filter(seen) {
+            place::mark(svg, k, plane.at(at));
+        }
+    }
+    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
 }
 
 fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {

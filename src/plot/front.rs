@@ -4,8 +4,9 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
 use crate::plot::series::{Series, legend, short};
-use crate::plot::svg::{Anchor, MARKS, Mark, Pen, SMALL, Svg, width};
+use crate::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::plot::theme::{SERIES, TEXT};
+use crate::plot::words::{Anchor, SMALL, width};
 use crate::solve::Solver;
 use crate::trade::front::{Run, front};
 use crate::trade::measure::Trade;
@@ -19,63 +20,54 @@ const SOLVERS: [Solver; 4] = [Solver::Statics, Solver::ShiftInvert, Solver::Dens
 
 /// Every run, the front and the planner's choices; picture `front`. None without runs.
 pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
-    let floor = trade.reference.floor();
+    let Trade { reference, runs, words, .. } = trade;
+    let floor = reference.floor();
     let at = |run: &Run| [1e6 * run.seconds, run.error().max(floor)];
-    let runs = &trade.runs;
-    let x = Axis::logarithmic("time (µs)", runs.iter().map(|run| at(run)[0]));
-    let y =
-        Axis::logarithmic("largest relative error of a frequency", runs.iter().map(|r| at(r)[1]));
     runs.first()?;
-    let curves: Vec<Series> = SOLVERS
-        .into_iter()
-        .enumerate()
-        .map(|(k, solver)| {
-            let own = runs.iter().filter(|run| run.choice.solver == solver);
-            let points: Vec<_> = own.map(|run| Some(at(run))).collect();
-            let series = Series::curve(solver_name(solver), k, points).units("µs", "");
-            Series { joined: false, mark: Some(MARKS[k]), ..series }
-        })
-        .filter(|series| !series.points.is_empty())
-        .collect();
+    let solvers = solvers(runs, at);
     let best: Vec<_> = front(runs).map(|run| Some(at(run))).collect();
-    let best = Series::curve("front: nothing is faster and as accurate", 0, best);
-    let best = best.pen(Pen::new(TEXT, 1.4));
+    let pen = Pen::new(TEXT, 1.4);
+    let best = Series::curve("front: nothing is faster and as accurate", 0, best).pen(pen);
+    let planner = Series::curve("ringed: the planner's choice for that tolerance", 0, vec![]);
+    let planner = Series { joined: false, mark: Some(Mark::Circle), pen, ..planner };
     let title = "Speed against accuracy";
-    let count = trade.reference.omegas.len();
-    let facts = format!("{count} frequencies, every run measured here and now");
+    let facts = format!("{} frequencies, every run measured here and now", reference.omegas.len());
     let mut svg = Svg::new(WIDTH, 0.0);
     head(&mut svg, title, [name, &facts]);
-    let mut keys: Vec<&Series> = curves.iter().collect();
-    let planner = Series {
-        joined: false,
-        mark: Some(Mark::Circle),
-        ..Series::curve("ringed: the planner's choice for that tolerance", 0, vec![])
-            .pen(Pen::new(TEXT, 1.4))
-    };
-    keys.extend([&best, &planner]);
+    let keys: Vec<&Series> = solvers.iter().chain([&best, &planner]).collect();
     let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 16.0;
-    let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
+    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
+    let x = Axis::logarithmic("time (µs)", runs.iter().map(|run| at(run)[0]));
+    let errors = runs.iter().map(|run| at(run)[1]);
+    let y = Axis::logarithmic("largest relative error of a frequency", errors);
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);
-    curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
-    best.draw(&mut svg, &plane);
+    solvers.iter().chain([&best]).for_each(|series| series.draw(&mut svg, &plane));
     planned(&mut svg, &plane, runs, at);
     plane.below(&mut svg);
-    let told = |run: &Run| {
-        let choice = run.choice;
-        let solver = solver_name(choice.solver);
-        let (n, p) = (choice.elements, choice.degree);
-        let words = format!(
-            "{solver}, {n} elements of degree {p}: {}, error {}",
-            time(run.seconds),
-            short(run.error())
-        );
-        (plane.at(at(run)), words)
-    };
-    svg.hover(&front(runs).map(told).collect::<Vec<_>>(), 60);
-    let alt = format!("{name}: {facts}. {}", trade.words.join(". "));
+    let told: Vec<_> = front(runs).map(|run| (plane.at(at(run)), told(run))).collect();
+    svg.hover(&told, 60);
+    let alt = format!("{name}: {facts}. {}", words.join(". "));
     Some(Picture::new("front", title, &alt, svg))
+}
+
+/// The runs of every solver.
+fn solvers(runs: &[Run], at: impl Fn(&Run) -> [f64; 2]) -> Vec<Series> {
+    let of = |(k, solver): (usize, Solver)| {
+        let own = runs.iter().filter(|run| run.choice.solver == solver);
+        let points: Vec<_> = own.map(|run| Some(at(run))).collect();
+        let series = Series::curve(solver_name(solver), k, points);
+        Series { joined: false, mark: Some(MARKS[k]), ..series }
+    };
+    let all = SOLVERS.into_iter().enumerate().map(of);
+    all.filter(|series| !series.points.is_empty()).collect()
+}
+
+fn told(run: &Run) -> String {
+    let (solver, seconds) = (solver_name(run.choice.solver), time(run.seconds));
+    let (n, p, error) = (run.choice.elements, run.choice.degree, short(run.error()));
+    format!("{solver}, {n} elements of degree {p}: {seconds}, error {error}")
 }
 
 /// Rings around the planner's choices, with the tolerance.

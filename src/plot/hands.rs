@@ -6,14 +6,17 @@ use crate::plot::picture::Picture;
 use crate::plot::place::{CM, tenths};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
 use crate::plot::series::{Series, hover, short};
-use crate::plot::svg::{Pen, SMALL, Svg};
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::words::SMALL;
 
 /// Instants of the curves.
 const INSTANTS: usize = 700;
 /// Of each of the diagrams, and between them (px).
 const DIAGRAM: f64 = 150.0;
 const BETWEEN: f64 = 18.0;
+/// What is drawn, and its unit.
+const KINDS: [(&str, &str); 2] = [("displacement", "mm"), ("velocity", "m/s")];
 
 /// Displacement and velocity at `x` (m) against time; picture `hands`. None where there is no force.
 pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
@@ -33,34 +36,37 @@ pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
         format!("{} cm from the knob end, hit at {} cm", tenths(CM * x), tenths(CM * after.place));
     head(&mut svg, title, [name, &facts]);
     let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
-    let rows = [("displacement (mm)", "displacement", "mm"), ("velocity (m/s)", "velocity", "m/s")];
     let mut peaks = vec![];
-    for (k, (label, name, unit)) in rows.into_iter().enumerate() {
-        let points: Vec<_> = motions.iter().map(|m| Some([m[0], m[k + 1]])).collect();
-        let y =
-            Axis::around(label, motions.iter().map(|m| m[k + 1]).chain([0.0]), ticks_up(DIAGRAM));
+    for k in 0..2 {
+        let (name, unit) = KINDS[k];
+        let values = || motions.iter().map(|m| m[k + 1]);
+        let label = format!("{name} ({unit})");
+        let y = Axis::around(&label, values().chain([0.0]), ticks_up(DIAGRAM));
         let plane = Plane { frame: frame(k), x: along.clone(), y };
         plane.band(&mut svg, [0.0, 1e3 * after.end()], SERIES[5]);
-        plane.draw(&mut svg);
-        let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
-        svg.line(&zero, Pen::new(FRAME, 1.2));
-        let curve = Series::curve(name, k, points).units("ms", unit);
-        let curve = curve.pen(Pen::new(SERIES[k], 1.7));
-        curve.draw(&mut svg, &plane);
-        hover(&mut svg, &plane, &[&curve]);
-        match k {
-            0 => svg.text(
-                [LEFT, frame(0).top - 6.0],
-                SMALL,
-                "tinted: the ball is on the bat; upwards is the way of the swing",
-            ),
-            _ => plane.below(&mut svg),
-        }
-        let most = motions.iter().map(|m| m[k + 1].abs()).fold(0.0, f64::max);
+        diagram(&mut svg, &plane, (k, &motions));
+        let most = values().map(f64::abs).fold(0.0, f64::max);
         peaks.push(format!("{name} up to {} {unit}", short(most)));
     }
+    let told = "tinted: the ball is on the bat; upwards is the way of the swing";
+    svg.text([LEFT, frame(0).top - 6.0], SMALL, told);
     let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
     Some(Picture::new("hands", title, &alt, svg))
+}
+
+/// One of the two curves; below the second is the axis of time.
+fn diagram(svg: &mut Svg, plane: &Plane, (k, motions): (usize, &[[f64; 3]])) {
+    plane.draw(svg);
+    let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
+    svg.line(&zero, Pen::new(FRAME, 1.2));
+    let points: Vec<_> = motions.iter().map(|m| Some([m[0], m[k + 1]])).collect();
+    let curve = Series::curve(KINDS[k].0, k, points).units("ms", KINDS[k].1);
+    let curve = curve.pen(Pen::new(SERIES[k], 1.7));
+    curve.draw(svg, plane);
+    hover(svg, plane, &[&curve]);
+    if k == 1 {
+        plane.below(svg);
+    }
 }
 
 /// Time (ms), displacement (mm) and velocity (m/s) at a place; where hardly anything moves beside the

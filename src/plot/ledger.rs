@@ -5,8 +5,9 @@ use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::route::Point;
 use crate::plot::series::{Tag, digits, room, short, tags};
-use crate::plot::svg::{Pen, Point, Svg};
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
 
 /// Modes that have a layer each.
@@ -123,6 +124,9 @@ pub fn stacked(layers: &[Layer]) -> Vec<Vec<Option<f64>>> {
     layers.iter().map(on_top).collect()
 }
 
+/// Lower and upper edge of a layer at every impact (px).
+type Edges = Vec<Option<[Point; 2]>>;
+
 fn draw(
     svg: &mut Svg,
     plane: &Plane,
@@ -130,36 +134,25 @@ fn draw(
     (layers, stacks): (&[Layer], &[Vec<Option<f64>>]),
 ) {
     let floor = vec![Some(0.0); impacts.len()];
+    let below = std::iter::once(&floor).chain(stacks);
     let mut names: Vec<Tag> = vec![];
-    for (k, layer) in layers.iter().enumerate() {
-        let below = if k == 0 { &floor } else { &stacks[k - 1] };
-        let (ink, opacity) = layer.look;
-        let edges: Vec<Option<[Point; 2]>> = impacts
+    for (layer, (below, above)) in layers.iter().zip(below.zip(stacks)) {
+        let at = |i: &Impact, v: &Option<f64>| Some(plane.at([CM * i.x, (*v)?]));
+        let edges: Edges = impacts
             .iter()
-            .zip(below.iter().zip(&stacks[k]))
-            .map(|(i, (low, high))| {
-                let at = |v: &Option<f64>| Some(plane.at([CM * i.x, (*v)?]));
-                Some([at(low)?, at(high)?])
-            })
+            .zip(below.iter().zip(above))
+            .map(|(i, (low, high))| Some([at(i, low)?, at(i, high)?]))
             .collect();
-        for run in edges.split(Option::is_none) {
-            let lower = run.iter().flatten().map(|edge| edge[0]);
-            let upper = run.iter().flatten().rev().map(|edge| edge[1]);
-            let around: Vec<Point> = lower.chain(upper).collect();
-            svg.area(&around, ink, opacity, Some(Pen::new(PAPER, 0.8)));
-        }
+        filled(svg, &edges, layer);
         if let Some([low, high]) = edges.iter().flatten().last() {
             names.push((0.5 * (low[1] + high[1]), layer.name.clone(), TEXT));
         }
-        let energy = |(i, at): (&Impact, &Option<[Point; 2]>)| {
-            let ([low, high], e) = ((*at)?, i.outcome.as_ref()?);
-            let index = impacts.iter().position(|other| other.x == i.x)?;
-            let joules = layer.energies[index]?;
-            let words =
-                format!("{}: {} J of {}", layer.name, short(joules), short(e.energy.initial));
+        let told = |(at, energy): (&Option<[Point; 2]>, &Option<f64>)| {
+            let [low, high] = (*at)?;
+            let words = format!("{}: {} J", layer.name, short((*energy)?));
             Some(([low[0], 0.5 * (low[1] + high[1])], words))
         };
-        let told: Vec<_> = impacts.iter().zip(&edges).step_by(4).filter_map(energy).collect();
+        let told: Vec<_> = edges.iter().zip(&layer.energies).filter_map(told).collect();
         svg.hover(&told, 60 / layers.len().max(1));
     }
     let before = |i: &Impact| Some(plane.at([CM * i.x, i.outcome.as_ref()?.energy.initial]));
@@ -169,4 +162,15 @@ fn draw(
         svg.line(&run, Pen::new(TEXT, 1.5));
     }
     tags(svg, plane.frame, &names);
+}
+
+/// A layer wherever there were hits.
+fn filled(svg: &mut Svg, edges: &Edges, layer: &Layer) {
+    let (ink, opacity) = layer.look;
+    for run in edges.split(Option::is_none) {
+        let lower = run.iter().flatten().map(|edge| edge[0]);
+        let upper = run.iter().flatten().rev().map(|edge| edge[1]);
+        let around: Vec<Point> = lower.chain(upper).collect();
+        svg.area(&around, ink, opacity, Some(Pen::new(PAPER, 0.8)));
+    }
 }

@@ -2,8 +2,9 @@
 
 use crate::plot::picture::Picture;
 use crate::plot::plane::{HEAD, head};
-use crate::plot::svg::{Anchor, LABEL, Pen, SMALL, Svg, TITLE, Type, fitted, width};
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, PAPER, SERIES};
+use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 
 /// Numbers by row and column.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,8 @@ use crate::bat::Bat;
 use crate::fixtures::Held;
 use crate::plot::place::CM;
 use crate::plot::plane::Plane;
-use crate::plot::svg::{Mark, Pen, Point, Svg};
+use crate::plot::route::Point;
+use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{FRAME, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use crate::profile::{Profile, Section};
 

@@ -3,8 +3,9 @@
 use crate::plot::axis::Axis;
 use crate::plot::plane::{Frame, Plane};
 use crate::plot::series::digits;
-use crate::plot::svg::{Anchor, LABEL, MARKS, Mark, Pen, SMALL, Svg, fitted, width};
+use crate::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::plot::theme::{PAPER, series};
+use crate::plot::words::{Anchor, LABEL, SMALL, fitted, width};
 use crate::units::inches;
 
 /// cm in a metre: positions stand in cm from the knob end.

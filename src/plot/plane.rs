@@ -1,13 +1,15 @@
 //! A diagram's frame: two axes, their numbers and lines, and from values to pixels.
 
 use crate::plot::axis::Axis;
-use crate::plot::svg::{Anchor, LABEL, Pen, Point, SMALL, Svg, TITLE, fitted, width};
+use crate::plot::route::Point;
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, GRID, Ink, TINT};
+use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 
 /// Width of every picture (px).
 pub const WIDTH: f64 = 760.0;
 /// From the left edge to the frames, so that those above each other are in line (px).
-pub const LEFT: f64 = 70.0;
+pub const LEFT: f64 = 74.0;
 /// From a frame to the right edge, where nothing else stands there (px).
 pub const RIGHT: f64 = 28.0;
 /// What numbers and label of an axis take beside a frame (px).
@@ -76,7 +78,7 @@ impl Plane {
             svg.line(&[[x, top], [x, bottom]], Pen::new(GRID, 1.0));
         }
         svg.line(&[[left, top], [left, bottom], [right, bottom]], Pen::new(FRAME, 1.0));
-        self.label_up(svg, left - 54.0, &self.y.label);
+        self.label_up(svg, left - 58.0, &self.y.label);
     }
 
     /// Words along y, as near to its middle as they fit on the picture.
@@ -85,7 +87,7 @@ impl Plane {
         let middle = 0.5 * (self.frame.top + self.frame.bottom);
         let middle = middle.min(svg.height - half - 2.0).max(half + 2.0);
         let look = SMALL.at(Anchor::Middle);
-        svg.text([x, middle], crate::plot::svg::Type { upwards: true, ..look }, words);
+        svg.text([x, middle], Type { upwards: true, ..look }, words);
     }
 
     /// Numbers and label of x, below the frame.
@@ -108,7 +110,7 @@ impl Plane {
             svg.line(&[[right, y], [right + 5.0, y]], Pen::new(FRAME, 1.0));
             svg.text([right + 9.0, y + 4.4], LABEL, &tick.text);
         }
-        self.label_up(svg, right + 60.0, &axis.label);
+        self.label_up(svg, right + 74.0, &axis.label);
     }
 
     /// A stretch of x, tinted from top to bottom.

@@ -1,29 +1,22 @@
 //! Bats from the side, their diameter along them, and the places that matter.
 
-use crate::bat::{Bat, STANDARD_PIVOT};
-use crate::fixtures::Held;
-use crate::material::Material;
+use crate::bat::Bat;
 use crate::plot::axis::Axis;
+use crate::plot::marks::marked;
 use crate::plot::outline::{Lying, sections};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, digits, hover, legend, short};
-use crate::plot::svg::{Anchor, Pen, SMALL, Svg};
+use crate::plot::series::{Series, digits, hover, keys, legend, short};
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::series;
+use crate::plot::words::{Anchor, SMALL};
 use crate::units::{inches, ounces};
 
-/// A bat, the name it has in the picture, and where its swing turns.
-#[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
-    pub name: &'a str,
-    pub bat: &'a Bat,
-    /// Rotation centre beyond the knob end (m), negative inside the handle; none if nobody swings.
-    pub swing_pivot: Option<f64>,
-}
+pub use crate::plot::marks::Subject;
 
 /// Right of the frame there is a second axis.
-const RIGHT: f64 = 74.0;
+const RIGHT: f64 = 86.0;
 /// Of the diameters' diagram (px).
 const DIAGRAM: f64 = 130.0;
 /// Heights that a bat from the side may have (px).
@@ -33,47 +26,53 @@ const THICK: [f64; 2] = [14.0, 84.0];
 pub fn picture(subjects: &[Subject]) -> Picture {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let rows: Vec<Row> = marked(subjects);
-    let ends = ends(longest, &rows);
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
+    let ends = ends(longest, &rows);
     let [knob, tip] = place::axes(ends, &bats);
     let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
-    let [times, per_metre] = thickness(thickest, (WIDTH - LEFT - RIGHT) / (ends[1] - ends[0]));
+    let right = WIDTH - RIGHT;
+    let [times, per_metre] = thickness(thickest, (right - LEFT) / (ends[1] - ends[0]));
     let each = 2.0 * thickest * per_metre + 26.0;
-    let keys = if subjects.len() > 1 { 18.0 * subjects.len().div_ceil(2) as f64 } else { 0.0 };
-    let top = HEAD + keys + NUMBERS;
+    let top = HEAD + NUMBERS + if subjects.len() > 1 { keys(subjects.len()) } else { 0.0 };
     let side = top + each * subjects.len() as f64 + 6.0;
-    let (right, below) = (WIDTH - RIGHT, side + DIAGRAM + 6.0);
-    let frame = |top, bottom| Frame { left: LEFT, top, right, bottom };
+    let below = side + DIAGRAM + 6.0;
     let bottom = below + place::height(&rows);
+    let plane = |top, bottom| {
+        let frame = Frame { left: LEFT, top, right, bottom };
+        Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
+    };
+    let (lying, strip) = (plane(top, side), plane(below, bottom));
     let mut svg = Svg::new(WIDTH, bottom + NUMBERS + 6.0);
     let (title, facts) = words(subjects);
     head(&mut svg, &title, ["", &facts]);
-    let shapes = Plane { frame: frame(top, side), x: knob.clone(), y: Axis::new("", [0.0, 1.0]) };
-    shapes.above(&mut svg, &tip);
+    lying.above(&mut svg, &tip);
     for (k, subject) in subjects.iter().enumerate() {
         let axis = top + each * (k as f64 + 0.5) + 4.0;
-        let lying = Lying { plane: &shapes, axis, per_metre };
+        let lying = Lying { plane: &lying, axis, per_metre };
         lying.draw(&mut svg, subject.bat, series(k).0);
     }
     proportions(&mut svg, times, [right, top + 14.0]);
-    let y = Axis::around("diameter (cm)", diameters(subjects), ticks_up(DIAGRAM));
-    let in_inches = Axis::new("diameter (in)", [y.from, y.to].map(|d| inches(d / CM)));
-    let plane = Plane { frame: frame(side, side + DIAGRAM), x: knob.clone(), y };
-    plane.draw(&mut svg);
-    plane.right(&mut svg, &in_inches);
-    let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
-    curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
-    let first = top + 0.5 * each + 4.0;
-    let strip = Plane { frame: frame(below, bottom), x: knob, y: shapes.y.clone() };
-    place::guides(&mut svg, &strip, &rows, first);
+    diameters(&mut svg, plane(side, side + DIAGRAM), subjects);
+    place::guides(&mut svg, &strip, &rows, top + 0.5 * each + 4.0);
     place::rows(&mut svg, &strip, &rows);
     strip.below(&mut svg);
+    Picture::new("profile", &title, &described(subjects, &rows), svg)
+}
+
+/// The diameters along the bats, and the names of several of them.
+fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
+    let all = subjects.iter().map(|s| 2.0 * CM * widest(s.bat)).chain([0.0]);
+    let plane = Plane { y: Axis::around("diameter (cm)", all, ticks_up(DIAGRAM)), ..plane };
+    plane.draw(svg);
+    let in_inches = [plane.y.from, plane.y.to].map(|diameter| inches(diameter / CM));
+    plane.right(svg, &Axis::new("diameter (in)", in_inches));
+    let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
+    curves.iter().for_each(|curve| curve.draw(svg, &plane));
     if subjects.len() > 1 {
         let outer: Vec<&Series> = curves.iter().filter(|c| c.pen.width > 1.5).collect();
-        legend(&mut svg, &outer, [LEFT, HEAD + 8.0, WIDTH - 12.0]);
+        legend(svg, &outer, [LEFT, HEAD + 8.0, WIDTH - 12.0]);
     }
-    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
-    Picture::new("profile", &title, &described(subjects, &rows), svg)
+    hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
 }
 
 /// What the pictures' first two lines say.
@@ -141,11 +140,6 @@ fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
     }
 }
 
-/// 0, and every diameter (cm).
-fn diameters<'a>(subjects: &'a [Subject]) -> impl Iterator<Item = f64> + 'a {
-    subjects.iter().map(|s| 2.0 * CM * widest(s.bat)).chain([0.0])
-}
-
 /// The outer diameter, and the inner one where there is a bore.
 fn curves(k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
     const MOST: usize = 300;
@@ -170,86 +164,4 @@ fn ends(longest: f64, rows: &[Row]) -> [f64; 2] {
     let places = rows.iter().flat_map(|row| row.places.iter().map(|(_, x)| *x));
     let near = places.filter(|x| (-BEYOND * longest..=(1.0 + BEYOND) * longest).contains(x));
     near.fold([0.0, longest], |[from, to], x| [from.min(x), to.max(x)])
-}
-
-/// Balance points, pivots, centres of percussion; what one bat is made of and bears.
-fn marked(subjects: &[Subject]) -> Vec<Row> {
-    let of = |what: &str, place: &dyn Fn(&Subject) -> Option<f64>| {
-        let places: Vec<(usize, f64)> =
-            subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
-        let label = match (subjects, places.as_slice()) {
-            ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.bat.length())),
-            _ => {
-                format!("{what}: {}", place::listed(&places))
-            }
-        };
-        (!places.is_empty()).then(|| Row::of_places(label, places))
-    };
-    let standard = |s: &Subject| s.bat.inertia().center_of_percussion(STANDARD_PIVOT);
-    let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
-    let on_bat = |s: &Subject| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
-    let mut rows: Vec<Row> = [
-        of("balance point", &|s| Some(s.bat.inertia().balance_point)),
-        of("pivot of standards", &on_bat),
-        of("its centre of percussion", &standard),
-        of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
-        of("its centre of percussion", &swung),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    if let [subject] = subjects {
-        rows.extend(fastened(subject.bat));
-    }
-    rows
-}
-
-/// Other materials, weights, joints, supports and hands, as rows.
-fn fastened(bat: &Bat) -> Vec<Row> {
-    let fixtures = &bat.fixtures;
-    let stretch = |label: String, from, to| Row::of_stretches(label, vec![(0, [from, to])]);
-    let place = |label: String, x| Row::of_places(label, vec![(0, x)]);
-    let mut rows = vec![];
-    for region in &fixtures.regions {
-        let name = |material: &Material| match &material.name {
-            Some(name) => name.clone(),
-            None => format!("{} kg/m³", short(material.density)),
-        };
-        let outer = &region.layup.outer;
-        let wall = (outer != bat.material()).then(|| name(outer));
-        let core = region.layup.core.as_ref().map(name);
-        let label = match (wall, core) {
-            (Some(wall), Some(core)) => format!("hatched: {wall} with a core of {core}"),
-            (Some(wall), None) => format!("hatched: {wall}"),
-            (None, Some(core)) => format!("hatched: core of {core}"),
-            (None, None) => continue,
-        };
-        rows.push(stretch(label, region.from, region.to));
-    }
-    for tape in &fixtures.tapes {
-        rows.push(stretch(format!("tape of {:.0} g", 1e3 * tape.mass), tape.from, tape.to));
-    }
-    if let Some(grip) = fixtures.grip {
-        rows.push(stretch("hands".into(), grip.from, grip.to));
-    }
-    for joint in &fixtures.joints {
-        rows.push(place("joint".into(), joint.x));
-    }
-    for a in &fixtures.attachments {
-        let label = match a.mass {
-            mass if mass > 0.0 => format!("weight of {:.0} g ({:.1} oz)", 1e3 * mass, ounces(mass)),
-            _ => "spring".to_owned(),
-        };
-        rows.push(place(label, a.x));
-    }
-    for a in &fixtures.absorbers {
-        rows.push(place(format!("absorber of {:.0} g", 1e3 * a.mass), a.x));
-    }
-    for support in &fixtures.supports {
-        let label = if support.kind == Held::Pinned { "pinned" } else { "clamped" };
-        rows.push(place(label.into(), support.x));
-    }
-    // More would be no picture.
-    rows.truncate(12);
-    rows
 }

@@ -1,8 +1,10 @@
 //! Curves and points in a diagram, and their names beside them.
 
 use crate::plot::plane::{Frame, Plane};
-use crate::plot::svg::{LABEL, Mark, Pen, Point, SMALL, Svg, fitted, width};
+use crate::plot::route::Point;
+use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{FRAME, Ink};
+use crate::plot::words::{LABEL, SMALL, fitted, width};
 
 /// A curve, or points.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,8 +90,9 @@ pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[&Series]) {
     const MOST: usize = 60;
     for curve in curves {
         let Some([x, y]) = curve.units else { continue };
+        let name = fitted(&curve.name, LABEL, 240.0);
         let words = |[a, b]: [f64; 2]| {
-            let value = format!("{}: {} {x}, {} {y}", curve.name, short(a), short(b));
+            let value = format!("{name}: {} {x}, {} {y}", short(a), short(b));
             value.trim_end().to_owned()
         };
         let all = curve.runs(plane).concat();
@@ -136,6 +139,11 @@ pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3])
         x += wide + 20.0;
     }
     y
+}
+
+/// What the names of so many curves take at most, two in a row (px).
+pub fn keys(count: usize) -> f64 {
+    18.0 * count.div_ceil(2) as f64
 }
 
 /// A name beside a frame: the height that it belongs to, the words, their colour.

@@ -7,9 +7,11 @@ use crate::plot::outline::sections;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
-use crate::plot::series::{Series, digits, legend};
-use crate::plot::svg::{Anchor, LABEL, Pen, Point, SMALL, Svg, width};
+use crate::plot::route::Point;
+use crate::plot::series::{Series, digits, keys, legend};
+use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, MUTED, TINT, series};
+use crate::plot::words::{Anchor, LABEL, SMALL, width};
 use crate::profile::Section;
 use crate::solve::Solution;
 
@@ -39,8 +41,7 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let [knob, tip] = place::axes([0.0, longest], &bats);
-    let keys = if subjects.len() > 1 { 18.0 * subjects.len().div_ceil(2) as f64 } else { 0.0 };
-    let top = HEAD + keys + NUMBERS;
+    let top = HEAD + NUMBERS + if subjects.len() > 1 { keys(subjects.len()) } else { 0.0 };
     let row = ROW.max(18.0 * subjects.len() as f64 + 26.0);
     let bottom = top + row * count as f64;
     let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom };

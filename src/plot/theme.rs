@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn thirty_curves_look_different() {
-        let all: Vec<_> = (0..30).map(|k| series(k)).map(|(ink, dash)| (ink.name, dash)).collect();
+        let all: Vec<_> = (0..30).map(series).map(|(ink, dash)| (ink.name, dash)).collect();
         for (k, one) in all.iter().enumerate() {
             assert!(!all[..k].contains(one), "{k}: {one:?}");
         }

@@ -35,7 +35,7 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let top =
         legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - 12.0])
             + 16.0;
-    let frame = Frame { left: LEFT + 8.0, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
+    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);
