@@ -1355,7 +1355,6 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--budget", "5 ms"], &["--budget", "with hit"]),
         (&["analyze", "bat.json", "--budget", "5 ms"], &["--budget", "with analyze"]),
         (&["modes", "bat.json", "--budget", "5 ms", "--tol", "1e-3"], &["cannot be used with"]),
-        (&["analyze", "bat.json", "--report", "r.html"], &["--report is not supported yet"]),
         (&["analyze", "bat.json", "--at", "0.6"], &["unexpected argument '--at'"]),
         (&["analyze", "missing.json", "--out", "folder"], &["cannot read missing.json"]),
         (&["analyze"], &["required arguments", "<BAT>"]),

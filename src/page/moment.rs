@@ -38,7 +38,7 @@ pub struct Moment {
 /// Places along the bat at which its bending is told.
 pub const PLACES: usize = 41;
 /// Pictures from before the touch to the end.
-const PICTURES: usize = 141;
+const PICTURES: usize = 201;
 /// How long before the touch it begins (s).
 const BEFORE: f64 = 5e-4;
 /// How far inside the sweet spot the other hit is (m).

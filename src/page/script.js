@@ -43,6 +43,7 @@
     });
     return `M${upper.join("L")}L${lower.reverse().join("L")}Z`;
   };
+  const widest = Math.max(...data.outline.radius_mm);
   const straight = data.outline.x_mm.map(() => 0);
   const radiusAt = (x) => data.outline.radius_mm[data.outline.x_mm.findLastIndex((place) => place <= x)];
 
@@ -114,7 +115,6 @@
 
   const modes = (root) => {
     const stage = root.querySelector(".stage");
-    const widest = Math.max(...data.outline.radius_mm);
     // Largest bending, as drawn (mm).
     const size = 0.09 * length, high = size + widest + 12;
     stage.setAttribute("viewBox", `-20 ${-high} ${length + 40} ${2 * high}`);
@@ -149,7 +149,7 @@
   const moment = (root) => {
     const stage = root.querySelector(".stage");
     const radius = data.ball_radius_mm;
-    const above = 5.2 * radius, below = 0.1 * length + 45;
+    const above = widest + 4 * radius, below = 0.1 * length + widest + 12;
     stage.setAttribute("viewBox", `-20 ${-above} ${length + 40} ${above + below}`);
     drawn(stage, "path", { class: "rest", d: outline(straight) });
     const bat = drawn(stage, "path", { class: "bat" });
@@ -165,7 +165,8 @@
       bat.setAttribute("d", outline(data.outline.x_mm.map((place) => at(w, place / length))));
       const there = 1000 * hit.x_m / length;
       const gap = at(hit.gap_mm, share), force = at(hit.force_kn, share);
-      const flat = radius - Math.max(0, -gap) / 2;
+      // However much it is squeezed, there is something to see of it.
+      const flat = Math.max(radius - Math.max(0, -gap) / 2, 0.2 * radius);
       const foot = -at(w, there) - radiusAt(1000 * hit.x_m);
       const middle = foot - Math.max(0, gap) - flat;
       // As much ball as before, squeezed flatter.
