@@ -1497,7 +1497,7 @@ fn a_wrong_command_line_is_refused() {
     for (args, says) in rows {
         faults.extend(folder.misanswer(args, says));
     }
-    for verb in ["schema", "compare", "fit", "tune", "sweep", "lab"] {
+    for verb in ["schema", "fit", "tune", "sweep", "lab"] {
         let says = format!("\"{verb}\" is not supported yet");
         faults.extend(folder.misanswer(&[verb, "bat.json"], &[&says]));
     }

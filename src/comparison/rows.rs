@@ -6,13 +6,21 @@ use crate::comparison::contender::{Contender, Figure};
 /// What a row is measured in, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
+    /// m
     Metres,
+    /// kg
     Kilograms,
+    /// kg m²
     KilogramSquareMetres,
+    /// Hz
     Hertz,
+    /// rad/s
     RadiansPerSecond,
+    /// m/s
     MetresPerSecond,
+    /// J
     Joules,
+    /// A pure number.
     One,
 }
 
@@ -35,8 +43,11 @@ impl Unit {
 /// Where a place is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
+    /// It is no place.
     Nowhere,
+    /// The knob end.
     Knob,
+    /// The tip.
     Tip,
 }
 
@@ -47,7 +58,9 @@ pub struct Row {
     pub key: String,
     /// For people, without the unit.
     pub name: String,
+    /// What its values are in.
     pub unit: Unit,
+    /// Where its places are measured from.
     pub from: From,
     /// A value for each bat that has one.
     pub values: Vec<Option<Figure>>,
@@ -56,6 +69,7 @@ pub struct Row {
 /// How a bat differs from the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
+    /// The other value less the first.
     pub by: f64,
     /// How far that may be off: both errors.
     pub within: f64,

@@ -5,14 +5,16 @@ use crate::comparison::rows::{Difference, Row};
 /// A stretch of the barrel where one bat hits harder, or neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// From the tip (m).
+    /// Where it begins, from the tip (m).
     pub from: f64,
+    /// Where it ends, farther from the tip (m).
     pub to: f64,
     /// 1 where the bat hits harder than the first one, −1 where the first does, 0 where the
     /// difference is no more than the errors.
     pub harder: i8,
-    /// Where the difference is largest (m from the tip), and how large it is there.
+    /// Where the difference is largest (m from the tip).
     pub most_at: f64,
+    /// How large it is there (m/s).
     pub most: Difference,
 }
 

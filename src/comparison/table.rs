@@ -12,23 +12,32 @@ use crate::solve::Request;
 /// A bat with its own swing and its own request: theories may differ.
 #[derive(Debug, Clone)]
 pub struct Entry {
+    /// The bat.
     pub bat: Bat,
+    /// The scene with this bat's swing.
     pub scene: Scene,
+    /// Where that swing is from, if one batter swings all bats.
     pub law: Option<SwingLaw>,
+    /// What is asked of its modes; the tolerance is that of the exit speeds.
     pub request: Request,
 }
 
 /// All figures of several bats; the first is the one the others are compared with.
 #[derive(Debug, Clone)]
 pub struct Comparison {
+    /// How all of them are hit.
     pub terms: Terms,
+    /// The bats, the first the one the others are compared with.
     pub bats: Vec<Contender>,
+    /// Everything but the exit speeds by place.
     pub figures: Vec<Row>,
-    /// Distances from the tip (m), a quarter of the asked one apart, and the exit speeds there.
+    /// Distances from the tip (m), a quarter of the asked one apart.
     pub from_tip: Vec<f64>,
+    /// The exit speeds there.
     pub by_tip: Vec<Row>,
-    /// The same from the knob end, where all bats have a place, the asked distance apart.
+    /// Distances from the knob end (m) where all bats have a place, the asked one apart.
     pub from_knob: Vec<f64>,
+    /// The exit speeds there.
     pub by_knob: Vec<Row>,
 }
 

@@ -13,11 +13,14 @@ use crate::measured::data::Measured;
 /// An end of the bat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
+    /// Where the hands are.
     Knob,
+    /// The end of the barrel.
     Tip,
 }
 
 impl End {
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Knob => "knob",
@@ -42,6 +45,7 @@ pub struct Placed {
     pub x: Vec<f64>,
     /// The measured shapes at these points; empty for a mode without one.
     pub shapes: Vec<Vec<c64>>,
+    /// The end that the first point of the file is near.
     pub first: End,
     /// How well the shapes fit this way and turned end for end, where either can be.
     pub fits: [Option<f64>; 2],
