@@ -9,31 +9,24 @@ use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured_file;
 use sweetspot::plot::{self, picture};
-use sweetspot::report::{self, comparison, file};
+use sweetspot::report::{self, comparison, comparison_data, file};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{OutputArgs, Prepared, SceneArgs, SolveArgs, quantity, read};
 use crate::cli::{Done, NOT_REACHED};
 
-/// Bats side by side: what differs, which hits harder where, and whether that is sure
+/// Bats side by side, or one beside its measured modes
 ///
-/// The first bat is the one the others are measured by. A difference within the errors of both is
-/// said to be none.
+/// Swings two to six bats alike and says what differs: size and mass, swing weight, frequencies and
+/// nodes, the best exit speed and where, the exit speed at the same places from the tip and from the
+/// knob, BBCOR, vibration. The first bat is the one the others are measured by. Every difference
+/// stands beside how far it may be off, and one that is no more than that is said to be none.
 ///
-/// Example: sweetspot compare meshes/r161.json meshes/torpedo.json
-///
-/// With --measured FILE one bat's computed modes stand beside measured ones: pairs, frequencies,
-/// damping, MAC, and whether the measured shapes are sound. A CSV file has places from the knob end
-/// downwards and modes side by side,
-///
-///     x_in,          mode_1, mode_2
-///     frequency_hz,  178.2,  583.0
-///     damping_ratio, 0.004,  0.005
-///     0,             1.00,   0.90
-///     3,             0.55,   0.12
-///
-/// or the columns mode,frequency_hz,damping_ratio where there are no shapes.
+/// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
+/// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, what they
+/// have in common in the bat's mass, and what the few points cost.
 #[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// Bat files (JSON), two to six; one with --measured
     #[arg(required = true, value_name = "BAT")]
@@ -84,6 +77,33 @@ pub struct Args {
     #[command(flatten)]
     output: OutputArgs,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot compare meshes/r161.json meshes/torpedo.json --units us
+      which hits harder, and where
+
+  sweetspot compare meshes/r161.json meshes/house.json \\
+      --reference-inertia \"0.19 kg m^2\" --swing-exponent 0.3 --plots compared
+      swung by a batter who swings the heavier one slower, with pictures
+
+  sweetspot modes meshes/r161.json --json modes.json
+  sweetspot convert modes.json --to uff --out modes.uff
+  sweetspot compare meshes/r161.json --measured modes.uff
+      as a laboratory's universal file is compared: datasets 15 or 2411, and 55
+
+Measured shapes may be typed into a spreadsheet and saved as CSV, places from the knob end
+downwards, modes side by side, frequencies and damping in lines of their own:
+
+  x_in,           mode_1,  mode_2
+  frequency_hz,   178.2,   583.0
+  damping_ratio,  0.004,   0.005
+  0,              1.00,    0.90
+  3,              0.55,    0.12
+  33,             0.41,    0.37
+
+damping_percent will do too, and # begins a remark. Where there are no shapes the columns are
+mode,frequency_hz,damping_ratio, a line for each mode.";
 
 /// More bats do not fit beside each other.
 const MOST: usize = 6;
@@ -151,15 +171,15 @@ fn bats_beside(args: &Args) -> Result<Done> {
         picture::write(folder, &plot::compared::pictures(&compared))?;
     }
     let text = match &args.csv {
-        Some(path) if path.as_os_str() == "-" => comparison::csv(&compared),
+        Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),
         Some(path) => {
-            file::write(path, comparison::csv(&compared).as_bytes())?;
+            file::write(path, comparison_data::csv(&compared).as_bytes())?;
             comparison::text(&compared, args.output.units)
         }
         None => comparison::text(&compared, args.output.units),
     };
     let files: Vec<String> = args.bats.iter().map(|path| path.display().to_string()).collect();
-    let text = args.output.deliver(text, || comparison::json(&compared, &files))?;
+    let text = args.output.deliver(text, || comparison_data::json(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
 }

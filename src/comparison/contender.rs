@@ -27,14 +27,14 @@ use crate::solve::Request;
 /// A value and how far it may be off, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figure {
-    /// In SI.
+    /// The value.
     pub value: f64,
-    /// How far the value may be off to either side; never negative.
+    /// How far it may be off, 0 or more.
     pub error: f64,
 }
 
 impl Figure {
-    /// A value with its error.
+    /// A value and its error.
     pub fn new(value: f64, error: f64) -> Self {
         Self { value, error }
     }
@@ -55,7 +55,7 @@ const LOCATED: f64 = 1e-6;
 /// How the bats are hit: the same for all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Terms {
-    /// How ball and bat meet.
+    /// How a hit is computed.
     pub model: Model,
     /// Whether the request's modes are all there are.
     pub exactly: bool,
@@ -66,29 +66,29 @@ pub struct Terms {
 /// A bat, its hits and its sweet spot.
 #[derive(Debug, Clone)]
 pub struct Contender {
-    /// The bat itself.
+    /// The bat.
     pub bat: Bat,
-    /// The bat as a rigid body.
+    /// Its mass, balance point and inertia.
     pub inertia: Inertia,
-    /// How it is swung, at what ball.
+    /// The scene with this bat's own swing.
     pub scene: Scene,
-    /// How that swing follows from the bat's swing weight; None where it was given.
+    /// Where that swing is from, if one batter swings all bats.
     pub law: Option<SwingLaw>,
-    /// The hits at the places that are compared, and the modes they were computed with.
+    /// The hits at the places that are compared.
     pub sweep: Sweep,
-    /// Its sweet spot, by each of its definitions.
+    /// The sweet spot by every definition.
     pub spot: SweetSpot,
     /// The fastest ball (m/s).
     pub best_speed: Option<Figure>,
-    /// Where the fastest ball is hit (m from the knob end).
+    /// Where it is hit (m from the knob end).
     pub best_place: Option<Figure>,
-    /// What stays in vibration after that hit (J); None of a bat that does not bend.
+    /// What that hit leaves in vibration (J).
     pub vibration: Option<Figure>,
     /// Where the exit speed is within 1 % of the best (m).
     pub zone: Option<[Figure; 2]>,
-    /// Where the least energy stays in vibration (m from the knob end).
+    /// Where the least energy stays in vibration (m).
     pub least_place: Option<Figure>,
-    /// How much stays there (J).
+    /// How much that is (J).
     pub least_vibration: Option<Figure>,
     /// The largest BBCOR of the outer half, of the free bat and of one held at the standard pivot.
     pub bbcor: [Option<Figure>; 2],

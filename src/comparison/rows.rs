@@ -6,15 +6,15 @@ use crate::comparison::contender::{Contender, Figure};
 /// What a row is measured in, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// m, a length or a place.
+    /// m
     Metres,
     /// kg
     Kilograms,
-    /// kg m², a moment of inertia.
+    /// kg m²
     KilogramSquareMetres,
     /// Hz
     Hertz,
-    /// rad/s, an angular speed.
+    /// rad/s
     RadiansPerSecond,
     /// m/s
     MetresPerSecond,
@@ -43,11 +43,11 @@ impl Unit {
 /// Where a place is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
-    /// The figure is no place.
+    /// It is no place.
     Nowhere,
-    /// From the knob end.
+    /// The knob end.
     Knob,
-    /// From the tip, towards the knob.
+    /// The tip.
     Tip,
 }
 
@@ -58,9 +58,9 @@ pub struct Row {
     pub key: String,
     /// For people, without the unit.
     pub name: String,
-    /// What the values are in.
+    /// What its values are in.
     pub unit: Unit,
-    /// Where the values count from, if they are places.
+    /// Where its places are measured from.
     pub from: From,
     /// A value for each bat that has one.
     pub values: Vec<Option<Figure>>,
@@ -69,7 +69,7 @@ pub struct Row {
 /// How a bat differs from the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// That bat's value less the reference's, in the row's unit.
+    /// The other value less the first.
     pub by: f64,
     /// How far that may be off: both errors.
     pub within: f64,

@@ -5,16 +5,16 @@ use crate::comparison::rows::{Difference, Row};
 /// A stretch of the barrel where one bat hits harder, or neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// Its end nearer the tip (m from the tip).
+    /// Where it begins, from the tip (m).
     pub from: f64,
-    /// Its end nearer the knob (m from the tip).
+    /// Where it ends, farther from the tip (m).
     pub to: f64,
     /// 1 where the bat hits harder than the first one, −1 where the first does, 0 where the
     /// difference is no more than the errors.
     pub harder: i8,
     /// Where the difference is largest (m from the tip).
     pub most_at: f64,
-    /// The difference in exit speed there (m/s): that bat's less the first one's.
+    /// How large it is there (m/s).
     pub most: Difference,
 }
 

@@ -12,32 +12,32 @@ use crate::solve::Request;
 /// A bat with its own swing and its own request: theories may differ.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// The bat to be hit with.
+    /// The bat.
     pub bat: Bat,
-    /// Its swing and the ball it meets.
+    /// The scene with this bat's swing.
     pub scene: Scene,
-    /// How that swing follows from its swing weight; None where it was given.
+    /// Where that swing is from, if one batter swings all bats.
     pub law: Option<SwingLaw>,
-    /// The accuracy and the theory of its modes and hits.
+    /// What is asked of its modes; the tolerance is that of the exit speeds.
     pub request: Request,
 }
 
 /// All figures of several bats; the first is the one the others are compared with.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// What is the same for all bats.
+    /// How all of them are hit.
     pub terms: Terms,
-    /// Every bat with its hits, in the order of the entries.
+    /// The bats, the first the one the others are compared with.
     pub bats: Vec<Contender>,
-    /// One row for every figure of the bats.
+    /// Everything but the exit speeds by place.
     pub figures: Vec<Row>,
-    /// Distances from the tip (m), a quarter of the asked one apart, and the exit speeds there.
+    /// Distances from the tip (m), a quarter of the asked one apart.
     pub from_tip: Vec<f64>,
-    /// The exit speeds (m/s) at those distances, a row for each.
+    /// The exit speeds there.
     pub by_tip: Vec<Row>,
-    /// The same from the knob end, where all bats have a place, the asked distance apart.
+    /// Distances from the knob end (m) where all bats have a place, the asked one apart.
     pub from_knob: Vec<f64>,
-    /// The exit speeds (m/s) there, a row for each.
+    /// The exit speeds there.
     pub by_knob: Vec<Row>,
 }
 

@@ -19,10 +19,20 @@ pub fn product(a: &[c64], b: &[c64]) -> c64 {
     a.iter().zip(b).fold(c64::new(0.0, 0.0), |sum, (a, b)| sum + a.conj() * b)
 }
 
+/// The shape whose largest part is of size 1, so that no square of it is beyond the range of numbers.
+pub fn unit(shape: &[c64]) -> Vec<c64> {
+    let largest = shape.iter().map(|v| v.re.abs().max(v.im.abs())).fold(0.0, f64::max);
+    match largest {
+        0.0 => shape.to_vec(),
+        largest => shape.iter().map(|v| v / largest).collect(),
+    }
+}
+
 /// The modal assurance criterion; 0 where a shape is nothing at all.
 pub fn mac(a: &[c64], b: &[c64]) -> f64 {
-    let sizes = product(a, a).re * product(b, b).re;
-    if sizes > 0.0 { (product(a, b).norm_sqr() / sizes).min(1.0) } else { 0.0 }
+    let (a, b) = (unit(a), unit(b));
+    let sizes = product(&a, &a).re * product(&b, &b).re;
+    if sizes > 0.0 { (product(&a, &b).norm_sqr() / sizes).min(1.0) } else { 0.0 }
 }
 
 /// The MAC of every shape of one list with every shape of another.
@@ -64,8 +74,9 @@ mod tests {
     fn multiples_are_alike_and_orthogonal_shapes_are_not() {
         let a = shape(&[1.0, -0.3, -0.9, 0.2, 1.4]);
         let b = shape(&[0.3, 1.0, 0.0, 0.0, 0.0]);
-        for by in [c64::new(-3.0, 0.0), c64::new(0.0, 2.0), c64::new(1e-8, 7e-9)] {
+        for by in [c64::new(-3.0, 0.0), c64::new(0.0, 2.0), c64::new(1e-200, 7e-201)] {
             assert!((mac(&a, &turned(&a, by)) - 1.0).abs() < 1e-15);
+            assert!((collinearity(&turned(&a, by)) - 1.0).abs() < 1e-15);
             let scaled = scale(&turned(&a, by), &a);
             assert!((scaled - by).norm() < 1e-15 * by.norm());
         }

@@ -15,12 +15,12 @@ use crate::measured::data::Measured;
 pub enum End {
     /// Where the hands are.
     Knob,
-    /// The barrel's end.
+    /// The end of the barrel.
     Tip,
 }
 
 impl End {
-    /// As it is written on the command line and in files.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Knob => "knob",

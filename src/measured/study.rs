@@ -14,16 +14,20 @@ use crate::solve::{Request, Solution, solve};
 /// Measured modes beside computed ones.
 #[derive(Debug, Clone)]
 pub struct Study {
+    /// The measurement.
     pub measured: Measured,
+    /// The computed modes.
     pub solution: Solution,
-    /// Numbers (from 0) of the measured modes that are rigid motions on their supports, and of
-    /// those that bend.
+    /// The measured modes that are rigid motions on their supports.
     pub rigid: Vec<RigidMode>,
+    /// Numbers (from 0) of those that bend.
     pub bending: Vec<usize>,
+    /// Which is which.
     pub pairs: Vec<Pair>,
-    /// Measured bending modes that are like no computed one, and computed modes up to the highest
-    /// measured frequency that none is like; numbers from 0.
+    /// Numbers (from 0) of measured bending modes that are like no computed one.
     pub lone_measured: Vec<usize>,
+    /// Numbers (from 0) of computed modes up to the highest measured frequency that are like no
+    /// measured one.
     pub lone_computed: Vec<usize>,
     /// What the shapes say, where there are shapes.
     pub shapes: Option<Shapes>,
@@ -32,8 +36,9 @@ pub struct Study {
 /// A measured and a computed mode that are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Their numbers, from 0.
+    /// The measured one's number, from 0.
     pub measured: usize,
+    /// The computed one's, from 0.
     pub computed: usize,
     /// None where there are no shapes.
     pub mac: Option<f64>,
@@ -58,22 +63,26 @@ pub struct RigidMode {
 /// What measured shapes say of themselves and of the computed ones.
 #[derive(Debug, Clone)]
 pub struct Shapes {
+    /// The points on the bat, and the shapes there.
     pub placed: Placed,
     /// Rows: measured bending modes; columns: computed modes.
     pub mac: Vec<Vec<f64>>,
-    /// The computed modes among themselves, at the measured points and at many.
+    /// The computed modes among themselves at the measured points.
     pub own_mac: Vec<Vec<f64>>,
+    /// The same at many points.
     pub dense_mac: Vec<Vec<f64>>,
-    /// Phase collinearity and the share out of phase of every measured bending mode.
+    /// Phase collinearity of every measured bending mode.
     pub collinearity: Vec<f64>,
+    /// Its share out of phase.
     pub out_of_phase: Vec<f64>,
     /// What every two measured bending modes have in common in the bat's mass, 1 for the same.
     pub common: Vec<Vec<f64>>,
     /// The same of the computed partners, taken from the same points only; None without a partner.
     pub sampled_common: Vec<Vec<Option<f64>>>,
-    /// Rigid motion in every measured bending mode, as a share of its size; and in its partner,
-    /// taken from the same points. None for a bat that something holds.
+    /// Rigid motion in every measured bending mode, as a share of its size. None for a bat that
+    /// something holds.
     pub rigid_share: Option<Vec<f64>>,
+    /// The same in its computed partner, taken from the same points.
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
@@ -201,7 +210,7 @@ impl Study {
     fn look(&self, bat: &Bat, placed: Placed) -> Shapes {
         let scale = Scale::new(bat, self.solution.theory, &placed.x);
         let shape = |k: &usize| placed.shapes[*k].as_slice();
-        let curve = |values: &[c64]| scale.curve(&placed.x, values);
+        let curve = |values: &[c64]| scale.curve(&placed.x, &mac::unit(values));
         let curves: Vec<Curve> = self.bending.iter().map(|k| curve(shape(k))).collect();
         let partner = |k: &usize| self.pairs.iter().find(|pair| pair.measured == *k);
         let of_partner = |pair: &Pair| curve(&sampled(&self.solution, pair.computed, &placed.x));
@@ -274,14 +283,15 @@ fn best(solution: &Solution, own: &[Vec<c64>], mode: &MeasuredMode, shape: &[c64
 
 /// How far a shape is from the straight line nearest to it at the points, as a share of its size.
 fn bent(x: &[f64], shape: &[c64]) -> f64 {
+    let shape = mac::unit(shape);
     let count = x.len() as f64;
     let middle = x.iter().sum::<f64>() / count;
     let mean = shape.iter().fold(c64::new(0.0, 0.0), |sum, v| sum + v) / count;
     let arms = x.iter().map(|x| x - middle);
     let squares: f64 = arms.clone().map(|arm| arm * arm).sum();
-    let turn = arms.clone().zip(shape).fold(c64::new(0.0, 0.0), |sum, (arm, v)| sum + v * arm);
+    let turn = arms.clone().zip(&shape).fold(c64::new(0.0, 0.0), |sum, (arm, v)| sum + v * arm);
     let slope = if squares > 0.0 { turn / squares } else { c64::new(0.0, 0.0) };
-    let left: f64 = arms.zip(shape).map(|(arm, v)| (v - mean - slope * arm).norm_sqr()).sum();
+    let left: f64 = arms.zip(&shape).map(|(arm, v)| (v - mean - slope * arm).norm_sqr()).sum();
     let size: f64 = shape.iter().map(|v| v.norm_sqr()).sum();
     if size > 0.0 { (left / size).sqrt() } else { 0.0 }
 }

@@ -3,6 +3,11 @@
 //! `M` is `∫ρA φ*ψ dx`, with `∫ρI φ*′ψ′ dx` where the theory turns the sections, and whatever is
 //! attached; an absorber's mass is taken as fixed to the bat. A curve is given by its values at
 //! points, the spline through them between.
+//!
+//! A measurement knows no rotation, so that sections are taken as turning with the slope. Where the
+//! beam shears they turn by less, which on an R161 leaves 0.01 between modes 4 and 5 and 0.05
+//! between 9 and 10 however many the points; without rotary inertia it would be 0.02 between the
+//! low ones too. Computed shapes taken from the same points show it.
 
 use faer::c64;
 

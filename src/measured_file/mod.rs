@@ -1,5 +1,6 @@
 //! Measured modes from a file: a table that somebody typed, or a universal file.
 
+mod cells;
 pub mod table;
 pub mod direction;
 pub mod universal;
@@ -8,6 +9,9 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::measured::data::Measured;
+
+/// Fewer points tell no shape from another.
+const FEWEST: usize = 3;
 
 /// Reads measured modes, by the ending of the file's name.
 ///

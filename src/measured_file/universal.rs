@@ -12,6 +12,7 @@ use faer::c64;
 use crate::error::{Error, Result};
 use crate::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Universal};
 use crate::measured::data::{Measured, MeasuredMode};
+use crate::measured_file::FEWEST;
 use crate::measured_file::direction::{Vector, axis, dot, named, normals, positive};
 
 /// What a node does.
@@ -28,8 +29,6 @@ pub fn read(path: &Path) -> Result<Measured> {
     Ok(measured.sorted())
 }
 
-/// Fewer points tell no shape from another.
-const FEWEST: usize = 3;
 /// Nodes nearer than this along the axis (of the span) are one point.
 const SAME: f64 = 1e-4;
 
@@ -98,6 +97,14 @@ fn moves(values: &[uff::Complex]) -> bool {
     values.iter().take(3).any(|[re, im]| *re != 0.0 || *im != 0.0)
 }
 
+/// Whether it deflects by more than can be reckoned with.
+fn large(values: &[uff::Complex]) -> bool {
+    values.iter().take(3).flatten().any(|part| part.abs() > LARGEST)
+}
+
+/// Of whatever unit.
+const LARGEST: f64 = 1e100;
+
 /// A dataset 55 that is a mode.
 struct Shape<'a> {
     number: i64,
@@ -134,6 +141,10 @@ impl Shape<'_> {
             _ if !(frequency >= 0.0 && frequency.is_finite()) => {
                 Some((format!("a shape at {frequency} Hz"), "a frequency of 0 or more"))
             }
+            _ if self.data.values.iter().any(|(_, values)| large(values)) => Some((
+                format!("a shape at {frequency} Hz with values above {LARGEST:e}"),
+                "a deflection, in whatever unit",
+            )),
             _ if !self.data.values.iter().any(|(_, values)| moves(values)) => Some((
                 format!("a shape at {frequency} Hz that is nothing but 0"),
                 "a shape that moves somewhere",

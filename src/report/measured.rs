@@ -10,7 +10,7 @@ use crate::measured::pairing::LEAST;
 use crate::measured::study::{Pair, Shapes, Study};
 use crate::measured::words::words;
 use crate::report::json::generator;
-use crate::report::text::{Units, wrapped};
+use crate::report::text::{Units, rounded, wrapped};
 use crate::units::inches;
 
 /// Everything for the terminal.
@@ -106,7 +106,7 @@ fn computed(study: &Study, pair: &Pair) -> String {
     let mode = &study.solution.modes[pair.computed];
     let damping = study.solution.damping.modes.get(pair.computed);
     let damping = damping.map_or(String::new(), |damped| percent(damped.ratio, 2));
-    let off = pair.difference.map_or(String::new(), |d| format!("{:+.2} %", 100.0 * d));
+    let off = pair.difference.map_or(String::new(), |d| format!("{:+.2} %", rounded(100.0 * d, 2)));
     let mac = pair.mac.map_or(String::new(), |mac| format!("{mac:.3}"));
     format!("{:>6}{:>10.2} Hz{damping:>9}{off:>10}{mac:>7}", mode.order, mode.frequency())
 }
@@ -142,7 +142,11 @@ fn of_shapes(study: &Study, shapes: &Shapes) -> String {
 
 /// A factor as a size with a sign: that of the nearer of in phase and against it.
 fn signed(scale: c64) -> String {
-    format!("{:+.3e}", if scale.re < 0.0 { -scale.norm() } else { scale.norm() })
+    let size = if scale.re < 0.0 { -scale.norm() } else { scale.norm() };
+    match size.abs() {
+        0.01..1e4 => format!("{size:+.4}"),
+        _ => format!("{size:+.3e}"),
+    }
 }
 
 /// Columns that fit.
@@ -260,6 +264,7 @@ fn of_pair(study: &Study, pair: &Pair) -> Value {
         "mac": pair.mac,
         "frequency_difference": pair.difference,
         "computed_within": pair.within,
+        "within_errors": pair.difference.map(|difference| difference.abs() <= pair.within),
         "scale": pair.scale.map(|scale| json!({ "real": scale.re, "imaginary": scale.im })),
     })
 }

@@ -17,4 +17,5 @@ pub mod u_curve;
 pub mod trade;
 pub mod advice;
 pub mod comparison;
+pub mod comparison_data;
 pub mod measured;
