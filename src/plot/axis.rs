@@ -13,15 +13,20 @@ pub enum Scale {
 pub struct Axis {
     /// With its unit: `exit speed (m/s)`.
     pub label: String,
+    /// The value at the left or lower end.
     pub from: f64,
+    /// The value at the right or upper end.
     pub to: f64,
+    /// How values lie between the ends.
     pub scale: Scale,
 }
 
 /// A value with a tick, and how it is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
+    /// Where it is, in the unit of the axis.
     pub value: f64,
+    /// What is written there.
     pub text: String,
 }
 

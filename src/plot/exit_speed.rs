@@ -14,11 +14,13 @@ use crate::units::miles_per_hour;
 /// A bat, the name it has in the picture, its hits and its sweet spot.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
+    /// What the bat is called.
     pub name: &'a str,
     /// m
     pub length: f64,
     /// By rising place.
     pub impacts: &'a [Impact],
+    /// Its sweet spot by every definition.
     pub spot: &'a SweetSpot,
 }
 

@@ -20,6 +20,7 @@ const UNSEEN: f64 = 1e-4;
 /// A part of the energy along the bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
+    /// What the energy is in.
     pub name: String,
     /// J, one for each impact; None where there was no hit.
     pub energies: Vec<Option<f64>>,

@@ -10,7 +10,9 @@ use crate::units::ounces;
 /// A bat, the name it has in the picture, and where its swing turns.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
+    /// What the bat is called.
     pub name: &'a str,
+    /// The bat.
     pub bat: &'a Bat,
     /// Rotation centre beyond the knob end (m), negative inside the handle; none if nobody swings.
     pub swing_pivot: Option<f64>,

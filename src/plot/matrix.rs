@@ -11,11 +11,15 @@ use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 pub struct Matrix {
     /// Of the picture's files.
     pub name: String,
+    /// What the picture is called.
     pub title: String,
+    /// The line below the title.
     pub second: String,
     /// What the rows and the columns are: `computed mode`, `measured mode`.
     pub sides: [String; 2],
+    /// Names of the rows, from above.
     pub rows: Vec<String>,
+    /// Names of the columns, from the left.
     pub columns: Vec<String>,
     /// From 0 to 1, row by row; None where there is none.
     pub values: Vec<Vec<Option<f64>>>,

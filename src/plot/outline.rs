@@ -16,6 +16,7 @@ pub struct Lying<'a> {
     pub plane: &'a Plane,
     /// The height of the axis, and what a metre of radius is high (px).
     pub axis: f64,
+    /// Pixels of a metre along the bat.
     pub per_metre: f64,
 }
 

@@ -11,6 +11,7 @@ use crate::report::file;
 pub struct Picture {
     /// Of its files, without extension, such as `exit_speed`.
     pub name: String,
+    /// What it is called above itself.
     pub title: String,
     /// What is to be seen, for those who cannot.
     pub alt: String,

@@ -58,6 +58,7 @@ pub fn tenths(length: f64) -> String {
 /// Marked places that belong together: one for each bat, or stretches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
+    /// What the row is called.
     pub label: String,
     /// Which bat's, and where (m).
     pub places: Vec<(usize, f64)>,
@@ -66,10 +67,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row of places (m), each with the number of its bat.
     pub fn of_places(label: String, places: Vec<(usize, f64)>) -> Self {
         Self { label, places, stretches: vec![] }
     }
 
+    /// A row of stretches (m), each with the number of its bat.
     pub fn of_stretches(label: String, stretches: Vec<(usize, [f64; 2])>) -> Self {
         Self { label, places: vec![], stretches }
     }

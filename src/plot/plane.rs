@@ -20,17 +20,24 @@ pub const HEAD: f64 = 60.0;
 /// A rectangle of the picture (px).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
+    /// Its left side (pixels, as the others).
     pub left: f64,
+    /// Its upper side.
     pub top: f64,
+    /// Its right side.
     pub right: f64,
+    /// Its lower side.
     pub bottom: f64,
 }
 
 /// A diagram.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plane {
+    /// Where it is on the paper.
     pub frame: Frame,
+    /// From left to right.
     pub x: Axis,
+    /// Upwards.
     pub y: Axis,
 }
 

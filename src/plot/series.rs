@@ -9,7 +9,9 @@ use crate::plot::words::{LABEL, SMALL, fitted, width};
 /// A curve, or points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
+    /// What the legend calls it.
     pub name: String,
+    /// What it is drawn with.
     pub pen: Pen,
     /// Whether the points are joined.
     pub joined: bool,
@@ -30,10 +32,12 @@ impl Series {
         Self { name, pen, joined: true, mark: None, error: 0.0, points, units: None }
     }
 
+    /// The same drawn with that pen.
     pub fn pen(self, pen: Pen) -> Self {
         Self { pen, ..self }
     }
 
+    /// The same with the units of its points, for those who read them off.
     pub fn units(self, x: &'static str, y: &'static str) -> Self {
         Self { units: Some([x, y]), ..self }
     }

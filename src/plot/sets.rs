@@ -25,10 +25,15 @@ pub fn of_modes(bat: &Bat, solution: &Solution, swing_pivot: Option<f64>) -> Vec
 /// Hits along a bat, and how they came about.
 #[derive(Debug, Clone, Copy)]
 pub struct Hits<'a> {
+    /// The bat that is hit.
     pub bat: &'a Bat,
+    /// How ball and bat meet.
     pub model: Model,
+    /// The swing, the pitch and the ball.
     pub scene: &'a Scene,
+    /// The hits along it.
     pub sweep: &'a Sweep,
+    /// Its sweet spot by every definition.
     pub spot: &'a SweetSpot,
 }
 

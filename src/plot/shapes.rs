@@ -18,8 +18,11 @@ use crate::solve::Solution;
 /// A bat, the name it has in the picture, and its modes.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
+    /// What the bat is called.
     pub name: &'a str,
+    /// The bat.
     pub bat: &'a Bat,
+    /// Its modes.
     pub solution: &'a Solution,
 }
 

@@ -12,7 +12,9 @@ use crate::plot::words::{Anchor, Type, escaped};
 /// A picture in the making.
 #[derive(Debug, Clone)]
 pub struct Svg {
+    /// Of the paper (pixels).
     pub width: f64,
+    /// Of the paper (pixels).
     pub height: f64,
     /// Left, upper, right and lower edge (px) of the frame in which places along the bat can be read
     /// off, from the first place to the last, for a page that does so.
@@ -23,13 +25,16 @@ pub struct Svg {
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
+    /// Its colour.
     pub ink: Ink,
+    /// Of the line (pixels).
     pub width: f64,
     /// Strokes and gaps (px); "" for a whole line.
     pub dash: &'static str,
 }
 
 impl Pen {
+    /// A pen of that width (pixels).
     pub const fn new(ink: Ink, width: f64) -> Self {
         Self { ink, width, dash: "" }
     }
@@ -40,6 +45,7 @@ impl Pen {
         Self { ink, width: 2.0, dash }
     }
 
+    /// The same in dashes, given as SVG has them.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Self { dash, ..self }
     }
@@ -56,6 +62,7 @@ pub enum Mark {
     Wedge,
 }
 
+/// One for each of six bats.
 pub const MARKS: [Mark; 6] =
     [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond, Mark::Cross, Mark::Wedge];
 

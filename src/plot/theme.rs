@@ -18,7 +18,9 @@ use std::fmt::Write;
 pub struct Ink {
     /// What the rules call it.
     pub name: &'static str,
+    /// On light paper.
     pub light: &'static str,
+    /// On dark paper.
     pub dark: &'static str,
 }
 

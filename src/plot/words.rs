@@ -13,10 +13,13 @@ pub enum Anchor {
 /// How words look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Type {
+    /// Its colour.
     pub ink: Ink,
     /// px
     pub size: f64,
+    /// Whether it is bold.
     pub bold: bool,
+    /// Which end of the words is at their place.
     pub anchor: Anchor,
     /// Turned to run upwards.
     pub upwards: bool,
@@ -31,14 +34,17 @@ pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
+    /// The same with that end of the words at their place.
     pub const fn at(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
+    /// The same in that colour.
     pub const fn ink(self, ink: Ink) -> Self {
         Self { ink, ..self }
     }
 
+    /// The same in that size (pixels).
     pub const fn sized(self, size: f64) -> Self {
         Self { size, ..self }
     }
