@@ -3,6 +3,7 @@
 /// How an axis counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
+    /// As they are.
     Linear,
     /// Equal ratios are equally long; values are above 0.
     Log,

@@ -7,8 +7,9 @@ use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
 use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
 use crate::plot::series::{Series, digits, hover, legend};
-use crate::plot::svg::{LABEL, MARKS, Pen, SMALL, Svg, fitted};
+use crate::plot::svg::{MARKS, Pen, Svg};
 use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::words::{LABEL, SMALL, fitted};
 
 /// Shapes in one picture.
 const MOST: usize = 8;

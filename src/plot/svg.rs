@@ -54,11 +54,17 @@ impl Pen {
 /// Marks that differ in form, in the order in which they are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
+    /// Round.
     Circle,
+    /// Four sides, level.
     Square,
+    /// A corner upwards.
     Triangle,
+    /// Four sides on a corner.
     Diamond,
+    /// Two strokes.
     Cross,
+    /// A corner downwards.
     Wedge,
 }
 

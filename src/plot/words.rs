@@ -5,8 +5,11 @@ use crate::plot::theme::{Ink, MUTED, TEXT};
 /// Which end of a text is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
+    /// The left one.
     Start,
+    /// Neither: their middle.
     Middle,
+    /// The right one.
     End,
 }
 

@@ -154,7 +154,9 @@ fn without_null(member: &mut Map<String, Value>) {
         let one = one.clone();
         member.remove("anyOf");
         // What is said of the member itself stands before what is said of its type.
-        one.into_iter().for_each(|(key, value)| drop(member.entry(key).or_insert(value)));
+        for (key, value) in one {
+            member.entry(key).or_insert(value);
+        }
     }
 }
 
