@@ -438,7 +438,7 @@ fn the_front_shows_the_solvers_and_the_planners_choices() {
     let bat = bat("cone");
     let theory = sweetspot::theory::Theory::EulerBernoulli;
     let budget = std::time::Duration::from_millis(600);
-    let trade = measure(&bat, 3, theory, budget, &mut |_| {}).unwrap();
+    let trade = measure(&bat, 3, theory, budget, &sweetspot::telling::nobody).unwrap();
     let picture = front::picture(&bat.name, &trade).unwrap();
     assert!(Document::parse(&picture.svg).is_ok() && !picture.svg.contains("NaN"));
     for words in ["statics", "shift-invert", "front", "planner"] {

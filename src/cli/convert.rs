@@ -15,9 +15,8 @@ use crate::cli::{Done, printable};
 /// MODES.json is what sweetspot modes BAT --json MODES.json wrote. The bat lies along x, knob at 0,
 /// and deflects along y; rotations are about z. Shapes have their largest deflection 1, lengths are
 /// in m.
-///
-/// Example: sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
 #[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// Modes file (JSON) of sweetspot modes
     modes: PathBuf,
@@ -45,6 +44,19 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=360))]
     surface: Option<u16>,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot modes meshes/r161.json --json r161.json
+  sweetspot convert r161.json --to uff
+      r161.uff, for programs of modal tests
+
+  sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
+      for ParaView: Warp By Vector with mode, then step through time, the frequency
+
+  sweetspot convert r161.json --to csv
+  sweetspot convert r161.json --to npz
+      for spreadsheets and NumPy";
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Format {

@@ -9,14 +9,21 @@ use crate::cli::Done;
 ///
 /// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
 /// three, which tells them apart by their "format".
-///
-/// Example: sweetspot schema bat > bat.schema.json
 #[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// Which file: bat, modes or hit [default: all of them in one schema]
     #[arg(value_name = "FILE", value_parser = file)]
     file: Option<File>,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot schema bat
+      what may stand in a bat file; editors complete and check by it
+
+  sweetspot schema
+      that of all files in one";
 
 pub fn run(args: &Args) -> Result<Done> {
     let schema = args.file.map_or_else(schema::all, File::schema);
