@@ -29,7 +29,6 @@ const KEYS: &[&str] = &[
     "joints",
     "supports",
     "grip",
-    "comment",
 ];
 const PROFILE_KEYS: &[&str] = &[
     "interpolation",
@@ -43,7 +42,6 @@ const PROFILE_KEYS: &[&str] = &[
     "inner_radius",
     "inner_diameter",
     "wall_thickness",
-    "comment",
 ];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),

@@ -7,6 +7,7 @@ mod common;
 use std::io::Read;
 use std::path::Path;
 
+use common::diagnostic::in_lines;
 use common::folder::Folder;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -37,7 +38,7 @@ fn list(value: &Value) -> Vec<f64> {
 fn refused(folder: &Folder, args: &[&str]) -> String {
     let before = folder.names();
     let output = folder.run(args);
-    let told = String::from_utf8(output.stderr).unwrap();
+    let told = in_lines(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{args:?}: {told}");
     assert!(told.starts_with("error: ") && output.stdout.is_empty(), "{args:?}: {told}");
     assert_eq!(folder.names(), before, "{args:?}");
@@ -495,6 +496,10 @@ proptest! {
         match modes_file::from_text("m.json", &text) {
             Ok(table) => prop_assert!(table.x.len() >= 2 && !table.modes.is_empty()),
             Err(Error::Input { place, .. }) => prop_assert!(place.line >= 1),
+            Err(Error::Several { shown, .. }) => {
+                let placed = shown.iter().all(|one| matches!(one, Error::Input { .. }));
+                prop_assert!(placed);
+            }
             Err(other) => prop_assert!(false, "{other}"),
         }
     }

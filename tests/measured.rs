@@ -5,6 +5,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
+use common::diagnostic::in_lines;
 use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
 use faer::c64;
@@ -374,7 +375,7 @@ fn a_bad_table_is_refused_with_the_place() {
     for (text, told) in cases {
         folder.write("m.csv", &text);
         let output = folder.run(&["compare", "bat.json", "--measured", "m.csv"]);
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        let error = in_lines(&output.stderr);
         assert!(error.contains(told), "{text}\n{error}");
         assert!(output.status.code() == Some(2) && output.stdout.is_empty());
     }
@@ -397,7 +398,7 @@ fn options_that_would_do_nothing_are_refused() {
     ];
     for (more, told) in cases {
         let output = folder.run(&[&["compare"], &measured[..], more].concat());
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        let error = in_lines(&output.stderr);
         assert!(output.status.code() == Some(2) && error.contains(told), "{more:?}: {error}");
     }
     let output = folder.run(&["compare", "bat.json", "bat.json", "--origin", "2 in"]);
@@ -538,7 +539,7 @@ fn a_universal_file_without_what_is_needed_is_refused() {
         ("bat.json", "expected a file whose name ends with .csv, .uff or .unv"),
     ] {
         let output = folder.run(&["compare", "bat.json", "--measured", name]);
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        let error = in_lines(&output.stderr);
         assert!(output.status.code() == Some(2) && error.contains(told), "{error}");
     }
 }

@@ -64,6 +64,12 @@ impl Diagnostic {
     }
 }
 
+/// What was said on standard error, each mistake in one line.
+pub fn in_lines(told: &[u8]) -> String {
+    let (found, _) = diagnostics(&String::from_utf8_lossy(told));
+    found.iter().map(|one| format!("error: {}\n", one.one_line())).collect()
+}
+
 /// The diagnostics on standard error, and the line that counts them, if any.
 pub fn diagnostics(told: &str) -> (Vec<Diagnostic>, Option<String>) {
     let mut found: Vec<Diagnostic> = Vec::new();
