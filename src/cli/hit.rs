@@ -61,12 +61,12 @@ const EXAMPLES: &str = "\
 #[derive(clap::Args)]
 #[command(next_help_heading = "The hit")]
 pub struct PlaceArgs {
-    /// First impact point (default: half the length)
+    /// First impact point [default: half the length]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
     from: Option<f64>,
 
-    /// Last impact point (default: the tip)
+    /// Last impact point [default: the tip]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
           value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
     to: Option<f64>,

@@ -25,7 +25,7 @@ use crate::cli::common::{
 /// How the bat moves after a hit, a blow, a push or a release
 ///
 /// What do the hands feel, and does the bat break? With --hit a ball is hit and the table says how
-/// the watched places move, where and when the strain is largest, and what the hands hear. With
+/// the watched places move, the spectrum there, and where the strain is largest. With
 /// --at and --impulse or --force, or with --initial, the deflection at even places and given
 /// instants is written as CSV.
 #[derive(clap::Args)]
