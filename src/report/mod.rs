@@ -1,6 +1,6 @@
-//! How is everything that was asked for printed, drawn and written?
+//! How is everything that was asked for printed and written?
 //!
-//! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents, [`svg`] pictures;
+//! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents;
 //! [`file::write`] writes a file that is whole or not there. Nothing here computes physics.
 
 pub mod file;
