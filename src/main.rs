@@ -5,7 +5,7 @@ mod cli;
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use cli::diagnostic;
+use cli::{diagnostic, style};
 use sweetspot::Error;
 
 fn main() -> ExitCode {
@@ -14,7 +14,7 @@ fn main() -> ExitCode {
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
             let mut err = io::stderr();
-            let coloured = diagnostic::coloured(err.is_terminal());
+            let coloured = style::coloured(err.is_terminal());
             let _ = write!(err, "{}", diagnostic::render(&error, coloured));
             // Modes that do not converge are an accuracy not reached; all else is the input.
             let code =

@@ -385,7 +385,7 @@ fn colour_is_for_terminals_or_where_it_is_asked_for() {
     folder.write("my.json", GOOD.replace("700", "-700"));
     let said = |set: &[(&str, &str)]| {
         let mut command = folder.command(&["modes", "my.json"]);
-        for name in ["NO_COLOR", "CLICOLOR_FORCE", "TERM"] {
+        for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE", "TERM"] {
             command.env_remove(name);
         }
         let output = command.envs(set.iter().copied()).output().unwrap();

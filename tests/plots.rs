@@ -20,6 +20,7 @@ use sweetspot::plot::sets::{self, Hits};
 use sweetspot::plot::theme::{self, FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use sweetspot::plot::words::{LABEL, Type};
 use sweetspot::plot::{exit_speed, front, ledger, matrix, png, profile, shapes, words};
+use sweetspot::report::xml::escaped;
 use sweetspot::trade::measure::measure;
 use sweetspot::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
@@ -204,7 +205,7 @@ fn several_bats_fit_into_one_picture() {
     for picture in [side, bent, along] {
         check(&picture, "three bats");
         for s in &all {
-            assert!(picture.svg.contains(&words::escaped(&s.bat.name)), "{}", picture.name);
+            assert!(picture.svg.contains(&escaped(&s.bat.name)), "{}", picture.name);
         }
     }
 }

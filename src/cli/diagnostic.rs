@@ -24,18 +24,6 @@ pub fn render(error: &Error, coloured: bool) -> String {
     }
 }
 
-/// Whether what is said to a stream is coloured: on a terminal, and where the user says so.
-///
-/// # Source
-///
-/// <https://no-color.org> and <https://bixense.com/clicolors>.
-pub fn coloured(terminal: bool) -> bool {
-    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
-    let forced = set("CLICOLOR_FORCE").is_some_and(|value| value != "0");
-    let dumb = set("TERM").is_some_and(|value| value == "dumb");
-    set("NO_COLOR").is_none() && (forced || terminal && !dumb)
-}
-
 /// One error: a title, the excerpt if it is about a file, and what to do.
 fn group(error: &Error) -> Group<'static> {
     match error {

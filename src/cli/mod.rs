@@ -21,7 +21,7 @@ mod progress;
 mod promise_table;
 mod ring;
 mod schema;
-mod style;
+pub mod style;
 mod trade;
 mod validate;
 

@@ -1,18 +1,30 @@
-//! Colour: bold headings, on a terminal that wants them.
+//! Colour: for a terminal that wants it.
 
-use anstream::{AutoStream, ColorChoice};
+use std::env;
+use std::io::{IsTerminal, stdout};
+
 use clap::builder::styling::Style;
 
 /// Longest word or two before a colon that is a heading of its own.
 const LABEL: usize = 16;
 
-/// The table as it is shown on standard output: with bold headings on a terminal, but for
-/// `NO_COLOR`, `CLICOLOR=0` and `TERM=dumb`; and in any case with `CLICOLOR_FORCE`.
+/// Whether what is said to a stream is coloured: on a terminal, but for `CLICOLOR=0` and
+/// `TERM=dumb`; in any case with `CLICOLOR_FORCE`, and never with `NO_COLOR`.
+///
+/// # Source
+///
+/// <https://no-color.org> and <https://bixense.com/clicolors>.
+pub fn coloured(terminal: bool) -> bool {
+    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty());
+    let forced = set("CLICOLOR_FORCE").is_some_and(|value| value != "0");
+    let unwanted = set("CLICOLOR").is_some_and(|value| value == "0");
+    let dumb = set("TERM").is_some_and(|value| value == "dumb");
+    set("NO_COLOR").is_none() && (forced || terminal && !unwanted && !dumb)
+}
+
+/// The table as it is shown on standard output: with bold headings where there is colour.
 pub fn table(text: String) -> String {
-    match AutoStream::choice(&std::io::stdout()) {
-        ColorChoice::Never => text,
-        _ => headings(&text),
-    }
+    if coloured(stdout().is_terminal()) { headings(&text) } else { text }
 }
 
 /// A line that begins at the margin over one that does not is a heading, up to its colon if that

@@ -2,8 +2,9 @@
 //!
 //! One `.vtu` file holds the bat and all modes. In ParaView: open it, apply *Warp By Vector* with
 //! one of `mode_01`, `mode_02`, … (scale 0.05), and on a line *Extract Surface* and *Tube*, its
-//! radius varying by the absolute scalar `radius_m`. A `.pvd` collection is one such file for each mode, with one array `mode` and the
-//! mode's frequency as the time: open the `.pvd`, warp by `mode`, and step through time.
+//! radius varying by the absolute scalar `radius_m`. A `.pvd` collection is one such file for each
+//! mode, with one array `mode` and the mode's frequency as the time: open the `.pvd`, warp by
+//! `mode`, and step through time.
 //!
 //! # Source
 //!
@@ -15,6 +16,7 @@ use std::fmt::Write;
 
 use crate::exchange::modes_file::{ModeTable, SampledMode};
 use crate::exchange::solid::Grid;
+use crate::report::xml::escaped;
 
 /// The bat as line cells along its axis, or with `Some(n)` as its outer surface with n points
 /// around.
@@ -161,20 +163,4 @@ fn rows(out: &mut String, words: impl Iterator<Item = String>, per_line: usize) 
         *out += &word;
     }
     *out += "\n</DataArray>\n";
-}
-
-/// Text that is safe in XML; control characters, which it cannot hold, become blanks.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
 }

@@ -7,7 +7,8 @@ use std::fmt::Write;
 
 use crate::plot::route::{Point, px, route};
 use crate::plot::theme::{self, Ink, PAPER};
-use crate::plot::words::{Anchor, Type, escaped};
+use crate::plot::words::{Anchor, Type};
+use crate::report::xml::escaped;
 
 /// A picture in the making.
 #[derive(Debug, Clone)]

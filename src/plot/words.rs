@@ -1,4 +1,4 @@
-//! Words in a picture: how they look, how wide they are, and how XML has them.
+//! Words in a picture: how they look, and how wide they are.
 
 use crate::plot::theme::{Ink, MUTED, TEXT};
 
@@ -53,22 +53,6 @@ impl Type {
     }
 }
 
-/// Words as XML has them, without characters that XML does not.
-pub fn escaped(words: &str) -> String {
-    let mut out = String::with_capacity(words.len());
-    for c in words.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
 /// How wide words are at most (px), in the widest of the usual sans-serif fonts.
 pub fn width(words: &str, look: Type) -> f64 {
     let em = |c: char| match c {
@@ -100,8 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_escaped_and_cut() {
-        assert_eq!(escaped("a<b & \u{1}\"c\""), "a&lt;b &amp;  &quot;c&quot;");
+    fn words_that_are_too_wide_are_cut() {
         let cut = fitted("a very long name of a bat", LABEL, 80.0);
         assert!(cut.ends_with('…') && width(&cut, LABEL) <= 80.0, "{cut}");
         assert_eq!(fitted("short", LABEL, 80.0), "short");

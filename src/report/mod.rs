@@ -4,6 +4,7 @@
 //! [`file::write`] writes a file that is whole or not there. Nothing here computes physics.
 
 pub mod file;
+pub mod xml;
 pub mod curve;
 pub mod resolved;
 pub mod damped;
