@@ -6,7 +6,8 @@ use sweetspot::advise::advice::{Advice, MOST_MODES, advise_telling};
 use sweetspot::error::Result;
 use sweetspot::report::advice;
 
-use crate::cli::common::{OutputArgs, examples, read, tolerance};
+use crate::cli::common::{OutputArgs, examples, read};
+use crate::cli::value::tolerance;
 use crate::cli::{Done, NOT_REACHED};
 
 /// Which physics this bat needs, and which it can do without

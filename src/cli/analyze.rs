@@ -17,8 +17,9 @@ use sweetspot::report::{advice, file, hit_json, hit_text};
 use sweetspot::solve::Request;
 
 use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SceneArgs, SolveArgs, Solved, curve_csv, examples};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples};
 use crate::cli::hit::verdict as hit_verdict;
+use crate::cli::scene::SceneArgs;
 
 /// Everything about a bat on one screen
 ///

@@ -12,7 +12,9 @@ use sweetspot::plot::{self, picture};
 use sweetspot::report::{self, comparison, comparison_data, file};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{OutputArgs, Prepared, SceneArgs, SolveArgs, quantity, read};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
+use crate::cli::scene::SceneArgs;
+use crate::cli::value::quantity;
 use crate::cli::{Done, NOT_REACHED};
 
 /// Bats side by side, or one beside its measured modes

@@ -15,9 +15,8 @@ use sweetspot::solve::{self, Request};
 use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
-use crate::cli::common::{
-    BatArgs, OutputArgs, Prepared, SolveArgs, examples, number, quantity, shown_length,
-};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::value::{number, quantity, shown_length};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///

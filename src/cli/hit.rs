@@ -11,9 +11,9 @@ use sweetspot::plot::{picture, profile};
 use sweetspot::report::{hit_json, hit_text, sketch};
 use sweetspot::units::Quantity;
 
-use crate::cli::common::{
-    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, examples, quantity, shown_length,
-};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::scene::SceneArgs;
+use crate::cli::value::{quantity, shown_length};
 use crate::cli::{Done, NOT_REACHED};
 
 /// How fast the ball leaves, place by place, and the sweet spot

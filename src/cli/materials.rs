@@ -9,7 +9,7 @@ use sweetspot::material::{BUILT_IN, BuiltIn};
 use sweetspot::report::text::{Units, wrapped};
 use sweetspot::report::{file, json};
 
-use crate::cli::common::unit_system;
+use crate::cli::value::unit_system;
 use crate::cli::{Done, style};
 
 /// The built-in materials with their sources

@@ -20,10 +20,12 @@ mod new;
 mod progress;
 mod promise_table;
 mod ring;
+mod scene;
 mod schema;
 pub mod style;
 mod trade;
 mod validate;
+mod value;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
@@ -144,7 +146,7 @@ fn stop_cleanly() {
 
 /// The command line. What sets the scene of a hit is for `ring --hit` alone in that verb.
 fn parse() -> Cli {
-    let scene = common::SceneArgs::augment_args(clap::Command::new("scene"));
+    let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
     let matches = help::fitted(Cli::command()).get_matches();
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));

@@ -14,7 +14,8 @@ use sweetspot::validation::bundled_bat;
 use crate::cli::Done;
 use crate::cli::ask::{self, Dialogue};
 use crate::cli::bat_text::{self, Measured};
-use crate::cli::common::{glyphs, one_of, printed};
+use crate::cli::common::{glyphs, printed};
+use crate::cli::value::one_of;
 
 /// Write a bat file, by asking or from options
 ///

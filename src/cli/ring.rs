@@ -17,10 +17,9 @@ use sweetspot::solve::{Solution, solve};
 use sweetspot::units::Quantity;
 
 use crate::cli::Done;
-use crate::cli::common::{
-    BatArgs, OutputArgs, Prepared, SceneArgs, SolveArgs, Solved, examples, number, quantity,
-    shown_length,
-};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
+use crate::cli::scene::SceneArgs;
+use crate::cli::value::{number, quantity, shown_length};
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///

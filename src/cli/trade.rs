@@ -12,8 +12,9 @@ use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;
 use sweetspot::trade::u_curve as curve;
 
-use crate::cli::common::{Prepared, TheoryChoice, budget, examples, prepare, read, theory};
+use crate::cli::common::{Prepared, examples, prepare, read};
 use crate::cli::progress::Progress;
+use crate::cli::value::{TheoryChoice, budget, theory};
 use crate::cli::{Done, style};
 
 /// What accuracy costs on this bat, measured here and now

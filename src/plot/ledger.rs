@@ -1,5 +1,6 @@
 //! Where the energy of a hit goes, along the bat.
 
+use crate::bat::Bat;
 use crate::collision::hit::{Energy, Impact};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
@@ -63,7 +64,8 @@ pub fn layers(impacts: &[Impact]) -> Vec<Layer> {
 }
 
 /// The energies stacked, picture `ledger`. None without two hits side by side.
-pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
+pub fn picture(bat: &Bat, impacts: &[Impact]) -> Option<Picture> {
+    let name = bat.name.as_str();
     let initial: Vec<f64> =
         impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.initial)).collect();
     let greatest = initial.iter().copied().fold(0.0, f64::max);
@@ -74,7 +76,7 @@ pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
     let seen = |layer: &Layer| layer.energies.iter().flatten().any(|e| *e > UNSEEN * greatest);
     let layers: Vec<Layer> = layers(impacts).into_iter().filter(seen).collect();
     let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
-    let [knob, tip] = place::axes([first, last], &[(name, length)]);
+    let [knob, tip] = place::axes([first, last], &[(name, bat.length())]);
     let top = HEAD + NUMBERS;
     let right = WIDTH - room(&names, 220.0);
     let frame = Frame { left: LEFT, top, right, bottom: top + DIAGRAM };
@@ -91,7 +93,8 @@ pub fn picture(name: &str, length: f64, impacts: &[Impact]) -> Option<Picture> {
         format!("{} to {} J before the hit", short(least), short(greatest))
     };
     let title = "Where the energy goes";
-    let facts = format!("{sum}, {}", books(impacts, greatest));
+    let held = if bat.fixtures.holding() { ", as the hands see it" } else { "" };
+    let facts = format!("{sum}{held}, {}", books(impacts, greatest));
     head(&mut svg, title, [name, &facts]);
     plane.draw(&mut svg);
     draw(&mut svg, &plane, impacts, (&layers, &stacks));

@@ -49,7 +49,7 @@ impl Hits<'_> {
         let (name, length, impacts) = (bat.name.as_str(), bat.length(), &sweep.impacts);
         let along = exit_speed::Subject { name, length, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(&[along]).into_iter().collect();
-        all.extend(ledger::picture(name, length, impacts));
+        all.extend(ledger::picture(bat, impacts));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
             let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
             all.extend(contact::pictures(name, &hitter, x));

@@ -1,0 +1,244 @@
+//! The options of a hit.
+
+use std::path::Path;
+
+use sweetspot::bat::Bat;
+use sweetspot::collision::ball::{Ball, restitution};
+use sweetspot::collision::energy_loss::EnergyLoss;
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::collision::pulse::Pulse;
+use sweetspot::error::{Complaint, Error, Result, nearest};
+use sweetspot::units::Quantity;
+
+use crate::cli::value::{one_of, quantity, shown_length};
+
+/// The swing, the pitch and the ball.
+#[derive(clap::Args)]
+#[command(next_help_heading = "The hit")]
+pub struct SceneArgs {
+    /// Collision model: contact, pulse, energy-loss or rigid
+    ///
+    /// contact: ball and bending modes in contact, by a nonlinear lossy spring. pulse: a half sine of
+    /// a given duration. energy-loss: the empirical loss of the WPI report. rigid: no bending.
+    #[arg(long, value_name = "MODEL", default_value = "contact", value_parser = model)]
+    model: String,
+
+    /// Angular speed of the swing
+    #[arg(long, value_name = "rad/s", default_value = "50 rad/s", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::AngularSpeed))]
+    swing_speed: f64,
+
+    /// Rotation centre of the swing beyond the knob end (negative: inside)
+    #[arg(long, value_name = "m", default_value = "2.5 in", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    pivot: f64,
+
+    /// Speed of the ball towards the bat
+    #[arg(long, value_name = "m/s", default_value = "90 mph", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Speed))]
+    pitch: f64,
+
+    /// Ball: baseball, softball or a ball file
+    #[arg(long, value_name = "BALL", default_value = "baseball")]
+    ball: String,
+
+    /// Coefficient of restitution, in place of the ball's own
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
+    cor: Option<f64>,
+
+    /// Where the hands feel the hit, from the knob end
+    #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    hands: f64,
+
+    /// Stiffness of a hollow barrel's wall under the ball
+    ///
+    /// For the contact model; without it the wall does not give way.
+    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+    wall_stiffness: Option<f64>,
+
+    /// Mass of that wall's own vibration [default: none, a spring in series]
+    #[arg(long, value_name = "kg", requires = "wall_stiffness",
+          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Mass))]
+    wall_mass: Option<f64>,
+
+    /// The swing speed is that of a bat with this swing weight
+    ///
+    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2".
+    #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Inertia))]
+    reference_inertia: Option<f64>,
+
+    /// How swings slow down with the swing weight [default: 0]
+    ///
+    /// A bat of another inertia I is swung at (I_ref/I)^N times the speed: 0 is the same angular
+    /// speed, 0.5 the same energy of rotation.
+    #[arg(long, value_name = "N", requires = "reference_inertia",
+          allow_hyphen_values = true, value_parser = |s: &str| not_negative(s, "exponent"))]
+    swing_exponent: Option<f64>,
+
+    /// Size of the empirical loss (energy-loss)
+    #[arg(long, value_name = "G", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "gamma"))]
+    gamma: Option<f64>,
+
+    /// Power with which that loss falls with the mode number (energy-loss)
+    #[arg(long, value_name = "P", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "decay"))]
+    decay: Option<f64>,
+
+    /// Duration of the force (pulse) [default: 0.75 ms]
+    #[arg(long, value_name = "s", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Time))]
+    pulse_duration: Option<f64>,
+
+    /// Share of the vibration's energy the ball need not lose (pulse) [default: 0.6]
+    #[arg(long, value_name = "KAPPA", allow_hyphen_values = true,
+          value_parser = |s: &str| not_negative(s, "loss share"))]
+    loss_share: Option<f64>,
+}
+
+impl SceneArgs {
+    /// The ball's file, if it has one.
+    pub fn ball_file(&self) -> Option<&Path> {
+        let built_in = matches!(self.ball.as_str(), "baseball" | "softball");
+        (!built_in).then(|| Path::new(&self.ball))
+    }
+
+    /// The scene on that bat, and where its swing is from.
+    pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
+        let mut ball = match self.ball.as_str() {
+            "baseball" => Ball::baseball(),
+            "softball" => Ball::softball(),
+            path => Ball::from_file(path).map_err(|error| unknown_ball(path, error))?,
+        };
+        let cor = self.cor.unwrap_or(ball.cor);
+        if !(self.pitch.abs() < 1e6 && self.swing_speed.abs() < 1e6 && self.pivot.abs() < 1e6) {
+            let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
+            return Err(Error::value(
+                "--pitch, --swing-speed or --pivot",
+                "a larger one",
+                expected,
+            ));
+        }
+        if self.pitch < 0.0 {
+            let expected = "0 or more: it is the speed towards the bat";
+            return Err(Error::value("--pitch", format!("{} m/s", self.pitch), expected));
+        }
+        if self.cor.is_some() {
+            ball.cor_by_speed.clear();
+        }
+        if !(0.0..=bat.length()).contains(&self.hands) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("--hands", shown_length(self.hands), expected));
+        }
+        let law = self.swing_law()?;
+        let (pivot, ball_speed) = (self.pivot, self.pitch);
+        let swing = law.map_or(self.swing_speed, |law| law.swing(bat));
+        let (hands, wall) = (self.hands, self.wall()?);
+        Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+    }
+
+    fn swing_law(&self) -> Result<Option<SwingLaw>> {
+        let Some(reference) = self.reference_inertia else { return Ok(None) };
+        let exponent = self.swing_exponent.unwrap_or(0.0);
+        if !(reference > 1e-9 && reference < 1e9) {
+            let found = format!("{reference:?} kg m2");
+            return Err(Error::value("--reference-inertia", found, "a bat's inertia, above 0"));
+        }
+        if exponent > 2.0 {
+            return Err(Error::value("--swing-exponent", exponent, "0 to 2"));
+        }
+        Ok(Some(SwingLaw { exponent, reference, of_reference: self.swing_speed }))
+    }
+
+    fn wall(&self) -> Result<Option<Wall>> {
+        let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
+        if self.model != "contact" {
+            let found = format!("it with --model {}", self.model);
+            let expected = "--model contact: only there a wall gives way";
+            return Err(Error::value("--wall-stiffness", found, expected));
+        }
+        let mass = self.wall_mass.unwrap_or(0.0);
+        if !(1.0..=1e15).contains(&stiffness) {
+            let found = format!("{stiffness:?} N/m");
+            return Err(Error::value("--wall-stiffness", found, "1 to 1e15 N/m"));
+        }
+        if !(mass == 0.0 || (1e-9..1e6).contains(&mass)) {
+            let found = format!("{mass:?} kg");
+            return Err(Error::value("--wall-mass", found, "0, or 1e-9 to 1e6 kg"));
+        }
+        Ok(Some(Wall { stiffness, mass }))
+    }
+
+    pub fn model(&self) -> Result<Model> {
+        let empirical = self.gamma.is_some() || self.decay.is_some();
+        let pulsed = self.pulse_duration.is_some() || self.loss_share.is_some();
+        for (given, options, model) in [
+            (empirical, "--gamma, --decay", "energy-loss"),
+            (pulsed, "--pulse-duration, --loss-share", "pulse"),
+        ] {
+            if given && self.model != model {
+                let found = format!("them with --model {}", self.model);
+                let expected = format!("--model {model}, or neither of them");
+                return Err(Error::value(options, found, expected));
+            }
+        }
+        Ok(match self.model.as_str() {
+            "rigid" => Model::Rigid,
+            "energy-loss" => {
+                let default = EnergyLoss::default();
+                Model::EnergyLoss(EnergyLoss {
+                    gamma: self.gamma.unwrap_or(default.gamma),
+                    decay: self.decay.unwrap_or(default.decay),
+                })
+            }
+            "pulse" => Model::Pulse(self.pulse()?),
+            _ => Model::Contact,
+        })
+    }
+
+    fn pulse(&self) -> Result<Pulse> {
+        let default = Pulse::default();
+        let duration = self.pulse_duration.unwrap_or(default.duration);
+        let loss_share = self.loss_share.unwrap_or(default.loss_share);
+        if !(1e-9..=1.0).contains(&duration) {
+            let expected = "a time from 1 ns to 1 s, such as \"0.75 ms\"";
+            return Err(Error::value("--pulse-duration", format!("{duration} s"), expected));
+        }
+        if loss_share > 1.0 {
+            return Err(Error::value("--loss-share", loss_share, "0 to 1"));
+        }
+        Ok(Pulse { duration, loss_share })
+    }
+}
+
+/// What is wrong with a ball: a word that is near a known one is no file's name.
+fn unknown_ball(name: &str, error: Error) -> Error {
+    let known = ["baseball", "softball"];
+    match error {
+        Error::Read { source, .. } if nearest(name, &known).is_some() => {
+            let found = format!("{name}, which cannot be read ({source})");
+            let complaint = Complaint::new("--ball", found, "baseball, softball or a ball file");
+            Error::Value(complaint.or_nearest(name, &known))
+        }
+        other => other,
+    }
+}
+
+fn cor(text: &str) -> std::result::Result<f64, String> {
+    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
+}
+
+fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=100.0).contains(&value) => Ok(value + 0.0),
+        _ => Err(format!("expected a {what} from 0 to 100")),
+    }
+}
+
+fn model(text: &str) -> std::result::Result<String, String> {
+    one_of(text, &["contact", "pulse", "energy-loss", "rigid"], &[])
+}

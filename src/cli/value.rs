@@ -1,0 +1,92 @@
+//! Values on the command line: how they are read, and how they are said.
+
+use std::time::Duration;
+
+use sweetspot::error::nearest;
+use sweetspot::report::text::Units;
+use sweetspot::solve::Solver;
+use sweetspot::theory::Theory;
+use sweetspot::units::{self, Quantity};
+
+/// A number as JSON writes it: the shortest that reads back to the same bits.
+pub fn number(value: f64) -> String {
+    serde_json::Value::from(value).to_string()
+}
+
+/// A length as it is said in messages, whichever unit it came in.
+pub fn shown_length(length: f64) -> String {
+    let inches: f64 = format!("{:.5e}", units::inches(length)).parse().unwrap_or(f64::NAN);
+    format!("{length:?} m ({inches:?} in)")
+}
+
+/// A value with its unit from the command line.
+pub fn quantity(text: &str, quantity: Quantity) -> std::result::Result<f64, String> {
+    units::parse_or_si(text, quantity).map_err(|complaint| complaint.to_string())
+}
+
+/// A relative accuracy from the command line, as a number or in %.
+pub fn tolerance(text: &str) -> std::result::Result<f64, String> {
+    let (number, scale) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(value) if value * scale > 0.0 && value * scale < 1.0 => Ok(value * scale),
+        _ => Err("expected a number between 0 and 1, such as 1e-6 or 0.01%".into()),
+    }
+}
+
+/// How long something may take, from the command line.
+pub fn budget(text: &str) -> std::result::Result<Duration, String> {
+    let seconds = quantity(text, Quantity::Time)?;
+    let expected = "expected a time from 1 us to 1 day, such as \"5 ms\"";
+    if (1e-6..=86_400.0).contains(&seconds) {
+        Duration::try_from_secs_f64(seconds).map_err(|_| expected.into())
+    } else {
+        Err(expected.into())
+    }
+}
+
+/// One of `now`, with a word of its own for what comes `later`.
+pub fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
+    if now.contains(&text) {
+        return Ok(text.to_owned());
+    }
+    let names = now.join(", ");
+    if later.contains(&text) {
+        return Err(format!("{text} is not supported yet; there is {names}"));
+    }
+    let hint = nearest(text, now).map_or(String::new(), |name| format!(" (did you mean {name}?)"));
+    Err(format!("expected one of {names}{hint}"))
+}
+
+/// A theory, or none: that which the bat needs.
+#[derive(Debug, Clone, Copy)]
+pub struct TheoryChoice(pub Option<Theory>);
+
+/// `--theory` on the command line.
+pub fn theory(text: &str) -> std::result::Result<TheoryChoice, String> {
+    let names = ["auto", "euler-bernoulli", "rayleigh", "timoshenko"];
+    let name = one_of(text, &names, &[])?;
+    Ok(TheoryChoice(Theory::ALL.into_iter().find(|theory| theory.name() == name)))
+}
+
+/// `--solver` on the command line.
+pub fn solver(text: &str) -> std::result::Result<Solver, String> {
+    let names = ["auto", "statics", "dense", "shift-invert", "arpack"];
+    Ok(match one_of(text, &names, &[])?.as_str() {
+        "dense" => Solver::Dense,
+        "shift-invert" => Solver::ShiftInvert,
+        "arpack" => Solver::Arpack,
+        _ => Solver::Statics,
+    })
+}
+
+/// `--units` on the command line.
+pub fn unit_system(text: &str) -> std::result::Result<Units, String> {
+    Ok(match one_of(text, &["si", "us", "both"], &[])?.as_str() {
+        "si" => Units::Si,
+        "us" => Units::Us,
+        _ => Units::Both,
+    })
+}
