@@ -295,6 +295,9 @@ fn the_stacked_energies_reach_the_initial_one() {
             let lies = |(low, high): (&Option<f64>, &Option<f64>)| high >= low;
             assert!(pair[0].iter().zip(&pair[1]).all(lies), "{name}");
         }
+        // The energies of a held bat are not those that the ground sees.
+        let picture = ledger::picture(&struck.bat, &struck.sweep.impacts).unwrap();
+        assert_eq!(picture.svg.contains("as the hands see it"), held, "{name}");
     }
 }
 
