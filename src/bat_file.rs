@@ -16,6 +16,7 @@ use crate::station_table::Table;
 use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
+    "$schema",
     "format",
     "name",
     "source",
@@ -79,6 +80,8 @@ fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
     let mut mistakes = Mistakes::default();
     let root = root.only(KEYS, &mut mistakes);
     mistakes.note(root.require("format", "\"format\": \"sweetspot-bat/1\"").map(|_| ()));
+    // That is for editors.
+    mistakes.note(root.string("$schema"));
     let name = mistakes.note(root.string("name"));
     let source = mistakes.note(root.string("source"));
     let weighed = mistakes.some(fixtures_file::weighed(&root));

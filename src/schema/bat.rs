@@ -23,6 +23,9 @@ use crate::units::Quantity;
     without("youngs_modulus", "first_bending_hz"),
 ]))]
 pub struct BatFile {
+    /// Where this schema is, for editors.
+    #[serde(rename = "$schema")]
+    pub schema: Option<String>,
     /// Name of the format and its version: sweetspot-bat/1.
     pub format: BatFormat,
     /// A remark for people, which programs pass over.
