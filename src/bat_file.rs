@@ -16,7 +16,6 @@ use crate::station_table::Table;
 use crate::units::{self, Quantity};
 
 const KEYS: &[&str] = &[
-    "$schema",
     "format",
     "name",
     "source",
@@ -30,6 +29,7 @@ const KEYS: &[&str] = &[
     "joints",
     "supports",
     "grip",
+    "$schema",
 ];
 const PROFILE_KEYS: &[&str] = &[
     "interpolation",
@@ -190,9 +190,10 @@ fn columns(object: Object, folder: &Path) -> Result<Profile> {
     let mut mistakes = Mistakes::default();
     let unit = match object.get("unit") {
         Some(node) => node.string().and_then(|unit| {
-            units::factor(&unit, Quantity::Length).map_err(|complaint| node.complain(complaint))
+            let factor = units::factor(&unit, Quantity::Length);
+            factor.map_err(|complaint| node.complain(complaint)).map(|factor| (unit, factor))
         }),
-        None => Ok(1.0),
+        None => Ok(("m".to_owned(), 1.0)),
     };
     let interpolation = match object.get("interpolation") {
         Some(node) => node.word(INTERPOLATIONS),
@@ -200,7 +201,11 @@ fn columns(object: Object, folder: &Path) -> Result<Profile> {
     };
     // Straight lines ask least of the stations.
     let interpolation = mistakes.some(interpolation).unwrap_or(Interpolation::Linear);
-    let table = mistakes.some(table(object, folder, *unit.as_ref().unwrap_or(&1.0)));
+    let table = mistakes.some(table(
+        object,
+        folder,
+        unit.as_ref().map_or(("m", 1.0), |unit| (&unit.0, unit.1)),
+    ));
     // Nothing can be said of places and radii in no unit.
     let profile = unit.and_then(|_| {
         let Some(table) = table else { return Ok(None) };
@@ -211,7 +216,7 @@ fn columns(object: Object, folder: &Path) -> Result<Profile> {
 }
 
 /// The columns that a `profile` object has, or the CSV file that it names.
-fn table<'a>(object: Object<'a>, folder: &Path, unit: f64) -> Result<Table<'a>> {
+fn table<'a>(object: Object<'a>, folder: &Path, unit: (&str, f64)) -> Result<Table<'a>> {
     let Some(node) = object.get("csv") else { return Table::from_json(object, unit) };
     let mut mistakes = Mistakes::default();
     let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
@@ -223,7 +228,7 @@ fn table<'a>(object: Object<'a>, folder: &Path, unit: f64) -> Result<Table<'a>> 
     }
     mistakes.and(node.string().and_then(|name| {
         let path = folder.join(name);
-        Table::from_csv(&path, unit).map_err(|error| match error {
+        Table::from_csv(&path, unit.1).map_err(|error| match error {
             Error::Read { source, .. } => node.error(
                 format!("{}, which cannot be read ({source})", path.display()),
                 "a CSV file, sought from the folder of this one",

@@ -8,12 +8,15 @@ pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {
     let text = &document.text;
     let line = text.split_inclusive('\n').take(error.line().saturating_sub(1));
     let offset = line.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
+    let said = error.to_string();
+    let said = said.split(" at line ").next().unwrap_or_default();
+    // Of these the one before is told.
+    let control = said.starts_with("control character");
+    let offset = offset + usize::from(control);
     let mut offset = if error.is_eof() { text.trim_end().len() } else { offset.min(text.len()) };
     while !text.is_char_boundary(offset) {
         offset -= 1;
     }
-    let said = error.to_string();
-    let said = said.split(" at line ").next().unwrap_or_default();
     let here = word(&text[offset..]);
     let complaint = match said.strip_prefix("expected ") {
         _ if error.is_eof() => {
@@ -27,6 +30,19 @@ pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {
             Complaint::new("", shortened(here, 20), expected)
         }
         Some(expected) => Complaint::new("", shortened(here, 20), expected),
+        None if control => {
+            let hint = "a text stands on one line; write \\n for a line break and \\t for a tab";
+            let found = match text[offset..].chars().next() {
+                Some('\t') => "a tab in a text",
+                Some('\n' | '\r') => "a line break in a text",
+                _ => "a control character in a text",
+            };
+            let complaint = Complaint::new("", found, "letters, or a closing quote").hinted(hint);
+            return document.error(offset..offset + 1, complaint);
+        }
+        None if said == "trailing characters" => {
+            Complaint::new("", shortened(here, 20), "the end of the file")
+        }
         None => Complaint::new("", format!("broken JSON, {said}"), "JSON"),
     };
     document

@@ -142,6 +142,9 @@ fn scales(
     names: &csv::StringRecord,
     columns: &[(&'static str, Quantity, f64)],
 ) -> Result<Vec<(&'static str, f64)>> {
+    if let Some(complaint) = not_by_commas(names) {
+        return Err(document.error(line(&document.text, header), complaint));
+    }
     let mut seen = Vec::new();
     mistakes::all(names.iter().enumerate().map(|(k, name)| {
         let wrong = |complaint| document.error(cell(&document.text, header, k), complaint);
@@ -153,6 +156,24 @@ fn scales(
         seen.push(key);
         Ok((key, scale))
     }))
+}
+
+/// What is wrong with a header that is not one of comma-separated names.
+fn not_by_commas(names: &csv::StringRecord) -> Option<Complaint> {
+    let wrong = |found: &str, hint: &str| {
+        Some(Complaint::new("header", found, "names with commas between them").hinted(hint))
+    };
+    let hint = "save it as CSV with commas between the cells and points in the numbers";
+    match names.get(0)? {
+        cell if cell.contains('\n') => {
+            wrong("a name of several lines", "a closing quote is missing")
+        }
+        cell if names.len() == 1 && cell.contains(';') => {
+            wrong("semicolons between the names", hint)
+        }
+        cell if names.len() == 1 && cell.contains('\t') => wrong("tabs between the names", hint),
+        _ => None,
+    }
 }
 
 /// Adds the cells of the row at `at` to the columns.

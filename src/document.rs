@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::error::{Complaint, Error, Excerpt, Place, Result};
+use crate::report::file;
 
 /// The text of one input file, a byte-order mark removed.
 pub(crate) struct Document {
@@ -17,17 +18,16 @@ pub(crate) struct Document {
 impl Document {
     /// Reads a file as UTF-8.
     pub fn read(path: &Path) -> Result<Self> {
-        let read = |source| Error::Read { path: path.to_owned(), source };
-        let bytes = std::fs::read(path).map_err(read)?;
-        let file = path.display().to_string();
+        let bytes = file::read(path)?;
+        let name = path.display().to_string();
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self::new(file, &text)),
+            Ok(text) => Ok(Self::new(name, &text)),
             Err(error) => {
                 let at = error.utf8_error().valid_up_to();
                 // Up to there the same, and what is wrong as a character that stands for it.
                 let text = String::from_utf8_lossy(error.as_bytes());
                 let marked = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
-                let document = Self { file, text: text.into_owned(), last: START.into() };
+                let document = Self { file: name, text: text.into_owned(), last: START.into() };
                 let utf_16 = matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
                 let found = if utf_16 { "UTF-16 text" } else { "bytes that are not text" };
                 let complaint = Complaint::new("", found, "UTF-8 text");

@@ -176,27 +176,28 @@ impl<'a> Node<'a> {
 
     /// A number in SI, or a text with a unit.
     pub fn quantity(&self, quantity: Quantity) -> Result<f64> {
-        self.scaled(quantity, 1.0)
+        self.scaled(quantity, quantity.si())
     }
 
-    /// As [`Self::quantity`], bare numbers times `unit`.
-    fn scaled(&self, quantity: Quantity, unit: f64) -> Result<f64> {
+    /// As [`Self::quantity`], bare numbers in that unit.
+    fn scaled(&self, quantity: Quantity, (unit, factor): (&str, f64)) -> Result<f64> {
         if let Ok(text) = serde_json::from_str::<String>(self.raw) {
-            return units::parse(&text, quantity).map_err(|complaint| self.complain(complaint));
+            let value = units::parse_beside(&text, quantity, unit);
+            return value.map_err(|complaint| self.complain(complaint));
         }
         match serde_json::from_str::<f64>(self.raw) {
-            Ok(value) if (value * unit).is_finite() => Ok(value * unit),
-            _ => Err(self.wrong(quantity.expected())),
+            Ok(value) if (value * factor).is_finite() => Ok(value * factor),
+            _ => Err(self.wrong(quantity.expected_in(unit))),
         }
     }
 
-    /// A list of quantities, bare numbers times `unit`.
-    pub fn quantities(&self, quantity: Quantity, unit: f64) -> Result<Vec<f64>> {
+    /// A list of quantities, bare numbers in the unit of that name and factor to SI.
+    pub fn quantities(&self, quantity: Quantity, unit: (&str, f64)) -> Result<Vec<f64>> {
         // The fast way for a million stations; anything unusual goes item by item.
         if let Ok(values) = serde_json::from_str::<Vec<f64>>(self.raw)
-            && values.iter().all(|v| (v * unit).is_finite())
+            && values.iter().all(|v| (v * unit.1).is_finite())
         {
-            return Ok(values.into_iter().map(|v| v * unit).collect());
+            return Ok(values.into_iter().map(|v| v * unit.1).collect());
         }
         mistakes::all(self.items()?.iter().map(|item| item.scaled(quantity, unit)))
     }
@@ -416,7 +417,7 @@ mod tests {
         let root = object(&document, &["é", "a"]);
         let inner = root.get("a").unwrap().object(&["b"], &mut Mistakes::default()).unwrap();
         let list = inner.get("b").unwrap().clone();
-        let said = list.quantities(Quantity::Mass, 1.0).unwrap_err().to_string();
+        let said = list.quantities(Quantity::Mass, Quantity::Mass.si()).unwrap_err().to_string();
         assert!(said.starts_with("bat.json:3:19: a.b[1]: found unit \"lbf\""), "{said}");
     }
 

@@ -35,8 +35,8 @@ enum Places<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// The columns of a `profile` object; bare numbers are times `unit` (m).
-    pub fn from_json(object: Object<'a>, unit: f64) -> Result<Self> {
+    /// The columns of a `profile` object; bare numbers are in the unit of that name and factor to m.
+    pub fn from_json(object: Object<'a>, unit: (&str, f64)) -> Result<Self> {
         let column = |key: &'static str, node: &Node| -> Result<Column> {
             Ok(Column { key, values: node.quantities(Quantity::Length, unit)? })
         };

@@ -4,7 +4,8 @@
 //!
 //! A bare number is SI. A string carries its unit: `"33 in"`, `"2.02e6 psi"`,
 //! `"0.0257 lb/in^3"`. A unit is a product of symbols with integer powers
-//! (`kg/m^3`, `oz in^2`, `N·s`, `m/s`); a division covers the one symbol after it.
+//! (`kg/m^3`, `oz in^2`, `N·s`, `m/s`); a division covers the one symbol after it. A number may be
+//! read off an inch rule: `"2 5/8 in"`.
 //! `oz` and `lb` are masses; forces are `lbf`, `ozf`, `N`. Mixing them up is the commonest
 //! silent error in this field (a factor √g in every frequency), so it is told, not guessed.
 //!
@@ -125,6 +126,11 @@ impl Quantity {
         dimension == [length, mass, time, angle] || without
     }
 
+    /// Its SI unit, and the factor to it, 1.
+    pub(crate) fn si(self) -> (&'static str, f64) {
+        (self.facts().2, 1.0)
+    }
+
     /// The quantity in words, with its article: "a length".
     pub fn name(self) -> &'static str {
         self.facts().0
@@ -137,8 +143,14 @@ impl Quantity {
 
     /// What a value of this quantity may look like, for error messages.
     pub fn expected(self) -> String {
-        let (name, _, si, example) = self.facts();
-        format!("{name} such as \"{example}\" or a number in {si}")
+        self.expected_in(self.facts().2)
+    }
+
+    /// The same where bare numbers are in that unit.
+    pub fn expected_in(self, unit: &str) -> String {
+        let (name, _, _, example) = self.facts();
+        let bare = if unit == "in" { "inches" } else { unit };
+        format!("{name} such as \"{example}\" or a number in {bare}")
     }
 
     /// The units that would do, where symbols of their own measure it.
@@ -208,25 +220,53 @@ const SYMBOLS: &[(&str, f64, Dimension)] = &[
 ///
 /// What was found and what was expected, with an empty field name for the caller to fill in.
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    parse_beside(text, quantity, quantity.facts().2)
+}
+
+/// The same where bare numbers, which a text is not, are in the unit `bare`.
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn parse_beside(text: &str, quantity: Quantity, bare: &str) -> Result<f64, Complaint> {
     let text = text.trim();
     let (number, unit) = split(text);
-    let wrong = |found: String| Complaint::new("", found, quantity.expected());
+    let wrong = |found: String| Complaint::new("", found, quantity.expected_in(bare));
     if unit.starts_with(',') {
         let hint = "decimals follow a point, not a comma";
         return Err(wrong(format!("\"{text}\"")).hinted(hint));
     }
-    let value: f64 = number.parse().map_err(|_| wrong(format!("\"{text}\"")))?;
-    if unit.is_empty() && value.is_finite() {
-        let si = quantity.facts().2;
-        let hint = format!("write \"{number} {si}\", or {number} without quotes");
-        return Err(wrong(format!("\"{text}\" without a unit")).hinted(hint));
+    if unit.starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(wrong(format!("\"{text}\"")));
     }
-    let value = if unit.is_empty() { value } else { value * factor(unit, quantity)? };
+    let value = mixed(number).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+    if unit.is_empty() && value.is_finite() {
+        return Err(
+            wrong(format!("\"{text}\" without a unit")).hinted(with_unit(number, quantity, bare))
+        );
+    }
+    let of_unit = |unit| {
+        factor(unit, quantity)
+            .map_err(|complaint| Complaint { expected: quantity.expected_in(bare), ..complaint })
+    };
+    let value = if unit.is_empty() { value } else { value * of_unit(unit)? };
     if value.is_finite() {
         // So that −0 is 0.
         Ok(value + 0.0)
     } else {
         Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
+    }
+}
+
+/// What a number without its unit may be meant for.
+fn with_unit(number: &str, quantity: Quantity, bare: &str) -> String {
+    let usual = split(quantity.example()).1;
+    match number.parse::<f64>() {
+        Ok(_) if usual == bare => format!("write \"{number} {bare}\", or {number} without quotes"),
+        Ok(_) => format!(
+            "write \"{number} {usual}\" or \"{number} {bare}\"; {number} without quotes is in {bare}"
+        ),
+        Err(_) => format!("write \"{number} {usual}\""),
     }
 }
 
@@ -248,9 +288,11 @@ pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 ///
 /// As [`parse`].
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    let expected =
+        || format!("a unit of {}, such as \"{}\"", quantity.name(), split(quantity.example()).1);
     let (factor, dimension) = product(unit).map_err(|(found, hint)| {
         let hint = if hint.is_empty() { quantity.units() } else { hint };
-        Complaint::new("", found, quantity.expected()).hinted(hint)
+        Complaint::new("", found, expected()).hinted(hint)
     })?;
     if quantity.has(dimension) {
         return Ok(factor);
@@ -264,7 +306,7 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
         "" => quantity.units(),
         advice => advice.to_owned(),
     };
-    Err(Complaint::new("", found, quantity.expected()).hinted(hint))
+    Err(Complaint::new("", found, expected()).hinted(hint))
 }
 
 /// What to do about a force for a mass or a mass for a force.
@@ -290,6 +332,16 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
     }
 }
 
+/// The value of a number that [`split`] has found: `2.5`, `5/8` or `2 5/8`.
+fn mixed(number: &str) -> Option<f64> {
+    let Some((above, below)) = number.split_once('/') else { return number.parse().ok() };
+    let (whole, above) = above.rsplit_once(' ').unwrap_or(("0", above));
+    let [whole, above, below] = [whole.trim_end(), above, below].map(|part| part.parse().ok());
+    let (whole, above, below): (f64, f64, f64) = (whole?, above?, below?);
+    // No rule shows "2.5 5/8", and what "-2 1/8" means is anybody's guess.
+    (whole.fract() == 0.0 && whole >= 0.0).then_some(whole + above / below)
+}
+
 /// Splits a number from the unit after it.
 fn split(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
@@ -299,6 +351,7 @@ fn split(text: &str) -> (&str, &str) {
         }
         i
     };
+    let blanks = |i: usize| i + text[i..].bytes().take_while(|byte| *byte == b' ').count();
     let sign = |i: usize| i + usize::from(matches!(bytes.get(i), Some(b'+' | b'-')));
     let mut end = digits(sign(0));
     if matches!(bytes.get(end), Some(b'e' | b'E')) {
@@ -306,6 +359,11 @@ fn split(text: &str) -> (&str, &str) {
         if exponent > sign(end + 1) {
             end = exponent;
         }
+    }
+    // The fraction of an inch rule, after whole inches or on its own.
+    let above = if text[end..].starts_with('/') { end } else { digits(blanks(end)) };
+    if bytes.get(above) == Some(&b'/') && digits(above + 1) > above + 1 {
+        end = digits(above + 1);
     }
     (&text[..end], text[end..].trim())
 }
@@ -388,6 +446,23 @@ mod tests {
     /// Relative agreement to a few roundings.
     fn same(a: f64, b: f64) -> bool {
         (a - b).abs() <= 4.0 * f64::EPSILON * b.abs()
+    }
+
+    #[test]
+    fn fractions_of_an_inch_rule_are_exact_and_others_are_refused() {
+        for (text, inches) in [("2 5/8 in", 2.625), ("5/8in", 0.625), ("33  1/2 in", 33.5)] {
+            assert!(same(si(text, Quantity::Length), INCH * inches), "{text}");
+        }
+        assert!(same(si("31 1/2 oz", Quantity::Mass), 31.5 * OUNCE));
+        for text in
+            ["2.5 5/8 in", "-2 1/8 in", "2 5 /8 in", "2 5/ in", "5/0 in", "2 58 in", "/8 in"]
+        {
+            assert!(parse(text, Quantity::Length).is_err(), "{text}");
+        }
+        // A division by a unit is none.
+        assert!(
+            same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
+        );
     }
 
     #[test]

@@ -106,7 +106,9 @@ fn a_file_that_is_not_a_bat_file_is_refused() {
         ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "found x, expected"]),
         ("truncated", &BAT.as_bytes()[..60], &["bat.json:", "the end of the file", "the rest"]),
         ("unclosed", b"{\n", &["bat.json:1:2", "the end of the file", "the rest of an object"]),
-        ("two", b"{} {}", &["bat.json:1:4", "trailing"]),
+        ("two", b"{} {}", &["bat.json:1:4", "found {", "expected the end of the file"]),
+        ("tab", b"{\"name\": \"a\tb\"}", &["bat.json:1:12", "found a tab in a text", "\\t"]),
+        ("line", b"{\"name\": \"ab\n\"}", &["bat.json:1:13", "a line break in a text", "\\n"]),
         ("comma", b"{\n \"a\": 1,,\n}", &["bat.json:2:9", "JSON"]),
         ("after an accent", "{ \"é\": é }".as_bytes(), &["bat.json:1:8", "found é"]),
         ("a list", b"[1, 2]", &["bat.json:1:1", "found a list", "an object"]),
@@ -248,6 +250,7 @@ fn a_wrong_material_is_refused() {
             ("700", "\"0.0257 lbf/in^3\"", &["material.density", "lb is the mass, lbf the force"]),
             ("700", "\"700 kg\"", &["which measures a mass", "expected a density"]),
             ("700", "\"700 kg/m3/m\"", &["unit \"kg/m3/m\"", "does not measure a density"]),
+            ("700", "\"700\"", &["write \"700 lb/in^3\" or \"700 kg/m^3\"; 700 without quotes"]),
             ("700", "\"700 kgs/m3\"", &["unknown unit \"kgs\"", "did you mean kg?"]),
             ("700", "\"7 🏏/m³\"", &["unknown unit \"🏏\""]),
             (
@@ -319,6 +322,16 @@ fn a_wrong_profile_is_refused() {
             ),
             (X, "[0, 0.4, \"0.8 metres\"]", &["6:19: profile.x[2]", "unknown unit \"metres\""]),
             (X, "[0, 0.4, \"33inn\"]", &["profile.x[2]", "did you mean in?"]),
+            (
+                X,
+                "[0, 0.4, \"33\"], \"unit\": \"in\"",
+                &["a number in inches", "write \"33 in\", or 33 without quotes"],
+            ),
+            (
+                X,
+                "[0, 0.4, 0.8], \"unit\": \"kg\"",
+                &["expected a unit of a length, such as \"in\""],
+            ),
             (
                 X,
                 "[0, 0.4, \"0,8 m\"]",
@@ -1161,6 +1174,9 @@ fn a_wrong_csv_table_is_refused() {
             "x_inn,radius_in\n",
             &["table.csv:1:1: header", "unknown unit \"inn\"", "did you mean in?"],
         ),
+        ("x_in;radius_in\n0;1\n", &["table.csv:1:1: header: found semicolons", "commas"]),
+        ("x_in\tradius_in\n", &["table.csv:1:1: header: found tabs", "commas"]),
+        ("\"x_in\n0,1\n1,1\n", &["table.csv:1:1: header", "a closing quote is missing"]),
         ("x_oz,radius_in\n", &["table.csv:1:1: header", "unit \"oz\", which measures a mass"]),
         ("x_,radius\n", &["table.csv:1:1: header", "does not measure a length"]),
         ("x_in,raduis_in\n", &["header: found column \"raduis_in\"", "did you mean radius?"]),
@@ -1322,8 +1338,11 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--solver", "dense", "--elements", "5000"], &["dense", "statics"]),
         #[cfg(not(feature = "arpack"))]
         (&["modes", "bat.json", "--solver", "arpack"], &["not in this build", "--features arpack"]),
-        (&["modes", "bat.json", "--solver", "shift"], &["expected one of auto, statics"]),
-        (&["modes", "bat.json", "--solver", "static"], &["'static'", "did you mean statics?"]),
+        (&["modes", "bat.json", "--solver", "shift"], &["possible values: auto, statics"]),
+        (
+            &["modes", "bat.json", "--solver", "static"],
+            &["'static'", "a similar value exists: 'statics'"],
+        ),
         (
             &["modes", "bat.json", "--theory", "timoshenko"],
             &["theory: found timoshenko, but material has no", "\"shear_modulus\" or \"poisson_"],
@@ -1349,7 +1368,7 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--up-to", "2 mm"], &["'2 mm'", "a frequency such as \"170 Hz\""]),
         (&["modes", "bat.json", "--up-to", "1e8"], &["--up-to", "more than 1000 bending modes"]),
         (&["modes", "bat.json", "--up-to", "2000", "-n", "3"], &["cannot be used with", "--modes"]),
-        (&["schema", "ball"], &["'ball'", "one of bat, modes, hit"]),
+        (&["schema", "ball"], &["'ball'", "possible values: bat, modes, hit"]),
         (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
         (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
         (&["hit", "bat.json", "--budget", "5 ms"], &["--budget", "with hit"]),
@@ -1359,7 +1378,10 @@ fn a_wrong_command_line_is_refused() {
         (&["analyze", "missing.json", "--out", "folder"], &["cannot read missing.json"]),
         (&["analyze"], &["required arguments", "<BAT>"]),
         (&["hit", "bat.json", "--ball", "softball"], &["ball: found softball", "\"stiffness\""]),
-        (&["hit", "bat.json", "--model", "ridgid"], &["'ridgid'", "did you mean rigid?"]),
+        (
+            &["hit", "bat.json", "--model", "ridgid"],
+            &["'ridgid'", "a similar value exists: 'rigid'"],
+        ),
         (
             &["hit", "bat.json", "--pulse-duration", "1 ms"],
             &["--pulse-duration, --loss-share: found them with --model contact", "--model pulse"],
@@ -1456,7 +1478,7 @@ fn a_wrong_command_line_is_refused() {
         (&["frf", "bat.json", "--at", "0.6 s"], &["measures a time", "a length"]),
         (
             &["frf", "bat.json", "--at", "0.6", "--kind", "mobilty"],
-            &["expected one of receptance", "did you mean mobility?"],
+            &["possible values: receptance", "a similar value exists: 'mobility'"],
         ),
         (
             &["frf", "bat.json", "--at", "0.6", "--from-hz", "0"],

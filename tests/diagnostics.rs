@@ -425,6 +425,18 @@ fn nothing_in_a_file_reaches_the_terminal_raw() {
             .any(|c| c.is_control() && c != '\n' || strange.contains(c) && !c.is_ascii());
         assert!(!raw, "{said:?}");
     }
+    // Nor on standard output, by a name.
+    folder.write(
+        "my.json",
+        GOOD.replace("\"material\"", "\"name\": \"a\\u001b[31m\\u202e\", \"material\""),
+    );
+    for verb in ["modes", "analyze", "advise", "compare"] {
+        let args = [&[verb, "my.json"], &["my.json"][..usize::from(verb == "compare")]].concat();
+        let output = folder.run(&args);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(said.contains(r"\u{1b}[31m"), "{verb} {said:?}");
+        assert!(!said.contains(['\u{1b}', '\u{202e}']), "{verb} {said:?}");
+    }
     folder.write("t.csv", "x_m,radius_m\n0,\u{1b}[31m7\n");
     let csv = GOOD.replace("\"x\": [0, 0.4, 0.8],", "\"csv\": \"t.csv\"");
     let said = of_bat(&folder, &csv.replace("\"radius\": [0.02, 0.03, 0.02]", ""));

@@ -157,26 +157,29 @@ fn an_interrupt_leaves_no_half_file_and_the_old_one() {
     let bat = mesh("dowel");
     // Some ten megabytes, so that there is a while in which it is half written.
     let long = ["modes", &bat, "-n", "10", "--shape-points", "40000", "--json", "out.json"];
-    for _ in 0..TRIES {
-        folder.write("out.json", "\"old\"");
-        let mut child = folder.command(&long).stdout(Stdio::null()).spawn().unwrap();
-        let being_written = || folder.names().iter().any(|name| name.ends_with(".part"));
-        while !being_written() && child.try_wait().unwrap().is_none() {
-            std::thread::yield_now();
-        }
-        let mut kill = std::process::Command::new("kill");
-        kill.args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status().unwrap();
-        let code = child.wait().unwrap().code();
-        assert_eq!(folder.names(), ["out.json"], "{code:?}");
-        let left = folder.read("out.json");
-        assert!(serde_json::from_str::<serde_json::Value>(&left).is_ok(), "{code:?}");
-        if code == Some(130) && left == "\"old\"" {
-            return;
-        }
-        // It was done before the signal came.
-        assert!(matches!(code, Some(0 | 130)), "{code:?}");
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        assert!((0..TRIES).any(|_| stopped(&folder, &long, signal)), "always done before {signal}");
     }
-    panic!("it was always done before the signal came");
+}
+
+/// Runs it and sends that signal while it writes; whether it was in time.
+#[cfg(unix)]
+fn stopped(folder: &Folder, long: &[&str], signal: &str) -> bool {
+    folder.write("out.json", "\"old\"");
+    let mut child = folder.command(long).stdout(Stdio::null()).spawn().unwrap();
+    let being_written = || folder.names().iter().any(|name| name.ends_with(".part"));
+    while !being_written() && child.try_wait().unwrap().is_none() {
+        std::thread::yield_now();
+    }
+    let mut kill = std::process::Command::new("kill");
+    kill.args([signal, &child.id().to_string()]).stderr(Stdio::null()).status().unwrap();
+    let code = child.wait().unwrap().code();
+    assert_eq!(folder.names(), ["out.json"], "{code:?}");
+    let left = folder.read("out.json");
+    assert!(serde_json::from_str::<serde_json::Value>(&left).is_ok(), "{code:?}");
+    // Or it was done before the signal came.
+    assert!(matches!(code, Some(0 | 130)), "{code:?}");
+    code == Some(130) && left == "\"old\""
 }
 
 #[test]
@@ -243,13 +246,14 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{told}");
     for reason in [
-        "8.4 cm is no bat's length",
-        "880 of what?",
-        "\"pine\" is not in the list",
-        "99 cm is beyond the tip",
+        "8.4 cm, expected a bat's length",
+        "found 880, expected its unit",
+        "found \"pine\", expected one of white-ash",
+        "99 cm, expected no place beyond the tip",
         "decimals follow a point",
     ] {
-        assert!(told.contains(reason), "{reason}: {told}");
+        let words: Vec<&str> = told.split_whitespace().collect();
+        assert!(words.join(" ").contains(reason), "{reason}: {told}");
     }
     assert_eq!(folder.names(), ["birch-mine.json"]);
     let bat = Bat::from_file(folder.0.join("birch-mine.json")).unwrap();
@@ -261,6 +265,14 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     }
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("measured") && shown.contains("sweetspot analyze birch-mine.json"));
+    // The default name of the file is taken then, and another one is asked for; what was answered is
+    // told where the file cannot be written.
+    let again = answered(&folder, &[], &("birch mine!\n".to_owned() + answers));
+    let told = String::from_utf8_lossy(&again.stderr).into_owned();
+    assert!(again.status.code() == Some(2) && told.contains("birch-mine.json, which is there"));
+    let lost = answered(&folder, &["none/mine.json"], answers);
+    let told = String::from_utf8_lossy(&lost.stderr).into_owned();
+    assert!(told.contains("was not written") && told.contains("\"880 g\""), "{told}");
     // The same once more would replace it.
     let again = answered(&folder, &["birch-mine.json"], answers);
     assert_eq!(again.status.code(), Some(2), "{again:?}");

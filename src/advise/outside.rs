@@ -12,8 +12,8 @@ pub fn outside(bat: &Bat) -> Vec<String> {
         match hollow {
             true => {
                 "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-                 the ball (trampoline effect); sections stay round here, and no hit in this version \
-                 takes a stiffness of the barrel's wall"
+                 the ball (trampoline effect); sections stay round here, and a hit knows of that \
+                 wall what --wall-stiffness says"
             }
             false => {
                 "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"

@@ -38,6 +38,7 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
+Examples:
   sweetspot advise meshes/r161.json --tol 1%
       shear matters to a wooden bat, even at one per cent
 

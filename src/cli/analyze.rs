@@ -63,8 +63,9 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
+Examples:
   sweetspot analyze meshes/r161.json
-      a wooden bat of the major leagues, swung at 50 rad/s against a pitch of 90 mph
+      a wooden bat of the major leagues, swung at 50 rad/s at a pitch of 90 mph
 
   sweetspot analyze meshes/r161.json --report r161.html
       and a report as a page of its own, to look at, to print and to send
@@ -83,6 +84,7 @@ pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("analyze")?;
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;
+    args.scene.warn(&args.output);
     let modes = args.solve.modes_within(10, bat.profile.pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));

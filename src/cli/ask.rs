@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Write};
 
-use sweetspot::error::{Error, Result, nearest};
+use sweetspot::error::{Complaint, Error, Result};
 use sweetspot::material::BUILT_IN;
 use sweetspot::report::text::wrapped;
 use sweetspot::units::{self, Quantity, inches};
@@ -13,7 +13,7 @@ pub struct Dialogue<R> {
 }
 
 /// What an answer means, or why it is none.
-type Read<T> = std::result::Result<T, String>;
+pub type Read<T> = std::result::Result<T, Complaint>;
 
 impl<R: BufRead> Dialogue<R> {
     pub fn new(answers: R) -> Self {
@@ -54,7 +54,7 @@ impl<R: BufRead> Dialogue<R> {
             };
             match read(answer) {
                 Ok(value) => return Ok(value),
-                Err(reason) => self.say(&format!("  {reason}")),
+                Err(complaint) => self.say(wrapped(&format!("  {complaint}"), 2).trim_end()),
             }
         }
     }
@@ -74,11 +74,10 @@ impl<R: BufRead> Dialogue<R> {
         self.say(wrapped(&how, 0).trim_end());
         let mut stations: Vec<[f64; 2]> = Vec::new();
         for place in suggested(length, unit) {
-            let last = stations.last().map_or(-1.0, |s| s[0]);
-            if place > last {
+            if stations.last().is_none_or(|s| place > s[0]) {
                 let usual = if stations.is_empty() { None } else { Some("") };
                 let question = format!("  at {place} {unit}");
-                let read = |text: &str| station(text, Some(place), [last, length], unit);
+                let read = |text: &str| station(text, Some(place), &stations, length, unit);
                 match self.ask(&question, usual, read)? {
                     Some(measured) => stations.push(measured),
                     None => break,
@@ -86,12 +85,11 @@ impl<R: BufRead> Dialogue<R> {
             }
         }
         if stations.last().is_none_or(|s| s[0] < length) {
-            let last = stations.last().map_or(-1.0, |s| s[0]);
-            let read = |text: &str| station(text, Some(length), [last, length], unit);
+            let read = |text: &str| station(text, Some(length), &stations, length, unit);
             let question = format!("  at the tip, {length} {unit}");
             let tip = self.ask(&question, None, |text| match read(text)? {
                 Some([x, diameter]) if x == length => Ok([x, diameter]),
-                _ => Err("the diameter at the tip closes the bat".into()),
+                _ => Err(Complaint::new("", text, "the diameter at the tip, which ends the bat")),
             })?;
             stations.push(tip);
         }
@@ -110,39 +108,63 @@ fn suggested(length: f64, unit: &str) -> Vec<f64> {
 }
 
 /// A diameter at the suggested place, or a place and its diameter; None for an empty line. Places
-/// rise from the last one, the first is 0, and none is beyond the tip.
+/// rise from those `before`, the first is 0, none is beyond the tip, and two at one place between
+/// are a step.
 pub fn station(
     text: &str,
     suggested: Option<f64>,
-    [last, length]: [f64; 2],
+    before: &[[f64; 2]],
+    length: f64,
     unit: &str,
 ) -> Read<Option<[f64; 2]>> {
+    let wrong = |found: String, expected: &str| Err(Complaint::new("", found, expected));
     if text.is_empty() {
-        let reason = "the knob end's diameter begins the bat";
-        return if last < 0.0 { Err(reason.into()) } else { Ok(None) };
+        let expected = "the knob end's diameter, which begins the bat";
+        return if before.is_empty() { wrong("nothing".into(), expected) } else { Ok(None) };
     }
-    // Where a diameter alone will do, whoever writes 1,5 means one and a half.
-    let comma = if suggested.is_some() { ", " } else { "," };
-    let (x, diameter) = match (text.split_once(comma), suggested) {
+    let (x, diameter) = match (apart(text, suggested.is_some()), suggested) {
         (Some((x, diameter)), _) => (measured(x, unit)?, diameter),
         (None, Some(x)) => (x, text),
-        (None, None) => return Err(format!("{text}: expected a place and its diameter")),
+        (None, None) => {
+            let expected = "a place and its diameter, such as \"3 in, 0.98 in\"";
+            return wrong(format!("\"{text}\""), expected);
+        }
     };
     let diameter = measured(diameter, unit)?;
-    if last < 0.0 && x != 0.0 {
-        return Err(format!("{x} {unit} is not the knob end: the first place is 0"));
-    }
-    if x < last {
-        return Err(format!("{x} {unit} lies before {last} {unit}: places go from knob to tip"));
-    }
-    if x > length {
-        return Err(format!("{x} {unit} is beyond the tip at {length} {unit}"));
-    }
+    after(before, x, length, unit)?;
     let metres = in_metres(diameter, unit);
-    if !(diameter >= 0.0 && metres <= 0.1) || (diameter == 0.0 && 0.0 < x && x < length) {
-        return Err(format!("no bat has a diameter of {diameter} {unit} there"));
+    if !(0.0..=0.1).contains(&metres) || (diameter == 0.0 && 0.0 < x && x < length) {
+        let found = format!("a diameter of {diameter} {unit} at {x} {unit}");
+        return wrong(found, "that of a bat, above 0 and up to 3.9 in (10 cm)");
     }
     Ok(Some([x, diameter]))
+}
+
+/// Two numbers with a comma or blanks between them. Where a diameter alone would do, whoever writes
+/// 1,5 may mean one and a half.
+fn apart(text: &str, one_would_do: bool) -> Option<(&str, &str)> {
+    let comma = if one_would_do && !text.contains('.') { ", " } else { "," };
+    let number = |text: &str| text.parse::<f64>().is_ok();
+    let blank = || text.split_once(' ').map(|(x, diameter)| (x, diameter.trim()));
+    text.split_once(comma).or_else(|| blank().filter(|(x, d)| number(x) && number(d)))
+}
+
+/// Whether a place may follow those before it.
+fn after(before: &[[f64; 2]], x: f64, length: f64, unit: &str) -> Read<()> {
+    let here = before.iter().filter(|station| station[0] == x).count();
+    let (found, expected) = match before.last() {
+        None if x != 0.0 => (String::new(), "0, the knob end, as the first place".to_owned()),
+        Some([last, _]) if x < *last => {
+            (format!(" after {last} {unit}"), "places from knob to tip".to_owned())
+        }
+        _ if x > length => (String::new(), format!("no place beyond the tip at {length} {unit}")),
+        _ if here == 1 && (x == 0.0 || x == length) => {
+            (" a second time".to_owned(), "one diameter at an end of the bat".to_owned())
+        }
+        _ if here > 1 => (" a third time".to_owned(), "two diameters at a step".to_owned()),
+        _ => return Ok(()),
+    };
+    Err(Complaint::new("", format!("{x} {unit}{found}"), expected))
 }
 
 fn in_metres(value: f64, unit: &str) -> f64 {
@@ -155,7 +177,9 @@ pub fn measured(text: &str, unit: &str) -> Read<f64> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => {
-            let metres = units::parse(text, Quantity::Length).map_err(|c| c.to_string())?;
+            let bare = || units::parse(&format!("{text} {unit}"), Quantity::Length);
+            let metres = units::parse_beside(text, Quantity::Length, unit);
+            let metres = metres.or_else(|complaint| bare().or(Err(complaint)))?;
             Ok(if unit == "in" { inches(metres) } else { 100.0 * metres })
         }
     }
@@ -164,38 +188,47 @@ pub fn measured(text: &str, unit: &str) -> Read<f64> {
 /// The length of a bat in the ruler's unit.
 pub fn length(text: &str, unit: &str) -> Read<f64> {
     let value = measured(text, unit)?;
-    let metres = in_metres(value, unit);
-    if (0.1..=2.0).contains(&metres) {
+    if (0.1..=2.0).contains(&in_metres(value, unit)) {
         return Ok(value);
     }
-    Err(format!("{value} {unit} is no bat's length; 24 to 36 in (60 to 92 cm) are usual"))
+    let expected = "a bat's length; 24 to 36 in (60 to 92 cm) are usual";
+    Err(Complaint::new("", format!("{value} {unit}"), expected))
 }
 
 /// A mass with its unit, as it was written.
 pub fn mass(text: &str) -> Read<String> {
-    if text.parse::<f64>().is_ok() {
-        return Err(format!("{text} of what? Such as \"{text} oz\" or \"{text} g\""));
-    }
-    let with_unit = |found: &str| format!("found {found}, expected a mass such as \"31.5 oz\"");
-    let kilograms = units::parse(text, Quantity::Mass).map_err(|c| with_unit(&c.found))?;
+    let kilograms = match text.parse::<f64>() {
+        Ok(_) => {
+            let expected = format!("its unit, too, such as \"{text} oz\" or \"{text} g\"");
+            return Err(Complaint::new("", text, expected));
+        }
+        Err(_) => units::parse(text, Quantity::Mass).map_err(|complaint| Complaint {
+            expected: "a mass such as \"31.5 oz\"".into(),
+            ..complaint
+        })?,
+    };
     if (0.1..=5.0).contains(&kilograms) {
         return Ok(text.to_owned());
     }
-    Err(format!("{text} is no bat's mass; 20 to 40 oz (570 to 1130 g) are usual"))
+    Err(Complaint::new("", text, "a bat's mass; 20 to 40 oz (570 to 1130 g) are usual"))
 }
 
 /// A built-in material by its name or its number in the list, from 1.
 pub fn material(text: &str) -> Read<String> {
     let names: Vec<&str> = BUILT_IN.iter().map(|material| material.name).collect();
     let by_number = text.parse::<usize>().ok().and_then(|k| names.get(k.checked_sub(1)?));
-    match by_number.or_else(|| names.iter().find(|name| **name == text)) {
-        Some(name) => Ok((*name).to_owned()),
-        None => {
-            let hint = nearest(text, &names).map(|near| format!("; did you mean {near}?"));
-            let hint = hint.unwrap_or_default();
-            Err(format!("\"{text}\" is not in the list: {}{hint}", names.join(", ")))
-        }
+    if let Some(name) = by_number.or_else(|| names.iter().find(|name| **name == text)) {
+        return Ok((*name).to_owned());
     }
+    let like: Vec<&str> = names.iter().copied().filter(|name| name.contains(text)).collect();
+    let complaint =
+        Complaint::new("", format!("\"{text}\""), format!("one of {}", names.join(", ")));
+    Err(match like[..] {
+        [_, ..] if !text.is_empty() => {
+            complaint.hinted(format!("did you mean {}?", like.join(" or ")))
+        }
+        _ => complaint.or_nearest(text, &names),
+    })
 }
 
 /// The list that [`material`] counts.
@@ -230,7 +263,14 @@ mod tests {
         // 5 in is too thick, 0.5 lies before 0.75, the tip may be a point.
         assert_eq!(stations, [[0.0, 1.9], [0.75, 1.2], [1.0, 1.0], [33.0, 0.0]]);
         assert_eq!(measured("2.54 cm", "in").map(|x| (x - 1.0).abs() < 1e-12), Ok(true));
-        assert!(station("34, 2", None, [0.0, 33.0], "in").is_err());
+        assert!(station("34, 2", None, &[[0.0, 1.9]], 33.0, "in").is_err());
+    }
+
+    #[test]
+    fn two_stations_at_one_place_are_a_step_and_three_are_none() {
+        let answers = "1.9\n0, 1.8\n0.75, 1.9\n0.75, 1.2\n0.75, 0.9\n1\n\n2.5\n";
+        let stations = Dialogue::new(answers.as_bytes()).stations(33.0, "in").unwrap();
+        assert_eq!(stations, [[0.0, 1.9], [0.75, 1.9], [0.75, 1.2], [1.5, 1.0], [33.0, 2.5]]);
     }
 
     #[test]

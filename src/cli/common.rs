@@ -25,9 +25,9 @@ use crate::cli::{NOT_REACHED, printable, style};
 /// The end of a verb's help: commands to try, and how values are written.
 pub fn examples(commands: &str) -> String {
     format!(
-        "Examples:\n{commands}\n\nA bare number is in the unit that stands between < >; others are \
-         written with it,\nsuch as \"28 in\", \"31 oz\", \"90 mph\" or \"0.75 ms\". Places count from \
-         the knob end."
+        "{commands}\n\nA bare number is in the unit that stands between < >; others are written \
+         with\nit, such as \"28 in\", \"31 oz\", \"90 mph\" or \"0.75 ms\". Places count from the \
+         knob\nend."
     )
 }
 
@@ -142,7 +142,8 @@ pub struct SolveArgs {
     /// auto takes the simplest whose estimated shift of every frequency is within --tol. The others:
     /// euler-bernoulli (bending alone), rayleigh (and rotary inertia), timoshenko (and shear, which
     /// needs the material's shear modulus).
-    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory)]
+    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
+          hide_possible_values = true)]
     theory: TheoryChoice,
 
     /// Total number of elements; the tolerance is then not enforced
@@ -161,7 +162,8 @@ pub struct SolveArgs {
     pub budget: Option<Duration>,
 
     /// Eigensolver: auto (statics), statics, dense, shift-invert or arpack
-    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = solver)]
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = solver(),
+          hide_possible_values = true)]
     solver: Solver,
 }
 
@@ -245,7 +247,8 @@ pub struct OutputArgs {
     pub json: Option<PathBuf>,
 
     /// Units of the tables: si, us or both
-    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system)]
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
+          hide_possible_values = true)]
     pub units: Units,
 
     /// No warnings and no progress on standard error
@@ -259,8 +262,8 @@ impl OutputArgs {
         let text = || format!("{:#}\n", document());
         match &self.json {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
-            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(table)),
-            None => Ok(style::table(table)),
+            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(&table)),
+            None => Ok(style::table(&table)),
         }
     }
 

@@ -94,8 +94,9 @@ Examples:
   sweetspot compare meshes/r161.json --measured modes.uff
       as a laboratory's universal file is compared: datasets 15 or 2411, and 55
 
-Measured shapes may be typed into a spreadsheet and saved as CSV, places from the knob end
-downwards, modes side by side, frequencies and damping in lines of their own:
+Measured shapes may be typed into a spreadsheet and saved as CSV, places from
+the knob end downwards, modes side by side, frequencies and damping in lines of
+their own:
 
   x_in,           mode_1,  mode_2
   frequency_hz,   178.2,   583.0
@@ -104,8 +105,8 @@ downwards, modes side by side, frequencies and damping in lines of their own:
   3,              0.55,    0.12
   33,             0.41,    0.37
 
-damping_percent will do too, and # begins a remark. Where there are no shapes the columns are
-mode,frequency_hz,damping_ratio, a line for each mode.";
+damping_percent will do too, and # begins a remark. Where there are no shapes
+the columns are mode,frequency_hz,damping_ratio, a line for each mode.";
 
 /// More bats do not fit beside each other.
 const MOST: usize = 6;
@@ -167,6 +168,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
+    args.scene.warn(&args.output);
     let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
     let compared = Comparison::new(entries, terms).map_err(as_option)?;
     if let Some(folder) = &args.plots {

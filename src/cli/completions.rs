@@ -19,7 +19,8 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot completions bash > ~/.local/share/bash-completion/completions/sweetspot
+  sweetspot completions bash > \\
+      ~/.local/share/bash-completion/completions/sweetspot
   sweetspot completions zsh > ~/.zfunc/_sweetspot
   sweetspot completions fish > ~/.config/fish/completions/sweetspot.fish";
 

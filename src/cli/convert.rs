@@ -23,7 +23,7 @@ pub struct Args {
 
     /// uff: universal file, datasets 151, 164, 2411, 82 and 55, for modal test programs;
     /// vtu: VTK, for ParaView; csv: a table for spreadsheets; npz: arrays for NumPy
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     to: Format,
 
     /// File to write (- = standard output, but for npz); with vtu a name that ends in .pvd makes a
@@ -52,7 +52,7 @@ Examples:
       r161.uff, for programs of modal tests
 
   sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
-      for ParaView: Warp By Vector with mode, then step through time, the frequency
+      for ParaView: Warp By Vector with mode, then step through the frequencies
 
   sweetspot convert r161.json --to csv
   sweetspot convert r161.json --to npz

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use sweetspot::bat::Bat;
-use sweetspot::error::{Error, Result, nearest};
+use sweetspot::error::{Error, Result};
 use sweetspot::exchange::frf_uff::{self, Measured};
 use sweetspot::exchange::uff::{self, Stamp, six_digits};
 use sweetspot::frf::{Frf, Kind, Sample};
@@ -16,7 +16,7 @@ use sweetspot::units::{Quantity, inches};
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
-use crate::cli::value::{number, quantity, shown_length};
+use crate::cli::value::{named, number, quantity, shown_length};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///
@@ -41,8 +41,8 @@ pub struct Args {
     to: Option<f64>,
 
     /// What is answered: receptance (deflection), mobility (velocity) or accelerance
-    #[arg(long, value_name = "KIND", default_value = "receptance", value_parser = kind,
-          help_heading = "The force")]
+    #[arg(long, value_name = "KIND", default_value = "receptance", value_parser = named(Kind::ALL, Kind::name),
+          hide_possible_values = true, help_heading = "The force")]
     kind: Kind,
 
     /// Lowest frequency [default: a tenth of that of mode 1]
@@ -66,7 +66,7 @@ pub struct Args {
     #[arg(long, help_heading = "The force")]
     linear: bool,
 
-    /// These frequencies, separated by commas, in place of a range
+    /// These frequencies, comma-separated, in place of a range
     #[arg(long, value_name = "Hz,Hz,…", help_heading = "The force", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["from_hz", "to_hz", "points", "linear"],
           value_parser = |s: &str| quantity(s, Quantity::Frequency))]
@@ -94,7 +94,8 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
-  sweetspot frf meshes/r161.json --at \"28 in\" --to \"2 in\" --kind mobility --to-hz 2000
+Examples:
+  sweetspot frf meshes/r161.json --at \"28 in\" --to \"2 in\" --kind mobility
       struck on the barrel, felt at the handle
 
   sweetspot frf meshes/dowel.json --at 0.3 --frequencies \"100,200,300\" --csv -
@@ -339,13 +340,4 @@ fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> Strin
     );
     out += &wrapped(&made, 2);
     out
-}
-
-fn kind(text: &str) -> std::result::Result<Kind, String> {
-    let names = Kind::ALL.map(Kind::name);
-    Kind::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
-        let hint = nearest(text, &names);
-        let hint = hint.map_or(String::new(), |name| format!(" (did you mean {name}?)"));
-        format!("expected one of {}{hint}", names.join(", "))
-    })
 }

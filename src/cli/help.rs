@@ -2,12 +2,13 @@
 
 use std::fmt::Display;
 
-use clap::Command;
+use clap::{Arg, Command};
 
-/// Columns of what is said of a verb, of an option on lines of its own, and of one beside its name.
+/// Columns of what is said of a verb, and of an option on lines of its own.
 const PROSE: usize = 80;
-const BELOW: usize = 78;
-const BESIDE: usize = 62;
+const BELOW: usize = 70;
+/// At least that is left beside the longest name.
+const BESIDE: usize = 30;
 
 /// A space at which no line breaks.
 const TOGETHER: &str = "\u{a0}";
@@ -19,6 +20,8 @@ pub fn fitted(command: Command) -> Command {
         Some(text) => command.long_about(text),
         None => command,
     };
+    let longest = command.get_arguments().map(columns).max().unwrap_or(0);
+    let beside = PROSE.saturating_sub(longest).max(BESIDE);
     let command = command.mut_args(|arg| {
         let values = arg.get_default_values().iter().map(|value| value.to_string_lossy());
         let default = match values.collect::<Vec<_>>().join(" ") {
@@ -30,10 +33,20 @@ pub fn fitted(command: Command) -> Command {
         let long = long.or_else(|| short.clone());
         let Some((short, long)) = short.zip(long) else { return arg };
         let takes = arg.get_action().takes_values();
-        let arg = arg.help(lines(&short, BESIDE)).long_help(lines(&long, BELOW));
+        let arg = arg.help(lines(&short, beside)).long_help(lines(&long, BELOW));
         if takes { arg.hide_default_value(true) } else { arg }
     });
     command.mut_subcommands(fitted)
+}
+
+/// Columns before what is said of an option beside its name: two blanks, both names, the value's,
+/// two blanks.
+fn columns(arg: &Arg) -> usize {
+    let wide = |text: &str| text.chars().count();
+    let names = arg.get_long().map_or(0, |long| "-n, --".len() + wide(long));
+    let values = arg.get_value_names().filter(|_| arg.get_action().takes_values());
+    let values = values.into_iter().flatten().map(|name| wide(name) + " <>".len());
+    2 + names + values.sum::<usize>() + 2
 }
 
 /// The text in lines of at most so many columns; its own line ends stay.

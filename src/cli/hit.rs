@@ -48,13 +48,15 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
-  sweetspot hit meshes/r161.json --swing-speed \"45 rad/s\" --pitch \"85 mph\" --points 11
+Examples:
+  sweetspot hit meshes/r161.json --swing-speed \"45 rad/s\" --points 11
       eleven places from the middle to the tip
 
   sweetspot hit meshes/torpedo.json --at \"27 in\" --json -
       one place, every figure of it as JSON
 
-  sweetspot hit meshes/r161.json --reference-inertia \"10000 oz in2\" --swing-exponent 0.25
+  sweetspot hit meshes/r161.json --reference-inertia \"10000 oz in2\" \\
+      --swing-exponent 0.25
       by a batter who swings a lighter bat at 50 rad/s and heavier ones slower";
 
 /// Where the ball meets the bat; all positions from the knob end.
@@ -117,6 +119,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let (scene, law) = args.scene.scene(&bat)?;
+    args.scene.warn(&args.output);
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);

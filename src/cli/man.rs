@@ -29,9 +29,11 @@ Examples:
       one page; man ./modes.1 shows it
 
   sweetspot man --out man1
-      all of them; in ~/.local/share/man/man1 the command man sweetspot finds them";
+      all of them; in ~/.local/share/man/man1 the command man finds them";
 
-pub fn run(args: &Args, mut command: Command) -> Result<Done> {
+pub fn run(args: &Args, command: Command) -> Result<Done> {
+    // The verb that prints help has no page.
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     if let Some(folder) = &args.out {
         return all(folder, &command);
@@ -56,8 +58,7 @@ fn all(folder: &Path, command: &Command) -> Result<Done> {
     let failed = |source| Error::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
     let mut out = String::new();
-    let help = |verb: &&Command| verb.get_name() != "help";
-    for verb in [command].into_iter().chain(command.get_subcommands().filter(help)) {
+    for verb in [command].into_iter().chain(command.get_subcommands()) {
         let name = verb.get_display_name().unwrap_or(verb.get_name());
         let path = folder.join(format!("{name}.1"));
         file::write(&path, page(verb).as_bytes())?;
@@ -69,7 +70,8 @@ fn all(folder: &Path, command: &Command) -> Result<Done> {
 /// One page in roff.
 fn page(command: &Command) -> String {
     let mut page = Vec::new();
-    let written = Man::new(command.clone()).render(&mut page);
+    let man = Man::new(command.clone()).source(concat!("sweetspot ", env!("CARGO_PKG_VERSION")));
+    let written = man.render(&mut page);
     written.expect("memory takes what is written to it");
     String::from_utf8_lossy(&page).into_owned()
 }

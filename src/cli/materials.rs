@@ -22,7 +22,8 @@ use crate::cli::{Done, style};
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// Units of the table: si, us or both
-    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system,
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
+          hide_possible_values = true,
           help_heading = "Output")]
     units: Units,
 
@@ -36,14 +37,15 @@ Examples:
   sweetspot materials --units us
   sweetspot materials --json materials.json
 
-In the table ρ is the density, E Young's modulus and G the shear modulus along the grain.";
+In the table ρ is the density, E Young's modulus and G the shear modulus along
+the grain.";
 
 const POUND_PER_CUBIC_INCH: f64 = 0.453_592_37 / (0.0254 * 0.0254 * 0.0254);
 /// A million pound-force per square inch (Pa).
 const MPSI: f64 = 6.894_757_293_168_361e9;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let table = || style::table(table(args.units));
+    let table = || style::table(&table(args.units));
     let document = || format!("{:#}\n", document());
     let text = match &args.json {
         Some(path) if path.as_os_str() == "-" => document(),

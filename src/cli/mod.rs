@@ -27,6 +27,8 @@ mod trade;
 mod validate;
 mod value;
 
+use std::ffi::OsString;
+
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -102,15 +104,13 @@ enum Verb {
 
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
-/// Options that this version does not know yet.
-const LATER_OPTIONS: &[&str] = &[];
 
 /// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
 pub fn run() -> Result<Done> {
-    let args = std::env::args_os().skip(1);
-    refuse_later(&args.map(|arg| arg.to_string_lossy().into_owned()).collect::<Vec<_>>())?;
+    refuse_later(std::env::args_os().nth(1))?;
     let verb = parse().verb;
     stop_cleanly();
+    file::keep();
     match verb {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
@@ -173,14 +173,12 @@ pub fn printable(text: &str) -> String {
     text.chars().map(escaped).collect()
 }
 
-fn refuse_later(args: &[String]) -> Result<()> {
-    let verb = args.first().filter(|verb| LATER_VERBS.contains(&verb.as_str()));
-    let option = args.iter().map(|arg| arg.split('=').next().unwrap_or(arg));
-    let option = option.into_iter().find(|arg| LATER_OPTIONS.contains(arg));
-    let advice = "see --help for what there is";
-    match (verb, option) {
-        (Some(verb), _) => Err(Error::NotYet { what: format!("\"{verb}\""), advice }),
-        (None, Some(option)) => Err(Error::NotYet { what: option.to_owned(), advice }),
-        (None, None) => Ok(()),
+fn refuse_later(verb: Option<OsString>) -> Result<()> {
+    match verb.filter(|verb| LATER_VERBS.iter().any(|later| verb == later)) {
+        Some(verb) => {
+            let what = format!("\"{}\"", verb.display());
+            Err(Error::NotYet { what, advice: "see --help for what there is" })
+        }
+        None => Ok(()),
     }
 }

@@ -51,6 +51,7 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
+Examples:
   sweetspot modes meshes/r161.json -n 5
       the first five modes, within 0.01 %
 

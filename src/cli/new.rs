@@ -1,10 +1,10 @@
 //! `sweetspot new FILE`: a bat file by asking or from flags.
 
-use std::io::{IsTerminal, stdin};
+use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
 use sweetspot::bat::Bat;
-use sweetspot::error::{Error, Result};
+use sweetspot::error::{Complaint, Error, Result};
 use sweetspot::report::sketch::{self, Places, Row};
 use sweetspot::report::text::{Units, wrapped};
 use sweetspot::report::{file, text};
@@ -15,7 +15,6 @@ use crate::cli::Done;
 use crate::cli::ask::{self, Dialogue};
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{glyphs, printed};
-use crate::cli::value::one_of;
 
 /// Write a bat file, by asking or from options
 ///
@@ -44,7 +43,7 @@ pub struct Args {
 
     /// Unit of the file's lengths: in or cm
     #[arg(long, value_name = "in|cm", help_heading = "The bat",
-          value_parser = |s: &str| one_of(s, &["in", "cm"], &[]))]
+          value_parser = ["in", "cm"], hide_possible_values = true)]
     unit: Option<String>,
 
     /// Length, such as "33.5 in"; a bare number is in the file's unit
@@ -52,11 +51,11 @@ pub struct Args {
     length: Option<String>,
 
     /// Mass on the scale, such as "31.5 oz"
-    #[arg(long, value_name = "MASS", help_heading = "The bat", value_parser = ask::mass)]
+    #[arg(long, value_name = "MASS", help_heading = "The bat", value_parser = |s: &str| ask::mass(s).map_err(|complaint| complaint.to_string()))]
     mass: Option<String>,
 
     /// A name of: sweetspot materials
-    #[arg(long, value_name = "NAME", help_heading = "The bat", value_parser = ask::material)]
+    #[arg(long, value_name = "NAME", help_heading = "The bat", value_parser = |s: &str| ask::material(s).map_err(|complaint| complaint.to_string()))]
     material: Option<String>,
 
     /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; give it as often
@@ -66,7 +65,7 @@ pub struct Args {
 
     /// The diameters of a bat that is built in, stretched to the length: r161 or torpedo
     #[arg(long, value_name = "BAT", help_heading = "The bat", conflicts_with = "stations",
-          value_parser = |s: &str| one_of(s, LIKE, &[]))]
+          value_parser = ["r161", "torpedo"], hide_possible_values = true)]
     like: Option<String>,
 }
 
@@ -75,44 +74,54 @@ Examples:
   sweetspot new
       asks for everything and writes a file called after the bat
 
-  sweetspot new mine.json --like r161 --length \"34 in\" --mass \"31.5 oz\" --material white-ash-dynamic
+  sweetspot new mine.json --like r161 --length \"34 in\" --mass \"31.5 oz\" \\
+      --material white-ash-dynamic
       a longer R161
 
-  sweetspot new fungo.json --length \"35 in\" --mass \"22 oz\" --material white-ash-dynamic \\
-      --station \"0 in, 1.7 in\" --station \"1.5 in, 0.9 in\" --station \"14 in, 1.1 in\" \\
+  sweetspot new fungo.json --length \"35 in\" --mass \"22 oz\" \\
+      --material white-ash-dynamic --station \"0 in, 1.7 in\" \\
+      --station \"1.5 in, 0.9 in\" --station \"14 in, 1.1 in\" \\
       --station \"35 in, 2.2 in\"
       from four diameters; sweetspot analyze fungo.json says what it does";
 
-/// The bats that others may be like.
-const LIKE: &[&str] = &["r161", "torpedo"];
 const SOURCE: &str = "measured with ruler, calipers and scale";
 
 pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.file {
         refuse_existing(path, args.force)?;
     }
-    let measured = if args.ask || stdin().is_terminal() {
-        asked(args, &mut Dialogue::new(stdin().lock()))?
-    } else {
-        given(args)?
-    };
+    let ask = args.ask || stdin().is_terminal();
+    let measured =
+        if ask { asked(args, &mut Dialogue::new(stdin().lock()))? } else { given(args)? };
     let text = bat_text::text(&measured);
+    made(args, &measured, &text).inspect_err(|_| {
+        // What was answered is not lost with the file; without standard error there is nobody.
+        let _ =
+            if ask { write!(stderr(), "The bat, which was not written:\n{text}") } else { Ok(()) };
+    })
+}
+
+fn made(args: &Args, measured: &Measured, text: &str) -> Result<Done> {
     let path = args.file.clone().unwrap_or_else(|| called(&measured.name));
-    let bat = Bat::from_text(&printed(&path), &text, Path::new(""))?;
+    let bat = Bat::from_text(&printed(&path), text, Path::new(""))?;
     if path.as_os_str() == "-" {
-        return Ok(Done::new(text, 0));
+        return Ok(Done::new(text.to_owned(), 0));
     }
     refuse_existing(&path, args.force)?;
     file::write(&path, text.as_bytes())?;
-    Ok(Done::new(shown(&bat, &measured, &path), 0))
+    Ok(Done::new(shown(&bat, measured, &path), 0))
 }
+
+/// Letters of a file's name that is made of the bat's.
+const LETTERS: usize = 60;
 
 /// A file of the name, for a file that has none.
 fn called(name: &str) -> PathBuf {
     let plain = |c: char| if c.is_alphanumeric() { c } else { ' ' };
     let words: String = name.to_lowercase().chars().map(plain).collect();
     let words: Vec<&str> = words.split_whitespace().collect();
-    let stem = if words.is_empty() { "bat".to_owned() } else { words.join("-") };
+    let stem: String = words.join("-").chars().take(LETTERS).collect();
+    let stem = if words.is_empty() { "bat".to_owned() } else { stem };
     PathBuf::from(format!("{stem}.json"))
 }
 
@@ -127,7 +136,7 @@ fn refuse_existing(path: &Path, force: bool) -> Result<()> {
 /// From options alone; what is missing is said.
 fn given(args: &Args) -> Result<Measured> {
     let missing =
-        |what: &str| Error::value("new", format!("no {what}"), "it, or --ask to answer questions");
+        |what: &str| Error::value("new", "none", format!("{what}, or --ask to answer questions"));
     let unit = unit(args.unit.as_deref());
     let stations = match (&args.like, args.stations.is_empty()) {
         (None, true) => return Err(missing("--station or --like")),
@@ -147,14 +156,26 @@ fn given(args: &Args) -> Result<Measured> {
 /// What the options say, and answers to the rest.
 fn asked(args: &Args, person: &mut Dialogue<impl std::io::BufRead>) -> Result<Measured> {
     person.say("A bat file. An empty line takes what stands in [ ]; Ctrl-C writes nothing.");
-    let text = |answer: &str| Ok(answer.to_owned());
+    let new = |answer: &str| match &args.file {
+        Some(_) => Ok(answer.to_owned()),
+        None => match refuse_existing(&called(answer), args.force) {
+            Ok(()) => Ok(answer.to_owned()),
+            Err(_) => {
+                let found = format!("{}, which is there", printed(&called(answer)));
+                Err(Complaint::new("", found, "another name"))
+            }
+        },
+    };
     let name = match &args.name {
-        Some(name) => name.clone(),
-        None => person.ask("Name", Some("My bat"), text)?,
+        Some(name) => new(name).map_err(of_option("--name"))?,
+        None => person.ask("Name", Some("My bat"), new)?,
     };
     let unit = match (&args.unit, &args.length) {
         (None, None) => {
-            let read = |answer: &str| one_of(answer, &["in", "cm"], &[]);
+            let read = |answer: &str| match answer {
+                "in" | "cm" => Ok(answer.to_owned()),
+                other => Err(Complaint::new("", format!("\"{other}\""), "in or cm")),
+            };
             unit(Some(&person.ask(
                 "Unit of your ruler and calipers, in or cm",
                 Some("in"),
@@ -186,6 +207,11 @@ fn asked(args: &Args, person: &mut Dialogue<impl std::io::BufRead>) -> Result<Me
     Ok(Measured { name, source: source(args), material, mass, unit, stations })
 }
 
+/// What is wrong with the value of an option.
+fn of_option(name: &str) -> impl Fn(Complaint) -> Error {
+    move |complaint| Error::Value(Complaint { field: name.to_owned(), ..complaint })
+}
+
 fn unit(name: Option<&str>) -> &'static str {
     if name == Some("cm") { "cm" } else { "in" }
 }
@@ -198,10 +224,7 @@ fn source(args: &Args) -> String {
 
 /// `--length` in the file's unit.
 fn length(args: &Args, unit: &str) -> Result<Option<f64>> {
-    let read = |text: &String| {
-        let length = ask::length(text, unit);
-        length.map_err(|reason| Error::value("--length", text, reason))
-    };
+    let read = |text: &String| ask::length(text, unit).map_err(of_option("--length"));
     args.length.as_ref().map(read).transpose()
 }
 
@@ -210,12 +233,11 @@ fn stations(args: &Args, unit: &str) -> Result<Vec<[f64; 2]>> {
     let length = length(args, unit)?;
     let mut stations: Vec<[f64; 2]> = Vec::new();
     for text in &args.stations {
-        let last = stations.last().map_or(-1.0, |s| s[0]);
-        let measured = ask::station(text, None, [last, length.unwrap_or(f64::INFINITY)], unit);
-        match measured.map_err(|reason| Error::value("--station", text, reason))? {
-            Some(station) => stations.push(station),
-            None => return Err(Error::value("--station", text, "a place and its diameter")),
-        }
+        let end = length.unwrap_or(f64::INFINITY);
+        let measured = ask::station(text, None, &stations, end, unit);
+        // An empty one is no station.
+        let missing = || Error::value("--station", "nothing", "a place and its diameter");
+        stations.push(measured.map_err(of_option("--station"))?.ok_or_else(missing)?);
     }
     let last = stations.last().map_or(0.0, |s| s[0]);
     if let Some(length) = length.filter(|length| *length > last) {
@@ -253,13 +275,19 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
             _ => "That is another material, a hollow bat, or a slip: look at mass and diameters.",
         }
     );
-    let name = printed(path);
+    let [name, page] = [path, &path.with_extension("html")].map(quoted);
     format!(
-        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name}\n",
+        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n",
         text::summary(bat, units),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict, 0),
     )
+}
+
+/// A path as a shell takes it.
+fn quoted(path: &Path) -> String {
+    let name = printed(path);
+    if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name }
 }
 
 fn end(measured: &Measured) -> f64 {

@@ -115,10 +115,13 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
-  sweetspot ring meshes/r161.json --hit \"65 cm\" --watch \"5 in,9 in\" --history hands.csv
-      what two hands feel after a hit near the sweet spot, and every instant as CSV
+Examples:
+  sweetspot ring meshes/r161.json --hit \"65 cm\" --watch \"5 in,9 in\" \\
+      --history hands.csv
+      what two hands feel after a hit near the sweet spot, every instant as CSV
 
-  sweetspot ring meshes/dowel.json --at \"0.6 m\" --impulse \"1 N s\" --modes 5 --times \"0,1 ms,2 ms\"
+  sweetspot ring meshes/dowel.json --at \"0.6 m\" --impulse \"1 N s\" --modes 5 \\
+      --times \"0,1 ms,2 ms\"
       the deflected dowel after a blow, at three instants";
 
 pub fn run(args: &Args) -> Result<Done> {
@@ -226,6 +229,7 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         return Err(Error::value("--model", hit_json::model_name(model), expected));
     }
     let (scene, _) = args.scene.scene(&bat)?;
+    args.scene.warn(&args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
     let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };

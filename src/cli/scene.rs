@@ -11,7 +11,8 @@ use sweetspot::collision::pulse::Pulse;
 use sweetspot::error::{Complaint, Error, Result, nearest};
 use sweetspot::units::Quantity;
 
-use crate::cli::value::{one_of, quantity, shown_length};
+use crate::cli::common::OutputArgs;
+use crate::cli::value::{quantity, shown_length};
 
 /// The swing, the pitch and the ball.
 #[derive(clap::Args)]
@@ -21,7 +22,8 @@ pub struct SceneArgs {
     ///
     /// contact: ball and bending modes in contact, by a nonlinear lossy spring. pulse: a half sine of
     /// a given duration. energy-loss: the empirical loss of the WPI report. rigid: no bending.
-    #[arg(long, value_name = "MODEL", default_value = "contact", value_parser = model)]
+    #[arg(long, value_name = "MODEL", default_value = "contact",
+          value_parser = ["contact", "pulse", "energy-loss", "rigid"], hide_possible_values = true)]
     model: String,
 
     /// Angular speed of the swing
@@ -141,6 +143,19 @@ impl SceneArgs {
         Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
     }
 
+    /// Warns of speeds that nobody has, most likely bare numbers in other units.
+    pub fn warn(&self, output: &OutputArgs) {
+        for (option, value, most, unit, hint) in [
+            ("--pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
+            ("--swing-speed", self.swing_speed.abs(), 100.0, "rad/s", "about 50 rad/s"),
+        ] {
+            if value > most {
+                let told = format!("warning: {option} is {value} {unit}; usual is {hint}");
+                output.warn(&told);
+            }
+        }
+    }
+
     fn swing_law(&self) -> Result<Option<SwingLaw>> {
         let Some(reference) = self.reference_inertia else { return Ok(None) };
         let exponent = self.swing_exponent.unwrap_or(0.0);
@@ -237,8 +252,4 @@ fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {
         Ok(value) if (0.0..=100.0).contains(&value) => Ok(value + 0.0),
         _ => Err(format!("expected a {what} from 0 to 100")),
     }
-}
-
-fn model(text: &str) -> std::result::Result<String, String> {
-    one_of(text, &["contact", "pulse", "energy-loss", "rigid"], &[])
 }

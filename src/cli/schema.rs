@@ -4,8 +4,9 @@ use sweetspot::error::Result;
 use sweetspot::schema::{self, File};
 
 use crate::cli::Done;
+use crate::cli::value::named;
 
-/// JSON Schema of the files: what may stand in a bat file, and what modes and hit write
+/// JSON Schema of the files: what a bat file may say, what modes and hit write
 ///
 /// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
 /// three, which tells them apart by their "format".
@@ -13,7 +14,8 @@ use crate::cli::Done;
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// Which file: bat, modes or hit [default: all of them in one schema]
-    #[arg(value_name = "FILE", value_parser = file)]
+    #[arg(value_name = "FILE", value_parser = named(File::ALL, File::name),
+          hide_possible_values = true)]
     file: Option<File>,
 }
 
@@ -28,9 +30,4 @@ Examples:
 pub fn run(args: &Args) -> Result<Done> {
     let schema = args.file.map_or_else(schema::all, File::schema);
     Ok(Done::new(format!("{schema:#}\n"), 0))
-}
-
-fn file(text: &str) -> std::result::Result<File, String> {
-    let known = File::ALL.into_iter().find(|file| file.name() == text);
-    known.ok_or_else(|| format!("expected one of {}", File::ALL.map(File::name).join(", ")))
 }

@@ -5,6 +5,8 @@ use std::io::{IsTerminal, stdout};
 
 use clap::builder::styling::Style;
 
+use crate::cli::printable;
+
 /// Longest word or two before a colon that is a heading of its own.
 const LABEL: usize = 16;
 
@@ -22,8 +24,10 @@ pub fn coloured(terminal: bool) -> bool {
     set("NO_COLOR").is_none() && (forced || terminal && !unwanted && !dumb)
 }
 
-/// The table as it is shown on standard output: with bold headings where there is colour.
-pub fn table(text: String) -> String {
+/// The table as it is shown on standard output: with bold headings where there is colour, and
+/// nothing in it that acts on a terminal, whatever a bat is called.
+pub fn table(text: &str) -> String {
+    let text: String = text.split('\n').map(printable).collect::<Vec<_>>().join("\n");
     if coloured(stdout().is_terminal()) { headings(&text) } else { text }
 }
 

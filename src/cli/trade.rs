@@ -38,7 +38,8 @@ pub struct Args {
     /// Beam theory: auto, euler-bernoulli, rayleigh or timoshenko
     ///
     /// auto is the simplest whose estimated shift of every frequency is within 1e-4.
-    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory,
+    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
+          hide_possible_values = true,
           help_heading = "Accuracy")]
     theory: TheoryChoice,
 
@@ -68,6 +69,7 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "\
+Examples:
   sweetspot trade meshes/r161.json -n 5
       five modes, for five seconds
 
@@ -116,7 +118,7 @@ pub fn run(args: &Args) -> Result<Done> {
 /// Writes the files; what is left for standard output.
 fn deliver(args: &Args, table: String, document: &Value, rows: String) -> Result<String> {
     let text = format!("{document:#}\n");
-    let mut out = style::table(table);
+    let mut out = style::table(&table);
     for (path, contents) in [(&args.csv, rows), (&args.json, text)] {
         match path {
             Some(path) if path == Path::new("-") => out = contents,

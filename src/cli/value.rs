@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use sweetspot::error::nearest;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use sweetspot::report::text::Units;
 use sweetspot::solve::Solver;
 use sweetspot::theory::Theory;
@@ -47,17 +47,22 @@ pub fn budget(text: &str) -> std::result::Result<Duration, String> {
     }
 }
 
-/// One of `now`, with a word of its own for what comes `later`.
-pub fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<String, String> {
-    if now.contains(&text) {
-        return Ok(text.to_owned());
-    }
-    let names = now.join(", ");
-    if later.contains(&text) {
-        return Err(format!("{text} is not supported yet; there is {names}"));
-    }
-    let hint = nearest(text, now).map_or(String::new(), |name| format!(" (did you mean {name}?)"));
-    Err(format!("expected one of {names}{hint}"))
+/// One of the names, which completions and messages list.
+pub fn choice<T: Clone + Send + Sync + 'static>(
+    names: &'static [&'static str],
+    meant: impl Fn(&str) -> T + Clone + Send + Sync + 'static,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(names).map(move |name| meant(&name))
+}
+
+/// One of these by its name, as [`choice`].
+pub fn named<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let of_name = move |text: String| all.into_iter().find(|one| name(*one) == text);
+    PossibleValuesParser::new(all.map(name))
+        .try_map(move |text| of_name(text).ok_or("no such name"))
 }
 
 /// A theory, or none: that which the bat needs.
@@ -65,16 +70,15 @@ pub fn one_of(text: &str, now: &[&str], later: &[&str]) -> std::result::Result<S
 pub struct TheoryChoice(pub Option<Theory>);
 
 /// `--theory` on the command line.
-pub fn theory(text: &str) -> std::result::Result<TheoryChoice, String> {
-    let names = ["auto", "euler-bernoulli", "rayleigh", "timoshenko"];
-    let name = one_of(text, &names, &[])?;
-    Ok(TheoryChoice(Theory::ALL.into_iter().find(|theory| theory.name() == name)))
+pub fn theory() -> impl TypedValueParser<Value = TheoryChoice> {
+    choice(&["auto", "euler-bernoulli", "rayleigh", "timoshenko"], |name| {
+        TheoryChoice(Theory::ALL.into_iter().find(|theory| theory.name() == name))
+    })
 }
 
 /// `--solver` on the command line.
-pub fn solver(text: &str) -> std::result::Result<Solver, String> {
-    let names = ["auto", "statics", "dense", "shift-invert", "arpack"];
-    Ok(match one_of(text, &names, &[])?.as_str() {
+pub fn solver() -> impl TypedValueParser<Value = Solver> {
+    choice(&["auto", "statics", "dense", "shift-invert", "arpack"], |name| match name {
         "dense" => Solver::Dense,
         "shift-invert" => Solver::ShiftInvert,
         "arpack" => Solver::Arpack,
@@ -83,8 +87,8 @@ pub fn solver(text: &str) -> std::result::Result<Solver, String> {
 }
 
 /// `--units` on the command line.
-pub fn unit_system(text: &str) -> std::result::Result<Units, String> {
-    Ok(match one_of(text, &["si", "us", "both"], &[])?.as_str() {
+pub fn unit_system() -> impl TypedValueParser<Value = Units> {
+    choice(&["si", "us", "both"], |name| match name {
         "si" => Units::Si,
         "us" => Units::Us,
         _ => Units::Both,

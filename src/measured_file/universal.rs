@@ -14,6 +14,7 @@ use crate::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Universal};
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured_file::FEWEST;
 use crate::measured_file::direction::{Vector, axis, dot, named, normals, positive};
+use crate::report::file;
 
 /// What a node does.
 type Motion = [c64; 3];
@@ -22,11 +23,11 @@ type Motion = [c64; 3];
 ///
 /// # Errors
 ///
-/// Those of [`uff::read`], and [`Error::Value`] for a file without shapes or without the nodes of
+/// [`Error::Read`], those of [`uff::parse`], and [`Error::Value`] for a file without shapes or without the nodes of
 /// its shapes.
 pub fn read(path: &Path) -> Result<Measured> {
-    let measured = of(&uff::read(path)?, &path.display().to_string())?;
-    Ok(measured.sorted())
+    let name = path.display().to_string();
+    Ok(of(&uff::parse(&name, &file::read(path)?)?, &name)?.sorted())
 }
 
 /// Nodes nearer than this along the axis (of the span) are one point.

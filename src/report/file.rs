@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written beside and renamed.
+//! Files that are whole or not there: written beside and renamed, and never over what was read.
 
 use std::fs;
 use std::io::Write;
@@ -7,15 +7,49 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::error::{Error, Result};
 
+/// What was read and written since [`keep`]; None before it.
+static KEPT: Mutex<Option<Vec<PathBuf>>> = Mutex::new(None);
+
+/// From now on [`write`] replaces no file that was read or written: for a program, whose user may
+/// give the same name to two files by mistake.
+pub fn keep() {
+    locked(&KEPT).get_or_insert_default();
+}
+
+/// Reads a whole file.
+///
+/// # Errors
+///
+/// [`Error::Read`].
+pub fn read(path: &Path) -> Result<Vec<u8>> {
+    let bytes = fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    note(path);
+    Ok(bytes)
+}
+
+/// A file, if it is one, is kept from now on.
+fn note(path: &Path) {
+    let file = fs::canonicalize(path).ok().filter(|path| path.is_file());
+    if let (Some(file), Some(kept)) = (file, locked(&KEPT).as_mut()) {
+        kept.push(file);
+    }
+}
+
 /// Writes a file so that whoever looks sees the old one or the new one, never half of one.
 ///
 /// # Errors
 ///
-/// [`Error::Write`]; what was there before is still there then.
+/// [`Error::Write`], and [`Error::Value`] if the file is to be [kept](keep); what was there before
+/// is still there then.
 pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     let failed = |source| Error::Write { path: path.to_owned(), source };
     // A link is followed, so that it is the file that is replaced; a path to nothing is itself.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if locked(&KEPT).as_ref().is_some_and(|kept| kept.contains(&target)) {
+        let (name, found) =
+            (path.display().to_string(), "a file that this run has read or written");
+        return Err(Error::value(&name, found, "another name for what is to be written"));
+    }
     if fs::metadata(&target).is_ok_and(|old| !old.is_file() && !old.is_dir()) {
         // A device or a pipe cannot be replaced, only written to.
         let mut device = fs::OpenOptions::new().write(true).open(&target).map_err(failed)?;
@@ -38,15 +72,19 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
         failed(error)
     });
     parts().retain(|part| *part != beside);
-    written
+    written.inspect(|()| note(path))
 }
 
 /// What is being written at this moment.
 static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of names is whole whatever happened to the thread that held it.
-    PARTS.lock().unwrap_or_else(PoisonError::into_inner)
+    locked(&PARTS)
+}
+
+/// A list of names is whole whatever happened to the thread that held it.
+fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
+    list.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Removes every part that is being written, for a program that is told to stop. No further file is
