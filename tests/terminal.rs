@@ -190,6 +190,12 @@ fn completions_name_every_verb_and_the_shell_takes_them() {
         for word in ["analyze", "swing-speed", "materials"] {
             assert!(script.contains(word), "{shell} {word}");
         }
+        // These complete values, too.
+        if ["bash", "zsh", "fish"].contains(&shell) {
+            for value in ["shift-invert", "energy-loss", "accelerance", "torpedo", "vtu"] {
+                assert!(script.contains(value), "{shell} {value}");
+            }
+        }
         folder.write(shell, script);
     }
     for shell in ["bash", "zsh"] {
@@ -220,6 +226,14 @@ fn manual_pages_are_roff_with_the_words_of_the_help() {
         if let Ok(output) = man.args(["-l", page]).current_dir(&folder.0).output() {
             assert!(output.status.success(), "{page} {output:?}");
         }
+    }
+    // The first page names the others, and no more.
+    let first = folder.read("man1/sweetspot.1");
+    let named: Vec<&str> = first.lines().filter(|line| line.ends_with("(1)")).collect();
+    assert_eq!(named.len() + 1, folder.read_names("man1").len(), "{named:?}");
+    for name in named {
+        let name = name.replace('\\', "").replace("(1)", ".1");
+        assert!(folder.read_names("man1").contains(&name), "{name}");
     }
     assert_eq!(folder.text(&["man", "modes"]), folder.read("man1/sweetspot-modes.1"));
     let output = folder.run(&["man", "mods"]);

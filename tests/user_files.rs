@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::fs;
-
 use common::folder::Folder;
 
 const BAT: &str = r#"{

@@ -26,8 +26,14 @@ impl Folder {
     }
 
     pub fn names(&self) -> Vec<String> {
+        self.read_names(".")
+    }
+
+    /// What a folder in it holds.
+    pub fn read_names(&self, folder: &str) -> Vec<String> {
         let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
-        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
+        let entries = fs::read_dir(self.0.join(folder)).unwrap();
+        let mut names: Vec<String> = entries.map(name).collect();
         names.sort();
         names
     }
