@@ -59,14 +59,17 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line of text, which may be any but a fence in its very columns.
+    /// A line of text, which may be any but a fence in its very columns; none if there is no such.
+    pub fn text(&mut self) -> Option<Line<'a>> {
+        self.peek().filter(|line| line.bytes.trim_ascii_end() != b"    -1")?;
+        self.next()
+    }
+
+    /// The text of a line that must be there.
     pub fn name(&mut self, what: &str) -> Result<String> {
-        match self.peek() {
-            Some(line) if line.bytes.trim_ascii_end() != b"    -1" => {
-                self.next();
-                Ok(line.name(0, 80))
-            }
-            _ => self.record(what).map(|line| line.name(0, 80)),
+        match self.text() {
+            Some(line) => Ok(line.name(0, 80)),
+            None => self.record(what).map(|line| line.name(0, 80)),
         }
     }
 

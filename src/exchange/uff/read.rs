@@ -133,7 +133,7 @@ fn entry<'a>(lines: &mut Lines<'a>) -> Option<Line<'a>> {
 fn header(lines: &mut Lines) -> Header {
     let mut rows = [None; 7];
     for row in &mut rows {
-        *row = body(lines);
+        *row = lines.text();
     }
     while body(lines).is_some() {}
     let text = |k: usize| rows[k].map_or(String::new(), |line: Line| line.name(0, 80));
