@@ -360,6 +360,27 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
     let rounded = folder.text(&[&args[..], &["--uff", "out.uff"]].concat());
     assert!(rounded.lines().nth(1).unwrap().starts_with("174.509,"), "{rounded}");
     assert!(folder.text(&args).lines().nth(1).unwrap().starts_with("174.5085428,"));
+    // Frequencies rise in the file, in whatever order they were asked for.
+    let listed = ["--frequencies", "500,100,300", "--json", "-", "--uff", "out.uff"];
+    let document = folder.json(&[&["frf", &bat, "--at", "28 in"], &listed[..]].concat());
+    assert_eq!(list(&document["frequency_hz"]), [100.0, 300.0, 500.0]);
+    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
+    assert_eq!(function.abscissa, Abscissa::Uneven(vec![100.0, 300.0, 500.0]));
+    let narrow = ["--from-hz", "170", "--to-hz", "170.001", "--points", "20"];
+    for (asked, words) in [
+        (&narrow[..], "--points: found 170.0 Hz more than once in the six digits"),
+        (&["--frequencies", "300,170,170.0001"], "--frequencies: found 170.0 Hz more than once"),
+    ] {
+        let told = refused(&folder, &[&args[..4], asked, &["--uff", "out.uff"]].concat());
+        assert!(told.contains(words), "{told}");
+    }
+    let even = [&args[..4], &narrow, &["--linear", "--uff", "out.uff"]].concat();
+    folder.text(&even);
+    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
+    let places: Vec<f64> = (0..20).map(|k| function.abscissa.at(k)).collect();
+    assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{places:?}");
     let same = |out: &str| {
         folder.text(&[&args[..6], &["--reproducible", "--quiet", "--uff", out]].concat());
         folder.read(out)
