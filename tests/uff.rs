@@ -448,6 +448,42 @@ fn line_ends_exponents_and_glued_numbers_are_taken_as_they_come() {
     assert!(names(&latin).contains("B\u{fc}hne"), "{}", names(&latin));
 }
 
+/// Fortran leaves a field blank for 0 and reads it so, at the end of a line too.
+#[test]
+fn a_blank_field_is_zero() {
+    let rows = [[0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [0.5, 0.0, -3.0], [0.0, 0.0, 4.0]];
+    let pairs = |row: &[f64; 3]| row.iter().map(|v| [*v, 0.0]).collect();
+    let mode = NodalData {
+        per_node: 3,
+        characteristic: NodalData::TRANSLATIONS,
+        values: rows.iter().zip(1..).map(|(row, label)| (label, pairs(row))).collect(),
+        ..real_mode(&[])
+    };
+    let node = |(row, label): (&[f64; 3], i64)| Node::new(label, *row);
+    let nodes: Vec<Node> = rows.iter().zip(1..).map(node).collect();
+    let complex = NodalData {
+        complex: true,
+        values: vec![(1, vec![[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2], [0.0, 2.0], [0.0; 2]])],
+        ..real_mode(&[])
+    };
+    let datasets = [
+        Dataset::Nodes(Nodes { nodes, legacy: false }),
+        Dataset::NodalData(mode),
+        Dataset::NodalData(complex),
+    ];
+    let full = write(&datasets).unwrap();
+    let without = |zero: &str| -> String {
+        let blank = " ".repeat(zero.len());
+        let line = |line: &str| format!("{}\n", line.replace(zero, &blank).trim_end());
+        full.lines().map(line).collect()
+    };
+    for zero in ["  0.00000E+00", "   0.0000000000000000D+00"] {
+        let text = without(zero);
+        assert_ne!(text, full);
+        assert_eq!(parse("f.uff", text.as_bytes()).unwrap().datasets, datasets, "{text}");
+    }
+}
+
 #[test]
 fn a_mistake_is_told_with_its_line_and_column() {
     let without = |line: usize| -> String {
