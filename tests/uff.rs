@@ -219,19 +219,25 @@ fn a_file_in_feet_is_read_in_metres() {
 /// A mode swings with the same energy in any units: m φ̇² in the file's, and in SI.
 #[test]
 fn units_keep_what_a_mode_answers_to_a_force() {
-    let (length, force) = (1000.0, 1000.0);
-    let units = Units { length, force, description: "mm, mN".into(), code: 5, ..Units::si() };
-    let text = write(&[
-        Dataset::Units(units),
-        Dataset::NodalData(real_mode(&[[0.0, 250.0, 0.0, 0.0, 0.0, 2.0]])),
-    ]);
-    let read = parse("mm.uff", text.unwrap().as_bytes()).unwrap();
-    let Dataset::NodalData(mode) = &read.datasets[1] else { panic!() };
-    let Analysis::NormalMode { modal_mass, .. } = mode.analysis else { panic!() };
-    let deflection = mode.values[0].1[1][0];
-    assert_eq!((deflection, mode.values[0].1[5][0]), (0.25, 2.0));
-    // φ²/m: mm²/(mN mm s²) is 1/(mN s²/mm) = 1/kg, the same number in both.
-    close(deflection * deflection / modal_mass, 250.0 * 250.0 / 0.125, 15);
+    for (length, force) in [(1000.0, 1000.0), (1000.0, 1.0), (1.0, 1000.0), (3.25, 0.25)] {
+        // Displacements and accelerations have a length in them, shapes without a unit have none.
+        for (quantity, factor) in [(8, length), (12, length), (1, 1.0), (0, 1.0)] {
+            let units = Units { length, force, description: "own".into(), code: 9, ..Units::si() };
+            let mode = real_mode(&[[0.0, 250.0, 0.0, 0.0, 0.0, 2.0]]);
+            let mode = Dataset::NodalData(NodalData { quantity, ..mode });
+            let text = write(&[Dataset::Units(units), mode]).unwrap();
+            let read = parse("own.uff", text.as_bytes()).unwrap();
+            let Dataset::NodalData(mode) = &read.datasets[1] else { panic!() };
+            let Analysis::NormalMode { modal_mass, .. } = mode.analysis else { panic!() };
+            let [deflection, turn] = [1, 5].map(|k| mode.values[0].1[k][0]);
+            close(deflection, 250.0 / factor, 15);
+            assert_eq!(turn, 2.0);
+            // φ²/m is one over a mass whatever φ counts, and the file's unit of mass, its force
+            // times s² over its length, is length/force kg.
+            let answer = 250.0 * 250.0 / 0.125;
+            close(deflection * deflection / modal_mass, answer * force / length, 14);
+        }
+    }
 }
 
 fn real_mode(rows: &[[f64; 6]]) -> NodalData {

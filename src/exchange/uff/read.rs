@@ -162,13 +162,12 @@ fn units(lines: &mut Lines) -> Result<Units> {
     let mut factors = Vec::new();
     while let Some(line) = entry(lines) {
         let expected = "a factor of units above 0";
-        for (k, value) in line.numbers(&DOUBLES, super::number::real, expected)?.iter().enumerate()
-        {
-            if factors.len() + k < 2 && *value <= 0.0 {
+        for value in line.numbers(&DOUBLES, super::number::real, expected)? {
+            if factors.len() < 2 && value <= 0.0 {
                 return Err(line.wrong(value, expected));
             }
+            factors.push(value);
         }
-        factors.extend(line.numbers(&DOUBLES, super::number::real, expected)?);
     }
     let [length, force, ..] = factors[..] else {
         let found = format!("{} factors of units", factors.len());
