@@ -12,7 +12,7 @@ use faer::c64;
 use sweetspot::Bat;
 use sweetspot::bat::Weighed;
 use sweetspot::dowel::{Dowel, Ends, UniformMode};
-use sweetspot::exchange::uff::{Analysis, Dataset, NodalData, Node, Nodes, Universal};
+use sweetspot::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
 use sweetspot::fixtures::{Fixtures, Held, Support};
 use sweetspot::material::Material;
 use sweetspot::measured::data::{Measured, MeasuredMode};
@@ -480,6 +480,38 @@ fn a_universal_file_may_have_the_bat_in_any_direction() {
     }
 }
 
+/// What a reader takes for granted may be wrong, and so it is said.
+#[test]
+fn what_is_assumed_of_a_universal_file_is_said() {
+    let x = points(12);
+    let mut file = universal_file(&x, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    let plain = universal::of(&file, "m.uff").unwrap().assumed;
+    assert_eq!(plain, ["the bat's axis is x", "deflections are those along y"]);
+    for dataset in &mut file.datasets {
+        match dataset {
+            Dataset::Nodes(nodes) => {
+                nodes.nodes.iter_mut().for_each(|node| node.at = node.at.map(|x| 1000.0 * x));
+                nodes.nodes[4].systems = [3, 0];
+            }
+            Dataset::NodalData(data) if data.complex => data.values.truncate(6),
+            _ => {}
+        }
+    }
+    let mm = uff::Units { length: 1000.0, description: "mm".into(), ..uff::Units::si() };
+    file.datasets.insert(0, Dataset::Units(mm));
+    let text = uff::write(&file.datasets).unwrap() + "    -1\n  2414\nany\n    -1\n";
+    let measured = universal::of(&parse("m.uff", text.as_bytes()).unwrap(), "m.uff").unwrap();
+    for said in [
+        "dataset 2414 is left out",
+        "the file's unit of length is 0.001 m, as its dataset 164 says",
+        "the nodes' places are taken as in the file's global system",
+        "mode_2 lists 6 of the 12 nodes that move, the others are taken at rest",
+    ] {
+        assert!(measured.assumed.iter().any(|line| line == said), "{:?}", measured.assumed);
+    }
+    assert!((measured.along[11] - measured.along[0] - LENGTH).abs() < 1e-12);
+}
+
 /// Modes written as a universal file by the program itself are its own modes, to six digits.
 #[test]
 fn what_convert_writes_is_measured_as_the_same_bat() {
@@ -520,6 +552,9 @@ fn a_universal_file_without_what_is_needed_is_refused() {
         said(datasets)
     };
     assert_eq!(said(vec![]), "m.uff: found no modes, expected shapes in datasets 55");
+    let text = b"    -1\n  2414\n    -1\n    -1\n  2420\n    -1\n    -1\n  2414\n    -1\n";
+    let unread = universal::of(&parse("m.uff", text).unwrap(), "m.uff").unwrap_err().to_string();
+    assert!(unread.contains("found no modes; datasets 2414, 2420 are not read"), "{unread}");
     assert!(said(good.datasets[1..].to_vec()).contains("found node 1 in a shape"));
     assert!(changed(&|data| data.values[0].0 = 77).contains("found node 77 in a shape"));
     assert!(changed(&|data| data.characteristic = 4).contains("characteristic 4"));
