@@ -65,13 +65,14 @@ const BETTER: f64 = 0.02;
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where points are not on the bat.
+/// [`Error::Value`] where the points span more than the bat, or are not on it.
 pub fn place(
     measured: &Measured,
     length: f64,
     told: Told,
     fit: impl Fn(&[f64], &[Vec<c64>]) -> f64,
 ) -> Result<Placed> {
+    fits_on(measured, length)?;
     let shapes: Vec<Vec<c64>> = measured.modes.iter().map(|mode| mode.shape.clone()).collect();
     let way = |first: End| -> Result<Way> {
         let (places, how) = places(measured, length, told.origin, first);
@@ -100,7 +101,10 @@ pub fn place(
             let (chosen, other) = if swap { (tip, knob) } else { (knob, tip) };
             (chosen, Some(other.fit), Some(reason))
         }
-        (None, knob, tip) => (knob.or(tip)?, None, Some("the other way points are off the bat")),
+        (None, knob, tip) => {
+            let either = knob.or_else(|error| tip.map_err(|_| error))?;
+            (either, None, Some("the other way points are off the bat"))
+        }
     };
     let better = other.is_some_and(|other| other > chosen.fit + BETTER);
     let mut assumed = vec![chosen.how];
@@ -151,6 +155,17 @@ fn places(measured: &Measured, length: f64, origin: Option<f64>, first: End) -> 
          the points are taken as in its middle (--origin says where the first is)"
     );
     (from(&|s| turned(s - low + before)), how)
+}
+
+/// Points that are farther apart than the bat is long fit on it no way.
+fn fits_on(measured: &Measured, length: f64) -> Result<()> {
+    let span = measured.along[measured.along.len() - 1] - measured.along[0];
+    if span <= length * (1.0 + 2.0 * BEYOND) {
+        return Ok(());
+    }
+    let found = format!("points that span {span:.4} m");
+    let expected = format!("at most the bat's {length:.4} m: is the unit right?");
+    Err(Error::value(&measured.source, found, expected))
 }
 
 /// Places a little beyond an end are at the end; farther out there is no bat.
