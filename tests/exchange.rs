@@ -317,7 +317,7 @@ fn a_surface_too_large_to_write_is_refused() {
         let args = ["convert", "giant.json", "--to", "vtu", "--surface", "360", "--out", out];
         let told = refused(&folder, &args);
         assert!(told.contains("--surface: found 360, with 7 modes at 20000 places"), "{told}");
-        assert!(told.contains("expected 2 GB at most: fewer points around"), "{told}");
+        assert!(told.contains("expected 1 GB at most: fewer points around"), "{told}");
     }
     folder.text(&["convert", "giant.json", "--to", "vtu", "--out", "a.vtu"]);
 }

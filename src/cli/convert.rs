@@ -144,7 +144,7 @@ fn is_collection(args: &Args) -> bool {
 
 /// Anything but a surface is about as large as the modes file; a surface may fill the memory.
 fn refuse_giants(args: &Args, table: &ModeTable) -> Result<()> {
-    const MOST: usize = 2_000_000_000;
+    const MOST: usize = 1_000_000_000;
     let Some(around) = args.surface.map(usize::from) else { return Ok(()) };
     let (modes, places) = (table.modes.len(), table.x.len());
     let points = places * around;
