@@ -127,22 +127,17 @@ impl Study {
         };
         let (slowest, bending): (Vec<usize>, Vec<usize>) =
             (0..measured.modes.len()).partition(slow);
-        let placed = match measured.has_shapes() {
-            true => {
-                let fit = |x: &[f64], shapes: &[Vec<c64>]| {
-                    let own = sampled(&solution, x);
-                    let best = |k: &usize| best(&solution, &own, &measured.modes[*k], &shapes[*k]);
-                    bending.iter().map(best).sum::<f64>() / bending.len().max(1) as f64
-                };
-                Some(place(&measured, bat.length(), told, fit)?)
-            }
-            false if told != Told::default() => {
-                let expected =
-                    "a file with shapes, or neither --origin, --knob-first nor --tip-first";
-                return Err(Error::value("--measured", "frequencies alone", expected));
-            }
-            false => None,
+        if !measured.has_shapes() && told != Told::default() {
+            let expected = "a file with shapes, or neither --origin, --knob-first nor --tip-first";
+            return Err(Error::value("--measured", "frequencies alone", expected));
+        }
+        let fit = |x: &[f64], shapes: &[Vec<c64>]| {
+            let own = sampled(&solution, x);
+            let best = |k: &usize| best(&solution, &own, &measured.modes[*k], &shapes[*k]);
+            bending.iter().map(best).sum::<f64>() / bending.len().max(1) as f64
         };
+        let there = measured.has_shapes().then(|| place(&measured, bat.length(), told, fit));
+        let placed = there.transpose()?;
         let bent = |k: usize| bent(&measured.along, &measured.modes[k].shape);
         let rigid = slowest.iter().map(|&k| RigidMode { measured: k, bent: bent(k) }).collect();
         let mut study = Self {
