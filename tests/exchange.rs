@@ -16,6 +16,7 @@ use sweetspot::Bat;
 use sweetspot::error::Error;
 use sweetspot::exchange::modes_file;
 use sweetspot::exchange::uff::{self, Abscissa, Analysis, Dataset, Values, six_digits};
+use sweetspot::exchange::vtu;
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
@@ -220,9 +221,9 @@ fn a_grid_holds_the_modes_as_vectors() {
         assert_eq!(vectors, expected);
         assert_eq!(numbers(&text, "frequency_hz")[k], document["modes"][k]["frequency_hz"]);
     }
-    let out = "turned.pvd";
+    let out = "turned.PVD";
     let said = folder.text(&["convert", "bat.json", "--to", "vtu", "--surface", "6", "--out", out]);
-    assert!(said.starts_with("turned.pvd and 3 files beside it: "), "{said}");
+    assert!(said.starts_with("turned.PVD and 3 files beside it: "), "{said}");
     let collection = folder.read(out);
     for k in 1..=3 {
         let name = format!("turned_mode_{k:02}.vtu");
@@ -240,14 +241,85 @@ fn a_grid_holds_the_modes_as_vectors() {
 #[test]
 fn a_strange_name_breaks_no_file() {
     let (folder, mut document) = modes("convert-name", "3");
-    document["bat"]["name"] = json!("--> <&\"'\u{0}\n    -1\n Übung");
-    folder.write("bat.json", document.to_string());
-    folder.text(&["convert", "bat.json", "--to", "uff"]);
-    assert_eq!(uff::read(&folder.0.join("bat.uff")).unwrap().datasets.len(), 7);
-    folder.text(&["convert", "bat.json", "--to", "vtu"]);
-    let text = folder.read("bat.vtu");
-    let comment = text.split("<!--").nth(1).unwrap().split("-->").next().unwrap();
-    assert!(!comment.contains("--") && !comment.contains('<') && !comment.contains('\u{0}'));
+    for (name, model) in [
+        ("--> <&\"'\u{0}\n    -1\n Übung", "--> <&\"'??    -1? ?bung"),
+        ("-1", "-1"),
+        ("---", "---"),
+        ("--->", "--->"),
+        ("a---b", "a---b"),
+    ] {
+        document["bat"]["name"] = json!(name);
+        folder.write("bat.json", document.to_string());
+        folder.text(&["convert", "bat.json", "--to", "uff"]);
+        let read = uff::read(&folder.0.join("bat.uff")).unwrap();
+        let Dataset::Header(header) = &read.datasets[0] else { panic!("{read:?}") };
+        assert_eq!((read.datasets.len(), &*header.model), (7, model));
+        folder.text(&["convert", "bat.json", "--to", "vtu"]);
+        let text = folder.read("bat.vtu");
+        // XML: neither two hyphens nor a hyphen at the end of a comment.
+        let comment = text.split("<!--").nth(1).unwrap().split("-->").next().unwrap();
+        assert!(!comment.contains("--") && !comment.ends_with('-'), "{comment}");
+        assert!(!comment.contains('<') && !comment.contains('\u{0}'), "{comment}");
+        assert!(text.split("-->").nth(1).unwrap().trim_start().starts_with("<VTKFile "), "{text}");
+    }
+}
+
+/// A line of a universal file has 250 nodes at most, a bat may have more places.
+#[test]
+fn a_universal_file_keeps_every_place_and_a_line_from_each_to_the_next() {
+    for count in [250_usize, 251, 1001] {
+        let (folder, document) = modes("convert-many", &count.to_string());
+        let said = folder.text(&["convert", "bat.json", "--to", "uff"]);
+        assert!(said.contains(&format!("3 modes at {count} places")), "{said}");
+        let read = uff::read(&folder.0.join("bat.uff")).unwrap();
+        let Dataset::Nodes(nodes) = &read.datasets[2] else { panic!("{read:?}") };
+        let x: Vec<f64> = nodes.nodes.iter().map(|node| node.at[0]).collect();
+        assert_eq!(x, list(&document["modes"][0]["shape"]["x_m"]));
+        let mut steps: Vec<[i64; 2]> = vec![];
+        for dataset in &read.datasets {
+            match dataset {
+                Dataset::TraceLine(line) => {
+                    assert!((2..=250).contains(&line.nodes.len()));
+                    steps.extend(line.nodes.windows(2).map(|pair| [pair[0], pair[1]]));
+                }
+                Dataset::NodalData(shape) => assert_eq!(shape.values.len(), count),
+                _ => {}
+            }
+        }
+        let all: Vec<[i64; 2]> = (1..count as i64).map(|k| [k, k + 1]).collect();
+        assert_eq!(steps, all);
+    }
+}
+
+/// What would fill the memory is refused before it does, and said to be about as large as it is.
+#[test]
+fn a_surface_too_large_to_write_is_refused() {
+    let (folder, _) = modes("convert-giant", "101");
+    let surface = ["convert", "bat.json", "--to", "vtu", "--surface", "40", "--out"];
+    for (out, file, modes) in [("a.vtu", "a.vtu", 3), ("b.pvd", "b_mode_02.vtu", 1)] {
+        folder.text(&[&surface[..], &[out]].concat());
+        let size = folder.read(file).len() as f64;
+        let about = vtu::size(40 * 101, modes) as f64;
+        assert!((0.8..1.25).contains(&(about / size)), "{about} for {size}");
+    }
+    let mut document: Value = serde_json::from_str(SMALL).unwrap();
+    let places: Vec<f64> = (0..20_000).map(|k| f64::from(k) / 20_000.0).collect();
+    document["modes"][0]["shape"] =
+        json!({ "x_m": places, "deflection": places, "rotation": places });
+    let first = document["modes"][0].clone();
+    for order in 2..=7 {
+        let mut mode = first.clone();
+        mode["order"] = json!(order);
+        document["modes"].as_array_mut().unwrap().push(mode);
+    }
+    folder.write("giant.json", document.to_string());
+    for out in ["a.vtu", "a.pvd"] {
+        let args = ["convert", "giant.json", "--to", "vtu", "--surface", "360", "--out", out];
+        let told = refused(&folder, &args);
+        assert!(told.contains("--surface: found 360, with 7 modes at 20000 places"), "{told}");
+        assert!(told.contains("expected 1 GB at most: fewer points around"), "{told}");
+    }
+    folder.text(&["convert", "giant.json", "--to", "vtu", "--out", "a.vtu"]);
 }
 
 #[test]
@@ -288,6 +360,27 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
     let rounded = folder.text(&[&args[..], &["--uff", "out.uff"]].concat());
     assert!(rounded.lines().nth(1).unwrap().starts_with("174.509,"), "{rounded}");
     assert!(folder.text(&args).lines().nth(1).unwrap().starts_with("174.5085428,"));
+    // Frequencies rise in the file, in whatever order they were asked for.
+    let listed = ["--frequencies", "500,100,300", "--json", "-", "--uff", "out.uff"];
+    let document = folder.json(&[&["frf", &bat, "--at", "28 in"], &listed[..]].concat());
+    assert_eq!(list(&document["frequency_hz"]), [100.0, 300.0, 500.0]);
+    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
+    assert_eq!(function.abscissa, Abscissa::Uneven(vec![100.0, 300.0, 500.0]));
+    let narrow = ["--from-hz", "170", "--to-hz", "170.001", "--points", "20"];
+    for (asked, words) in [
+        (&narrow[..], "--points: found 170.0 Hz more than once in the six digits"),
+        (&["--frequencies", "300,170,170.0001"], "--frequencies: found 170.0 Hz more than once"),
+    ] {
+        let told = refused(&folder, &[&args[..4], asked, &["--uff", "out.uff"]].concat());
+        assert!(told.contains(words), "{told}");
+    }
+    let even = [&args[..4], &narrow, &["--linear", "--uff", "out.uff"]].concat();
+    folder.text(&even);
+    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
+    let places: Vec<f64> = (0..20).map(|k| function.abscissa.at(k)).collect();
+    assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{places:?}");
     let same = |out: &str| {
         folder.text(&[&args[..6], &["--reproducible", "--quiet", "--uff", out]].concat());
         folder.read(out)
@@ -314,6 +407,7 @@ fn options_that_do_not_fit_are_refused() {
         (&["--to", "vtu", "--surface", "2"], "2 is not in 3..=360"),
         (&["--to", "npz", "--out", "-"], "a file: an archive is no text"),
         (&["--to", "csv", "--out", "a.pvd"], "found a .pvd file with --to csv"),
+        (&["--to", "csv", "--out", "a.PVD"], "found a .pvd file with --to csv"),
         (&["--to", "xls"], "possible values: uff, vtu, csv, npz"),
         (&[], "--to <FORMAT>"),
         (&["--to", "csv", "--out", "bat.json"], "found bat.json, the modes file itself"),

@@ -9,10 +9,11 @@ use common::diagnostic::in_lines;
 use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
 use faer::c64;
+use serde_json::Value;
 use sweetspot::Bat;
 use sweetspot::bat::Weighed;
 use sweetspot::dowel::{Dowel, Ends, UniformMode};
-use sweetspot::exchange::uff::{Analysis, Dataset, NodalData, Node, Nodes, Universal};
+use sweetspot::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
 use sweetspot::fixtures::{Fixtures, Held, Support};
 use sweetspot::material::Material;
 use sweetspot::measured::data::{Measured, MeasuredMode};
@@ -20,6 +21,8 @@ use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured::words::words;
 use sweetspot::measured_file::{table, universal};
+use sweetspot::report::measured;
+use sweetspot::report::text::Units;
 use sweetspot::solve::Request;
 
 /// Even points from end to end.
@@ -149,7 +152,8 @@ fn exact_shapes_have_nothing_in_common_but_what_the_points_cost() {
         let study = study(&dowel(), free(4, &points(count), |_, _, v| v), Told::default());
         let shapes = study.shapes.unwrap();
         let mut worst: f64 = 0.0;
-        for (i, (row, sampled)) in shapes.common.iter().zip(&shapes.sampled_common).enumerate() {
+        let common = shapes.common.unwrap();
+        for (i, (row, sampled)) in common.iter().zip(&shapes.sampled_common).enumerate() {
             assert!((row[i] - 1.0).abs() < 1e-14);
             for (j, (value, sampled)) in
                 row.iter().zip(sampled).enumerate().filter(|(j, _)| *j != i)
@@ -176,7 +180,7 @@ fn slow_straight_motions_are_rigid_and_crooked_ones_are_told() {
     measured.modes.push(mode("crooked", 4.0, crooked));
     let study = study(&dowel(), measured, Told::default());
     assert_eq!(study.rigid.len(), 3);
-    let [bounce, pitch, crooked] = [0, 1, 2].map(|k| study.rigid[k].bent.unwrap());
+    let [bounce, pitch, crooked] = [0, 1, 2].map(|k| study.rigid[k].bent);
     assert!(bounce < 1e-14 && pitch < 1e-14);
     // One point of twelve is off by 1; the mean has 1/12 of its square, the slope 1.5²/143.
     let left = 1.0 - 1.0 / 12.0 - 1.5 * 1.5 / 143.0;
@@ -253,6 +257,143 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
     let names: Vec<&str> = study.lone_measured.iter().map(|k| study.name(*k)).collect();
     assert_eq!(names, ["m1 again"]);
     assert_eq!(study.lone_computed, [1]);
+    // It is like mode 1, which has its partner, and what the two have in common is no fault.
+    let text = measured::text(&dowel(), &study, Units::Si);
+    assert!(text.contains("like mode 1, but m1 is more so"), "{text}");
+    let said = words(&study).join(" ");
+    assert!(said.contains("sound in this") && !said.contains("m1 again"), "{said}");
+}
+
+/// Without a computed partner nobody knows what the points do to a shape.
+#[test]
+fn exact_shapes_of_modes_that_were_not_computed_are_no_fault() {
+    let request = Request { modes: 2, tolerance: 1e-9, ..Request::default() };
+    let measured = free(4, &points(5), |_, _, v| v).sorted();
+    let study = Study::new(&dowel(), measured, &request, true, Told::default()).unwrap();
+    let shapes = study.shapes.as_ref().unwrap();
+    assert_eq!(study.pairs.len(), 2);
+    // The spline through five points does give them what the exact shapes have not.
+    assert!(shapes.rigid_share.as_ref().unwrap().iter().any(|share| *share > 0.1));
+    let said = words(&study).join(" ");
+    assert!(!said.contains("rigid motion") && !said.contains("are off"), "{said}");
+}
+
+/// However alike, a shape at a third of the frequency is another mode's, or somebody's mistake.
+#[test]
+fn modes_more_than_an_octave_apart_are_not_paired() {
+    let x = points(12);
+    let mut measured = free(1, &x, |_, _, v| v);
+    measured.modes.push(mode("far", 0.3 * dowel_frequency(4), exact(Ends::FreeFree, 4, &x)));
+    let study = study(&dowel(), measured, Told::default());
+    assert_eq!(study.pairs.len(), 1);
+    let text = measured::text(&dowel(), &study, Units::Si);
+    assert!(text.contains("like no computed mode within an octave"), "{text}");
+}
+
+/// Shapes that are right are told from shapes that are wrong, and both from points that are few.
+#[test]
+fn what_shapes_have_in_common_is_judged_by_what_the_points_do() {
+    let verdict = |measured: Measured| {
+        let study = study(&dowel(), measured, Told::default());
+        let said = words(&study);
+        said.iter().find(|line| line.starts_with("In the bat's mass")).unwrap().clone()
+    };
+    let right = verdict(free(4, &points(20), |_, _, v| v));
+    assert!(right.ends_with("they are sound in this."), "{right}");
+    // At four points even the exact shapes have much in common, the computed ones as much.
+    let few = verdict(free(3, &points(4), |_, _, v| v));
+    assert!(few.ends_with("with so few points that says nothing."), "{few}");
+    // Three tenths of another mode: 0.3/√1.09 in common with it.
+    let x = points(20);
+    let first = exact(Ends::FreeFree, 1, &x);
+    let wrong = verdict(free(3, &x, |n, k, v| if n == 2 { v + 0.3 * first[k] } else { v }));
+    assert!(wrong.contains("m1 and m2 have most in common, 0.287"), "{wrong}");
+    assert!(wrong.ends_with("the shapes, or the masses in the bat file, are off."), "{wrong}");
+}
+
+/// A bat of two materials with a weight beyond its tip: its modes have no rigid motion, and what the
+/// points make of them goes as the distance between points.
+#[test]
+fn the_modes_of_a_bat_with_regions_and_weights_carry_no_rigid_motion() {
+    let folder = Folder::new("measured-own");
+    let weight = r#"{ "x": "33 in", "mass": "4 oz", "offset": "2 in", "rotary_inertia": 2e-4 }"#;
+    let region = r#"{ "from": 0, "to": "15 in", "material": "aluminium-7075" }"#;
+    let more = format!(r#""attachments": [{weight}], "regions": [{region}], "profile""#);
+    let slim = BAT.replace("0.0213, 0.0213", "0.0113, 0.0313").replace(r#""profile""#, &more);
+    folder.write("bat.json", slim);
+    let solve = ["bat.json", "--theory", "rayleigh", "--tol", "1e-6", "--quiet"];
+    let shares = |points: &str| -> Vec<f64> {
+        let modes = ["-n", "6", "--shape-points", points, "--json", "m.json"];
+        folder.text(&[&["modes"], &solve[..], &modes].concat());
+        folder.text(&["convert", "m.json", "--to", "uff"]);
+        let args = [&["compare"], &solve[..], &["--measured", "m.uff", "--json", "-"]].concat();
+        let json = folder.json(&args);
+        let share = |mode: &Value| mode["rigid_share"].as_f64().unwrap();
+        json["measured"].as_array().unwrap().iter().map(share).collect()
+    };
+    let [coarse, fine] = ["51", "101"].map(shares);
+    assert_eq!(fine.len(), 6);
+    for (coarse, fine) in coarse.iter().zip(&fine) {
+        assert!(*fine < 0.01 && *fine < 0.55 * coarse, "{fine} {coarse}");
+    }
+}
+
+/// An absorber swings many times as far as the bat beneath it, and no shape tells.
+#[test]
+fn of_a_bat_with_an_absorber_rigid_motion_is_not_judged() {
+    let folder = Folder::new("measured-absorber");
+    let more =
+        r#""absorbers": [ { "x": "10 in", "mass": "1 oz", "frequency": "250 Hz" } ], "profile""#;
+    folder.write("bat.json", BAT.replace(r#""profile""#, more));
+    let modes = ["-n", "4", "--shape-points", "101", "--json", "m.json"];
+    folder.text(&[&["modes", "bat.json"], &modes[..]].concat());
+    folder.text(&["convert", "m.json", "--to", "uff"]);
+    let args = ["compare", "bat.json", "--measured", "m.uff"];
+    let text = folder.text(&[&args[..], &["--plots", "p"]].concat());
+    assert!(text.contains("an absorber moves more than the bat beneath it"), "{text}");
+    assert!(
+        !text.contains("carry rigid motion") && !text.contains("have most in common"),
+        "{text}"
+    );
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert!(!folder.0.join("p/mass_orthogonality.svg").exists());
+    let json = folder.json(&[&args[..], &["--json", "-"]].concat());
+    assert_eq!(json["pairs"].as_array().unwrap().len(), 4);
+    assert!(json["shapes"]["common_in_mass"].is_null());
+    assert!(json["measured"][0]["rigid_share"].is_null());
+}
+
+#[test]
+fn a_bat_that_only_moves_on_its_supports_has_no_table_of_bending_shapes() {
+    let folder = Folder::new("measured-rigid");
+    folder.write("bat.json", BAT);
+    folder.write("m.csv", "x_m,a,b\nfrequency_hz,2,3\n0,1,-1\n0.4,1,0\n0.8,1,1\n");
+    let text = folder.text(&["compare", "bat.json", "--measured", "m.csv", "--plots", "p"]);
+    assert_eq!(text.matches("rigid on its supports, 0.0 % off a straight line").count(), 2);
+    assert!(!text.contains("\nShapes ") && !text.contains("MAC, computed"), "{text}");
+}
+
+/// Millimetres taken for metres; and an origin from which the points fit on the bat no way.
+#[test]
+fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {
+    let wrong = |along: &[f64], origin: Option<f64>| {
+        let measured = Measured {
+            source: "m.uff".into(),
+            along: along.to_vec(),
+            from_knob: false,
+            ..free(2, &points(along.len()), |_, _, v| v)
+        };
+        let told = Told { origin, ..Told::default() };
+        let request = Request { tolerance: 1e-3, ..Request::default() };
+        Study::new(&dowel(), measured, &request, false, told).unwrap_err().to_string()
+    };
+    assert_eq!(
+        wrong(&[0.0, 420.0, 840.0], None),
+        "m.uff: found points that span 840.0000 m, expected at most the bat's 0.8382 m: is the unit \
+         right?"
+    );
+    let error = wrong(&[0.0, 0.4, 0.8], Some(0.5));
+    assert!(error.contains("found one at 0.9000 m from the knob end"), "{error}");
 }
 
 #[test]
@@ -336,6 +477,9 @@ fn frequencies_alone_are_paired_by_their_number() {
     assert_eq!(json["unpaired_computed"][0], 2);
     let text = folder.text(&args);
     assert!(text.contains("paired by their numbers") && !text.contains("MAC, computed"));
+    folder.write("f.csv", "mode,frequency_hz\n1,240\n12,15000\n");
+    let text = folder.text(&[&args[..], &["-n", "4"]].concat());
+    assert!(text.contains("mode 12 was not computed"), "{text}");
 }
 
 #[test]
@@ -365,7 +509,10 @@ fn a_bad_table_is_refused_with_the_place() {
         (swap("0.4,-1,0", "frequency_hz,1,2"), "m.csv:4:1: found frequency a second time"),
         (good.replace(',', ";"), "m.csv:1:1: header: found semicolons or tabs, expected commas"),
         (good.replace("1\n", "0\n").replace("1,-1", "1,0"), "b: found nothing but 0"),
-        (swap("0.8", "1.8"), "measured points: found one at 1.8000 m"),
+        (
+            swap("0.8", "1.8"),
+            "m.csv: found points that span 1.8000 m, expected at most the bat's 0.8382 m",
+        ),
         ("mode,hz\n1,100\n".into(), "m.csv:1:6: header: found column \"hz\""),
         ("mode,damping_ratio\n1,0.1\n".into(), "m.csv:1:1: header: found no frequency_hz"),
         ("mode,frequency_hz\n".into(), "m.csv:1:1: found no mode"),
@@ -480,6 +627,38 @@ fn a_universal_file_may_have_the_bat_in_any_direction() {
     }
 }
 
+/// What a reader takes for granted may be wrong, and so it is said.
+#[test]
+fn what_is_assumed_of_a_universal_file_is_said() {
+    let x = points(12);
+    let mut file = universal_file(&x, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    let plain = universal::of(&file, "m.uff").unwrap().assumed;
+    assert_eq!(plain, ["the bat's axis is x", "deflections are those along y"]);
+    for dataset in &mut file.datasets {
+        match dataset {
+            Dataset::Nodes(nodes) => {
+                nodes.nodes.iter_mut().for_each(|node| node.at = node.at.map(|x| 1000.0 * x));
+                nodes.nodes[4].systems = [3, 0];
+            }
+            Dataset::NodalData(data) if data.complex => data.values.truncate(6),
+            _ => {}
+        }
+    }
+    let mm = uff::Units { length: 1000.0, description: "mm".into(), ..uff::Units::si() };
+    file.datasets.insert(0, Dataset::Units(mm));
+    let text = uff::write(&file.datasets).unwrap() + "    -1\n  2414\nany\n    -1\n";
+    let measured = universal::of(&parse("m.uff", text.as_bytes()).unwrap(), "m.uff").unwrap();
+    for said in [
+        "dataset 2414 is left out",
+        "the file's unit of length is 0.001 m, as its dataset 164 says",
+        "the nodes' places are taken as in the file's global system",
+        "mode_2 lists 6 of the 12 nodes that move, the others are taken at rest",
+    ] {
+        assert!(measured.assumed.iter().any(|line| line == said), "{:?}", measured.assumed);
+    }
+    assert!((measured.along[11] - measured.along[0] - LENGTH).abs() < 1e-12);
+}
+
 /// Modes written as a universal file by the program itself are its own modes, to six digits.
 #[test]
 fn what_convert_writes_is_measured_as_the_same_bat() {
@@ -520,6 +699,9 @@ fn a_universal_file_without_what_is_needed_is_refused() {
         said(datasets)
     };
     assert_eq!(said(vec![]), "m.uff: found no modes, expected shapes in datasets 55");
+    let text = b"    -1\n  2414\n    -1\n    -1\n  2420\n    -1\n    -1\n  2414\n    -1\n";
+    let unread = universal::of(&parse("m.uff", text).unwrap(), "m.uff").unwrap_err().to_string();
+    assert!(unread.contains("found no modes; datasets 2414, 2420 are not read"), "{unread}");
     assert!(said(good.datasets[1..].to_vec()).contains("found node 1 in a shape"));
     assert!(changed(&|data| data.values[0].0 = 77).contains("found node 77 in a shape"));
     assert!(changed(&|data| data.characteristic = 4).contains("characteristic 4"));

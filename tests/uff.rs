@@ -219,19 +219,25 @@ fn a_file_in_feet_is_read_in_metres() {
 /// A mode swings with the same energy in any units: m φ̇² in the file's, and in SI.
 #[test]
 fn units_keep_what_a_mode_answers_to_a_force() {
-    let (length, force) = (1000.0, 1000.0);
-    let units = Units { length, force, description: "mm, mN".into(), code: 5, ..Units::si() };
-    let text = write(&[
-        Dataset::Units(units),
-        Dataset::NodalData(real_mode(&[[0.0, 250.0, 0.0, 0.0, 0.0, 2.0]])),
-    ]);
-    let read = parse("mm.uff", text.unwrap().as_bytes()).unwrap();
-    let Dataset::NodalData(mode) = &read.datasets[1] else { panic!() };
-    let Analysis::NormalMode { modal_mass, .. } = mode.analysis else { panic!() };
-    let deflection = mode.values[0].1[1][0];
-    assert_eq!((deflection, mode.values[0].1[5][0]), (0.25, 2.0));
-    // φ²/m: mm²/(mN mm s²) is 1/(mN s²/mm) = 1/kg, the same number in both.
-    close(deflection * deflection / modal_mass, 250.0 * 250.0 / 0.125, 15);
+    for (length, force) in [(1000.0, 1000.0), (1000.0, 1.0), (1.0, 1000.0), (3.25, 0.25)] {
+        // Displacements and accelerations have a length in them, shapes without a unit have none.
+        for (quantity, factor) in [(8, length), (12, length), (1, 1.0), (0, 1.0)] {
+            let units = Units { length, force, description: "own".into(), code: 9, ..Units::si() };
+            let mode = real_mode(&[[0.0, 250.0, 0.0, 0.0, 0.0, 2.0]]);
+            let mode = Dataset::NodalData(NodalData { quantity, ..mode });
+            let text = write(&[Dataset::Units(units), mode]).unwrap();
+            let read = parse("own.uff", text.as_bytes()).unwrap();
+            let Dataset::NodalData(mode) = &read.datasets[1] else { panic!() };
+            let Analysis::NormalMode { modal_mass, .. } = mode.analysis else { panic!() };
+            let [deflection, turn] = [1, 5].map(|k| mode.values[0].1[k][0]);
+            close(deflection, 250.0 / factor, 15);
+            assert_eq!(turn, 2.0);
+            // φ²/m is one over a mass whatever φ counts, and the file's unit of mass, its force
+            // times s² over its length, is length/force kg.
+            let answer = 250.0 * 250.0 / 0.125;
+            close(deflection * deflection / modal_mass, answer * force / length, 14);
+        }
+    }
 }
 
 fn real_mode(rows: &[[f64; 6]]) -> NodalData {
@@ -446,6 +452,42 @@ fn line_ends_exponents_and_glued_numbers_are_taken_as_they_come() {
     assert_eq!(names(SHAPE.replace("one", "none").as_bytes()), "");
     let latin = [&SHAPE.as_bytes()[..16], b"B\xfchne", &SHAPE.as_bytes()[17..]].concat();
     assert!(names(&latin).contains("B\u{fc}hne"), "{}", names(&latin));
+}
+
+/// Fortran leaves a field blank for 0 and reads it so, at the end of a line too.
+#[test]
+fn a_blank_field_is_zero() {
+    let rows = [[0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [0.5, 0.0, -3.0], [0.0, 0.0, 4.0]];
+    let pairs = |row: &[f64; 3]| row.iter().map(|v| [*v, 0.0]).collect();
+    let mode = NodalData {
+        per_node: 3,
+        characteristic: NodalData::TRANSLATIONS,
+        values: rows.iter().zip(1..).map(|(row, label)| (label, pairs(row))).collect(),
+        ..real_mode(&[])
+    };
+    let node = |(row, label): (&[f64; 3], i64)| Node::new(label, *row);
+    let nodes: Vec<Node> = rows.iter().zip(1..).map(node).collect();
+    let complex = NodalData {
+        complex: true,
+        values: vec![(1, vec![[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2], [0.0, 2.0], [0.0; 2]])],
+        ..real_mode(&[])
+    };
+    let datasets = [
+        Dataset::Nodes(Nodes { nodes, legacy: false }),
+        Dataset::NodalData(mode),
+        Dataset::NodalData(complex),
+    ];
+    let full = write(&datasets).unwrap();
+    let without = |zero: &str| -> String {
+        let blank = " ".repeat(zero.len());
+        let line = |line: &str| format!("{}\n", line.replace(zero, &blank).trim_end());
+        full.lines().map(line).collect()
+    };
+    for zero in ["  0.00000E+00", "   0.0000000000000000D+00"] {
+        let text = without(zero);
+        assert_ne!(text, full);
+        assert_eq!(parse("f.uff", text.as_bytes()).unwrap().datasets, datasets, "{text}");
+    }
 }
 
 #[test]

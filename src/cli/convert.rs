@@ -8,6 +8,7 @@ use sweetspot::exchange::uff::{self, Stamp};
 use sweetspot::exchange::{csv, modes_uff, npz, vtu};
 use sweetspot::report::file;
 
+use crate::cli::progress::Progress;
 use crate::cli::{Done, printable};
 
 /// Modes in the files of other programs: universal file, VTK, NumPy, CSV
@@ -90,8 +91,10 @@ pub fn run(args: &Args) -> Result<Done> {
             PathBuf::from(name)
         }
     };
+    refuse_giants(args, &table)?;
+    let progress = Progress::new(false, "the file");
     let files = if is_collection(args) {
-        collection(args, &table, &out)?
+        collection(args, &table, &out, &progress)?
     } else {
         vec![(out.clone(), contents(args, &table, &out)?)]
     };
@@ -106,6 +109,7 @@ pub fn run(args: &Args) -> Result<Done> {
     for (path, contents) in &files {
         file::write(path, contents)?;
     }
+    drop(progress);
     Ok(Done::new(said(&table, &files), 0))
 }
 
@@ -126,7 +130,7 @@ fn check(args: &Args) -> Result<()> {
     if args.to == Format::Npz && out.as_os_str() == "-" {
         return Err(Error::value("--out", "- with --to npz", "a file: an archive is no text"));
     }
-    if args.to != Format::Vtu && out.extension().is_some_and(|ending| ending == "pvd") {
+    if args.to != Format::Vtu && is_collection(args) {
         let found = format!("a .pvd file with --to {format}");
         return Err(Error::value("--out", found, "--to vtu, whose collection that is"));
     }
@@ -134,7 +138,29 @@ fn check(args: &Args) -> Result<()> {
 }
 
 fn is_collection(args: &Args) -> bool {
-    args.out.as_ref().and_then(|out| out.extension()).is_some_and(|ending| ending == "pvd")
+    let ending = args.out.as_ref().and_then(|out| out.extension());
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("pvd"))
+}
+
+/// Anything but a surface is about as large as the modes file; a surface may fill the memory.
+fn refuse_giants(args: &Args, table: &ModeTable) -> Result<()> {
+    const MOST: usize = 1_000_000_000;
+    let Some(around) = args.surface.map(usize::from) else { return Ok(()) };
+    let (modes, places) = (table.modes.len(), table.x.len());
+    let points = places * around;
+    let bytes = match is_collection(args) {
+        false => vtu::size(points, modes),
+        true => modes * vtu::size(points, 1),
+    };
+    if bytes <= MOST {
+        return Ok(());
+    }
+    let size = bytes as f64 / 1e9;
+    let found = format!("{around}, with {modes} modes at {places} places about {size:.1} GB");
+    let most = MOST / 1_000_000_000;
+    let expected =
+        format!("{most} GB at most: fewer points around, fewer modes, or fewer --shape-points");
+    Err(Error::value("--surface", found, expected))
 }
 
 fn contents(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<u8>> {
@@ -155,7 +181,12 @@ fn contents(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<u8>> {
 }
 
 /// A file for each mode, and last the collection, so that it never names what is not there.
-fn collection(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+fn collection(
+    args: &Args,
+    table: &ModeTable,
+    out: &Path,
+    progress: &Progress,
+) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy();
     if stem.contains(char::REPLACEMENT_CHARACTER) {
         return Err(Error::value("--out", out.display(), "a name in UTF-8, as the files hold it"));
@@ -163,7 +194,10 @@ fn collection(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<(PathBuf
     let grid = vtu::grid(table, args.surface.map(usize::from));
     let name = |k: usize| format!("{stem}_mode_{:02}.vtu", table.modes[k].order);
     let each = 0..table.modes.len();
-    let one = |k| (out.with_file_name(name(k)), vtu::one_mode(table, &grid, k).into_bytes());
+    let one = |k| {
+        progress.say(k as f64 / table.modes.len() as f64, "a file for each mode");
+        (out.with_file_name(name(k)), vtu::one_mode(table, &grid, k).into_bytes())
+    };
     let mut files: Vec<_> = each.clone().map(one).collect();
     let list: Vec<_> = each.map(|k| (table.modes[k].frequency, name(k))).collect();
     files.push((out.to_owned(), vtu::collection(&list).into_bytes()));

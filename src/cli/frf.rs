@@ -78,7 +78,7 @@ pub struct Args {
 
     /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
     /// and no table then). It has six digits for a frequency, so that all are rounded to that many
-    /// first; with --linear the steps are even in it
+    /// first, and they rise; with --linear the steps are even in it
     #[arg(long, value_name = "FILE")]
     uff: Option<PathBuf>,
 
@@ -120,7 +120,10 @@ pub fn run(args: &Args) -> Result<Done> {
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
     let _progress = args.output.progress("modes and answers");
     let mut frf = reaching(&bat, &request, [at, to], args)?;
-    let (frequencies, even) = frequencies(args, &frf)?;
+    let (mut frequencies, even) = frequencies(args, &frf);
+    if args.uff.is_some() {
+        rising(args, &mut frequencies)?;
+    }
     let samples = frf.receptances(&frequencies)?;
     let measured = Measured { bat: &bat.name, kind: args.kind, at, to, even };
     let table = || table(args.kind, [at, to], &frf, &samples);
@@ -249,11 +252,11 @@ fn reaching(bat: &Bat, request: &Request, [at, to]: [f64; 2], args: &Args) -> Re
 }
 
 /// The frequencies; and start and step where they are even.
-fn frequencies(args: &Args, frf: &Frf) -> Result<(Vec<f64>, Option<[f64; 2]>)> {
+fn frequencies(args: &Args, frf: &Frf) -> (Vec<f64>, Option<[f64; 2]>) {
     // A universal file has that many digits for them.
     let held = |f: f64| if args.uff.is_some() { six_digits(f) } else { f };
     if !args.frequencies.is_empty() {
-        return Ok((args.frequencies.iter().map(|f| held(*f)).collect(), None));
+        return (args.frequencies.iter().map(|f| held(*f)).collect(), None);
     }
     let modes = &frf.solution.modes;
     let first = modes.first().map_or(1.0, |mode| mode.frequency());
@@ -269,7 +272,19 @@ fn frequencies(args: &Args, frf: &Frf) -> Result<(Vec<f64>, Option<[f64; 2]>)> {
         (s, Some(_)) => low + (high - low) * s,
         (s, None) => held(low * (high / low).powf(s)),
     };
-    Ok(((0..args.points).map(at).collect(), even))
+    ((0..args.points).map(at).collect(), even)
+}
+
+/// The abscissa of a universal file rises, and two values at one place would be two answers.
+fn rising(args: &Args, frequencies: &mut [f64]) -> Result<()> {
+    frequencies.sort_by(f64::total_cmp);
+    let Some(pair) = frequencies.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    let found = format!("{:?} Hz more than once in the six digits of a universal file", pair[0]);
+    let (option, expected) = match args.frequencies.is_empty() {
+        true => ("--points", "fewer, a wider range, or --linear, whose steps are not rounded"),
+        false => ("--frequencies", "each once"),
+    };
+    Err(Error::value(option, found, expected))
 }
 
 fn csv(kind: Kind, samples: &[Sample]) -> String {

@@ -9,29 +9,32 @@ use crate::exchange::uff::{
 /// each mode, its values being translations x, y, z and rotations about them, with the deflection
 /// in y and the rotation about z.
 ///
-/// A trace line has at most 250 nodes; of more places that many are taken, ends included, and
-/// none is moved. All damping stands as viscous, nothing as hysteretic: a reader that adds the two
-/// has it once.
+/// A trace line has at most 250 nodes: through more places there are several, each from where the
+/// one before it ends. All damping stands as viscous, nothing as hysteretic: a reader that adds the
+/// two has it once.
 pub fn modes(table: &ModeTable, legacy: bool, stamp: &Stamp) -> Vec<Dataset> {
-    let kept = thinned(table.x.len(), TraceLine::MOST);
-    let label = |k: usize| 1 + k as i64;
-    let at = |(k, i): (usize, &usize)| Node::new(label(k), [table.x[*i], 0.0, 0.0]);
-    let nodes = kept.iter().enumerate().map(at).collect();
-    let line = TraceLine {
-        number: 1,
-        color: 0,
-        name: "axis of the bat, knob to tip".into(),
-        nodes: (0..kept.len()).map(label).collect(),
-    };
+    let nodes = (1..).zip(&table.x).map(|(label, x)| Node::new(label, [*x, 0.0, 0.0])).collect();
     let mut datasets = vec![
         Dataset::Header(header(&table.bat.name, "bending modes of a bat", stamp)),
         Dataset::Units(Units::si()),
         Dataset::Nodes(Nodes { nodes, legacy }),
-        Dataset::TraceLine(line),
     ];
-    let shapes = table.modes.iter().map(|mode| shape(&table.bat.name, mode, &kept));
+    datasets.extend(axis(table.x.len()).map(Dataset::TraceLine));
+    let shapes = table.modes.iter().map(|mode| shape(&table.bat.name, mode));
     datasets.extend(shapes.map(Dataset::NodalData));
     datasets
+}
+
+/// Lines through nodes 1 to `count`.
+fn axis(count: usize) -> impl Iterator<Item = TraceLine> {
+    let step = TraceLine::MOST - 1;
+    let starts = (1..count).step_by(step).map(move |start| start..=(start + step).min(count));
+    (1..).zip(starts).map(|(number, nodes)| TraceLine {
+        number,
+        color: 0,
+        name: "axis of the bat, knob to tip".into(),
+        nodes: nodes.map(|label| label as i64).collect(),
+    })
 }
 
 /// The head of a universal file that this program writes.
@@ -49,11 +52,10 @@ pub(crate) fn header(model: &str, description: &str, stamp: &Stamp) -> Header {
     }
 }
 
-fn shape(name: &str, mode: &SampledMode, kept: &[usize]) -> NodalData {
+fn shape(name: &str, mode: &SampledMode) -> NodalData {
     let number = i64::from(mode.order);
-    let motion = |i: usize| -> Vec<Complex> {
-        let motions = [0.0, mode.deflection[i], 0.0, 0.0, 0.0, mode.rotation[i]];
-        motions.map(|value| [value, 0.0]).to_vec()
+    let motion = |(w, turn): (&f64, &f64)| -> Vec<Complex> {
+        [0.0, *w, 0.0, 0.0, 0.0, *turn].map(|value| [value, 0.0]).to_vec()
     };
     NodalData {
         ids: [
@@ -76,29 +78,6 @@ fn shape(name: &str, mode: &SampledMode, kept: &[usize]) -> NodalData {
         quantity: 8,
         complex: false,
         per_node: 6,
-        values: kept.iter().enumerate().map(|(k, i)| (1 + k as i64, motion(*i))).collect(),
-    }
-}
-
-/// At most so many of the indices below `count`, evenly, both ends included.
-fn thinned(count: usize, most: usize) -> Vec<usize> {
-    if count <= most {
-        return (0..count).collect();
-    }
-    (0..most).map(|k| (k * (count - 1) + (most - 1) / 2) / (most - 1)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thinning_keeps_both_ends_and_no_place_twice() {
-        for count in [2, 250, 251, 499, 500, 1001, 100_000] {
-            let kept = thinned(count, 250);
-            assert_eq!((kept[0], *kept.last().unwrap()), (0, count - 1));
-            assert_eq!(kept.len(), count.min(250));
-            assert!(kept.windows(2).all(|pair| pair[0] < pair[1]), "{count}");
-        }
+        values: (1..).zip(mode.deflection.iter().zip(&mode.rotation).map(motion)).collect(),
     }
 }

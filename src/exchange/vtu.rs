@@ -40,6 +40,14 @@ pub fn one_mode(table: &ModeTable, grid: &Grid, k: usize) -> String {
     file(table, grid, &[mode], |_| "mode".into(), Some(mode.frequency))
 }
 
+/// About how many bytes such a file has, with so many modes on a grid of so many points: its
+/// numbers have up to 17 digits.
+pub fn size(points: usize, modes: usize) -> usize {
+    const OF_A_POINT: usize = 100;
+    const OF_A_VECTOR: usize = 45;
+    points * (OF_A_POINT + modes * OF_A_VECTOR)
+}
+
 /// The collection of files, each with its time.
 pub fn collection(files: &[(f64, String)]) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n");
@@ -64,9 +72,7 @@ fn file(
     time: Option<f64>,
 ) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n");
-    // Two hyphens would end the comment.
-    let title = table.bat.name.replace("--", "- -");
-    let _ = writeln!(out, "<!-- {}: x along the bat, deflection along y -->", escaped(&title));
+    out += "<!-- a bat: x along it, deflection along y -->\n";
     out += "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
     out += "<UnstructuredGrid>\n<FieldData>\n";
     field(&mut out, "TimeValue", &time.into_iter().collect::<Vec<_>>());

@@ -5,15 +5,24 @@ pub const LEAST: f64 = 0.5;
 /// What an octave between the frequencies takes from a MAC: with few points several computed modes
 /// may look alike there, and the frequency tells.
 const OCTAVE: f64 = 0.05;
+/// Modes farther apart are alike by chance.
+const FARTHEST: f64 = 1.0;
+
+/// Octaves between two frequencies that may be of one mode; none where they are too far apart.
+pub fn octaves(measured: f64, computed: f64) -> Option<f64> {
+    Some((measured / computed).log2().abs()).filter(|octaves| *octaves <= FARTHEST)
+}
 
 /// Pairs by the MAC, rows measured and columns computed, one to one from the best on: by MAC less
-/// 0.05 for an octave between the frequencies (Hz), as long as the MAC is [`LEAST`].
+/// 0.05 for an octave between the frequencies (Hz), as long as the MAC is [`LEAST`] and they are
+/// not more than an octave apart.
 pub fn by_shape(mac: &[Vec<f64>], measured: &[f64], computed: &[f64]) -> Vec<(usize, usize)> {
     let mut candidates = vec![];
     for (i, row) in mac.iter().enumerate() {
         for (j, mac) in row.iter().enumerate().filter(|(_, mac)| **mac >= LEAST) {
-            let octaves = (measured[i] / computed[j]).log2().abs();
-            candidates.push((mac - OCTAVE * octaves, i, j));
+            if let Some(octaves) = octaves(measured[i], computed[j]) {
+                candidates.push((mac - OCTAVE * octaves, i, j));
+            }
         }
     }
     candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -50,8 +59,15 @@ mod tests {
     #[test]
     fn of_two_that_look_alike_the_frequency_tells() {
         let mac = vec![vec![0.98, 0.98]];
+        assert_eq!(by_shape(&mac, &[210.0], &[300.0, 200.0]), [(0, 1)]);
+        assert_eq!(by_shape(&mac, &[290.0], &[300.0, 200.0]), [(0, 0)]);
         assert_eq!(by_shape(&mac, &[210.0], &[800.0, 200.0]), [(0, 1)]);
         assert_eq!(by_shape(&mac, &[790.0], &[800.0, 200.0]), [(0, 0)]);
+        // Half and twice the frequency may be the mode; what is farther off is not, however alike.
+        let alone = vec![vec![1.0]];
+        for (measured, paired) in [(101.0, 1), (99.0, 0), (399.0, 1), (401.0, 0), (0.0, 0)] {
+            assert_eq!(by_shape(&alone, &[measured], &[200.0]).len(), paired, "{measured}");
+        }
         assert_eq!(by_order(&[Some(2), None, Some(9)], 3), [(0, 1)]);
     }
 }

@@ -65,13 +65,14 @@ const BETTER: f64 = 0.02;
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where points are not on the bat.
+/// [`Error::Value`] where the points span more than the bat, or are not on it.
 pub fn place(
     measured: &Measured,
     length: f64,
     told: Told,
     fit: impl Fn(&[f64], &[Vec<c64>]) -> f64,
 ) -> Result<Placed> {
+    fits_on(measured, length)?;
     let shapes: Vec<Vec<c64>> = measured.modes.iter().map(|mode| mode.shape.clone()).collect();
     let way = |first: End| -> Result<Way> {
         let (places, how) = places(measured, length, told.origin, first);
@@ -85,23 +86,7 @@ pub fn place(
     };
     let wanted = told.first.or(measured.from_knob.then_some(End::Knob));
     let (knob, tip) = (way(End::Knob), way(End::Tip));
-    let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(|way| way.fit));
-    let (chosen, other, reason) = match (wanted, knob, tip) {
-        (Some(End::Knob), knob, _) => (knob?, fits[1], None),
-        (Some(End::Tip), _, tip) => (tip?, fits[0], None),
-        (None, Ok(knob), Ok(tip)) => {
-            let (reason, swap) = match tip.fit - knob.fit {
-                d if d > BETTER => ("so the shapes fit better", true),
-                d if d < -BETTER => ("so the shapes fit better", false),
-                _ => {
-                    ("both ways fit alike, and the knob end is taken (--tip-first turns it)", false)
-                }
-            };
-            let (chosen, other) = if swap { (tip, knob) } else { (knob, tip) };
-            (chosen, Some(other.fit), Some(reason))
-        }
-        (None, knob, tip) => (knob.or(tip)?, None, Some("the other way points are off the bat")),
-    };
+    let Choice { chosen, other, reason } = choose(wanted, knob, tip)?;
     let better = other.is_some_and(|other| other > chosen.fit + BETTER);
     let mut assumed = vec![chosen.how];
     if let Some(reason) = reason {
@@ -124,6 +109,34 @@ struct Way {
     first: End,
     fit: f64,
     how: String,
+}
+
+/// One of two ways, how well the other fits if it can be, and why it is this one if nobody said so.
+struct Choice {
+    chosen: Way,
+    other: Option<f64>,
+    reason: Option<&'static str>,
+}
+
+fn choose(wanted: Option<End>, knob: Result<Way>, tip: Result<Way>) -> Result<Choice> {
+    let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(|way| way.fit));
+    let (chosen, other, reason) = match (wanted, knob, tip) {
+        (Some(End::Knob), knob, _) => (knob?, fits[1], None),
+        (Some(End::Tip), _, tip) => (tip?, fits[0], None),
+        (None, Ok(knob), Ok(tip)) => match tip.fit - knob.fit {
+            d if d > BETTER => (tip, fits[0], Some("so the shapes fit better")),
+            d if d < -BETTER => (knob, fits[1], Some("so the shapes fit better")),
+            _ => {
+                let alike = "both ways fit alike, and the knob end is taken (--tip-first turns it)";
+                (knob, fits[1], Some(alike))
+            }
+        },
+        (None, knob, tip) => {
+            let either = knob.or_else(|error| tip.map_err(|_| error))?;
+            (either, None, Some("the other way points are off the bat"))
+        }
+    };
+    Ok(Choice { chosen, other, reason })
 }
 
 /// Places from the knob end (m) with that end first, and how they were found.
@@ -151,6 +164,17 @@ fn places(measured: &Measured, length: f64, origin: Option<f64>, first: End) -> 
          the points are taken as in its middle (--origin says where the first is)"
     );
     (from(&|s| turned(s - low + before)), how)
+}
+
+/// Points that are farther apart than the bat is long fit on it no way.
+fn fits_on(measured: &Measured, length: f64) -> Result<()> {
+    let span = measured.along[measured.along.len() - 1] - measured.along[0];
+    if span <= length * (1.0 + 2.0 * BEYOND) {
+        return Ok(());
+    }
+    let found = format!("points that span {span:.4} m");
+    let expected = format!("at most the bat's {length:.4} m: is the unit right?");
+    Err(Error::value(&measured.source, found, expected))
 }
 
 /// Places a little beyond an end are at the end; farther out there is no bat.

@@ -6,9 +6,10 @@ use crate::bat::Bat;
 use crate::error::{Error, Result};
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured::mac;
-use crate::measured::pairing::{by_order, by_shape};
+use crate::measured::pairing::{by_order, by_shape, octaves};
 use crate::measured::place::{Placed, Told, place};
 use crate::measured::weigh::{Curve, Scale};
+use crate::modes::Mode;
 use crate::solve::{Request, Solution, solve};
 
 /// Measured modes beside computed ones.
@@ -24,10 +25,10 @@ pub struct Study {
     pub bending: Vec<usize>,
     /// Which is which.
     pub pairs: Vec<Pair>,
-    /// Numbers (from 0) of measured bending modes that are like no computed one.
+    /// Numbers (from 0) of measured bending modes without a computed partner.
     pub lone_measured: Vec<usize>,
-    /// Numbers (from 0) of computed modes up to the highest measured frequency that are like no
-    /// measured one.
+    /// Numbers (from 0) of computed modes up to the highest measured frequency without a measured
+    /// partner.
     pub lone_computed: Vec<usize>,
     /// What the shapes say, where there are shapes.
     pub shapes: Option<Shapes>,
@@ -56,8 +57,8 @@ pub struct RigidMode {
     /// Its number, from 0.
     pub measured: usize,
     /// How far from a straight line its shape is, as a share of its size (root of the squares at
-    /// the points); None without a shape.
-    pub bent: Option<f64>,
+    /// the points).
+    pub bent: f64,
 }
 
 /// What measured shapes say of themselves and of the computed ones.
@@ -75,12 +76,14 @@ pub struct Shapes {
     pub collinearity: Vec<f64>,
     /// Its share out of phase.
     pub out_of_phase: Vec<f64>,
-    /// What every two measured bending modes have in common in the bat's mass, 1 for the same.
-    pub common: Vec<Vec<f64>>,
-    /// The same of the computed partners, taken from the same points only; None without a partner.
+    /// What every two measured bending modes have in common in the bat's mass, 1 for the same. None
+    /// for a bat with absorbers, whose motion was not measured.
+    pub common: Option<Vec<Vec<f64>>>,
+    /// The same of the computed partners, taken from the same points only; None without a partner,
+    /// and with absorbers.
     pub sampled_common: Vec<Vec<Option<f64>>>,
-    /// Rigid motion in every measured bending mode, as a share of its size. None for a bat that
-    /// something holds.
+    /// Rigid motion in every measured bending mode, as a share of its size. None for a bat with
+    /// absorbers, and for one that something holds.
     pub rigid_share: Option<Vec<f64>>,
     /// The same in its computed partner, taken from the same points.
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
@@ -118,31 +121,24 @@ impl Study {
         let first = solution.modes.first().map_or(0.0, |mode| mode.frequency());
         let slow = |k: &usize| {
             let mode = &measured.modes[*k];
-            let straight = match mode.shape.is_empty() {
-                true => mode.order.is_none(),
-                false => bent(&measured.along, &mode.shape) < STRAIGHT,
-            };
-            solution.rigid_modes > 0 && mode.frequency < RIGID_BELOW * first && straight
+            let straight = || bent(&measured.along, &mode.shape) < STRAIGHT;
+            let slow = solution.rigid_modes > 0 && mode.frequency < RIGID_BELOW * first;
+            slow && !mode.shape.is_empty() && straight()
         };
         let (slowest, bending): (Vec<usize>, Vec<usize>) =
             (0..measured.modes.len()).partition(slow);
-        let placed = match measured.has_shapes() {
-            true => {
-                let fit = |x: &[f64], shapes: &[Vec<c64>]| {
-                    let own = all_sampled(&solution, x);
-                    let best = |k: &usize| best(&solution, &own, &measured.modes[*k], &shapes[*k]);
-                    bending.iter().map(best).sum::<f64>() / bending.len().max(1) as f64
-                };
-                Some(place(&measured, bat.length(), told, fit)?)
-            }
-            false if told != Told::default() => {
-                let expected =
-                    "a file with shapes, or neither --origin, --knob-first nor --tip-first";
-                return Err(Error::value("--measured", "frequencies alone", expected));
-            }
-            false => None,
+        if !measured.has_shapes() && told != Told::default() {
+            let expected = "a file with shapes, or neither --origin, --knob-first nor --tip-first";
+            return Err(Error::value("--measured", "frequencies alone", expected));
+        }
+        let fit = |x: &[f64], shapes: &[Vec<c64>]| {
+            let own = sampled(&solution, x);
+            let best = |k: &usize| best(&solution, &own, &measured.modes[*k], &shapes[*k]);
+            bending.iter().map(best).sum::<f64>() / bending.len().max(1) as f64
         };
-        let bent = |k: usize| placed.as_ref().map(|at| bent(&at.x, &at.shapes[k]));
+        let there = measured.has_shapes().then(|| place(&measured, bat.length(), told, fit));
+        let placed = there.transpose()?;
+        let bent = |k: usize| bent(&measured.along, &measured.modes[k].shape);
         let rigid = slowest.iter().map(|&k| RigidMode { measured: k, bent: bent(k) }).collect();
         let mut study = Self {
             rigid,
@@ -154,8 +150,9 @@ impl Study {
             measured,
             solution,
         };
-        study.pair(placed.as_ref());
-        study.shapes = placed.map(|placed| study.look(bat, placed));
+        let seen = placed.map(|placed| study.seen(placed));
+        study.pair(seen.as_ref());
+        study.shapes = seen.map(|seen| study.look(bat, seen));
         Ok(study)
     }
 
@@ -164,13 +161,19 @@ impl Study {
         &self.measured.modes[measured].name
     }
 
-    fn pair(&mut self, placed: Option<&Placed>) {
+    /// The modes at the measured points.
+    fn seen(&self, placed: Placed) -> Seen {
+        let rows: Vec<_> = self.bending.iter().map(|k| placed.shapes[*k].clone()).collect();
+        let computed = sampled(&self.solution, &placed.x);
+        Seen { mac: mac::matrix(&rows, &computed), computed, placed }
+    }
+
+    fn pair(&mut self, seen: Option<&Seen>) {
         let computed: Vec<f64> = self.solution.modes.iter().map(|mode| mode.frequency()).collect();
         let frequency = |k: &usize| self.measured.modes[*k].frequency;
         let measured: Vec<f64> = self.bending.iter().map(frequency).collect();
-        let matrix = placed.map(|at| (at, self.matrix(at)));
-        let pairs = match &matrix {
-            Some((_, mac)) => by_shape(mac, &measured, &computed),
+        let pairs = match seen {
+            Some(seen) => by_shape(&seen.mac, &measured, &computed),
             None => {
                 let orders = self.bending.iter().map(|k| self.measured.modes[*k].order);
                 by_order(&orders.collect::<Vec<_>>(), computed.len())
@@ -179,17 +182,16 @@ impl Study {
         let one = |(row, column): &(usize, usize)| {
             let mode = &self.solution.modes[*column];
             let number = self.bending[*row];
-            let shape = |(at, _): &(&Placed, Vec<Vec<f64>>)| {
-                mac::scale(&at.shapes[number], &sampled(&self.solution, *column, &at.x))
-            };
+            let scale =
+                |seen: &Seen| mac::scale(&seen.placed.shapes[number], &seen.computed[*column]);
             let difference = mode.frequency() / measured[*row] - 1.0;
             Pair {
                 measured: number,
                 computed: *column,
-                mac: matrix.as_ref().map(|(_, mac)| mac[*row][*column]),
+                mac: seen.map(|seen| seen.mac[*row][*column]),
                 difference: Some(difference).filter(|d| d.is_finite()),
                 within: mode.error.total(),
-                scale: matrix.as_ref().map(shape),
+                scale: seen.map(scale),
             }
         };
         self.pairs = pairs.iter().map(one).collect();
@@ -201,35 +203,31 @@ impl Study {
         self.lone_computed = below.filter(alone).collect();
     }
 
-    fn matrix(&self, placed: &Placed) -> Vec<Vec<f64>> {
-        let rows: Vec<_> = self.bending.iter().map(|k| placed.shapes[*k].clone()).collect();
-        mac::matrix(&rows, &all_sampled(&self.solution, &placed.x))
-    }
-
     /// What the shapes say.
-    fn look(&self, bat: &Bat, placed: Placed) -> Shapes {
+    fn look(&self, bat: &Bat, seen: Seen) -> Shapes {
+        let Seen { placed, computed, mac } = seen;
+        let whole = bat.fixtures.absorbers.is_empty();
         let scale = Scale::new(bat, self.solution.theory, &placed.x);
         let shape = |k: &usize| placed.shapes[*k].as_slice();
         let curve = |values: &[c64]| scale.curve(&placed.x, &mac::unit(values));
         let curves: Vec<Curve> = self.bending.iter().map(|k| curve(shape(k))).collect();
         let partner = |k: &usize| self.pairs.iter().find(|pair| pair.measured == *k);
-        let of_partner = |pair: &Pair| curve(&sampled(&self.solution, pair.computed, &placed.x));
+        let of_partner = |pair: &Pair| curve(&computed[pair.computed]);
         let partners: Vec<Option<Curve>> =
-            self.bending.iter().map(|k| partner(k).map(of_partner)).collect();
+            self.bending.iter().map(|k| partner(k).filter(|_| whole).map(of_partner)).collect();
         let known: Vec<Curve> = partners.iter().flatten().cloned().collect();
         let sampled_common = spread(&scale.common(&known), &partners);
-        let free = self.solution.rigid_modes == 2;
+        let free = whole && self.solution.rigid_modes == 2;
         let rigid = |curve: &Curve| scale.rigid_share(curve);
-        let own = all_sampled(&self.solution, &placed.x);
         let many: Vec<f64> = (0..=MANY).map(|k| bat.length() * k as f64 / MANY as f64).collect();
-        let dense = all_sampled(&self.solution, &many);
+        let dense = sampled(&self.solution, &many);
         Shapes {
-            mac: self.matrix(&placed),
-            own_mac: mac::matrix(&own, &own),
+            mac,
+            own_mac: mac::matrix(&computed, &computed),
             dense_mac: mac::matrix(&dense, &dense),
             collinearity: self.bending.iter().map(|k| mac::collinearity(shape(k))).collect(),
             out_of_phase: self.bending.iter().map(|k| mac::out_of_phase(shape(k))).collect(),
-            common: scale.common(&curves),
+            common: whole.then(|| scale.common(&curves)),
             sampled_common,
             rigid_share: free.then(|| curves.iter().map(rigid).collect()),
             sampled_rigid_share: free
@@ -237,6 +235,14 @@ impl Study {
             placed,
         }
     }
+}
+
+/// Both at the measured points: the measured shapes where they are on the bat, the computed ones,
+/// and the MAC of each with each.
+struct Seen {
+    placed: Placed,
+    computed: Vec<Vec<c64>>,
+    mac: Vec<Vec<f64>>,
 }
 
 /// A matrix of the ones that are there, with a gap for every one that is not.
@@ -263,20 +269,15 @@ fn reaching(bat: &Bat, measured: &Measured, request: &Request) -> Result<Solutio
     }
 }
 
-/// A computed shape at the points.
-fn sampled(solution: &Solution, mode: usize, x: &[f64]) -> Vec<c64> {
-    let shape = &solution.modes[mode].shape;
-    x.iter().map(|x| c64::new(shape.deflection(*x), 0.0)).collect()
+/// The computed shapes at the points.
+fn sampled(solution: &Solution, x: &[f64]) -> Vec<Vec<c64>> {
+    let at = |mode: &Mode| x.iter().map(|x| c64::new(mode.shape.deflection(*x), 0.0)).collect();
+    solution.modes.iter().map(at).collect()
 }
 
-fn all_sampled(solution: &Solution, x: &[f64]) -> Vec<Vec<c64>> {
-    (0..solution.modes.len()).map(|k| sampled(solution, k, x)).collect()
-}
-
-/// The best MAC of a measured mode with a computed one at no more than twice or half its frequency:
-/// among too many some are alike by chance.
+/// The best MAC of a measured mode with a computed one that it may be.
 fn best(solution: &Solution, own: &[Vec<c64>], mode: &MeasuredMode, shape: &[c64]) -> f64 {
-    let near = |k: &usize| (solution.modes[*k].frequency() / mode.frequency).log2().abs() <= 1.0;
+    let near = |k: &usize| octaves(mode.frequency, solution.modes[*k].frequency()).is_some();
     let near = (0..own.len()).filter(near);
     near.map(|k| mac::mac(shape, &own[k])).fold(0.0, f64::max)
 }

@@ -41,7 +41,7 @@ fn frequencies(study: &Study) -> Vec<String> {
     let differences = study.pairs.iter().filter_map(|pair| pair.difference);
     let logs: Vec<f64> = differences.map(f64::ln_1p).collect();
     if logs.is_empty() {
-        return vec!["No measured mode is like a computed one.".to_owned()];
+        return vec!["No measured mode is paired with a computed one.".to_owned()];
     }
     let mean = logs.iter().sum::<f64>() / logs.len() as f64;
     let left = logs.iter().map(|log| (log - mean).exp_m1().abs()).fold(0.0, f64::max);
@@ -71,10 +71,9 @@ fn frequencies(study: &Study) -> Vec<String> {
 
 /// Rigid motions that are not straight.
 fn slow(study: &Study) -> Option<String> {
-    let crooked = study.rigid.iter().filter(|mode| mode.bent.is_some_and(|bent| bent > MUCH));
-    let name = |mode: &RigidMode| {
-        format!("{} by {:.0} %", study.name(mode.measured), 100.0 * mode.bent.unwrap_or(0.0))
-    };
+    let crooked = study.rigid.iter().filter(|mode| mode.bent > MUCH);
+    let name =
+        |mode: &RigidMode| format!("{} by {:.0} %", study.name(mode.measured), 100.0 * mode.bent);
     let list: Vec<String> = crooked.map(name).collect();
     (!list.is_empty()).then(|| {
         format!(
@@ -133,17 +132,17 @@ fn whirling(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// Shapes with momentum that a free bat's bending has not.
+/// Shapes with momentum that a free bat's bending has not. Without a computed partner nobody knows
+/// what the points do to a shape.
 fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     let (own, sampled) = (shapes.rigid_share.as_ref()?, shapes.sampled_rigid_share.as_ref()?);
-    let much = |row: &usize| own[*row] > MUCH.max(2.0 * sampled[*row].unwrap_or(0.0));
     let one = |row: usize| {
-        let part = format!("{} {:.0} %", study.name(study.bending[row]), 100.0 * own[row]);
-        let explained = sampled[row]
-            .map_or(String::new(), |share| format!(" (the points explain {:.0} %)", 100.0 * share));
-        part + &explained
+        let points = sampled[row].filter(|points| own[row] > MUCH.max(2.0 * points))?;
+        let [own, points] = [own[row], points].map(|share| format!("{:.0} %", 100.0 * share));
+        let name = study.name(study.bending[row]);
+        Some(format!("{name} {own} (the points explain {points})"))
     };
-    let list: Vec<String> = (0..own.len()).filter(much).map(one).collect();
+    let list: Vec<String> = (0..own.len()).filter_map(one).collect();
     (!list.is_empty()).then(|| {
         format!(
             "A free bat's bending carries no momentum, but these shapes carry rigid motion: {}. A \
@@ -153,25 +152,22 @@ fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// The two measured shapes that have most in common.
+/// The two measured shapes that have most in common, of those whose computed partners tell what the
+/// points do to them.
 fn common(study: &Study, shapes: &Shapes) -> Option<String> {
-    let count = study.bending.len();
-    let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let (i, j) =
-        pairs.max_by(|a, b| shapes.common[a.0][a.1].total_cmp(&shapes.common[b.0][b.1]))?;
-    let worst = shapes.common[i][j];
-    let all = shapes.sampled_common.iter().enumerate();
-    let beside = all.flat_map(|(i, row)| row[..i].iter().flatten());
-    let sampled = beside.fold(0.0_f64, |most, value| most.max(*value));
+    let (own, sampled) = (shapes.common.as_ref()?, &shapes.sampled_common);
+    let pairs = (0..study.bending.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let known = pairs.filter_map(|(i, j)| Some((i, j, own[i][j], sampled[i][j]?)));
+    let (i, j, worst, points) = known.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let names = [j, i].map(|row| study.name(study.bending[row]));
     let verdict = match worst {
         w if w <= MUCH => "they are sound in this",
-        w if w <= 2.0 * sampled => "with so few points that says nothing",
+        w if w <= 2.0 * points => "with so few points that says nothing",
         _ => "the shapes, or the masses in the bat file, are off",
     };
     Some(format!(
-        "In the bat's mass {} and {} have most in common, {worst:.3}, computed shapes at these points \
-         {sampled:.3} at most: {verdict}.",
+        "In the bat's mass {} and {} have most in common, {worst:.3}, their computed partners at these \
+         points {points:.3}: {verdict}.",
         names[0], names[1]
     ))
 }

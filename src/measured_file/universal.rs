@@ -3,14 +3,14 @@
 //! The bat's axis is the direction in which the nodes are farthest apart, and a mode's deflection is
 //! its motion in the direction normal to the axis in which it moves most: a round bat bends in any.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 use faer::c64;
 
 use crate::error::{Error, Result};
-use crate::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Universal};
+use crate::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Universal, six_digits};
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured_file::FEWEST;
 use crate::measured_file::direction::{Vector, axis, dot, named, normals, positive};
@@ -54,7 +54,8 @@ pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
         let expected = format!("{FEWEST} at least; with fewer every shape looks like any other");
         return Err(Error::value(file, found, expected));
     }
-    let mut assumed = vec![format!("the bat's axis is {}", named(axis))];
+    let mut assumed = unread(universal);
+    assumed.push(format!("the bat's axis is {}", named(axis)));
     if points.len() < moving.len() {
         let (nodes, points) = (moving.len(), points.len());
         assumed
@@ -62,6 +63,9 @@ pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
     }
     if !still.is_empty() {
         assumed.push(format!("{} nodes that never move are left out", still.len()));
+    }
+    if moving.iter().any(|label| nodes[label].systems[0] != 0) {
+        assumed.push("the nodes' places are taken as in the file's global system".to_owned());
     }
     if moving.iter().any(|label| nodes[label].systems[1] != 0) {
         assumed.push("motions are taken as along the file's global axes".to_owned());
@@ -74,11 +78,48 @@ pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
             _ => deflection(&motions, &points, axis),
         };
         directions.push((direction, share));
-        modes.push(shape.mode(k, values, &modes));
+        let mode = shape.mode(k, values, &modes);
+        assumed.extend(gaps(&mode.name, shape.data, &moving));
+        modes.push(mode);
     }
     assumed.extend(said(&directions, &modes));
     let along = points.iter().map(|point| point.along).collect();
     Ok(Measured { source: file.to_owned(), modes, along, from_knob: false, assumed })
+}
+
+/// What was left out of the file, and what was converted.
+fn unread(universal: &Universal) -> Vec<String> {
+    let mut said = vec![];
+    if let Some(skipped) = skipped(universal) {
+        said.push(format!("{skipped} left out"));
+    }
+    if let Some(units) = universal.converted_from.as_ref().filter(|units| units.length != 1.0) {
+        let unit = six_digits(1.0 / units.length);
+        said.push(format!("the file's unit of length is {unit} m, as its dataset 164 says"));
+    }
+    said
+}
+
+/// The datasets that are not read, each number once.
+fn skipped(universal: &Universal) -> Option<String> {
+    let mut numbers: Vec<i64> = universal.skipped.iter().map(|skipped| skipped.number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let list: Vec<String> = numbers.iter().map(i64::to_string).collect();
+    match list.len() {
+        0 => None,
+        1 => Some(format!("dataset {} is", list[0])),
+        _ => Some(format!("datasets {} are", list.join(", "))),
+    }
+}
+
+/// A word about a mode that does not have all the nodes that move.
+fn gaps(name: &str, data: &NodalData, moving: &[i64]) -> Option<String> {
+    let listed: BTreeSet<i64> = data.values.iter().map(|(label, _)| *label).collect();
+    let there = moving.iter().filter(|label| listed.contains(label)).count();
+    let all = moving.len();
+    let others = "the others are taken at rest";
+    (there < all).then(|| format!("{name} lists {there} of the {all} nodes that move, {others}"))
 }
 
 /// Labels of the nodes that move in some shape, and of those that are in one and never move.
@@ -168,7 +209,11 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
         let functions =
             universal.datasets.iter().filter(|d| matches!(d, Dataset::Function(_))).count();
         let (found, expected) = match functions {
-            0 => ("no modes".to_owned(), "shapes in datasets 55"),
+            0 => {
+                let unread = skipped(universal);
+                let unread = unread.map_or(String::new(), |list| format!("; {list} not read"));
+                (format!("no modes{unread}"), "shapes in datasets 55")
+            }
             count => (
                 format!("{count} functions in datasets 58 and no shapes"),
                 "shapes in datasets 55, which a modal analysis finds from them; or the \

@@ -25,8 +25,8 @@ const POINTS: usize = 160;
 pub fn pictures(bat: &str, study: &Study) -> Vec<Picture> {
     let Some(shapes) = &study.shapes else { return vec![] };
     let mut all = vec![mac(bat, study, shapes)];
-    if study.bending.len() > 1 {
-        all.push(common(bat, study, shapes));
+    if let Some(own) = shapes.common.as_ref().filter(|rows| rows.len() > 1) {
+        all.push(common(bat, study, own, &shapes.sampled_common));
     }
     all.extend(on_each_other(bat, study, shapes));
     all
@@ -54,12 +54,9 @@ fn mac(bat: &str, study: &Study, shapes: &Shapes) -> Picture {
 }
 
 /// Measured below the diagonal and on it, above it what the points cost.
-fn common(bat: &str, study: &Study, shapes: &Shapes) -> Picture {
-    let count = study.bending.len();
-    let value = |i: usize, j: usize| match j > i {
-        true => shapes.sampled_common[i][j],
-        false => Some(shapes.common[i][j]),
-    };
+fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>>]) -> Picture {
+    let count = own.len();
+    let value = |i: usize, j: usize| if j > i { sampled[i][j] } else { Some(own[i][j]) };
     let row = |i: usize| (0..count).map(|j| value(i, j)).collect();
     matrix::picture(&Matrix {
         name: "mass_orthogonality".into(),

@@ -6,7 +6,7 @@ use faer::c64;
 use serde_json::{Value, json};
 
 use crate::bat::Bat;
-use crate::measured::pairing::LEAST;
+use crate::measured::pairing::{LEAST, octaves};
 use crate::measured::study::{Pair, Shapes, Study};
 use crate::measured::words::words;
 use crate::report::json::generator;
@@ -18,7 +18,7 @@ pub fn text(bat: &Bat, study: &Study, units: Units) -> String {
     let mut out = format!("{}\n", bat.name);
     out += &source(study, units);
     out += &modes(study);
-    if let Some(shapes) = &study.shapes {
+    if let Some(shapes) = study.shapes.as_ref().filter(|_| !study.bending.is_empty()) {
         out += &of_shapes(study, shapes);
         out += &mac(study, shapes);
         out += &common(study, shapes);
@@ -80,8 +80,7 @@ fn modes(study: &Study) -> String {
         let mut line = format!("  {name:<12}{:>9.2} Hz{damping:>9}", mode.frequency);
         match study.pairs.iter().find(|pair| pair.measured == k) {
             Some(pair) => line += &computed(study, pair),
-            None if study.bending.contains(&k) => line += "  like no computed mode",
-            None => line += &rigid(study, k),
+            None => line += &format!("  {}", alone(study, k)),
         }
         let _ = writeln!(out, "{}", line.trim_end());
     }
@@ -111,10 +110,33 @@ fn computed(study: &Study, pair: &Pair) -> String {
     format!("{:>6}{:>10.2} Hz{damping:>9}{off:>10}{mac:>7}", mode.order, mode.frequency())
 }
 
-fn rigid(study: &Study, k: usize) -> String {
-    let bent = study.rigid.iter().find(|mode| mode.measured == k).and_then(|mode| mode.bent);
-    let bent = bent.map_or(String::new(), |b| format!(", {} off a straight line", percent(b, 1)));
-    format!("  rigid on its supports{bent}")
+/// Why a measured mode has no computed partner.
+fn alone(study: &Study, k: usize) -> String {
+    if let Some(mode) = study.rigid.iter().find(|mode| mode.measured == k) {
+        return format!("rigid on its supports, {} off a straight line", percent(mode.bent, 1));
+    }
+    if let Some(order) = study.measured.modes[k].order {
+        return format!("mode {order} was not computed");
+    }
+    match taken(study, k) {
+        Some(pair) => {
+            let name = cut(study.name(pair.measured), 12);
+            format!("like mode {}, but {name} is more so", pair.computed + 1)
+        }
+        None => "like no computed mode within an octave".to_owned(),
+    }
+}
+
+/// The pair of the computed mode that a measured one without a partner is like.
+fn taken(study: &Study, k: usize) -> Option<&Pair> {
+    let row = study.bending.iter().position(|bending| *bending == k)?;
+    let row = &study.shapes.as_ref()?.mac[row];
+    let frequency = |pair: &Pair| study.solution.modes[pair.computed].frequency();
+    let own = study.measured.modes[k].frequency;
+    let like =
+        |pair: &&Pair| row[pair.computed] >= LEAST && octaves(own, frequency(pair)).is_some();
+    let mac = |pair: &&Pair| row[pair.computed];
+    study.pairs.iter().filter(like).max_by(|a, b| mac(a).total_cmp(&mac(b)))
 }
 
 /// Scale, phase and rigid motion of every measured shape.
@@ -134,7 +156,11 @@ fn of_shapes(study: &Study, shapes: &Shapes) -> String {
         let line = format!("  {name:<12}{scale:>12}{phase:>11}{own:>14}{sampled:>18}");
         let _ = writeln!(out, "{}", line.trim_end());
     }
-    if shapes.rigid_share.is_none() {
+    if shapes.common.is_none() {
+        let why = "  an absorber moves more than the bat beneath it, and was not measured: what rigid \
+                   motion the shapes carry, and what they have in common, cannot be told";
+        out += &wrapped(why, 2);
+    } else if shapes.rigid_share.is_none() {
         out += "  what holds the bat pushes it: its shapes may carry rigid motion\n";
     }
     out
@@ -172,9 +198,7 @@ fn mac(study: &Study, shapes: &Shapes) -> String {
 /// What every two shapes have in common in the bat's mass.
 fn common(study: &Study, shapes: &Shapes) -> String {
     let count = study.bending.len().min(COLUMNS);
-    if count < 2 {
-        return String::new();
-    }
+    let Some(own) = shapes.common.as_ref().filter(|_| count > 1) else { return String::new() };
     let mut out = wrapped(
         "In the bat's mass two modes have nothing in common (0; the same: 1). Below the diagonal the \
          measured shapes; above it the computed ones they are paired with, from these points alone",
@@ -182,7 +206,7 @@ fn common(study: &Study, shapes: &Shapes) -> String {
     );
     for (i, k) in study.bending.iter().enumerate().take(count) {
         let cell = |j: usize| match j {
-            j if j < i => format!("{:>6.3}", shapes.common[i][j]),
+            j if j < i => format!("{:>6.3}", own[i][j]),
             j if j > i => {
                 shapes.sampled_common[i][j].map_or(" ".repeat(6), |v| format!("{v:>6.3}"))
             }
@@ -212,7 +236,7 @@ pub fn json(bat: &Bat, file: &str, study: &Study) -> Value {
             "frequency_hz": mode.frequency,
             "damping_ratio": mode.damping_ratio,
             "kind": if rigid.is_some() { "rigid" } else { "bending" },
-            "off_a_straight_line": rigid.and_then(|rigid| rigid.bent),
+            "off_a_straight_line": rigid.map(|rigid| rigid.bent),
             "phase_collinearity": of(&|shapes, row| Some(shapes.collinearity[row])),
             "out_of_phase": of(&|shapes, row| Some(shapes.out_of_phase[row])),
             "rigid_share": of(&|shapes, row| Some(shapes.rigid_share.as_ref()?[row])),

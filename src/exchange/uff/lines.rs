@@ -59,14 +59,17 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line of text, which may be any but a fence in its very columns.
+    /// A line of text, which may be any but a fence in its very columns; none if there is no such.
+    pub fn text(&mut self) -> Option<Line<'a>> {
+        self.peek().filter(|line| line.bytes.trim_ascii_end() != b"    -1")?;
+        self.next()
+    }
+
+    /// The text of a line that must be there.
     pub fn name(&mut self, what: &str) -> Result<String> {
-        match self.peek() {
-            Some(line) if line.bytes.trim_ascii_end() != b"    -1" => {
-                self.next();
-                Ok(line.name(0, 80))
-            }
-            _ => self.record(what).map(|line| line.name(0, 80)),
+        match self.text() {
+            Some(line) => Ok(line.name(0, 80)),
+            None => self.record(what).map(|line| line.name(0, 80)),
         }
     }
 
@@ -97,8 +100,8 @@ impl<'a> Lines<'a> {
         self.at += count;
     }
 
-    /// Numbers of the next lines until there are `count`: columns of these widths, or numbers with
-    /// blanks between.
+    /// Numbers of the next lines until there are `count`: columns of these widths, those left blank
+    /// at the end of a line too, or numbers with blanks between.
     pub fn reals(&mut self, count: usize, widths: &[usize], what: &str) -> Result<Vec<f64>> {
         let mut values = Vec::new();
         while values.len() < count {
@@ -111,6 +114,10 @@ impl<'a> Lines<'a> {
             if values.len() > count {
                 let found = format!("{} numbers in this line", values.len() - before);
                 return Err(line.wrong(found, format!("{}", count - before)));
+            }
+            if line.is_in_columns(widths) {
+                let row = (before + widths.len()).min(count);
+                values.resize(row.max(values.len()), 0.0);
             }
         }
         Ok(values)
@@ -177,16 +184,17 @@ impl<'a> Line<'a> {
         self.numbers(widths, whole, what)
     }
 
-    /// Words between blanks, if each is a number that fits a column; else what stands in the
-    /// columns, where numbers may touch.
-    pub fn numbers<T>(
+    /// What stands in the columns, up to the last number, where the words end as columns do: blank
+    /// is 0, as Fortran reads it. Else the words between blanks, if each is a number that fits a
+    /// column; else the columns, where numbers may touch.
+    pub fn numbers<T: Default>(
         self,
         widths: &[usize],
         parse: fn(&str) -> Option<T>,
         what: &str,
     ) -> Result<Vec<T>> {
         let widest = widths.iter().copied().max().unwrap_or_default();
-        if let Some(words) = self.words() {
+        if let Some(words) = self.words().filter(|_| !self.is_in_columns(widths)) {
             let fit = |word: &&str| word.len() <= widest;
             let values: Option<Vec<T>> =
                 words.iter().map(|word| parse(word).filter(|_| fit(word))).collect();
@@ -198,7 +206,7 @@ impl<'a> Line<'a> {
         let (mut start, mut values) = (0, Vec::new());
         for width in widths {
             if start < end {
-                values.extend(self.field(start, *width, parse, what)?);
+                values.push(self.field(start, *width, parse, what)?.unwrap_or_default());
             }
             start += width;
         }
@@ -206,6 +214,17 @@ impl<'a> Line<'a> {
             [] => Ok(values),
             _ => Err(self.error(start, format!("\"{}\"", self.text(start, end)), "nothing more")),
         }
+    }
+
+    /// Whether there are words, and each ends where a column of these widths does.
+    fn is_in_columns(self, widths: &[usize]) -> bool {
+        let mut ends = widths.iter().scan(0, |end, width| {
+            *end += width;
+            Some(*end)
+        });
+        let blank = |k: usize| self.bytes.get(k).is_none_or(u8::is_ascii_whitespace);
+        let mut words = (1..=self.bytes.len()).filter(|k| !blank(k - 1) && blank(*k)).peekable();
+        words.peek().is_some() && words.all(|word| ends.any(|end| end == word))
     }
 
     /// The words between blanks, if the line is text.

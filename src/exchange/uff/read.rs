@@ -133,7 +133,7 @@ fn entry<'a>(lines: &mut Lines<'a>) -> Option<Line<'a>> {
 fn header(lines: &mut Lines) -> Header {
     let mut rows = [None; 7];
     for row in &mut rows {
-        *row = body(lines);
+        *row = lines.text();
     }
     while body(lines).is_some() {}
     let text = |k: usize| rows[k].map_or(String::new(), |line: Line| line.name(0, 80));
@@ -162,13 +162,12 @@ fn units(lines: &mut Lines) -> Result<Units> {
     let mut factors = Vec::new();
     while let Some(line) = entry(lines) {
         let expected = "a factor of units above 0";
-        for (k, value) in line.numbers(&DOUBLES, super::number::real, expected)?.iter().enumerate()
-        {
-            if factors.len() + k < 2 && *value <= 0.0 {
+        for value in line.numbers(&DOUBLES, super::number::real, expected)? {
+            if factors.len() < 2 && value <= 0.0 {
                 return Err(line.wrong(value, expected));
             }
+            factors.push(value);
         }
-        factors.extend(line.numbers(&DOUBLES, super::number::real, expected)?);
     }
     let [length, force, ..] = factors[..] else {
         let found = format!("{} factors of units", factors.len());

@@ -194,12 +194,10 @@ fn text(lines: &mut Lines, form: &Form) -> Result<Vec<f64>> {
 fn bytes(lines: &mut Lines, form: &Form, binary: &Binary) -> Result<Vec<f64>> {
     let rest = lines.rest();
     let fenced = |size: usize| {
-        let after = rest.get(size..)?.trim_ascii_start();
-        (after.starts_with(b"-1")).then_some(size)
+        rest.get(size..).is_some_and(|after| after.trim_ascii_start().starts_with(b"-1"))
     };
     let widths = [4, 8].map(|width| (width, form.count * form.bytes_per_value(width)));
-    let Some((abscissa, size)) = widths.into_iter().find(|(_, size)| fenced(*size).is_some())
-    else {
+    let Some((abscissa, size)) = widths.into_iter().find(|(_, size)| fenced(*size)) else {
         let expected = format!("{} bytes of {} values, then -1", widths[0].1, form.count);
         return Err(lines.peek().map_or_else(
             || lines.ended(&expected),

@@ -75,13 +75,13 @@ impl Units {
                 value.iter_mut().for_each(|part| divide(part, factor));
             }
         }
-        // With displacements in metres the modal mass is an energy over speed squared: it goes with
-        // force and length, as the energy does.
-        let energy = self.factor([1, 1]);
+        // The modal mass is a mass, which goes with force over length, times the shape squared.
+        let [length, force] = exponents(data.quantity, false);
+        let mass = self.factor([2 * length - 1, 2 * force + 1]);
         match &mut data.analysis {
-            Analysis::NormalMode { modal_mass, .. } => divide(modal_mass, energy),
+            Analysis::NormalMode { modal_mass, .. } => divide(modal_mass, mass),
             Analysis::ComplexMode { modal_a, modal_b, .. } => {
-                modal_a.iter_mut().chain(modal_b).for_each(|part| divide(part, energy));
+                modal_a.iter_mut().chain(modal_b).for_each(|part| divide(part, mass));
             }
             Analysis::FrequencyResponse { .. } | Analysis::Other { .. } => {}
         }
