@@ -103,9 +103,6 @@ pub fn run(args: &Args) -> Result<Done> {
         let text = String::from_utf8(text).expect("no archive goes there");
         return Ok(Done::new(text, 0));
     }
-    for (path, _) in &files {
-        refuse_input(args, path)?;
-    }
     for (path, contents) in &files {
         file::write(path, contents)?;
     }
@@ -202,18 +199,6 @@ fn collection(
     let list: Vec<_> = each.map(|k| (table.modes[k].frequency, name(k))).collect();
     files.push((out.to_owned(), vtu::collection(&list).into_bytes()));
     Ok(files)
-}
-
-/// The modes file must outlive its conversion.
-fn refuse_input(args: &Args, path: &Path) -> Result<()> {
-    let same = |path: &Path| std::fs::canonicalize(path).ok();
-    match (same(path), same(&args.modes)) {
-        (Some(out), Some(input)) if out == input => {
-            let found = format!("{}, the modes file itself", path.display());
-            Err(Error::value("--out", found, "another file"))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn said(table: &ModeTable, files: &[(PathBuf, Vec<u8>)]) -> String {
