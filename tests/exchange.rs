@@ -410,8 +410,8 @@ fn options_that_do_not_fit_are_refused() {
         (&["--to", "csv", "--out", "a.PVD"], "found a .pvd file with --to csv"),
         (&["--to", "xls"], "possible values: uff, vtu, csv, npz"),
         (&[], "--to <FORMAT>"),
-        (&["--to", "csv", "--out", "bat.json"], "found bat.json, the modes file itself"),
-        (&["--to", "uff", "--out", "./bat.json"], "the modes file itself"),
+        (&["--to", "csv", "--out", "bat.json"], "bat.json: found a file that this run has read"),
+        (&["--to", "uff", "--out", "./bat.json"], "found a file that this run has read"),
         (&["--to", "csv", "--out", "missing/a.csv"], "cannot write missing/a.csv"),
         (&["--to", "vtu", "--out", "taken/a.pvd"], "cannot write taken/a_mode_01.vtu"),
     ] {
