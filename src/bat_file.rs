@@ -58,9 +58,19 @@ impl Bat {
     /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column, or several, if
     /// anything in it is wrong or impossible.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
+        Self::with_text(path).map(|(bat, _)| bat)
+    }
+
+    /// The same, and what the file says: a pipe can be read only once.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn with_text(path: impl AsRef<Path>) -> Result<(Self, String)> {
         let path = path.as_ref();
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        from_document(&Document::read(path)?, &folder)
+        let document = Document::read(path)?;
+        let bat = from_document(&document, path.parent().unwrap_or(Path::new("")))?;
+        Ok((bat, document.text))
     }
 
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.

@@ -202,6 +202,39 @@ fn table_json_and_csv_say_the_same_and_a_hit_says_it_too() {
     }
 }
 
+/// A grip changes the frame of the energies by the whole swing, and the bat hardly at all.
+#[test]
+fn energies_are_compared_only_where_all_are_seen_from_the_same_place() {
+    let folder = meshes("held");
+    let held = folder.read("r161.json").replacen(
+        '{',
+        "{ \"grip\": { \"from\": 0.02, \"to\": 0.2, \"stiffness\": 1e5, \"damping\": 10 },",
+        1,
+    );
+    folder.write("held.json", held);
+    let energies = ["vibration_at_best_j", "least_vibration_j"];
+    for (bats, seen) in [
+        (["r161.json", "torpedo.json"], ["ground", "ground"]),
+        (["held.json", "held.json"], ["hands", "hands"]),
+        (["r161.json", "held.json"], ["ground", "hands"]),
+    ] {
+        let args = ["compare", bats[0], bats[1]];
+        let json = folder.json(&[&args[..], &["--json", "-"]].concat());
+        assert_eq!(json["scene"]["energies_seen_from"], Value::Null);
+        let alike = seen[0] == seen[1];
+        for (bat, seen) in json["bats"].as_array().unwrap().iter().zip(seen) {
+            assert_eq!(bat["energies_seen_from"], seen);
+            for key in energies {
+                assert_eq!(bat["figures"][key].is_object(), alike, "{bats:?} {key}");
+            }
+            assert!(bat["figures"]["best_exit_speed_m_s"].is_object());
+        }
+        let table = folder.text(&args);
+        assert_eq!(table.contains("Vibration is not compared"), !alike, "{bats:?}");
+        assert_eq!(table.contains("vibration at the best place"), alike, "{bats:?}");
+    }
+}
+
 #[test]
 fn more_bats_have_a_table_of_all_and_a_rigid_one_no_vibration() {
     let folder = meshes("three");

@@ -9,17 +9,23 @@ use common::folder::Folder;
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::roxmltree::{Document, Node};
 use sweetspot::collision::history::loop_area;
-use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::comparison::contender::{Contender, Terms};
+use sweetspot::comparison::table::{Comparison, Entry};
+use sweetspot::measured::place::{End, Told};
+use sweetspot::measured::study::Study;
+use sweetspot::measured_file;
+use sweetspot::plot;
 use sweetspot::plot::matrix::{FULL, Matrix};
 use sweetspot::plot::picture::Picture;
 use sweetspot::plot::sets::{self, Hits};
 use sweetspot::plot::theme::{self, FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use sweetspot::plot::words::{LABEL, Type};
-use sweetspot::plot::{exit_speed, front, ledger, matrix, png, profile, shapes, words};
+use sweetspot::plot::{compared, exit_speed, front, ledger, matrix, png, profile, shapes, words};
 use sweetspot::report::xml::escaped;
 use sweetspot::trade::measure::measure;
 use sweetspot::validation::bundled_bat;
@@ -123,7 +129,23 @@ fn check(picture: &Picture, whose: &str) {
             let apart = right <= l || r <= left || bottom <= t || b <= top;
             assert!(apart, "{what}: {words:?} is on {other:?}");
         }
+        for [x, y, end] in guides(&document) {
+            let apart = x <= *left || *right <= x || end <= *top || *bottom <= y;
+            assert!(apart, "{what}: a dotted line runs through {words:?}");
+        }
     }
+}
+
+/// The dotted lines down to marked places: where, from, to.
+fn guides(document: &Document) -> Vec<[f64; 3]> {
+    let dotted = |node: &Node| node.attribute("stroke-dasharray") == Some("1 3");
+    let of = |node: Node| {
+        let numbers = node.attribute("d").unwrap().split(['M', 'L', ' ']).filter(|n| !n.is_empty());
+        let numbers: Vec<f64> = numbers.map(|n| n.parse().unwrap()).collect();
+        assert!(numbers.len() == 4 && numbers[0] == numbers[2], "{numbers:?}");
+        [numbers[0], numbers[1], numbers[3]]
+    };
+    document.descendants().filter(dotted).map(of).collect()
 }
 
 #[test]
@@ -207,6 +229,109 @@ fn several_bats_fit_into_one_picture() {
         for s in &all {
             assert!(picture.svg.contains(&escaped(&s.bat.name)), "{}", picture.name);
         }
+    }
+}
+
+/// Bats side by side, so many modes each.
+fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
+    let request = Request { modes: 6, ..Request::default() };
+    let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
+    let terms = Terms { model, exactly: false, every: 0.0254 };
+    Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
+}
+
+#[test]
+fn compared_bats_have_the_same_pictures_as_one() {
+    let r161 = bat("r161");
+    let long = {
+        let ends = sweetspot::profile::Interpolation::Linear;
+        common::bat(&[0.0, 3.0], &[0.02, 0.06], &[0.0; 2], ends)
+    };
+    let six = ["r161", "torpedo", "house", "cone", "two_piece", "northwestern_aluminium"].map(bat);
+    let along = ["profile", "shapes", "exit_speed"];
+    let hit = ["contact", "hysteresis", "hands"];
+    for (bats, model, has_force) in [
+        (vec![r161.clone(), bat("torpedo")], Model::Contact, true),
+        (vec![r161.clone(), long.clone()], Model::Contact, true),
+        (vec![long, r161.clone()], Model::Contact, true),
+        (six.to_vec(), Model::Contact, true),
+        (vec![r161, bat("cone")], Model::Rigid, false),
+    ] {
+        let all = compared::pictures(&side_by_side(&bats, model)).unwrap();
+        let ledgers = ('A'..).take(bats.len()).map(|letter| format!("ledger_{letter}"));
+        let mut wanted: Vec<String> = along.map(str::to_owned).into_iter().chain(ledgers).collect();
+        wanted.extend(hit.into_iter().filter(|_| has_force).map(str::to_owned));
+        wanted.push("difference".into());
+        assert_eq!(all.iter().map(|p| p.name.clone()).collect::<Vec<_>>(), wanted);
+        for picture in &all {
+            check(picture, &format!("{} compared", bats.len()));
+            let document = Document::parse(&picture.svg).unwrap();
+            let whole = |name: &str| texts(&document).iter().any(|(words, _)| words.contains(name));
+            let told =
+                (0..bats.len()).filter(|k| whole(&format!("{}: ", char::from(b'A' + *k as u8))));
+            let one = picture.name.starts_with("ledger");
+            assert_eq!(told.count(), if one { 1 } else { bats.len() }, "{}", picture.name);
+        }
+    }
+}
+
+/// From the tip there is no place beyond it.
+#[test]
+fn a_tip_axis_has_no_place_off_the_bat() {
+    let ends = sweetspot::profile::Interpolation::Linear;
+    let bats = [0.5, 3.0].map(|l| common::bat(&[0.0, l], &[0.02, 0.06], &[0.0; 2], ends));
+    for picture in compared::pictures(&side_by_side(&bats, Model::Contact)).unwrap() {
+        let document = Document::parse(&picture.svg).unwrap();
+        let label = texts(&document)
+            .into_iter()
+            .find(|(words, _)| words.starts_with("from the tip") && words.ends_with("(in)"));
+        let Some((_, [_, top, _, bottom])) = label else { continue };
+        let below = |y: f64| (top..bottom + 20.0).contains(&y);
+        let values = ticks(&document, "middle", |_, y| below(y), false);
+        let rising = values.values().all(|inches| *inches >= 0.0);
+        assert!(rising && !values.is_empty(), "{}: {values:?}", picture.name);
+    }
+}
+
+#[test]
+fn whoever_reads_the_difference_off_the_axes_finds_who_is_faster() {
+    let both = side_by_side(&[bat("r161"), bat("torpedo")], Model::Contact);
+    let all = compared::pictures(&both).unwrap();
+    let picture = all.iter().find(|picture| picture.name == "difference").unwrap();
+    let document = Document::parse(&picture.svg).unwrap();
+    let height = number(document.root_element(), "height");
+    let value = scale(ticks(&document, "end", |x, _| x < 70.0, true));
+    let tip = scale(ticks(&document, "middle", |_, y| y > height - 40.0, false));
+    let points = document.descendants().filter(|node| node.has_tag_name("circle"));
+    let seen: Vec<[f64; 2]> = points
+        .filter(|node| node.attribute("r") == Some("7"))
+        .map(|node| [0.01 * tip(number(node, "cx")), value(number(node, "cy"))])
+        .collect();
+    assert!(seen.len() > 20, "{}", seen.len());
+    for [from_tip, read] in seen {
+        let [one, other] = [0, 1].map(|k| {
+            let Contender { bat, sweep, .. } = &both.bats[k];
+            let near = |i: &&Impact| (bat.length() - i.x - from_tip).abs() < 5e-4;
+            sweep.impacts.iter().find(near).unwrap().outcome.as_ref().unwrap().exit_speed
+        });
+        // A pixel is about 0.05 m/s.
+        assert!((read - (other - one)).abs() < 0.02, "{from_tip}: {read}, {one}, {other}");
+    }
+}
+
+#[test]
+fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
+    let ends = sweetspot::profile::Interpolation::Linear;
+    for (length, rows) in [(0.14, 1), (0.16, 3)] {
+        let bat = common::bat(&[0.0, length], &[0.01, 0.02], &[0.0; 2], ends);
+        let picture =
+            profile::picture(&[profile::Subject { name: "short", bat: &bat, swing_pivot: None }]);
+        check(&picture, "short");
+        let document = Document::parse(&picture.svg).unwrap();
+        let words = ["balance point", "pivot of standards", "its centre of percussion"];
+        let seen =
+            words.iter().filter(|row| texts(&document).iter().any(|t| t.0.starts_with(**row)));
+        assert_eq!(seen.count(), rows, "{length}");
     }
 }
 
@@ -296,7 +421,7 @@ fn the_stacked_energies_reach_the_initial_one() {
             assert!(pair[0].iter().zip(&pair[1]).all(lies), "{name}");
         }
         // The energies of a held bat are not those that the ground sees.
-        let picture = ledger::picture(&struck.bat, &struck.sweep.impacts).unwrap();
+        let picture = ledger::picture(name, &struck.bat, &struck.sweep.impacts, 0.0).unwrap();
         assert_eq!(picture.svg.contains("as the hands see it"), held, "{name}");
     }
 }
@@ -428,13 +553,57 @@ fn a_matrix_has_its_numbers_in_it() {
     let document = Document::parse(&picture.svg).unwrap();
     let seen = |words: &str| texts(&document).iter().filter(|(text, _)| *text == words).count();
     assert_eq!((seen("0.30"), seen("0.70"), seen("–")), (4, 1, 4));
-    let many = Matrix {
-        columns: names(40),
-        rows: names(30),
-        values: vec![vec![Some(0.5); 40]; 30],
-        ..table
+    assert_eq!((seen("1"), seen("5")), (2, 1));
+    let many = Matrix { columns: names(40), values: vec![vec![Some(0.5); 40]; 4], ..table };
+    // There is room for every second, and none is cut.
+    let picture = matrix::picture(&many);
+    check(&picture, "many columns");
+    let document = Document::parse(&picture.svg).unwrap();
+    let seen = |words: &str| texts(&document).iter().filter(|(text, _)| *text == words).count();
+    assert_eq!((seen("29"), seen("30"), seen("39"), seen("40")), (0, 1, 0, 1));
+}
+
+/// Pictures of modes as a laboratory names them: their frequencies (Hz), and their deflections at even
+/// places from the knob end to the tip.
+fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> {
+    let mut text = String::new();
+    let mut row = |name: &str, of: &dyn Fn(usize) -> String| {
+        let cells: Vec<String> = (0..hertz.len()).map(of).collect();
+        text += &format!("{name},{}\n", cells.join(","));
     };
-    assert!(Document::parse(&matrix::picture(&many).svg).is_ok());
+    row("x_m", &|k| format!("mode number {} of the hammer test", k + 1));
+    row("frequency_hz", &|k| hertz[k].to_string());
+    let last = shapes[0].len() - 1;
+    let places = (0..=last).map(|k| bat.length() * k as f64 / last as f64);
+    places.enumerate().for_each(|(i, x)| row(&x.to_string(), &|k| shapes[k][i].to_string()));
+    let folder = Folder::new("plots-measured");
+    folder.write("measured.csv", text);
+    let measured = measured_file::read(&folder.0.join("measured.csv")).unwrap();
+    let told = Told { first: Some(End::Knob), origin: None };
+    let study = Study::new(bat, measured, &Request::default(), false, told).unwrap();
+    plot::measured::pictures(&bat.name, &study)
+}
+
+#[test]
+fn measured_modes_of_long_names_have_numbers_in_their_matrix() {
+    let bat = bat("r161");
+    let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
+    let places: Vec<f64> = (0..=30).map(|k| bat.length() * f64::from(k) / 30.0).collect();
+    let at_places = |of: &dyn Fn(f64) -> f64| places.iter().map(|x| of(*x)).collect::<Vec<_>>();
+    let shapes = solution.modes.iter().map(|mode| at_places(&|x| mode.shape.deflection(x)));
+    let hertz: Vec<f64> = solution.modes.iter().map(|mode| mode.frequency()).collect();
+    let all = of_laboratory(&bat, &hertz, &shapes.collect::<Vec<_>>());
+    for (picture, name) in all.iter().zip(["mac", "mass_orthogonality"]) {
+        assert_eq!(picture.name, name);
+        check(picture, "measured");
+        let document = Document::parse(&picture.svg).unwrap();
+        assert!(texts(&document).iter().any(|(words, _)| *words == "12"), "{name}");
+    }
+    let document = Document::parse(&all[1].svg).unwrap();
+    let begins = |with: &str| texts(&document).iter().any(|(words, _)| words.starts_with(with));
+    assert!(begins("12: mode number 12") && !begins("mode n"));
+    let rigid = [at_places(&|_| 1.0), at_places(&|x| x - 0.4)];
+    assert!(of_laboratory(&bat, &[2.0, 4.0], &rigid).is_empty());
 }
 
 #[test]
@@ -477,6 +646,15 @@ fn the_program_draws_into_a_folder() {
     assert_eq!(files("at"), both(&["profile", "contact", "hysteresis", "hands"]));
     folder.text(&["trade", &mesh("dowel"), "--budget", "300 ms", "-n", "2", "--plots", "trade"]);
     assert_eq!(files("trade"), both(&["front"]));
+    // What an earlier run drew stays and is named; what others drew is nobody's business.
+    folder.text(&["hit", &r161, "--points", "9", "--plots", "twice"]);
+    folder.write("twice/mine.svg", "<svg></svg>");
+    let output = folder.run(&["hit", &mesh("dowel"), "--model", "rigid", "--plots", "twice"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        told.contains("twice still holds pictures of an earlier run: contact, hands, hysteresis\n")
+    );
+    assert_eq!(files("twice").len(), 2 * along.len() + 1);
     // Where there is a file there is no folder.
     folder.write("taken", "x");
     let output = folder.run(&["modes", &r161, "--plots", "taken"]);

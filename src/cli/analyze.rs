@@ -7,19 +7,20 @@ use sweetspot::analysis::{Analysis, Proof, Task};
 use sweetspot::error::{Error, Result};
 use sweetspot::page;
 use sweetspot::page::content::Report;
-use sweetspot::page::file::Kind;
 use sweetspot::page::inputs::Input;
-use sweetspot::plot::{picture, sets};
+use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::sketch::{self, Row};
 use sweetspot::report::text;
 use sweetspot::report::{advice, file, hit_json, hit_text};
 use sweetspot::solve::Request;
 
-use crate::cli::Done;
-use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples};
+use crate::cli::common::{
+    BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, read_with_text,
+};
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::scene::SceneArgs;
+use crate::cli::{Done, pictures};
 
 /// Everything about a bat on one screen
 ///
@@ -79,12 +80,14 @@ Examples:
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     // A report that cannot be written is told before it is computed.
-    args.report.as_deref().map(Kind::of).transpose()?;
-    let progress = args.output.progress("modes");
+    args.report.as_deref().map(page::file::expected).transpose()?;
     args.solve.refuse_budget("analyze")?;
-    let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
+    let (bat, text) = read_with_text(args.bat.path(), args.output.quiet)?;
+    let progress = args.output.progress("modes");
+    let Solved { bat, solution, warning } = args.bat.solve_for(bat, &args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;
     args.scene.warn(&args.output);
+    let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let modes = args.solve.modes_within(10, bat.profile.pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));
@@ -96,11 +99,9 @@ pub fn run(args: &Args) -> Result<Done> {
         write_out(args, &analysis, folder)?;
     }
     if let Some(folder) = &args.plots {
-        picture::write(folder, &sets::of_analysis(&analysis)?)?;
+        pictures::write(folder, &sets::of_analysis(&analysis)?, args.output.quiet)?;
     }
-    if let Some(path) = &args.report {
-        let mut inputs = Input::of_bat(args.bat.path())?;
-        inputs.extend(args.scene.ball_file().map(Input::read).transpose()?);
+    if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
         page::file::write(path, &Report::new(&analysis, command(), inputs)?)?;
     }
     let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
@@ -108,6 +109,13 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let text = args.output.deliver(table(&analysis, &args.output), both)?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// The files as the report shows them.
+fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
+    let mut all = Input::of_bat(args.bat.path(), bat)?;
+    all.extend(args.scene.ball_file().map(Input::read).transpose()?);
+    Ok(all)
 }
 
 /// The nodes of the first three modes and the sweet spot.

@@ -299,10 +299,15 @@ pub fn printed(path: &Path) -> String {
 
 /// Reads a bat and passes its warnings on.
 pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
-    let bat = Bat::from_file(path)?;
+    read_with_text(path, quiet).map(|(bat, _)| bat)
+}
+
+/// The same, and what its file says.
+pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
+    let (bat, text) = Bat::with_text(path)?;
     let file = path.display();
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
-    Ok(bat)
+    Ok((bat, text))
 }
 
 /// A bat to be solved, and what is to be said of it in the end.
@@ -337,7 +342,8 @@ pub fn prepare(
     Ok(Prepared { bat, request, warning })
 }
 
-fn warn(text: &str, quiet: bool) {
+/// Says something on standard error, unless nothing is to be said.
+pub fn warn(text: &str, quiet: bool) {
     if !quiet {
         // A closed standard error is no reason to stop.
         progress::beside(|| {

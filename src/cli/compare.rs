@@ -8,14 +8,14 @@ use sweetspot::error::{Error, Result};
 use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured_file;
-use sweetspot::plot::{self, picture};
+use sweetspot::plot;
 use sweetspot::report::{self, comparison, comparison_data, file};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::quantity;
-use crate::cli::{Done, NOT_REACHED};
+use crate::cli::{Done, NOT_REACHED, pictures};
 
 /// Bats side by side, or one beside its measured modes
 ///
@@ -65,8 +65,9 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences; of
-    /// measured modes the MAC, what shapes have in common, and the shapes on each other
+    /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences,
+    /// energies (ledger_A and so on), force and compression, the hands' motion; of measured modes the
+    /// MAC, what shapes have in common, and the shapes on each other
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
@@ -138,7 +139,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     if let Some(folder) = &args.plots {
-        picture::write(folder, &plot::measured::pictures(&bat.name, &study))?;
+        pictures::write(folder, &plot::measured::pictures(&bat.name, &study), args.output.quiet)?;
     }
     let text = report::measured::text(&bat, &study, args.output.units);
     let name = path.display().to_string();
@@ -172,7 +173,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
     let compared = Comparison::new(entries, terms).map_err(as_option)?;
     if let Some(folder) = &args.plots {
-        picture::write(folder, &plot::compared::pictures(&compared))?;
+        pictures::write(folder, &plot::compared::pictures(&compared)?, args.output.quiet)?;
     }
     let text = match &args.csv {
         Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),

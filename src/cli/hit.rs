@@ -6,15 +6,15 @@ use sweetspot::bat::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Sweep, sweep_telling};
 use sweetspot::error::{Error, Result};
+use sweetspot::plot::profile;
 use sweetspot::plot::sets::Hits;
-use sweetspot::plot::{picture, profile};
 use sweetspot::report::{hit_json, hit_text, sketch};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{quantity, shown_length};
-use crate::cli::{Done, NOT_REACHED};
+use crate::cli::{Done, NOT_REACHED, pictures};
 
 /// How fast the ball leaves, place by place, and the sweet spot
 ///
@@ -134,7 +134,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
         let mut pictures = vec![profile::picture(&[subject])];
         pictures.extend(hits.pictures(args.place.at)?);
-        picture::write(folder, &pictures)?;
+        pictures::write(folder, &pictures, args.output.quiet)?;
     }
     drop(progress);
     let units = args.output.units;

@@ -16,6 +16,7 @@ mod hit;
 mod man;
 mod materials;
 mod modes;
+mod pictures;
 mod new;
 mod progress;
 mod promise_table;

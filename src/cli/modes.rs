@@ -6,13 +6,13 @@ use sweetspot::bat::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
 use sweetspot::exchange::npz;
-use sweetspot::plot::{picture, sets};
+use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::{file, sketch, text};
 use sweetspot::solve::Solution;
 
-use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
+use crate::cli::{Done, pictures};
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<Done> {
         write_matrices(folder, &bat, &solution)?;
     }
     if let Some(folder) = &args.plots {
-        picture::write(folder, &sets::of_modes(&bat, &solution, None))?;
+        pictures::write(folder, &sets::of_modes(&bat, &solution, None), args.output.quiet)?;
     }
     let table = format!(
         "{}\n{}\n{}\n{}",

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::error::{Error, Result};
-use sweetspot::plot::{front, picture, sets};
+use sweetspot::plot::{front, sets};
 use sweetspot::report::{file, trade, u_curve};
 use sweetspot::solve::Request;
 use sweetspot::trade::measure::measure;
@@ -15,7 +15,7 @@ use sweetspot::trade::u_curve as curve;
 use crate::cli::common::{Prepared, examples, prepare, read};
 use crate::cli::progress::Progress;
 use crate::cli::value::{TheoryChoice, budget, theory};
-use crate::cli::{Done, style};
+use crate::cli::{Done, pictures, style};
 
 /// What accuracy costs on this bat, measured here and now
 ///
@@ -110,7 +110,7 @@ pub fn run(args: &Args) -> Result<Done> {
         (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade), pictures)
     };
     if let Some(folder) = &args.plots {
-        picture::write(folder, &pictures)?;
+        pictures::write(folder, &pictures, args.quiet)?;
     }
     Ok(Done::new(deliver(args, table, &document, rows)?, 0).with(warning))
 }

@@ -122,13 +122,20 @@ pub fn figures(bats: &[Contender]) -> Vec<Row> {
     rows.place("best_place", "  where", |c| c.best_place);
     rows.place("zone_from", "  within 1 % of it from", |c| Some(c.zone?[0]));
     rows.place("zone_to", "  to", |c| Some(c.zone?[1]));
-    rows.add("vibration_at_best", "vibration at the best place", Unit::Joules, |c| c.vibration);
-    rows.add("least_vibration", "least vibration", Unit::Joules, |c| c.least_vibration);
+    rows.energy("vibration_at_best", "vibration at the best place", |c| c.vibration);
+    rows.energy("least_vibration", "least vibration", |c| c.least_vibration);
     rows.place("least_vibration_place", "  where", |c| c.least_place);
     rows.add("largest_bbcor", "largest BBCOR, free bat", Unit::One, |c| c.bbcor[0]);
     let name = "largest BBCOR, held at 6 in";
     rows.add("largest_bbcor_pivoted", name, Unit::One, |c| c.bbcor[1]);
     rows.all
+}
+
+/// Whether energies of all bats are seen from the ground, or all as hands or a clamp see them: others
+/// are of different motions.
+pub fn energies_compare(bats: &[Contender]) -> bool {
+    let held = |c: &Contender| c.bat.fixtures.holding();
+    bats.windows(2).all(|pair| held(&pair[0]) == held(&pair[1]))
 }
 
 /// The exit speeds at the same distances (m) from the tip, or from the knob end.
@@ -169,6 +176,12 @@ impl Rows<'_> {
 
     fn exact(&mut self, key: &str, name: &str, unit: Unit, of: impl Fn(&Contender) -> f64) {
         self.add(key, name, unit, |c| Some(Figure::exact(of(c))));
+    }
+
+    /// An energy, where all bats' energies are seen from the same place.
+    fn energy(&mut self, key: &str, name: &str, of: impl Fn(&Contender) -> Option<Figure>) {
+        let same = energies_compare(self.bats);
+        self.add(key, name, Unit::Joules, |c| of(c).filter(|_| same));
     }
 
     /// A place, given from the knob end; and the same from the tip.

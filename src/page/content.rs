@@ -72,6 +72,11 @@ pub enum Part<'a> {
 const NOTHING: &str = "Without a hit there is nothing to show here.";
 const HELD: &str = "The bat is held: energies are as its hands see them, the bat at rest before the \
                     hit, and swinging in what holds it counts as vibration.";
+const NO_FORCE: &str = "This model knows no force in time, so there is no moment to look at; the \
+                        model \"contact\" has one.";
+const NO_CONTACT: &str = "This model has a half sine of given duration for a force and no ball that \
+                          is squeezed by it, so there is no moment to look at; the model \
+                          \"contact\" has one.";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
@@ -102,9 +107,9 @@ impl<'a> Report<'a> {
         ]
     }
 
-    /// The pictures of those names, or of names that begin so.
+    /// The pictures of those names.
     fn pictured(&'a self, names: &[&str]) -> Vec<Part<'a>> {
-        let named = |picture: &&Picture| names.iter().any(|name| picture.name.starts_with(name));
+        let named = |picture: &&Picture| names.contains(&picture.name.as_str());
         self.pictures.iter().filter(named).map(Part::Picture).collect()
     }
 
@@ -150,13 +155,13 @@ impl<'a> Report<'a> {
             return vec![Part::Missing(NOTHING)];
         }
         if self.moments.is_empty() {
-            return vec![Part::Missing(
-                "This model knows no force in time, so there is no moment to look at; the model \
-                 \"contact\" has one.",
-            )];
+            return vec![Part::Missing(match self.analysis.task.model {
+                Model::Pulse(_) => NO_CONTACT,
+                _ => NO_FORCE,
+            })];
         }
         let mut parts = vec![Part::Moment];
-        parts.extend(self.pictured(&["contact", "force", "hysteresis"]));
+        parts.extend(self.pictured(&["contact", "hysteresis"]));
         parts
     }
 
@@ -166,7 +171,7 @@ impl<'a> Report<'a> {
         }
         let freedom = self.analysis.bat.fixtures.freedom();
         let mut parts = vec![Part::Text(format!("Bending modes, {freedom}.")), Part::Modes];
-        parts.extend(self.pictured(&["shapes", "modes"]));
+        parts.extend(self.pictured(&["shapes"]));
         parts.push(Part::Table(tables::modes(self.analysis)));
         parts.push(Part::Table(tables::nodes(self.analysis)));
         parts

@@ -1,5 +1,7 @@
 //! Text that a page shows as it is, whatever it holds.
 
+use crate::report::xml::is_bidi;
+
 /// For HTML, between tags and within quoted attributes. Characters that no page may hold become
 /// the sign for what cannot be shown.
 pub fn html(text: &str) -> String {
@@ -18,11 +20,6 @@ pub fn html(text: &str) -> String {
         }
     }
     out
-}
-
-/// Signs that turn the direction of what follows, and could make a name read as another.
-fn is_bidi(c: char) -> bool {
-    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// For JSON within a script element: nothing in it can end the element or open a comment.

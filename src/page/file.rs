@@ -35,6 +35,18 @@ impl Kind {
     }
 }
 
+/// Whether a report can be expected there, before it is made: a name of its kind, in a folder.
+///
+/// # Errors
+///
+/// Those of [`Kind::of`], and [`Error::Write`] where there is no such folder.
+pub fn expected(path: &Path) -> Result<Kind> {
+    let kind = Kind::of(path)?;
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let is_one = folder.unwrap_or(Path::new(".")).join(".").metadata();
+    is_one.map(|_| kind).map_err(|source| Error::Write { path: path.to_owned(), source })
+}
+
 /// Where the pictures of a report in Markdown are: `report.md` has `report_pictures`.
 pub fn pictures_of(path: &Path) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

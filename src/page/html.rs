@@ -164,17 +164,18 @@ fn figure(picture: &Picture, [within, below]: [&str; 2]) -> String {
     let Picture { name, title, svg, .. } = picture;
     let title = escaped(title);
     format!(
-        "<figure id=\"plot-{name}\">\n<div class=\"scroll plot\" tabindex=\"0\" role=\"region\" \
+        "<figure id=\"plot-{name}\">\n<p class=\"swipe\" aria-hidden=\"true\">↔ Swipe sideways to see \
+         all of it.</p>\n<div class=\"scroll plot\" tabindex=\"0\" role=\"region\" \
          aria-label=\"{title}\">\n<div class=\"sheet\">\n{svg}{within}</div>\n</div>\n{below}</figure>\n"
     )
 }
 
 fn file(input: &Input) -> String {
-    let (text, whole) = input.shown();
-    let cut = if whole { "" } else { "<p>Only its beginning is shown.</p>\n" };
+    let (text, remark) = input.shown();
+    let remark = remark.map_or(String::new(), |remark| format!("<p>{remark}</p>\n"));
     let name = escaped(&input.name);
     format!(
-        "<h3>{name}</h3>\n<pre tabindex=\"0\" aria-label=\"{name}\"><code>{}</code></pre>\n{cut}",
+        "<h3>{name}</h3>\n<pre tabindex=\"0\" aria-label=\"{name}\"><code>{}</code></pre>\n{remark}",
         escaped(text)
     )
 }

@@ -25,39 +25,46 @@ impl Input {
     /// Longer ones are cut in a page.
     pub const MOST: usize = 60_000;
 
-    /// Reads one, whatever it holds.
+    /// Reads one that was read before, whatever it holds; nothing of a pipe, which is empty by now.
     ///
     /// # Errors
     ///
     /// [`Error::Read`].
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |source| Error::Read { path: path.to_owned(), source };
-        let bytes = std::fs::read(path).map_err(failed)?;
-        let text = String::from_utf8_lossy(&bytes);
-        let text = text.trim_start_matches('\u{feff}').to_owned();
-        Ok(Self { name: path.display().to_string(), text })
+        let again = path.is_file();
+        let bytes = if again { std::fs::read(path).map_err(failed)? } else { vec![] };
+        Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
     }
 
-    /// A bat file, and the columns that it names.
+    /// One that was read.
+    pub fn new(path: &Path, text: &str) -> Self {
+        let text = text.trim_start_matches('\u{feff}').to_owned();
+        Self { name: path.display().to_string(), text }
+    }
+
+    /// A bat file that was read, and the columns that it names.
     ///
     /// # Errors
     ///
     /// [`Error::Read`].
-    pub fn of_bat(path: &Path) -> Result<Vec<Self>> {
-        let bat = Self::read(path)?;
-        let document: Value = serde_json::from_str(&bat.text).unwrap_or_default();
-        let mut all = vec![bat];
+    pub fn of_bat(path: &Path, text: &str) -> Result<Vec<Self>> {
+        let document: Value = serde_json::from_str(text).unwrap_or_default();
+        let mut all = vec![Self::new(path, text)];
         if let Some(columns) = document["profile"]["csv"].as_str() {
             all.push(Self::read(&path.with_file_name(columns))?);
         }
         Ok(all)
     }
 
-    /// The text as a page shows it, and whether that is all of it.
-    pub fn shown(&self) -> (&str, bool) {
+    /// The text as a page shows it, and a remark if that is not all of it.
+    pub fn shown(&self) -> (&str, Option<&'static str>) {
         match self.text.char_indices().nth(Self::MOST) {
-            Some((end, _)) => (&self.text[..end], false),
-            None => (&self.text, true),
+            Some((end, _)) => (&self.text[..end], Some("Only its beginning is shown.")),
+            None if self.text.is_empty() => {
+                ("", Some("Not shown: it can be read only once, as a pipe can."))
+            }
+            None => (&self.text, None),
         }
     }
 }
@@ -140,7 +147,11 @@ fn ball(scene: &Scene) -> Vec<Line> {
     lines
 }
 
-/// The bat as it was understood: every value in SI but the columns of the profile.
+/// Longer tables are cut.
+const MOST: usize = 400;
+
+/// The bat as it was understood: every value in SI but the columns of the profile, the first many of
+/// them.
 pub fn values(analysis: &Analysis) -> Table {
     let head = ["Key", "Value", "Unit"];
     let mut table = Table::new("The bat as it was understood, in SI", &head);
@@ -149,6 +160,11 @@ pub fn values(analysis: &Analysis) -> Table {
         if !matches!(key.as_str(), "format" | "name" | "source" | "profile") {
             flat(key, value, &mut table);
         }
+    }
+    let count = table.rows.len();
+    if count > MOST {
+        table.rows.truncate(MOST);
+        table.caption += &format!(": the first {MOST} of {count} values");
     }
     if let Some(interpolation) = bat["profile"]["interpolation"].as_str() {
         table.row(["profile.interpolation", interpolation, ""]);
@@ -201,7 +217,6 @@ fn unit(path: &str) -> &'static str {
 
 /// The columns of the profile in SI, the first many of them; formulas as they were written.
 pub fn profile(analysis: &Analysis) -> Table {
-    const MOST: usize = 400;
     let profile = &analysis.bat.profile;
     if let Some(formulas) = &profile.formulas {
         let mut table = Table::of_words("The profile", &["From, m", "To, m", "Radius", "Bore"]);

@@ -79,8 +79,8 @@ fn address(c: char) -> String {
 }
 
 fn file(input: &Input) -> String {
-    let (text, whole) = input.shown();
+    let (text, remark) = input.shown();
     let fence = fence(text);
-    let cut = if whole { "" } else { "Only its beginning is shown.\n\n" };
-    format!("{}:\n\n{fence}text\n{}\n{fence}\n\n{cut}", escaped(&input.name), text.trim_end())
+    let remark = remark.map_or(String::new(), |remark| format!("{remark}\n\n"));
+    format!("{}:\n\n{fence}text\n{}\n{fence}\n\n{remark}", escaped(&input.name), text.trim_end())
 }

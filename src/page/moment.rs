@@ -1,13 +1,15 @@
 //! The moment of the hit, picture by picture: how the ball is squeezed and the bat bends.
 //!
-//! Ball and bat near each other at the closing speed v until the force drives them apart: the gap
-//! is `∫∫F dt²/m − v t − w(a)`, w the bat's motion against its swing ([`crate::collision::aftermath`]).
+//! While they touch the ball is squeezed by what [`Hitter::history`] says. Before and after it ball and
+//! bat move apart by `∫∫F dt²/m − v t − w(a)`, v their closing speed and w the bat's motion against its
+//! swing ([`crate::collision::aftermath`]).
 
 use serde::Serialize;
 
 use crate::analysis::Analysis;
 use crate::bat::Bat;
 use crate::collision::aftermath::{Aftermath, Instant};
+use crate::collision::history::Moment as Squeezed;
 use crate::collision::hit::Model;
 use crate::collision::hitter::Hitter;
 use crate::error::Result;
@@ -41,6 +43,8 @@ pub const PLACES: usize = 41;
 const PICTURES: usize = 201;
 /// How long before the touch it begins (s).
 const BEFORE: f64 = 5e-4;
+/// Instants in every piece of the recorded force.
+const PARTS: usize = 24;
 /// How far inside the sweet spot the other hit is (m).
 const INSIDE: f64 = 0.1;
 
@@ -66,15 +70,15 @@ pub fn moments(analysis: &Analysis) -> Result<Vec<Moment>> {
 fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<Moment> {
     let Analysis { bat, task, hits, .. } = analysis;
     let after = Aftermath::new(bat, &hits.solution, x, hitter.force(x)?);
-    let impact = hitter.strike(x);
-    let closing = impact.bat_speed + task.scene.ball_speed;
+    let closing = hitter.strike(x).bat_speed + task.scene.ball_speed;
     let times = times(analysis, after.end());
     let instants = after.at(&times);
-    let pushed = after.pushed(&times);
-    let gap = |(now, [moved, _]): (&Instant, &[f64; 2])| {
-        moved / task.scene.ball.mass - closing * now.time - after.motion(x, now)[0]
+    let flight = Flight {
+        after: &after,
+        touch: hitter.history(x, PARTS)?,
+        ball: task.scene.ball.mass,
+        closing,
     };
-    let gaps = instants.iter().zip(&pushed).map(gap);
     let frame = Frame::new(bat);
     let bent: Vec<Vec<f64>> = instants.iter().map(|now| frame.bending(&after, now)).collect();
     let largest = bent.iter().flatten().fold(0.0_f64, |most, w| most.max(w.abs()));
@@ -85,12 +89,58 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
         factor: factor(largest / bat.length()),
         times_ms: times.iter().map(|t| rounded(1e3 * t, 3)).collect(),
         force_kn: instants.iter().map(|now| rounded(1e-3 * now.force, 2)).collect(),
-        gap_mm: gaps.map(|gap| rounded(1e3 * gap, 2)).collect(),
+        gap_mm: flight.gaps(&times).iter().map(|gap| rounded(1e3 * gap, 2)).collect(),
         bending_10_um: bent
             .iter()
             .map(|w| w.iter().map(|w| (1e5 * w).round() as i32).collect())
             .collect(),
     })
+}
+
+/// Ball and bat as they near each other, touch and part.
+struct Flight<'a> {
+    after: &'a Aftermath<'a>,
+    touch: Vec<Squeezed>,
+    /// Its mass (kg).
+    ball: f64,
+    /// m/s
+    closing: f64,
+}
+
+impl Flight<'_> {
+    /// How far apart they are at those times (s), which rise; less than 0 while the ball is squeezed
+    /// (m).
+    fn gaps(&self, times: &[f64]) -> Vec<f64> {
+        let end = self.after.end();
+        // What wall and ball keep at the end of the touch is no way that the ball flies.
+        let kept = self.apart(&[end])[0] + squeezed(&self.touch, end);
+        let gap = |(time, apart): (&f64, f64)| match *time {
+            time if time < 0.0 => apart,
+            time if time > end => apart - kept,
+            time => -squeezed(&self.touch, time),
+        };
+        times.iter().zip(self.apart(times)).map(gap).collect()
+    }
+
+    /// How far apart ball and bat would be if both were rigid where they touch (m).
+    fn apart(&self, times: &[f64]) -> Vec<f64> {
+        let moved = self.after.pushed(times).into_iter().zip(self.after.at(times));
+        let apart = |([ball, _], now): ([f64; 2], Instant)| {
+            let bat = self.after.motion(self.after.place, &now)[0];
+            ball / self.ball - self.closing * now.time - bat
+        };
+        moved.map(apart).collect()
+    }
+}
+
+/// The compression (m) at a time (s) of the touch.
+fn squeezed(touch: &[Squeezed], time: f64) -> f64 {
+    let next = touch.partition_point(|moment| moment.time < time);
+    let Some(before) = touch.get(next.saturating_sub(1)) else { return 0.0 };
+    let Some(after) = touch.get(next) else { return before.compression };
+    let length = after.time - before.time;
+    let share = if length > 0.0 { (time - before.time) / length } else { 0.0 };
+    before.compression + share * (after.compression - before.compression)
 }
 
 /// From shortly before the touch until the bat has swung to and fro once after it (s).

@@ -27,8 +27,9 @@ pub fn modes(analysis: &Analysis) -> String {
 pub fn moment(moments: &[Moment]) -> String {
     let names: Vec<String> = moments.iter().map(|moment| moment.label.clone()).collect();
     let choice = choice("moment", "The ball is hit", &names);
-    let note = "Seen by someone who moves with the bat, which swings upwards; ball, flight and squeeze \
-                are to scale.";
+    let note = "Seen by someone who moves with the bat, which swings upwards. Ball, flight and squeeze \
+                are to scale, and so is the bat's motion where it meets the ball: the bending is \
+                enlarged about that place.";
     player("moment-player", "Ball and bat at the moment of the hit", &choice, note)
 }
 

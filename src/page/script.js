@@ -44,20 +44,24 @@
     return `M${upper.join("L")}L${lower.reverse().join("L")}Z`;
   };
   const widest = Math.max(...data.outline.radius_mm);
+  // What is a millimetre on a bat of 84 cm, for marks and margins.
+  const unit = length / 840;
   const straight = data.outline.x_mm.map(() => 0);
   const radiusAt = (x) => data.outline.radius_mm[data.outline.x_mm.findLastIndex((place) => place <= x)];
 
   /**
    * Time that goes on while Play is pressed, a quarter as fast with Slow, and follows the slider.
-   * `draw(share)` shows the share of a round of so many seconds; `say(share)` is that in words.
+   * `draw(share)` shows the share of a round; `say(share, seconds)` is that in words, of a round that
+   * takes so long.
    */
   const player = (root, { seconds, round, first, draw, say }) => {
     const [play, slow] = [".play", ".slow"].map((name) => root.querySelector(name));
     const scrub = root.querySelector(".scrub input"), now = root.querySelector(".now");
     let share = first, before = 0, playing = false, untouched = true;
+    const pace = () => slow.getAttribute("aria-pressed") === "true" ? 0.25 : 1;
     const show = () => {
       scrub.value = Math.round(1000 * share);
-      const words = say(share);
+      const words = say(share, seconds / pace());
       scrub.setAttribute("aria-valuetext", words);
       now.textContent = words;
       draw(share);
@@ -71,11 +75,10 @@
     };
     const step = (time) => {
       if (!playing) return;
-      const pace = slow.getAttribute("aria-pressed") === "true" ? 0.25 : 1;
       // A page that was out of sight does not jump.
       const passed = before ? Math.min(time - before, 100) : 0;
       before = time;
-      share += pace * passed / 1000 / seconds;
+      share += pace() * passed / 1000 / seconds;
       if (share >= 1) {
         share = round ? share % 1 : 1;
         if (!round) set(false);
@@ -89,8 +92,10 @@
       untouched = false;
       set(!playing);
     });
-    slow.addEventListener("click", () =>
-      slow.setAttribute("aria-pressed", slow.getAttribute("aria-pressed") !== "true"));
+    slow.addEventListener("click", () => {
+      slow.setAttribute("aria-pressed", pace() === 1);
+      show();
+    });
     scrub.addEventListener("input", () => {
       set(false);
       untouched = false;
@@ -116,24 +121,24 @@
   const modes = (root) => {
     const stage = root.querySelector(".stage");
     // Largest bending, as drawn (mm).
-    const size = 0.09 * length, high = size + widest + 12;
-    stage.setAttribute("viewBox", `-20 ${-high} ${length + 40} ${2 * high}`);
+    const size = 0.09 * length, high = size + widest + 12 * unit;
+    stage.setAttribute("viewBox", `${-20 * unit} ${-high} ${length + 40 * unit} ${2 * high}`);
     drawn(stage, "path", { class: "rest", d: outline(straight) });
     const bat = drawn(stage, "path", { class: "bat" });
     const dots = drawn(stage, "g", {});
     let mode = data.modes[0];
     const mark = () => {
       dots.replaceChildren();
-      for (const x of mode.nodes_mm) drawn(dots, "circle", { class: "node", cx: x, cy: 0, r: 7 });
+      for (const x of mode.nodes_mm) drawn(dots, "circle", { class: "node", cx: x, cy: 0, r: 7 * unit });
     };
     mark();
     const swing = (share) => Math.sin(2 * Math.PI * share);
     const film = player(root, {
       seconds: 2, round: true, first: 0.25,
       draw: (share) => bat.setAttribute("d", outline(mode.deflection.map((w) => size * swing(share) * w))),
-      say: (share) => `Mode ${mode.order}: ${mode.frequency_hz.toFixed(1)} Hz, ` +
+      say: (share, seconds) => `Mode ${mode.order}: ${mode.frequency_hz.toFixed(1)} Hz, ` +
         `${(1000 * share / mode.frequency_hz).toFixed(2)} of ${(1000 / mode.frequency_hz).toFixed(2)} ms, ` +
-        `shown ${Math.round(2 * mode.frequency_hz)} times slower`,
+        `shown ${Math.round(seconds * mode.frequency_hz)} times slower`,
     });
     chosen(root, "mode", (k) => { mode = data.modes[k]; mark(); film.show(); });
     // It begins by itself when it is first seen, where nobody asked for less motion.
@@ -149,8 +154,15 @@
   const moment = (root) => {
     const stage = root.querySelector(".stage");
     const radius = data.ball_radius_mm;
-    const above = widest + 4 * radius, below = 0.1 * length + widest + 12;
-    stage.setAttribute("viewBox", `-20 ${-above} ${length + 40} ${above + below}`);
+    /** The bending as drawn (mm): too large, but at the ball as large as it is. */
+    const enlarged = (one, bending) => {
+      const there = 1000 * one.x_m / length, w = bending.map((value) => one.factor * value / 100);
+      const off = at(w, there) * (1 - 1 / one.factor);
+      return w.map((value) => value - off);
+    };
+    const lowest = Math.min(...data.moments.flatMap((one) => one.bending_10_um.flatMap((bending) => enlarged(one, bending))));
+    const above = widest + 4 * radius + 14 * unit, below = widest - lowest + 12 * unit;
+    stage.setAttribute("viewBox", `${-20 * unit} ${-above} ${length + 40 * unit} ${above + below}`);
     drawn(stage, "path", { class: "rest", d: outline(straight) });
     const bat = drawn(stage, "path", { class: "bat" });
     const ball = drawn(stage, "ellipse", { class: "ball" });
@@ -161,7 +173,7 @@
       const place = share * (hit.times_ms.length - 1);
       const k = Math.min(Math.floor(place), hit.times_ms.length - 2), part = place - k;
       const [one, next] = [hit.bending_10_um[k], hit.bending_10_um[k + 1]];
-      const w = one.map((value, i) => hit.factor * (value + part * (next[i] - value)) / 100);
+      const w = enlarged(hit, one.map((value, i) => value + part * (next[i] - value)));
       bat.setAttribute("d", outline(data.outline.x_mm.map((place) => at(w, place / length))));
       const there = 1000 * hit.x_m / length;
       const gap = at(hit.gap_mm, share), force = at(hit.force_kn, share);
@@ -172,11 +184,12 @@
       // As much ball as before, squeezed flatter.
       const shape = { cx: 1000 * hit.x_m, cy: middle, rx: radius * Math.sqrt(radius / flat), ry: flat };
       for (const [key, value] of Object.entries(shape)) ball.setAttribute(key, value.toFixed(2));
-      const tall = 1.6 * radius * force / most, x = 1000 * hit.x_m;
-      arrow.setAttribute("d", tall < 1 ? "" : `M${x - 3} ${middle}v${-tall}h-6l9 -14l9 14h-6v${tall}Z`);
+      const tall = 1.6 * radius * force / most, x = 1000 * hit.x_m, u = unit;
+      const head = `h${-6 * u}l${9 * u} ${-14 * u}l${9 * u} ${14 * u}h${-6 * u}`;
+      arrow.setAttribute("d", tall < u ? "" : `M${x - 3 * u} ${middle}v${-tall}${head}v${tall}Z`);
     };
-    const seconds = 12, span = () => hit.times_ms.at(-1) - hit.times_ms[0];
-    const say = (share) => {
+    const span = () => hit.times_ms.at(-1) - hit.times_ms[0];
+    const say = (share, seconds) => {
       const time = at(hit.times_ms, share), gap = at(hit.gap_mm, share);
       const state = time < 0 ? "the ball comes" : time > hit.contact_ms ? "the ball is gone"
         : `the ball is squeezed by ${Math.max(0, -gap).toFixed(1)} mm`;
@@ -185,7 +198,7 @@
     };
     // Until it is played, the instant of the largest force is shown.
     const first = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);
-    const film = player(root, { seconds, round: false, first: first(), draw, say });
+    const film = player(root, { seconds: 12, round: false, first: first(), draw, say });
     chosen(root, "moment", (k) => { hit = data.moments[k]; film.rewind(first()); });
   };
 

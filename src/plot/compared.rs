@@ -1,25 +1,35 @@
 //! Several bats in the same pictures, and how much faster one hits than another.
 
+use crate::collision::aftermath::Aftermath;
+use crate::collision::hitter::Hitter;
+use crate::collision::sweet_spot::Peak;
+use crate::comparison::contender::Contender;
 use crate::comparison::table::Comparison;
+use crate::error::Result;
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::CM;
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
 use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::FRAME;
-use crate::plot::{exit_speed, profile, shapes};
+use crate::plot::{contact, exit_speed, hands, ledger, profile, shapes};
+use crate::report::comparison::letter;
 use crate::units::{inches, miles_per_hour};
 
 /// Modes that are drawn of every bat.
 const MODES: usize = 3;
-/// Right of the frame there is a second axis.
-const RIGHT: f64 = 74.0;
 /// Of the diagram (px).
 const DIAGRAM: f64 = 230.0;
 
-/// `profile`, `shapes` and `exit_speed` of all bats, and the `difference` to the first.
-pub fn pictures(comparison: &Comparison) -> Vec<Picture> {
+/// The same pictures as of one bat, with all bats in them: `profile`, `shapes`, `exit_speed`, `contact`,
+/// `hysteresis`, `hands`. A `ledger_A` of each bat, all to the same scale, and the `difference` of exit
+/// speeds to those of the first.
+///
+/// # Errors
+///
+/// As [`Hitter::new`].
+pub fn pictures(comparison: &Comparison) -> Result<Vec<Picture>> {
     let bats = &comparison.bats;
     let names: Vec<String> = (0..bats.len()).map(|k| name(comparison, k)).collect();
     let both = || bats.iter().zip(&names);
@@ -40,13 +50,44 @@ pub fn pictures(comparison: &Comparison) -> Vec<Picture> {
     let mut all = vec![profile::picture(&side)];
     all.extend(shapes::picture(&bent, MODES));
     all.extend(exit_speed::picture(&along));
+    all.extend(ledgers(comparison, &names));
+    all.extend(touches(comparison, &names)?);
     all.extend(difference(comparison, &names));
-    all
+    Ok(all)
+}
+
+/// Where the energy goes, bat by bat.
+fn ledgers(comparison: &Comparison, names: &[String]) -> Vec<Picture> {
+    let most = comparison.bats.iter().map(|c| ledger::greatest(&c.sweep.impacts));
+    let most = most.fold(0.0, f64::max);
+    let of = |(k, c): (usize, &Contender)| {
+        let picture = ledger::picture(&names[k], &c.bat, &c.sweep.impacts, most)?;
+        Some(Picture { name: format!("ledger_{}", letter(k)), ..picture })
+    };
+    comparison.bats.iter().enumerate().filter_map(of).collect()
+}
+
+/// The hits at the sweet spots, and what the hands feel of them.
+fn touches(comparison: &Comparison, names: &[String]) -> Result<Vec<Picture>> {
+    let (mut touched, mut felt) = (vec![], vec![]);
+    let model = comparison.terms.model;
+    for (Contender { bat, scene, sweep, spot, .. }, name) in comparison.bats.iter().zip(names) {
+        let Some(Peak { x, .. }) = spot.exit_speed_max else { continue };
+        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+        touched.extend(contact::Subject::new(name, &hitter, x));
+        felt.extend(hitter.force(x).map(|force| {
+            let after = Aftermath::new(bat, &sweep.solution, x, force);
+            hands::Subject { name, after, x: scene.hands }
+        }));
+    }
+    let mut all = contact::pictures(&touched);
+    all.extend(hands::picture(&felt));
+    Ok(all)
 }
 
 /// A letter as in the tables, and the name.
 fn name(comparison: &Comparison, k: usize) -> String {
-    format!("{}: {}", char::from(b'A' + k as u8), comparison.bats[k].bat.name)
+    format!("{}: {}", letter(k), comparison.bats[k].bat.name)
 }
 
 /// Exit speeds less those of the first bat at the same distance from the tip.
@@ -64,11 +105,11 @@ fn difference(comparison: &Comparison, names: &[String]) -> Option<Picture> {
     let title = "Exit speed less that of the first bat";
     head(&mut svg, title, ["", &format!("at the same distance from the tip; 0 is {}", names[0])]);
     let keys =
-        legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - RIGHT]);
+        legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - SECOND]);
     let top = keys + 12.0 + NUMBERS;
     let bottom = top + DIAGRAM;
     svg.height = bottom + NUMBERS + 4.0;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom };
+    let frame = Frame { left: LEFT, top, right: WIDTH - SECOND, bottom };
     let y = Axis::around("difference (m/s)", values().chain([0.0]), ticks_up(DIAGRAM));
     let plane = Plane { frame, x: Axis::new("from the tip (cm)", [0.0, CM * last]), y };
     plane.draw(&mut svg);

@@ -5,7 +5,7 @@ use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
 use crate::plot::series::{Series, hover, legend};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{SERIES, series};
@@ -24,8 +24,6 @@ pub struct Subject<'a> {
     pub spot: &'a SweetSpot,
 }
 
-/// Right of the frame there is a second axis.
-const RIGHT: f64 = 86.0;
 /// Of the curves' diagram (px).
 const DIAGRAM: f64 = 230.0;
 
@@ -49,7 +47,7 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let keys = keys(&curves, alone);
     let keys: Vec<&Series> = keys.iter().collect();
     let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 12.0 + NUMBERS;
-    let (right, side) = (WIDTH - RIGHT, top + DIAGRAM);
+    let (right, side) = (WIDTH - SECOND, top + DIAGRAM);
     let bottom = side + 6.0 + place::height(&rows);
     svg.height = bottom + NUMBERS + 4.0;
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();

@@ -4,67 +4,113 @@ use crate::collision::aftermath::{Aftermath, Instant};
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
 use crate::plot::place::{CM, tenths};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, hover, short};
+use crate::plot::plane::{Frame, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::plot::series::{Series, bats, hover, short};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, SERIES};
 use crate::plot::words::SMALL;
 
-/// Instants of the curves.
+/// Instants of a curve, and at most of all.
 const INSTANTS: usize = 700;
+const IN_ALL: usize = 1800;
 /// Of each of the diagrams, and between them (px).
 const DIAGRAM: f64 = 150.0;
 const BETWEEN: f64 = 18.0;
 /// What is drawn, and its unit.
 const KINDS: [(&str, &str); 2] = [("displacement", "mm"), ("velocity", "m/s")];
 
-/// Displacement and velocity at `x` (m) against time; picture `hands`. None where there is no force.
-pub fn picture(name: &str, after: &Aftermath, x: f64) -> Option<Picture> {
-    let until = span(after, x);
+/// A bat after a hit, and where it is held.
+pub struct Subject<'a> {
+    /// What the bat is called.
+    pub name: &'a str,
+    /// The bat under the ball's force.
+    pub after: Aftermath<'a>,
+    /// Where the hands feel it (m from the knob end).
+    pub x: f64,
+}
+
+/// Displacement and velocity at the hands against time; picture `hands`. None where there is no force.
+pub fn picture(subjects: &[Subject]) -> Option<Picture> {
+    let until = subjects.iter().map(|s| span(&s.after, s.x)).fold(0.0, f64::max);
     if until <= 0.0 {
         return None;
     }
-    let times: Vec<f64> = (0..=INSTANTS).map(|k| until * k as f64 / INSTANTS as f64).collect();
-    let motions = motions(after, x, &times);
+    let instants = INSTANTS.min(IN_ALL / subjects.len());
+    let times: Vec<f64> = (0..=instants).map(|k| until * k as f64 / instants as f64).collect();
+    let motions: Vec<_> = subjects.iter().map(|s| motions(&s.after, s.x, &times)).collect();
+    let mut svg = Svg::new(WIDTH, 0.0);
+    let title = "What the hands feel";
+    let (name, facts) = words(subjects);
+    head(&mut svg, title, [name, &facts]);
+    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + 14.0;
     let frame = |k: usize| {
-        let top = HEAD + 20.0 + k as f64 * (DIAGRAM + BETWEEN);
+        let top = top + 6.0 + k as f64 * (DIAGRAM + BETWEEN);
         Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
     };
-    let mut svg = Svg::new(WIDTH, frame(1).bottom + NUMBERS + 4.0);
-    let title = "What the hands feel";
-    let facts =
-        format!("{} cm from the knob end, hit at {} cm", tenths(CM * x), tenths(CM * after.place));
-    head(&mut svg, title, [name, &facts]);
+    svg.height = frame(1).bottom + NUMBERS + 4.0;
     let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
     let mut peaks = vec![];
-    for k in 0..2 {
-        let (name, unit) = KINDS[k];
-        let values = || motions.iter().map(|m| m[k + 1]);
-        let label = format!("{name} ({unit})");
+    for (k, (what, unit)) in KINDS.into_iter().enumerate() {
+        let values = || motions.iter().flatten().map(|m| m[k + 1]);
+        let label = format!("{what} ({unit})");
         let y = Axis::around(&label, values().chain([0.0]), ticks_up(DIAGRAM));
         let plane = Plane { frame: frame(k), x: along.clone(), y };
-        plane.band(&mut svg, [0.0, 1e3 * after.end()], SERIES[5]);
-        diagram(&mut svg, &plane, (k, &motions));
+        diagram(&mut svg, &plane, k, (subjects, &motions));
         let most = values().map(f64::abs).fold(0.0, f64::max);
-        peaks.push(format!("{name} up to {} {unit}", short(most)));
+        peaks.push(format!("{what} up to {} {unit}", short(most)));
     }
-    let told = "tinted: the ball is on the bat; upwards is the way of the swing";
-    svg.text([LEFT, frame(0).top - 6.0], SMALL, told);
+    svg.text([LEFT, frame(0).top - 6.0], SMALL, told(subjects));
     let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
     Some(Picture::new("hands", title, &alt, svg))
 }
 
-/// One of the two curves; below the second is the axis of time.
-fn diagram(svg: &mut Svg, plane: &Plane, (k, motions): (usize, &[[f64; 3]])) {
+/// What the second line says.
+fn words<'a>(subjects: &[Subject<'a>]) -> (&'a str, String) {
+    match subjects {
+        [one] => {
+            let [held, hit] = [one.x, one.after.place].map(|x| tenths(CM * x));
+            (one.name, format!("{held} cm from the knob end, hit at {hit} cm"))
+        }
+        _ => ("", "each hit at its own sweet spot".to_owned()),
+    }
+}
+
+/// What the curves are.
+fn told(subjects: &[Subject]) -> &'static str {
+    match subjects {
+        [_] => {
+            "against the undisturbed swing, whose way is upwards; tinted: the ball is on the bat"
+        }
+        _ => "against the undisturbed swing, whose way is upwards",
+    }
+}
+
+/// Displacements or velocities of all bats; below the second is the axis of time.
+fn diagram(
+    svg: &mut Svg,
+    plane: &Plane,
+    kind: usize,
+    (subjects, motions): (&[Subject], &[Vec<[f64; 3]>]),
+) {
+    let (what, unit) = KINDS[kind];
+    if let [one] = subjects {
+        plane.band(svg, [0.0, 1e3 * one.after.end()], SERIES[5]);
+    }
     plane.draw(svg);
     let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
     svg.line(&zero, Pen::new(FRAME, 1.2));
-    let points: Vec<_> = motions.iter().map(|m| Some([m[0], m[k + 1]])).collect();
-    let curve = Series::curve(KINDS[k].0, k, points).units("ms", KINDS[k].1);
-    let curve = curve.pen(Pen::new(SERIES[k], 1.7));
-    curve.draw(svg, plane);
-    hover(svg, plane, &[&curve]);
-    if k == 1 {
+    let curve = |(k, (s, motions)): (usize, (&Subject, &Vec<[f64; 3]>))| {
+        let points = motions.iter().map(|m| Some([m[0], m[kind + 1]])).collect();
+        match subjects.len() {
+            1 => Series::curve(what, kind, points).pen(Pen::new(SERIES[kind], 1.7)),
+            _ => Series::curve(s.name, k, points),
+        }
+        .units("ms", unit)
+    };
+    let curves: Vec<Series> = subjects.iter().zip(motions).enumerate().map(curve).collect();
+    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
+    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
+    if kind == 1 {
         plane.below(svg);
     }
 }

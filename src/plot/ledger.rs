@@ -63,12 +63,18 @@ pub fn layers(impacts: &[Impact]) -> Vec<Layer> {
     all
 }
 
-/// The energies stacked, picture `ledger`. None without two hits side by side.
-pub fn picture(bat: &Bat, impacts: &[Impact]) -> Option<Picture> {
-    let name = bat.name.as_str();
+/// The greatest energy before any of these hits (J).
+pub fn greatest(impacts: &[Impact]) -> f64 {
+    let initial = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.initial));
+    initial.fold(0.0, f64::max)
+}
+
+/// The energies stacked, picture `ledger`, up to those (J) at least. None without two hits side by
+/// side.
+pub fn picture(name: &str, bat: &Bat, impacts: &[Impact], up_to: f64) -> Option<Picture> {
     let initial: Vec<f64> =
         impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.initial)).collect();
-    let greatest = initial.iter().copied().fold(0.0, f64::max);
+    let greatest = greatest(impacts);
     let (first, last) = (impacts.first()?.x, impacts.last()?.x);
     if initial.len() < 2 || first >= last || greatest <= 0.0 {
         return None;
@@ -81,7 +87,7 @@ pub fn picture(bat: &Bat, impacts: &[Impact]) -> Option<Picture> {
     let right = WIDTH - room(&names, 220.0);
     let frame = Frame { left: LEFT, top, right, bottom: top + DIAGRAM };
     let stacks = stacked(&layers);
-    let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest]);
+    let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest, up_to]);
     let y = Axis::around("energy (J)", heights, ticks_up(DIAGRAM));
     let plane = Plane { frame, x: knob, y };
     let mut svg = Svg::new(WIDTH, frame.bottom + NUMBERS + 4.0);

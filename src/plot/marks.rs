@@ -31,9 +31,9 @@ pub fn marked(subjects: &[Subject]) -> Vec<Row> {
         };
         (!places.is_empty()).then(|| Row::of_places(label, places))
     };
-    let standard = |s: &Subject| s.bat.inertia().center_of_percussion(STANDARD_PIVOT);
-    let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
     let on_bat = |s: &Subject| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
+    let standard = |s: &Subject| s.bat.inertia().center_of_percussion(on_bat(s)?);
+    let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
     let mut rows: Vec<Row> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),

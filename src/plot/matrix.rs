@@ -49,10 +49,7 @@ pub fn picture(matrix: &Matrix) -> Picture {
     svg.text([0.5 * (left + right), top - 26.0], SMALL.at(Anchor::Middle), columns);
     let turned = Type { upwards: true, ..SMALL.at(Anchor::Middle) };
     svg.text([22.0, 0.5 * (top + bottom)], turned, rows);
-    for (k, name) in matrix.columns.iter().enumerate() {
-        let x = left + wide * (k as f64 + 0.5);
-        svg.text([x, top - 8.0], LABEL.at(Anchor::Middle), &fitted(name, LABEL, wide - 2.0));
-    }
+    name_columns(&mut svg, matrix, [left, wide, top - 8.0]);
     for (i, name) in matrix.rows.iter().enumerate() {
         let y = top + CELL[1] * (i as f64 + 0.5) + 4.4;
         svg.text([left - 8.0, y], LABEL.at(Anchor::End), &fitted(name, LABEL, 200.0));
@@ -64,6 +61,18 @@ pub fn picture(matrix: &Matrix) -> Picture {
     }
     scale(&mut svg, matrix, [right + 26.0, top]);
     Picture::new(&matrix.name, &matrix.title, &described(matrix), svg)
+}
+
+/// The columns' names, or as many of them as there is room for: every second, fifth or tenth.
+fn name_columns(svg: &mut Svg, matrix: &Matrix, [left, wide, y]: [f64; 3]) {
+    let widest = matrix.columns.iter().map(|name| width(name, LABEL)).fold(0.0, f64::max);
+    let fits = |every: &usize| *every as f64 * wide >= widest + 4.0;
+    let every = [1, 2, 5, 10, 20, 50, 100].into_iter().find(fits).unwrap_or(200);
+    let all = matrix.columns.iter().enumerate();
+    for (k, name) in all.filter(|(k, _)| (k + 1).is_multiple_of(every)) {
+        let x = left + wide * (k as f64 + 0.5);
+        svg.text([x, y], LABEL.at(Anchor::Middle), &fitted(name, LABEL, every as f64 * wide));
+    }
 }
 
 fn cell(svg: &mut Svg, [from, to]: [[f64; 2]; 2], value: Option<f64>) {

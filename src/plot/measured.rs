@@ -21,9 +21,13 @@ const RIGHT: f64 = 150.0;
 /// Points of a computed curve.
 const POINTS: usize = 160;
 
-/// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is.
+/// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is, or no
+/// measured mode bends.
 pub fn pictures(bat: &str, study: &Study) -> Vec<Picture> {
     let Some(shapes) = &study.shapes else { return vec![] };
+    if study.bending.is_empty() {
+        return vec![];
+    }
     let mut all = vec![mac(bat, study, shapes)];
     if let Some(own) = shapes.common.as_ref().filter(|rows| rows.len() > 1) {
         all.push(common(bat, study, own, &shapes.sampled_common));
@@ -58,13 +62,16 @@ fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>
     let count = own.len();
     let value = |i: usize, j: usize| if j > i { sampled[i][j] } else { Some(own[i][j]) };
     let row = |i: usize| (0..count).map(|j| value(i, j)).collect();
+    // Names are too long for columns: both sides have numbers.
+    let numbers = || study.bending.iter().map(|k| (k + 1).to_string());
+    let numbered = |(number, name)| format!("{number}: {name}");
     matrix::picture(&Matrix {
         name: "mass_orthogonality".into(),
         title: "What two shapes have in common in the bat's mass".into(),
         second: format!("{bat}: measured below the diagonal, computed at the same points above it"),
         sides: ["mode".into(), "mode".into()],
-        rows: names(study),
-        columns: study.bending.iter().map(|k| study.name(*k).to_owned()).collect(),
+        rows: numbers().zip(names(study)).map(numbered).collect(),
+        columns: numbers().collect(),
         values: (0..count).map(row).collect(),
         scale: "share".into(),
     })

@@ -1,9 +1,11 @@
 //! A picture with its name, and its files.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::plot::svg::Svg;
+use crate::plot::svg::{BEGINNING, Svg};
 use crate::report::file;
 
 /// One picture.
@@ -28,12 +30,13 @@ impl Picture {
 }
 
 /// Writes every picture into that folder, which is made if there is none: as SVG, and as PNG of
-/// twice the size where the crate has its feature `png`.
+/// twice the size where the crate has its feature `png`. The names of others that were drawn there
+/// before are given back: they stay.
 ///
 /// # Errors
 ///
 /// [`Error::Write`].
-pub fn write(folder: &Path, pictures: &[Picture]) -> Result<()> {
+pub fn write(folder: &Path, pictures: &[Picture]) -> Result<Vec<String>> {
     let failed = |source| Error::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
     for picture in pictures {
@@ -42,5 +45,25 @@ pub fn write(folder: &Path, pictures: &[Picture]) -> Result<()> {
         #[cfg(feature = "png")]
         file::write(&path.with_extension("png"), &crate::plot::png::png(&picture.svg, 2.0))?;
     }
-    Ok(())
+    Ok(others(folder, pictures))
+}
+
+/// The pictures in a folder that are not these, by rising name.
+fn others(folder: &Path, pictures: &[Picture]) -> Vec<String> {
+    let drawn = |path: &Path| {
+        let mut beginning = [0; BEGINNING.len()];
+        let mut file = File::open(path).ok()?;
+        file.read_exact(&mut beginning).ok()?;
+        let name = path.file_stem()?.to_str()?;
+        let other = beginning == BEGINNING.as_bytes() && pictures.iter().all(|p| p.name != name);
+        (other && path.extension()? == "svg").then(|| name.to_owned())
+    };
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = files
+        .map(|file| file.path())
+        .filter(|path| path.is_file())
+        .filter_map(|p| drawn(&p))
+        .collect();
+    names.sort();
+    names
 }

@@ -32,7 +32,10 @@ pub fn shown(x: f64, length: f64) -> String {
     match x {
         x if x < 0.0 => format!("{} cm beyond the knob end", tenths(-CM * x)),
         x if x > length => format!("{} cm beyond the tip", tenths(CM * (x - length))),
-        _ => format!("{} cm, {} in from tip", tenths(CM * x), tenths(inches(length - x))),
+        _ => {
+            let tip = tenths(inches(length - x));
+            format!("{} cm from knob, {tip} in from tip", tenths(CM * x))
+        }
     }
 }
 
@@ -86,10 +89,14 @@ pub fn height(rows: &[Row]) -> f64 {
     ROW * rows.len() as f64 + if rows.is_empty() { 0.0 } else { 8.0 }
 }
 
+/// Left, upper, right and lower edge (px) of words.
+pub type Edges = [f64; 4];
+
 /// The rows in a frame, a line each, their words where there is most room beside the marks. A place
-/// beyond the frame is an arrow at its edge.
-pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) {
+/// beyond the frame is an arrow at its edge. Where the words are is given back.
+pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) -> Vec<Edges> {
     let Frame { left, top, right, .. } = plane.frame;
+    let mut told = vec![];
     for (k, row) in rows.iter().enumerate() {
         let y = top + ROW * (k as f64 + 0.5) + 4.0;
         let across = |x: f64| plane.across(CM * x).clamp(left, right);
@@ -109,8 +116,9 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) {
             }
             taken.extend([across(*x) - 7.0, across(*x) + 7.0]);
         }
-        words(svg, plane.frame, y, (&row.label, &taken));
+        told.push(words(svg, plane.frame, y, (&row.label, &taken)));
     }
+    told
 }
 
 /// A place beyond the frame, on that side of it.
@@ -127,41 +135,70 @@ pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
     svg.mark(mark, at, half, series(bat).0, true);
 }
 
-/// Thin lines from a height down to the marked places of the rows.
-pub fn guides(svg: &mut Svg, plane: &Plane, all: &[Row], from: f64) {
+/// Thin lines from a height down to the marked places of the rows, but not through those words.
+pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[Row], &[Edges]), from: f64) {
     for (k, row) in all.iter().enumerate() {
-        let to = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
+        let end = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
         for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(CM * x)) {
             let x = plane.across(CM * x);
-            svg.line(&[[x, from], [x, to]], Pen::new(series(*bat).0, 0.8).dashed("1 3"));
+            let pen = Pen::new(series(*bat).0, 0.8).dashed("1 3");
+            let mut y = from;
+            // The rows come from above.
+            for [_, top, _, bottom] in told[..k].iter().filter(|e| e[0] < x && x < e[2]) {
+                svg.line(&[[x, y], [x, *top]], pen);
+                y = *bottom;
+            }
+            svg.line(&[[x, y], [x, end]], pen);
         }
     }
 }
 
+/// What and where, or where there is no room for that, where from the knob only, or what.
+fn shortened(words: &str, room: f64) -> &str {
+    let from_knob = words.split_inclusive(" from knob").next().unwrap_or(words);
+    let what = words.split(':').next().unwrap_or(words);
+    [words, from_knob].into_iter().find(|words| width(words, LABEL) <= room).unwrap_or(what)
+}
+
 /// A row's words, beside what is taken in it.
-fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) {
+fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) -> Edges {
     let first = taken.iter().fold(frame.right, |least, x| least.min(*x));
     let last = taken.iter().fold(frame.left, |most, x| most.max(*x));
     let [before, after] = [first - frame.left - 8.0, frame.right - last - 8.0];
-    // Where there is no room for what and where, what.
-    let whole = width(words, LABEL) <= before.max(after);
-    let words = if whole { words } else { words.split(':').next().unwrap_or(words) };
+    let words = shortened(words, before.max(after));
     let wide = width(words, LABEL);
+    let edges = |from: f64, wide: f64| [from - 2.0, y - 8.0, from + wide + 2.0, y + 8.0];
     if wide > before.max(after) && after.max(before) < 120.0 {
         // Across what is taken all over.
         let middle = 0.5 * (frame.left + frame.right);
-        svg.rect(
-            [[middle - 0.5 * wide, y - 8.0], [middle + 0.5 * wide, y + 8.0]],
-            PAPER,
-            1.0,
-            None,
-        );
+        let [left, top, right, bottom] = edges(middle - 0.5 * wide, wide);
+        svg.rect([[left, top], [right, bottom]], PAPER, 1.0, None);
         svg.text([middle, y + 4.4], LABEL.at(Anchor::Middle), words);
-        return;
+        return [left, top, right, bottom];
     }
     let (x, anchor, most) = match after >= wide || after >= before {
         true => (last + 5.0, Anchor::Start, after),
         false => (first - 5.0, Anchor::End, before),
     };
-    svg.text([x, y + 4.4], LABEL.at(anchor), &fitted(words, LABEL, most));
+    let words = fitted(words, LABEL, most);
+    let wide = width(&words, LABEL);
+    svg.text([x, y + 4.4], LABEL.at(anchor), &words);
+    edges(if anchor == Anchor::Start { x } else { x - wide }, wide)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_tell_as_much_as_there_is_room_for() {
+        let all = format!("centre: {}", shown(0.647, 0.838));
+        assert_eq!(all, "centre: 64.7 cm from knob, 7.5 in from tip");
+        let room = |words: &str| width(words, LABEL) + 1.0;
+        for told in [&all, "centre: 64.7 cm from knob", "centre"] {
+            assert_eq!(shortened(&all, room(told)), told);
+        }
+        let several = "centre: 64.5, 64.6 cm";
+        assert_eq!(shortened(several, room("centre: 64.5, 64.6")), "centre");
+    }
 }

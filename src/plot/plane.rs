@@ -1,6 +1,6 @@
 //! A diagram's frame: two axes, their numbers and lines, and from values to pixels.
 
-use crate::plot::axis::Axis;
+use crate::plot::axis::{Axis, Tick};
 use crate::plot::route::Point;
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, GRID, Ink, TINT};
@@ -12,6 +12,8 @@ pub const WIDTH: f64 = 760.0;
 pub const LEFT: f64 = 74.0;
 /// From a frame to the right edge, where nothing else stands there (px).
 pub const RIGHT: f64 = 28.0;
+/// The same where a second axis stands (px).
+pub const SECOND: f64 = 86.0;
 /// What numbers and label of an axis take beside a frame (px).
 pub const NUMBERS: f64 = 42.0;
 /// What title and second line take at the top (px).
@@ -100,12 +102,15 @@ impl Plane {
     /// Numbers and label of x, below the frame.
     pub fn below(&self, svg: &mut Svg) {
         let bottom = self.frame.bottom;
-        along(svg, self.frame, &self.x, [bottom, 5.0, 18.0, 36.0]);
+        let ticks = self.x.ticks(ticks_along(self.frame, &self.x));
+        along(svg, self.frame, (&self.x, &ticks), [bottom, 5.0, 18.0, 36.0]);
     }
 
-    /// Numbers and label of another axis for x, above the frame.
+    /// Numbers and label of another axis for x, above the frame: distances, so none below 0.
     pub fn above(&self, svg: &mut Svg, axis: &Axis) {
-        along(svg, self.frame, axis, [self.frame.top, -5.0, -9.0, -26.0]);
+        let mut ticks = axis.ticks(ticks_along(self.frame, axis));
+        ticks.retain(|tick| tick.value >= 0.0);
+        along(svg, self.frame, (axis, &ticks), [self.frame.top, -5.0, -9.0, -26.0]);
     }
 
     /// Numbers and label of another axis for y, right of the frame.
@@ -117,7 +122,7 @@ impl Plane {
             svg.line(&[[right, y], [right + 5.0, y]], Pen::new(FRAME, 1.0));
             svg.text([right + 9.0, y + 4.4], LABEL, &tick.text);
         }
-        self.label_up(svg, right + 74.0, &axis.label);
+        self.label_up(svg, right + SECOND - 12.0, &axis.label);
     }
 
     /// A stretch of x, tinted from top to bottom.
@@ -140,9 +145,14 @@ fn ticks_along(frame: Frame, axis: &Axis) -> usize {
 }
 
 /// An axis along x: where it is, and from there the ends of its ticks, its numbers and its label.
-fn along(svg: &mut Svg, frame: Frame, axis: &Axis, [y, tick, number, label]: [f64; 4]) {
+fn along(
+    svg: &mut Svg,
+    frame: Frame,
+    (axis, ticks): (&Axis, &[Tick]),
+    [y, tick, number, label]: [f64; 4],
+) {
     let Frame { left, right, .. } = frame;
-    for at in axis.ticks(ticks_along(frame, axis)) {
+    for at in ticks {
         let x = left + (right - left) * axis.share(at.value);
         svg.line(&[[x, y], [x, y + tick]], Pen::new(FRAME, 1.0));
         svg.text([x, y + number], LABEL.at(Anchor::Middle), &at.text);

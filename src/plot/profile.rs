@@ -6,8 +6,8 @@ use crate::plot::marks::marked;
 use crate::plot::outline::{Lying, sections};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM, Row};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
-use crate::plot::series::{Series, digits, hover, keys, legend, short};
+use crate::plot::plane::{Frame, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
+use crate::plot::series::{Series, bats, digits, hover, short};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::series;
 use crate::plot::words::{Anchor, SMALL};
@@ -15,8 +15,6 @@ use crate::units::{inches, ounces};
 
 pub use crate::plot::marks::Subject;
 
-/// Right of the frame there is a second axis.
-const RIGHT: f64 = 86.0;
 /// Of the diameters' diagram (px).
 const DIAGRAM: f64 = 130.0;
 /// Heights that a bat from the side may have (px).
@@ -26,14 +24,15 @@ const THICK: [f64; 2] = [14.0, 84.0];
 pub fn picture(subjects: &[Subject]) -> Picture {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let rows: Vec<Row> = marked(subjects);
-    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
+    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let ends = ends(longest, &rows);
-    let [knob, tip] = place::axes(ends, &bats);
+    let [knob, tip] = place::axes(ends, &lengths);
     let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
-    let right = WIDTH - RIGHT;
+    let right = WIDTH - SECOND;
     let [times, per_metre] = thickness(thickest, (right - LEFT) / (ends[1] - ends[0]));
     let each = 2.0 * thickest * per_metre + 26.0;
-    let top = HEAD + NUMBERS + if subjects.len() > 1 { keys(subjects.len()) } else { 0.0 };
+    let mut svg = Svg::new(WIDTH, 0.0);
+    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let side = top + each * subjects.len() as f64 + 6.0;
     let below = side + DIAGRAM + 6.0;
     let bottom = below + place::height(&rows);
@@ -42,7 +41,7 @@ pub fn picture(subjects: &[Subject]) -> Picture {
         Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
     };
     let (lying, strip) = (plane(top, side), plane(below, bottom));
-    let mut svg = Svg::new(WIDTH, bottom + NUMBERS + 6.0);
+    svg.height = bottom + NUMBERS + 6.0;
     let (title, facts) = words(subjects);
     head(&mut svg, &title, ["", &facts]);
     lying.above(&mut svg, &tip);
@@ -53,13 +52,13 @@ pub fn picture(subjects: &[Subject]) -> Picture {
     }
     proportions(&mut svg, times, [right, top + 14.0]);
     diameters(&mut svg, plane(side, side + DIAGRAM), subjects);
-    place::guides(&mut svg, &strip, &rows, top + 0.5 * each + 4.0);
-    place::rows(&mut svg, &strip, &rows);
+    let told = place::rows(&mut svg, &strip, &rows);
+    place::guides(&mut svg, &strip, (&rows, &told), top + 0.5 * each + 4.0);
     strip.below(&mut svg);
     Picture::new("profile", &title, &described(subjects, &rows), svg)
 }
 
-/// The diameters along the bats, and the names of several of them.
+/// The diameters along the bats.
 fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
     let all = subjects.iter().map(|s| 2.0 * CM * widest(s.bat)).chain([0.0]);
     let plane = Plane { y: Axis::around("diameter (cm)", all, ticks_up(DIAGRAM)), ..plane };
@@ -68,10 +67,6 @@ fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
     plane.right(svg, &Axis::new("diameter (in)", in_inches));
     let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
     curves.iter().for_each(|curve| curve.draw(svg, &plane));
-    if subjects.len() > 1 {
-        let outer: Vec<&Series> = curves.iter().filter(|c| c.pen.width > 1.5).collect();
-        legend(svg, &outer, [LEFT, HEAD + 8.0, WIDTH - 12.0]);
-    }
     hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
 }
 

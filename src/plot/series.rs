@@ -1,6 +1,6 @@
 //! Curves and points in a diagram, and their names beside them.
 
-use crate::plot::plane::{Frame, Plane};
+use crate::plot::plane::{Frame, HEAD, LEFT, Plane, WIDTH};
 use crate::plot::route::Point;
 use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{FRAME, Ink};
@@ -145,9 +145,14 @@ pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3])
     y
 }
 
-/// What the names of so many curves take at most, two in a row (px).
-pub fn keys(count: usize) -> f64 {
-    18.0 * count.div_ceil(2) as f64
+/// The names of several bats below the head, each with the line of its number; where they end (px).
+pub fn bats(svg: &mut Svg, names: &[&str]) -> f64 {
+    if names.len() < 2 {
+        return HEAD;
+    }
+    let all: Vec<Series> =
+        names.iter().enumerate().map(|(k, name)| Series::curve(name, k, vec![])).collect();
+    legend(svg, &all.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 6.0
 }
 
 /// A name beside a frame: the height that it belongs to, the words, their colour.

@@ -49,13 +49,17 @@ impl Hits<'_> {
         let (name, length, impacts) = (bat.name.as_str(), bat.length(), &sweep.impacts);
         let along = exit_speed::Subject { name, length, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(&[along]).into_iter().collect();
-        all.extend(ledger::picture(bat, impacts));
+        all.extend(ledger::picture(name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
             let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-            all.extend(contact::pictures(name, &hitter, x));
-            let force = hitter.force(x);
-            let after = force.map(|force| Aftermath::new(bat, &sweep.solution, x, force));
-            all.extend(after.and_then(|after| hands::picture(name, &after, scene.hands)));
+            let touch = contact::Subject::new(name, &hitter, x);
+            all.extend(contact::pictures(touch.as_slice()));
+            let felt = hitter.force(x).map(|force| hands::Subject {
+                name,
+                after: Aftermath::new(bat, &sweep.solution, x, force),
+                x: scene.hands,
+            });
+            all.extend(hands::picture(felt.as_slice()));
         }
         Ok(all)
     }

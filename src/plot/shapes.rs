@@ -6,9 +6,9 @@ use crate::plot::axis::Axis;
 use crate::plot::outline::sections;
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, CM};
-use crate::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
+use crate::plot::plane::{Frame, LEFT, NUMBERS, Plane, WIDTH, head};
 use crate::plot::route::Point;
-use crate::plot::series::{Series, digits, keys, legend};
+use crate::plot::series::{bats, digits};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, MUTED, TINT, series};
 use crate::plot::words::{Anchor, LABEL, SMALL, width};
@@ -42,21 +42,17 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
         return None;
     }
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
-    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let [knob, tip] = place::axes([0.0, longest], &bats);
-    let top = HEAD + NUMBERS + if subjects.len() > 1 { keys(subjects.len()) } else { 0.0 };
+    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
+    let [knob, tip] = place::axes([0.0, longest], &lengths);
+    let mut svg = Svg::new(WIDTH, 0.0);
+    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let row = ROW.max(18.0 * subjects.len() as f64 + 26.0);
     let bottom = top + row * count as f64;
     let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom };
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
-    let mut svg = Svg::new(WIDTH, bottom + NUMBERS + 4.0);
+    svg.height = bottom + NUMBERS + 4.0;
     let (title, name, facts) = words(subjects);
     head(&mut svg, title, [name, &facts]);
-    if subjects.len() > 1 {
-        let lines: Vec<Series> =
-            subjects.iter().enumerate().map(|(k, s)| Series::curve(s.name, k, vec![])).collect();
-        legend(&mut svg, &lines.iter().collect::<Vec<_>>(), [LEFT, HEAD + 8.0, WIDTH - 12.0]);
-    }
     plane.above(&mut svg, &tip);
     for order in 0..count {
         let axis = top + row * (order as f64 + 0.5) - 2.0;

@@ -10,6 +10,9 @@ use crate::plot::theme::{self, Ink, PAPER};
 use crate::plot::words::{Anchor, Type};
 use crate::report::xml::escaped;
 
+/// What the file of every picture begins with, and of hardly any other.
+pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\"";
+
 /// A picture in the making.
 #[derive(Debug, Clone)]
 pub struct Svg {
@@ -87,7 +90,7 @@ impl Svg {
         let read_off = read_off
             .map_or(String::new(), |edges| format!(" data-frame=\"{}\"", edges.map(px).join(" ")));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\" role=\"img\" \
+            "{BEGINNING} role=\"img\" \
              viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
              font-family=\"system-ui, sans-serif\" fill=\"none\" stroke-linejoin=\"round\" \
              stroke-linecap=\"butt\"{read_off}>\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n\

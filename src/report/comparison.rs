@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::collision::hit::Scene;
 use crate::comparison::contender::Contender;
-use crate::comparison::rows::{Difference, From, Row, Unit};
+use crate::comparison::rows::{Difference, From, Row, Unit, energies_compare};
 use crate::comparison::stretches::Stretch;
 use crate::comparison::table::Comparison;
 use crate::report::hit_json::model_name;
@@ -257,8 +257,14 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
             ));
         }
     }
+    if !energies_compare(&comparison.bats) {
+        all.push(NO_ENERGIES.to_owned());
+    }
     all
 }
+
+const NO_ENERGIES: &str = "Vibration is not compared: the energies of a held bat are as its hands see \
+                           them, those of a free one as the ground does.";
 
 /// Whose best hit is faster.
 fn best(comparison: &Comparison, bat: usize, units: Units) -> String {

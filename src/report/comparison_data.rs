@@ -8,7 +8,7 @@ use crate::comparison::contender::Contender;
 use crate::comparison::rows::Row;
 use crate::comparison::table::Comparison;
 use crate::report::comparison::{letter, words};
-use crate::report::hit_json::{hit, model_name};
+use crate::report::hit_json::{hit, model_name, seen_from};
 use crate::report::json::generator;
 use crate::report::text::Units;
 
@@ -37,13 +37,14 @@ pub fn json(comparison: &Comparison, files: &[String]) -> Value {
     })
 }
 
-/// What the bats have in common: all of a hit's scene but the swing.
+/// What the bats have in common: all of a hit's scene but the swing and what sees the energies.
 fn scene(comparison: &Comparison) -> Value {
     let first = &comparison.bats[0];
     let model = comparison.terms.model;
     let mut scene = hit(&first.bat, model, &first.scene, &[], &first.spot)["scene"].take();
     if let Some(members) = scene.as_object_mut() {
         members.shift_remove("swing_rad_s");
+        members.shift_remove("energies_seen_from");
     }
     scene["swing_law"] = json!(first.law.map(|law| json!({
         "exponent": law.exponent,
@@ -80,6 +81,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> Val
         "name": bat.bat.name,
         "file": file,
         "swing_rad_s": bat.scene.swing,
+        "energies_seen_from": seen_from(&bat.bat),
         "theory": bat.sweep.solution.theory.name(),
         "modes": bat.sweep.solution.modes.len(),
         "tolerance_met": bat.sweep.met,

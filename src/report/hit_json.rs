@@ -44,8 +44,12 @@ pub fn model_name(model: Model) -> &'static str {
     }
 }
 
+/// From where the energies of hits on that bat are seen.
+pub fn seen_from(bat: &Bat) -> &'static str {
+    if bat.fixtures.holding() { "hands" } else { "ground" }
+}
+
 fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
-    let seen_from = if bat.fixtures.holding() { "hands" } else { "ground" };
     let wall = |wall: Wall| file::Wall { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
     file::Scene {
         bat_pivot_m: scene.pivot,
@@ -54,7 +58,7 @@ fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
         ball_speed_m_s: scene.ball_speed,
         cor: scene.cor,
         hands_m: scene.hands,
-        energies_seen_from: seen_from.to_owned(),
+        energies_seen_from: seen_from(bat).to_owned(),
         wall: scene.wall.map(wall),
     }
 }

@@ -1,7 +1,7 @@
 //! Text as XML has it.
 
 /// The text between tags and in quoted attributes; control characters, which XML cannot hold, become
-/// blanks.
+/// blanks, and marks that turn what follows the sign for what cannot be shown.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -11,10 +11,16 @@ pub fn escaped(text: &str) -> String {
             '>' => out += "&gt;",
             '"' => out += "&quot;",
             c if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') => out.push(' '),
+            c if is_bidi(c) => out.push(char::REPLACEMENT_CHARACTER),
             c => out.push(c),
         }
     }
     out
+}
+
+/// Marks that turn the direction of what follows, and could make a name or a number read as another.
+pub fn is_bidi(c: char) -> bool {
+    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 #[cfg(test)]
@@ -24,5 +30,6 @@ mod tests {
     #[test]
     fn marks_are_named_and_what_xml_cannot_hold_is_blank() {
         assert_eq!(escaped("a<b & \u{1}\"c\""), "a&lt;b &amp;  &quot;c&quot;");
+        assert_eq!(escaped("1\u{202e}2\u{2066}3\u{200d}"), "1\u{fffd}2\u{fffd}3\u{200d}");
     }
 }

@@ -10,6 +10,7 @@ is not as it should be. Contrast is that of the Web Content Accessibility Guidel
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,18 @@ SMALL_TEXT = """[...document.querySelectorAll("body *")].filter(e => !e.closest(
   && e.checkVisibility() && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())
   && parseFloat(getComputedStyle(e).fontSize) < 16)
   .map(e => e.tagName + " " + e.textContent.slice(0, 30) + " " + getComputedStyle(e).fontSize)"""
+
+# Words in pictures, as large as they are on the screen.
+SMALL_WORDS = """[...document.querySelectorAll("figure svg text")].filter(e => e.checkVisibility()).map(e => {
+    const svg = e.ownerSVGElement, scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+    return [e.textContent.slice(0, 30), scale * parseFloat(getComputedStyle(e).fontSize)];
+  }).filter(([, size]) => !(size >= 12)).map(([words, size]) => `${words} ${size} px in a picture`)"""
+
+# A picture that is wider than its window says so, and no other does.
+UNTOLD = """[...document.querySelectorAll("figure")].filter(e => {
+    const plot = e.querySelector(".plot"), told = e.querySelector(".swipe");
+    return (plot.scrollWidth > plot.clientWidth) !== told.checkVisibility();
+  }).map(e => e.id + " is cut, or says so though it is not")"""
 
 OVERLAPS = """(() => {
   const boxes = [...document.querySelectorAll(".headline > div, .facts > div, .headline dd, .facts dd, .headline dt, .facts dt")];
@@ -128,15 +141,15 @@ def quiet(browser, what):
 
 
 def readable(browser, name, path):
-    """At both widths, in light and in dark."""
-    for width in (390, 1440):
+    """At all widths, in light and in dark."""
+    for width in (390, 900, 1440):
         for dark in (False, True):
             what = f"{name} at {width} px{', dark' if dark else ''}"
             browser.open(path, width=width, dark=dark, calm=True)
             quiet(browser, what)
             check(not browser.run(TOO_WIDE), f"{what}: scrolls sideways")
             check(browser.run("parseFloat(getComputedStyle(document.body).fontSize)") >= 16, f"{what}: small")
-            for query in (SMALL_TEXT, OVERLAPS, CONTRAST):
+            for query in (SMALL_TEXT, SMALL_WORDS, UNTOLD, OVERLAPS, CONTRAST):
                 for told in browser.run(query):
                     check(False, f"{what}: {told}")
 
@@ -200,6 +213,35 @@ def speed(browser, player):
         }})""")
         ways.append(way)
     check(ways[1] > 0 and 2.5 < ways[0] / ways[1] < 6, f"{player}: slow is {ways}")
+    # It says at once how slow that is.
+    told = []
+    for _ in range(2):
+        now = browser.run(f"document.querySelector('#{player} .now').textContent")
+        told.append(int(re.search(r"(\d+) times slower", now)[1]))
+        browser.run(f"document.querySelector('#{player} .slow').click()")
+    check(abs(told[0] - 4 * told[1]) <= 2, f"{player}: slow is said to be {told} times slower")
+
+
+def flight(browser, path):
+    """Off the bat the ball flies evenly, whatever the bat does."""
+    browser.open(path, calm=True)
+    for chosen in (0, 1):
+        ways = browser.run(f"""(() => {{
+          const root = document.querySelector('#moment-player'), slider = root.querySelector('.scrub input');
+          const moment = JSON.parse(document.getElementById('data').textContent).moments[{chosen}];
+          root.querySelector('input[name=moment][value="{chosen}"]').click();
+          const last = moment.times_ms.length - 1, at = k => {{
+            slider.value = 1000 * k / last;
+            slider.dispatchEvent(new Event('input'));
+            return Number(root.querySelector('.ball').getAttribute('cy'));
+          }};
+          const gone = moment.times_ms.findIndex(time => time > moment.contact_ms);
+          const middles = moment.times_ms.map((_, k) => k).filter(k => k >= gone).map(at);
+          return middles.slice(1).map((y, k) => y - middles[k]);
+        }})()""")
+        # Bending and gap are told to hundredths of a millimetre.
+        check(len(ways) > 20 and ways[0] < -0.5, f"flight {chosen}: {ways[:3]}")
+        check(max(ways) - min(ways) < 0.1, f"flight {chosen}: steps from {min(ways)} to {max(ways)} mm")
 
 
 def scrub(browser, player):
@@ -316,6 +358,7 @@ def main():
             check(browser.run("document.title").startswith("</script>"), "a name changed the page")
             moving(browser, pages["r161"])
             choosing(browser, pages["r161"])
+            flight(browser, pages["r161"])
             hair_lines(browser, pages["r161"])
             for width in (390, 1440):
                 keyboard(browser, pages["two_piece"], width)

@@ -1,0 +1,18 @@
+//! Pictures into a folder.
+
+use std::path::Path;
+
+use sweetspot::error::Result;
+use sweetspot::plot::picture::{self, Picture};
+
+use crate::cli::common::{printed, warn};
+
+/// Writes them, and says which of an earlier run still lie beside them.
+pub fn write(folder: &Path, pictures: &[Picture], quiet: bool) -> Result<()> {
+    let others = picture::write(folder, pictures)?;
+    if !others.is_empty() {
+        let (folder, names) = (printed(folder), others.join(", "));
+        warn(&format!("note: {folder} still holds pictures of an earlier run: {names}"), quiet);
+    }
+    Ok(())
+}
