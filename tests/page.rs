@@ -256,6 +256,24 @@ fn what_there_is_not_is_told() {
     );
 }
 
+/// Whoever forgets a unit must not need to look at the terminal.
+#[test]
+fn what_is_unusual_for_a_bat_is_told_first() {
+    let folder = Folder::new("page-unusual");
+    let text = std::fs::read_to_string(mesh("dowel")).unwrap();
+    let text = text.trim_end().trim_end_matches('}').to_owned();
+    folder.write("heavy.json", text + ", \"attachments\": [{ \"x\": 0.1, \"mass\": 31.5 }] }");
+    let (page, told) = made(&folder, "heavy.json", &[]);
+    let (before, after) = page.split_once("Look at this first").expect("it is told");
+    assert!(after.contains("a bat&#39;s is 0.2 to 2") || after.contains("a bat's is 0.2 to 2"));
+    assert!(!before.contains("The sweet spot</h2>"));
+    assert!(told.ends_with("Wrote:\n  page.html\n"), "{told}");
+    folder.text(&["analyze", "heavy.json", "--report", "page.md", "--quiet"]);
+    assert!(folder.read("page.md").contains("## Look at this first"));
+    let (page, _) = made(&folder, &mesh("r161"), &[]);
+    assert!(!page.contains("Look at this first"));
+}
+
 #[test]
 fn the_files_stand_in_the_page_as_they_were_written() {
     let folder = Folder::new("page-files");

@@ -16,7 +16,7 @@ use sweetspot::report::{advice, file, hit_json, hit_text};
 use sweetspot::solve::Request;
 
 use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, read_with_text,
+    BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,
 };
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::scene::SceneArgs;
@@ -107,8 +107,17 @@ pub fn run(args: &Args) -> Result<Done> {
     let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
-    let text = args.output.deliver(table(&analysis, &args.output), both)?;
+    let table = table(&analysis, &args.output) + &written(args);
+    let text = args.output.deliver(table, both)?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// What was written for people to look at, and where.
+fn written(args: &Args) -> String {
+    let report = args.report.iter().map(|path| printed(path));
+    let folders = [&args.plots, &args.out].into_iter().flatten().map(|path| printed(path));
+    let all: Vec<String> = report.chain(folders).map(|path| format!("  {path}\n")).collect();
+    if all.is_empty() { String::new() } else { format!("\nWrote:\n{}", all.concat()) }
 }
 
 /// The files as the report shows them.

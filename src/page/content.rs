@@ -69,6 +69,8 @@ pub enum Part<'a> {
     Moment,
 }
 
+const STRANGE: &str = "This is unusual for a bat. If it is a slip, mend the bat file and make the \
+                       report again.";
 const NOTHING: &str = "Without a hit there is nothing to show here.";
 const HELD: &str = "The bat is held: energies are as its hands see them, the bat at rest before the \
                     hit, and swinging in what holds it counts as vibration.";
@@ -94,7 +96,12 @@ impl<'a> Report<'a> {
     /// Everything below the summary, in order.
     pub fn sections(&'a self) -> Vec<Section<'a>> {
         let section = |id, title, parts| Section { id, title, parts };
-        vec![
+        let strange = self.analysis.bat.warnings();
+        let strange = (!strange.is_empty()).then(|| {
+            let parts = vec![Part::Text(STRANGE.to_owned()), Part::List(strange)];
+            section("look", "Look at this first", parts)
+        });
+        let rest = [
             section("bat", "The bat", self.pictured(&["profile"])),
             section("sweet-spot", "The sweet spot", self.sweet_spot()),
             section("energy", "Where the energy goes", self.energy()),
@@ -104,7 +111,8 @@ impl<'a> Report<'a> {
             section("accuracy", "How far to trust this", self.accuracy()),
             section("inputs", "What went in", self.inputs()),
             section("provenance", "Where it comes from", self.provenance()),
-        ]
+        ];
+        strange.into_iter().chain(rest).collect()
     }
 
     /// The pictures of those names.
