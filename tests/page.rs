@@ -214,7 +214,7 @@ fn the_summary_has_the_numbers_of_the_analysis() {
             ("bbcor", number("bbcor"), 5e-4),
         ] {
             let shown =
-                between(&page, &format!("data-key=\"{key}\"><span class=\"si\">"), "</span>");
+                between(&page, &format!("data-key=\"{key}\"><span class=\"first\">"), "</span>");
             let seen: f64 = shown.split(' ').next().unwrap().parse().unwrap();
             assert!((seen - value).abs() <= within * (1.0 + 1e-9), "{key}: {shown}, {value}");
         }
@@ -226,6 +226,25 @@ fn the_summary_has_the_numbers_of_the_analysis() {
             assert!(apart(&curve["vibration_j"][k], &impact["energy_j"]["vibration"]) <= 5.1e-4);
             assert!(apart(&curve["x_m"][k], &impact["x_m"]) <= 5.1e-7);
         }
+    }
+}
+
+#[test]
+fn inches_stand_first_where_they_were_asked_for() {
+    let folder = Folder::new("page-inches");
+    let (page, _) = made(&folder, &mesh("r161"), &["--units", "us"]);
+    let (metric, _) = made(&folder, &mesh("r161"), &[]);
+    for key in ["sweet_spot_m", "mass_kg"] {
+        let fact = |page: &str| {
+            between(page, &format!("data-key=\"{key}\"><span class=\"first\">"), "</dd>").to_owned()
+        };
+        let [us, si] = [fact(&page), fact(&metric)];
+        let parts = |text: &str| {
+            let (first, beside) = text.split_once("</span><span class=\"beside\">").unwrap();
+            [first.to_owned(), beside.trim_end_matches("</span>").to_owned()]
+        };
+        let [[first, beside], [other, same]] = [parts(&us), parts(&si)];
+        assert!([&first, &beside] == [&same, &other] && first != beside, "{key} {us} {si}");
     }
 }
 

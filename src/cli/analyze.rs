@@ -11,7 +11,7 @@ use sweetspot::page::inputs::Input;
 use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::sketch::{self, Row};
-use sweetspot::report::text;
+use sweetspot::report::text::{self, Units};
 use sweetspot::report::{advice, file, hit_json, hit_text};
 use sweetspot::solve::Request;
 
@@ -102,7 +102,9 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &sets::of_analysis(&analysis)?, args.output.quiet)?;
     }
     if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
-        page::file::write(path, &Report::new(&analysis, command(), inputs)?)?;
+        let us_first = args.output.units == Units::Us;
+        let report = Report { us_first, ..Report::new(&analysis, command(), inputs)? };
+        page::file::write(path, &report)?;
     }
     let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
     let code = args.solve.verdict(&analysis.solution, &args.output);

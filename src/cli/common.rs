@@ -246,7 +246,7 @@ pub struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 
-    /// Units of the tables: si, us or both
+    /// Units of the tables, and of a report's first numbers: si, us or both
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
           hide_possible_values = true)]
     pub units: Units,

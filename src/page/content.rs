@@ -27,6 +27,8 @@ pub struct Report<'a> {
     pub moments: Vec<Moment>,
     /// The numbers at the top.
     pub summary: Summary,
+    /// Whether inches stand before centimetres there.
+    pub us_first: bool,
 }
 
 /// A part of the report under a heading.
@@ -90,7 +92,7 @@ impl<'a> Report<'a> {
     pub fn new(analysis: &'a Analysis, command: String, inputs: Vec<Input>) -> Result<Self> {
         let (pictures, moments) = (of_analysis(analysis)?, moments(analysis)?);
         let summary = Summary::new(analysis);
-        Ok(Self { analysis, command, inputs, pictures, moments, summary })
+        Ok(Self { analysis, command, inputs, pictures, moments, summary, us_first: false })
     }
 
     /// Everything below the summary, in order.

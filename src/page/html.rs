@@ -94,18 +94,20 @@ fn summary(report: &Report) -> String {
     if headline.is_empty() {
         let _ = writeln!(out, "<p class=\"missing\">{}</p>", escaped(NO_HIT));
     } else {
-        out += &facts("headline", &headline);
+        out += &facts("headline", report.us_first, &headline);
     }
-    out += &facts("facts", &report.summary.facts());
+    out += &facts("facts", report.us_first, &report.summary.facts());
     out + "</section>\n"
 }
 
-fn facts(class: &str, facts: &[Fact]) -> String {
+/// The numbers at the top, in the unit that was asked for and beside it in the other.
+fn facts(class: &str, us_first: bool, facts: &[Fact]) -> String {
     let mut out = format!("<dl class=\"{class}\">\n");
     for Fact { key, label, values: [si, us], note } in facts {
-        let second = match us.is_empty() {
+        let [first, beside] = if us_first && !us.is_empty() { [us, si] } else { [si, us] };
+        let beside = match beside.is_empty() {
             true => String::new(),
-            false => format!("<span class=\"us\">{}</span>", escaped(us)),
+            false => format!("<span class=\"beside\">{}</span>", escaped(beside)),
         };
         let note = match note.is_empty() {
             true => String::new(),
@@ -113,9 +115,9 @@ fn facts(class: &str, facts: &[Fact]) -> String {
         };
         let _ = writeln!(
             out,
-            "<div><dt>{}</dt><dd data-key=\"{key}\"><span class=\"si\">{}</span>{second}</dd>{note}</div>",
+            "<div><dt>{}</dt><dd data-key=\"{key}\"><span class=\"first\">{}</span>{beside}</dd>{note}</div>",
             escaped(label),
-            escaped(si)
+            escaped(first)
         );
     }
     out + "</dl>\n"
