@@ -80,7 +80,7 @@ pub fn sweet_spots(analysis: &Analysis) -> Table {
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
     peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
     peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
-        format!("{:.0} g", a / STANDARD_GRAVITY)
+        format!("{:.0} times gravity", a / STANDARD_GRAVITY)
     });
     line("node of mode 1", spot.node_mode_1, NONE.to_owned());
     line("node of mode 2", spot.node_mode_2, NONE.to_owned());
