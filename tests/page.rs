@@ -6,14 +6,6 @@ use std::collections::BTreeSet;
 
 use common::folder::Folder;
 use serde_json::{Value, json};
-use sweetspot::analysis::{Analysis, Task};
-use sweetspot::collision::hit::{Model, Scene, Wall};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::page::content::Report;
-use sweetspot::page::html::page;
-use sweetspot::page::moment::Moment;
-use sweetspot::theory::Theory;
-use sweetspot::{Bat, Request, solve};
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
@@ -389,73 +381,4 @@ fn another_kind_of_report_is_refused_before_anything_is_done() {
         assert!(String::from_utf8_lossy(&output.stderr).contains(report));
     }
     assert_eq!(folder.names(), ["taken"]);
-}
-
-fn analysed(bat: Bat, scene: Scene) -> Analysis {
-    let hits = Request { theory: Theory::Timoshenko, ..Request::default() };
-    let solution = solve(&bat, &hits).unwrap();
-    let task = Task { model: Model::Contact, scene, law: None, hits, proof: Request::default() };
-    Analysis::new(bat, solution, task).unwrap()
-}
-
-/// The ball's own law, F = k uᵅ at first, tells how far it is squeezed under every force that is
-/// shown; a wall of the barrel gives way beside it.
-#[test]
-fn the_ball_is_squeezed_as_much_as_its_force_needs() {
-    let wall = |mass| Some(Wall { stiffness: 1e7, mass });
-    let scenes = [("r161", None), ("northwestern_aluminium", wall(0.05)), ("torpedo", wall(0.0))];
-    for (name, wall) in scenes {
-        let scene = Scene { wall, ..Scene::default() };
-        let analysis = analysed(Bat::from_file(mesh(name)).unwrap(), scene);
-        let report = Report::new(&analysis, String::new(), vec![]).unwrap();
-        let Analysis { bat, task, hits, .. } = &analysis;
-        let hitter =
-            Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort).unwrap();
-        assert_eq!(report.moments.len(), 2);
-        for moment in &report.moments {
-            let outcome = hitter.strike(moment.x_m).outcome.unwrap();
-            let most = 1e-3 * outcome.peak_force.unwrap();
-            assert!(moment.force_kn.iter().all(|force| *force <= most + 0.006), "{name}");
-            assert!((moment.contact_ms - 1e3 * outcome.contact_time.unwrap()).abs() < 1e-3);
-            follows_the_law(&task.scene, moment);
-            parts_evenly(moment);
-        }
-        assert!(page(&report).len() < 400_000);
-    }
-}
-
-/// Until the force first falls the ball is squeezed by what its law says.
-fn follows_the_law(scene: &Scene, moment: &Moment) {
-    let [k, alpha] = [scene.ball.stiffness, scene.ball.exponent].map(Option::unwrap);
-    let falls = moment.force_kn.windows(2).position(|pair| pair[1] < pair[0]).unwrap();
-    let mut seen = 0;
-    for (force, gap) in moment.force_kn[..=falls].iter().zip(&moment.gap_mm) {
-        if *force < 1.0 {
-            continue;
-        }
-        let squeezed = |force: f64| 1e3 * (1e3 * force / k).powf(1.0 / alpha);
-        // Both are told to a hundredth.
-        let rounding = 0.005 + squeezed(force + 0.005) - squeezed(*force);
-        assert!((squeezed(*force) + gap).abs() < 0.01 + rounding, "{force} kN, {gap} mm");
-        seen += 1;
-    }
-    assert!(seen > 3, "{seen}");
-}
-
-/// Before and after the touch the ball is off the bat, and nothing jumps where they part.
-fn parts_evenly(moment: &Moment) {
-    let Moment { times_ms, gap_mm, force_kn, contact_ms, bending_10_um, .. } = moment;
-    let last = times_ms.len() - 1;
-    assert!(gap_mm[0] > 0.0 && gap_mm[last] > 0.0 && force_kn[last] == 0.0);
-    let gone = times_ms.partition_point(|time| time <= contact_ms);
-    assert!(gap_mm[gone] > 0.0 && gap_mm[gone - 1] < 0.01, "{:?}", &gap_mm[gone - 1..=gone]);
-    for three in gap_mm[gone - 2..gone + 3].windows(3) {
-        let bend = three[0] - 2.0 * three[1] + three[2];
-        assert!(bend.abs() < 1.0, "{three:?}");
-    }
-    // Seen from the bat as a whole its bending moves neither its mass nor turns it: it is at rest
-    // before the touch, and bends to both sides after it.
-    assert!(bending_10_um[0].iter().all(|w| *w == 0));
-    let all = || bending_10_um[last].iter();
-    assert!(all().any(|w| *w > 0) && all().any(|w| *w < 0));
 }

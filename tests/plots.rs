@@ -3,29 +3,21 @@
 
 mod common;
 
-use std::collections::BTreeMap;
-
 use common::folder::Folder;
+use common::pictures::{check, number, scale, texts, ticks};
 use resvg::tiny_skia::Pixmap;
-use resvg::usvg::roxmltree::{Document, Node};
+use resvg::usvg::roxmltree::Document;
 use sweetspot::collision::history::loop_area;
-use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
+use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::comparison::contender::{Contender, Terms};
-use sweetspot::comparison::table::{Comparison, Entry};
-use sweetspot::measured::place::{End, Told};
-use sweetspot::measured::study::Study;
-use sweetspot::measured_file;
-use sweetspot::plot;
 use sweetspot::plot::matrix::{FULL, Matrix};
 use sweetspot::plot::picture::Picture;
 use sweetspot::plot::sets::{self, Hits};
-use sweetspot::plot::theme::{self, FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
-use sweetspot::plot::words::{LABEL, Type};
-use sweetspot::plot::{compared, exit_speed, front, ledger, matrix, png, profile, shapes, words};
+use sweetspot::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
+use sweetspot::plot::{exit_speed, front, ledger, matrix, png, profile, shapes};
 use sweetspot::report::xml::escaped;
 use sweetspot::trade::measure::measure;
 use sweetspot::validation::bundled_bat;
@@ -73,79 +65,6 @@ fn pictures(struck: &Struck, model: Model) -> Vec<Picture> {
     let mut all = sets::of_modes(bat, solution, Some(scene.pivot));
     all.extend(Hits { bat, model, scene, sweep, spot }.pictures(None).unwrap());
     all
-}
-
-/// A rectangle that holds a text: left, top, right, bottom.
-type Box = [f64; 4];
-
-fn number(node: Node, name: &str) -> f64 {
-    node.attribute(name).map_or(0.0, |value| value.parse().unwrap())
-}
-
-/// Where the words of a picture are, as wide as they are in a wide font.
-fn texts<'a>(document: &'a Document) -> Vec<(&'a str, Box)> {
-    let of = |node: Node<'a, 'a>| {
-        let (x, y, size) = (number(node, "x"), number(node, "y"), number(node, "font-size"));
-        let words = node.text().unwrap_or_default();
-        let look = Type { size, bold: node.has_attribute("font-weight"), ..LABEL };
-        let wide = words::width(words, look);
-        let before = match node.attribute("text-anchor") {
-            Some("end") => wide,
-            Some("middle") => 0.5 * wide,
-            _ => 0.0,
-        };
-        let (up, down) = (0.75 * size, 0.2 * size);
-        let rect = match node.has_attribute("transform") {
-            true => [x - up, y - wide + before, x + down, y + before],
-            false => [x - before, y - up, x - before + wide, y + down],
-        };
-        (words, rect)
-    };
-    document.descendants().filter(|node| node.has_tag_name("text")).map(of).collect()
-}
-
-/// What must hold in every picture.
-fn check(picture: &Picture, whose: &str) {
-    let what = format!("{whose}: {}", picture.name);
-    let text = &picture.svg;
-    assert!(text.len() < 60_000, "{what} has {} bytes", text.len());
-    assert!(!text.contains("NaN") && !text.contains("inf\"") && !text.contains("id="), "{what}");
-    let document = Document::parse(text).unwrap();
-    let root = document.root_element();
-    assert_eq!(root.attribute("role"), Some("img"), "{what}");
-    let child = |name: &str| {
-        let mut all = root.children().filter(|node| node.has_tag_name(name));
-        all.next().and_then(|node| node.text()).unwrap_or_default().to_owned()
-    };
-    assert!(!child("title").is_empty() && child("desc").len() > 20, "{what}");
-    assert_eq!(child("style"), theme::rules(), "{what}");
-    let [width, height] = ["width", "height"].map(|side| number(root, side));
-    let all = texts(&document);
-    assert!(all.len() > 5, "{what}");
-    for (k, (words, [left, top, right, bottom])) in all.iter().enumerate() {
-        let inside = *left >= 0.0 && *top >= 0.0 && *right <= width + 0.5 && *bottom <= height;
-        assert!(inside, "{what}: {words:?} leaves the picture");
-        for (other, [l, t, r, b]) in &all[..k] {
-            let apart = right <= l || r <= left || bottom <= t || b <= top;
-            assert!(apart, "{what}: {words:?} is on {other:?}");
-        }
-        for [x, y, end] in guides(&document) {
-            let apart = x <= *left || *right <= x || end <= *top || *bottom <= y;
-            assert!(apart, "{what}: a dotted line runs through {words:?}");
-        }
-    }
-}
-
-/// The dotted lines down to marked places: where, from, to.
-fn guides(document: &Document) -> Vec<[f64; 3]> {
-    let dotted = |node: &Node| node.attribute("stroke-dasharray") == Some("1 3");
-    let of = |node: Node| {
-        let numbers = node.attribute("d").unwrap().split(['M', 'L', ' ']).filter(|n| !n.is_empty());
-        let numbers: Vec<f64> = numbers.map(|n| n.parse().unwrap()).collect();
-        assert!(numbers.len() == 4 && numbers[0] == numbers[2], "{numbers:?}");
-        [numbers[0], numbers[1], numbers[3]]
-    };
-    document.descendants().filter(dotted).map(of).collect()
 }
 
 #[test]
@@ -232,93 +151,6 @@ fn several_bats_fit_into_one_picture() {
     }
 }
 
-/// Bats side by side, so many modes each.
-fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
-    let request = Request { modes: 6, ..Request::default() };
-    let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
-    let terms = Terms { model, exactly: false, every: 0.0254 };
-    Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
-}
-
-#[test]
-fn compared_bats_have_the_same_pictures_as_one() {
-    let r161 = bat("r161");
-    let long = {
-        let ends = sweetspot::profile::Interpolation::Linear;
-        common::bat(&[0.0, 3.0], &[0.02, 0.06], &[0.0; 2], ends)
-    };
-    let six = ["r161", "torpedo", "house", "cone", "two_piece", "northwestern_aluminium"].map(bat);
-    let along = ["profile", "shapes", "exit_speed"];
-    let hit = ["contact", "hysteresis", "hands"];
-    for (bats, model, has_force) in [
-        (vec![r161.clone(), bat("torpedo")], Model::Contact, true),
-        (vec![r161.clone(), long.clone()], Model::Contact, true),
-        (vec![long, r161.clone()], Model::Contact, true),
-        (six.to_vec(), Model::Contact, true),
-        (vec![r161, bat("cone")], Model::Rigid, false),
-    ] {
-        let all = compared::pictures(&side_by_side(&bats, model)).unwrap();
-        let ledgers = ('A'..).take(bats.len()).map(|letter| format!("ledger_{letter}"));
-        let mut wanted: Vec<String> = along.map(str::to_owned).into_iter().chain(ledgers).collect();
-        wanted.extend(hit.into_iter().filter(|_| has_force).map(str::to_owned));
-        wanted.push("difference".into());
-        assert_eq!(all.iter().map(|p| p.name.clone()).collect::<Vec<_>>(), wanted);
-        for picture in &all {
-            check(picture, &format!("{} compared", bats.len()));
-            let document = Document::parse(&picture.svg).unwrap();
-            let whole = |name: &str| texts(&document).iter().any(|(words, _)| words.contains(name));
-            let told =
-                (0..bats.len()).filter(|k| whole(&format!("{}: ", char::from(b'A' + *k as u8))));
-            let one = picture.name.starts_with("ledger");
-            assert_eq!(told.count(), if one { 1 } else { bats.len() }, "{}", picture.name);
-        }
-    }
-}
-
-/// From the tip there is no place beyond it.
-#[test]
-fn a_tip_axis_has_no_place_off_the_bat() {
-    let ends = sweetspot::profile::Interpolation::Linear;
-    let bats = [0.5, 3.0].map(|l| common::bat(&[0.0, l], &[0.02, 0.06], &[0.0; 2], ends));
-    for picture in compared::pictures(&side_by_side(&bats, Model::Contact)).unwrap() {
-        let document = Document::parse(&picture.svg).unwrap();
-        let label = texts(&document)
-            .into_iter()
-            .find(|(words, _)| words.starts_with("from the tip") && words.ends_with("(in)"));
-        let Some((_, [_, top, _, bottom])) = label else { continue };
-        let below = |y: f64| (top..bottom + 20.0).contains(&y);
-        let values = ticks(&document, "middle", |_, y| below(y), false);
-        let rising = values.values().all(|inches| *inches >= 0.0);
-        assert!(rising && !values.is_empty(), "{}: {values:?}", picture.name);
-    }
-}
-
-#[test]
-fn whoever_reads_the_difference_off_the_axes_finds_who_is_faster() {
-    let both = side_by_side(&[bat("r161"), bat("torpedo")], Model::Contact);
-    let all = compared::pictures(&both).unwrap();
-    let picture = all.iter().find(|picture| picture.name == "difference").unwrap();
-    let document = Document::parse(&picture.svg).unwrap();
-    let height = number(document.root_element(), "height");
-    let value = scale(ticks(&document, "end", |x, _| x < 70.0, true));
-    let tip = scale(ticks(&document, "middle", |_, y| y > height - 40.0, false));
-    let points = document.descendants().filter(|node| node.has_tag_name("circle"));
-    let seen: Vec<[f64; 2]> = points
-        .filter(|node| node.attribute("r") == Some("7"))
-        .map(|node| [0.01 * tip(number(node, "cx")), value(number(node, "cy"))])
-        .collect();
-    assert!(seen.len() > 20, "{}", seen.len());
-    for [from_tip, read] in seen {
-        let [one, other] = [0, 1].map(|k| {
-            let Contender { bat, sweep, .. } = &both.bats[k];
-            let near = |i: &&Impact| (bat.length() - i.x - from_tip).abs() < 5e-4;
-            sweep.impacts.iter().find(near).unwrap().outcome.as_ref().unwrap().exit_speed
-        });
-        // A pixel is about 0.05 m/s.
-        assert!((read - (other - one)).abs() < 0.02, "{from_tip}: {read}, {one}, {other}");
-    }
-}
-
 #[test]
 fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
     let ends = sweetspot::profile::Interpolation::Linear;
@@ -333,34 +165,6 @@ fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
             words.iter().filter(|row| texts(&document).iter().any(|t| t.0.starts_with(**row)));
         assert_eq!(seen.count(), rows, "{length}");
     }
-}
-
-/// The ticks of an axis as a reader sees them: from a pixel to a value.
-fn scale(ticks: BTreeMap<i64, f64>) -> impl Fn(f64) -> f64 {
-    let (first, last) = (ticks.iter().next().unwrap(), ticks.iter().next_back().unwrap());
-    let ([a, b], [c, d]) = ([*first.0 as f64 / 10.0, *last.0 as f64 / 10.0], [*first.1, *last.1]);
-    assert!(b > a);
-    move |pixel| c + (d - c) * (pixel - a) / (b - a)
-}
-
-/// Numbers whose texts have that anchor and lie where `keep` says, by a pixel that `along` picks
-/// (tenths).
-fn ticks(
-    document: &Document,
-    anchor: &str,
-    keep: impl Fn(f64, f64) -> bool,
-    up: bool,
-) -> BTreeMap<i64, f64> {
-    let all = document
-        .descendants()
-        .filter(|node| node.has_tag_name("text") && node.attribute("text-anchor") == Some(anchor));
-    let read = |node: Node| {
-        let value: f64 = node.text()?.replace('−', "-").parse().ok()?;
-        let (x, y) = (number(node, "x"), number(node, "y"));
-        let along = if up { y - 4.4 } else { x };
-        keep(x, y).then_some(((10.0 * along).round() as i64, value))
-    };
-    all.filter_map(read).collect()
 }
 
 #[test]
@@ -561,49 +365,6 @@ fn a_matrix_has_its_numbers_in_it() {
     let document = Document::parse(&picture.svg).unwrap();
     let seen = |words: &str| texts(&document).iter().filter(|(text, _)| *text == words).count();
     assert_eq!((seen("29"), seen("30"), seen("39"), seen("40")), (0, 1, 0, 1));
-}
-
-/// Pictures of modes as a laboratory names them: their frequencies (Hz), and their deflections at even
-/// places from the knob end to the tip.
-fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> {
-    let mut text = String::new();
-    let mut row = |name: &str, of: &dyn Fn(usize) -> String| {
-        let cells: Vec<String> = (0..hertz.len()).map(of).collect();
-        text += &format!("{name},{}\n", cells.join(","));
-    };
-    row("x_m", &|k| format!("mode number {} of the hammer test", k + 1));
-    row("frequency_hz", &|k| hertz[k].to_string());
-    let last = shapes[0].len() - 1;
-    let places = (0..=last).map(|k| bat.length() * k as f64 / last as f64);
-    places.enumerate().for_each(|(i, x)| row(&x.to_string(), &|k| shapes[k][i].to_string()));
-    let folder = Folder::new("plots-measured");
-    folder.write("measured.csv", text);
-    let measured = measured_file::read(&folder.0.join("measured.csv")).unwrap();
-    let told = Told { first: Some(End::Knob), origin: None };
-    let study = Study::new(bat, measured, &Request::default(), false, told).unwrap();
-    plot::measured::pictures(&bat.name, &study)
-}
-
-#[test]
-fn measured_modes_of_long_names_have_numbers_in_their_matrix() {
-    let bat = bat("r161");
-    let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
-    let places: Vec<f64> = (0..=30).map(|k| bat.length() * f64::from(k) / 30.0).collect();
-    let at_places = |of: &dyn Fn(f64) -> f64| places.iter().map(|x| of(*x)).collect::<Vec<_>>();
-    let shapes = solution.modes.iter().map(|mode| at_places(&|x| mode.shape.deflection(x)));
-    let hertz: Vec<f64> = solution.modes.iter().map(|mode| mode.frequency()).collect();
-    let all = of_laboratory(&bat, &hertz, &shapes.collect::<Vec<_>>());
-    for (picture, name) in all.iter().zip(["mac", "mass_orthogonality"]) {
-        assert_eq!(picture.name, name);
-        check(picture, "measured");
-        let document = Document::parse(&picture.svg).unwrap();
-        assert!(texts(&document).iter().any(|(words, _)| *words == "12"), "{name}");
-    }
-    let document = Document::parse(&all[1].svg).unwrap();
-    let begins = |with: &str| texts(&document).iter().any(|(words, _)| words.starts_with(with));
-    assert!(begins("12: mode number 12") && !begins("mode n"));
-    let rigid = [at_places(&|_| 1.0), at_places(&|x| x - 0.4)];
-    assert!(of_laboratory(&bat, &[2.0, 4.0], &rigid).is_empty());
 }
 
 #[test]

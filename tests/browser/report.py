@@ -40,9 +40,16 @@ def make(sweetspot, folder):
         "r161": [f"{mesh}/r161.json"],
         "two_piece": [f"{mesh}/two_piece.json"],
         "evil": [f"{folder}/evil.json"],
+        "long": [f"{folder}/long.json"],
         "rigid": [f"{mesh}/dowel.json", "--model", "rigid", "--modes", "0"],
         "no_hit": [f"{mesh}/dowel.json", "--swing-speed", "-50 rad/s", "--pitch", "1 m/s"],
     }
+    # As thick for its length as the dowel, six times as long.
+    long = json.load(open(f"{ROOT}/meshes/dowel.json"))
+    for key in ("x", "radius"):
+        long["profile"][key] = [6 * value for value in long["profile"][key]]
+    with open(f"{folder}/long.json", "w") as file:
+        json.dump(long, file)
     made = {}
     for name, args in asked.items():
         made[name] = f"{folder}/{name}.html"
@@ -258,6 +265,17 @@ def scrub(browser, player):
     check(named, f"{player}: the slider does not say what it shows")
 
 
+def marks(browser, path):
+    """On a bat of any length marks are as large on the screen, and what is drawn is on the stage."""
+    browser.open(path, calm=True)
+    for player, mark in (("modes-player", ".node"), ("moment-player", ".force")):
+        seen = browser.run(f"""(() => {{ const stage = document.querySelector('#{player} .stage');
+          const s = stage.getBoundingClientRect();
+          const all = [...stage.querySelectorAll('{mark}')].map(e => e.getBoundingClientRect());
+          return all.map(b => [b.width / s.width, b.top >= s.top && b.bottom <= s.bottom && b.left >= s.left]); }})()""")
+        check(seen and all(0.01 < share < 0.03 and within for share, within in seen), f"{player}: marks are {seen}")
+
+
 def choosing(browser, path):
     """Arrows choose another mode and another hit."""
     browser.open(path, calm=True)
@@ -357,6 +375,8 @@ def main():
             browser.open(pages["evil"])
             check(browser.run("document.title").startswith("</script>"), "a name changed the page")
             moving(browser, pages["r161"])
+            for name in ("r161", "long"):
+                marks(browser, pages[name])
             choosing(browser, pages["r161"])
             flight(browser, pages["r161"])
             hair_lines(browser, pages["r161"])

@@ -4,6 +4,8 @@
 pub mod diagnostic;
 pub mod commands;
 pub mod folder;
+#[cfg(feature = "png")]
+pub mod pictures;
 
 use std::f64::consts::{PI, TAU};
 
