@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::error::{Complaint, Error, Excerpt, Place, Result};
-use crate::report::file;
+use crate::file;
 
 /// The text of one input file, a byte-order mark removed.
 pub(crate) struct Document {

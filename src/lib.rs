@@ -189,6 +189,7 @@
 #![allow(clippy::needless_range_loop)]
 
 pub mod error;
+pub mod file;
 mod mistakes;
 pub mod telling;
 pub mod units;

@@ -368,7 +368,8 @@ fn a_bat_that_only_moves_on_its_supports_has_no_table_of_bending_shapes() {
     let folder = Folder::new("measured-rigid");
     folder.write("bat.json", BAT);
     folder.write("m.csv", "x_m,a,b\nfrequency_hz,2,3\n0,1,-1\n0.4,1,0\n0.8,1,1\n");
-    let text = folder.text(&["compare", "bat.json", "--measured", "m.csv", "--plots", "p"]);
+    let text =
+        folder.text(&["compare", "bat.json", "--measured", "m.csv", "--plots", "p", "--quiet"]);
     assert_eq!(text.matches("rigid on its supports, 0.0 % off a straight line").count(), 2);
     assert!(!text.contains("\nShapes ") && !text.contains("MAC, computed"), "{text}");
 }
@@ -477,6 +478,11 @@ fn frequencies_alone_are_paired_by_their_number() {
     assert_eq!(json["unpaired_computed"][0], 2);
     let text = folder.text(&args);
     assert!(text.contains("paired by their numbers") && !text.contains("MAC, computed"));
+    // There are no shapes to draw.
+    let output = folder.run(&[&args[..], &["--plots", "drawn"]].concat());
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && told.contains("no pictures were written"), "{told}");
+    assert!(!folder.0.join("drawn").exists());
     folder.write("f.csv", "mode,frequency_hz\n1,240\n12,15000\n");
     let text = folder.text(&[&args[..], &["-n", "4"]].concat());
     assert!(text.contains("mode 12 was not computed"), "{text}");

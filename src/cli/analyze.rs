@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use sweetspot::analysis::{Analysis, Proof, Task};
 use sweetspot::error::{Error, Result};
+use sweetspot::file;
 use sweetspot::page;
 use sweetspot::page::content::Report;
 use sweetspot::page::inputs::Input;
@@ -12,7 +13,7 @@ use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::sketch::{self, Row};
 use sweetspot::report::text::{self, Units};
-use sweetspot::report::{advice, file, hit_json, hit_text};
+use sweetspot::report::{advice, hit_json, hit_text};
 use sweetspot::solve::Request;
 
 use crate::cli::common::{

@@ -9,7 +9,7 @@ use sweetspot::bat::Bat;
 use sweetspot::choice;
 use sweetspot::collision::hit::Impact;
 use sweetspot::error::{Complaint, Error, Result};
-use sweetspot::report::file;
+use sweetspot::file;
 use sweetspot::report::sketch::{self, Glyphs, Row};
 use sweetspot::report::text::Units;
 use sweetspot::solve::{self, Request, Solution, Solver};

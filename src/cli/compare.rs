@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use sweetspot::comparison::contender::Terms;
 use sweetspot::comparison::table::{Comparison, Entry};
 use sweetspot::error::{Error, Result};
+use sweetspot::file;
 use sweetspot::measured::place::{End, Told};
 use sweetspot::measured::study::Study;
 use sweetspot::measured_file;
 use sweetspot::plot;
-use sweetspot::report::{self, comparison, comparison_data, file};
+use sweetspot::report::{self, comparison, comparison_data};
 use sweetspot::units::Quantity;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};

@@ -6,7 +6,7 @@ use sweetspot::error::{Error, Result};
 use sweetspot::exchange::modes_file::{self, ModeTable};
 use sweetspot::exchange::uff::{self, Stamp};
 use sweetspot::exchange::{csv, modes_uff, npz, vtu};
-use sweetspot::report::file;
+use sweetspot::file;
 
 use crate::cli::progress::Progress;
 use crate::cli::{Done, printable};

@@ -8,9 +8,10 @@ use sweetspot::bat::Bat;
 use sweetspot::error::{Error, Result};
 use sweetspot::exchange::frf_uff::{self, Measured};
 use sweetspot::exchange::uff::{self, Stamp, six_digits};
+use sweetspot::file;
 use sweetspot::frf::{Frf, Kind, Sample};
+use sweetspot::report::json;
 use sweetspot::report::text::wrapped;
-use sweetspot::report::{file, json};
 use sweetspot::solve::{self, Request};
 use sweetspot::units::{Quantity, inches};
 

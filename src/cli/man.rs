@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Command;
 use clap_mangen::Man;
 use sweetspot::error::{Error, Result, nearest};
-use sweetspot::report::file;
+use sweetspot::file;
 
 use crate::cli::Done;
 

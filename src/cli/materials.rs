@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use sweetspot::error::Result;
+use sweetspot::file;
 use sweetspot::material::{BUILT_IN, BuiltIn};
+use sweetspot::report::json;
 use sweetspot::report::text::{Units, wrapped};
-use sweetspot::report::{file, json};
 
 use crate::cli::value::unit_system;
 use crate::cli::{Done, style};

@@ -34,7 +34,7 @@ use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use sweetspot::error::{Error, Result};
-use sweetspot::report::file;
+use sweetspot::file;
 
 /// What is left to do when a verb is done.
 pub struct Done {

@@ -6,9 +6,10 @@ use sweetspot::bat::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::error::{Error, Result};
 use sweetspot::exchange::npz;
+use sweetspot::file;
 use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{file, sketch, text};
+use sweetspot::report::{sketch, text};
 use sweetspot::solve::Solution;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use sweetspot::bat::Bat;
 use sweetspot::error::{Complaint, Error, Result};
+use sweetspot::file;
 use sweetspot::report::sketch::{self, Places, Row};
+use sweetspot::report::text;
 use sweetspot::report::text::{Units, wrapped};
-use sweetspot::report::{file, text};
 use sweetspot::units::inches;
 use sweetspot::validation::bundled_bat;
 

@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::error::{Error, Result};
+use sweetspot::file;
 use sweetspot::plot::{front, sets};
-use sweetspot::report::{file, trade, u_curve};
+use sweetspot::report::{trade, u_curve};
 use sweetspot::solve::Request;
 use sweetspot::trade::measure::measure;
 use sweetspot::trade::reference::Reference;

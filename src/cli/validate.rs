@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use sweetspot::error::{Complaint, Error, Result};
+use sweetspot::file;
 use sweetspot::hit_figure;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
-use sweetspot::report::file;
 use sweetspot::report::text::wrapped;
 use sweetspot::telling::Tell;
 use sweetspot::validation::{CASES, Row, run as run_case};

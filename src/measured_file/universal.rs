@@ -11,10 +11,10 @@ use faer::c64;
 
 use crate::error::{Error, Result};
 use crate::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Universal, six_digits};
+use crate::file;
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured_file::FEWEST;
 use crate::measured_file::direction::{Vector, axis, dot, named, normals, positive};
-use crate::report::file;
 
 /// What a node does.
 type Motion = [c64; 3];

@@ -5,8 +5,8 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::file;
 use crate::plot::svg::{BEGINNING, Svg};
-use crate::report::file;
 
 /// One picture.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,8 @@
 //! How is everything that was asked for printed and written?
 //!
 //! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents;
-//! [`file::write`] writes a file that is whole or not there. Nothing here computes physics.
+//! nothing here computes physics.
 
-pub mod file;
 pub mod xml;
 pub mod curve;
 pub mod resolved;

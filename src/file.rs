@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written beside and renamed, and never over what was read.
+//! How do files stay whole? They are written beside and renamed, and never over what was read.
 
 use std::fs;
 use std::io::Write;
