@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 /// What was read and written since [`keep`]; None before it.
 static KEPT: Mutex<Option<Vec<PathBuf>>> = Mutex::new(None);
 
-/// From now on [`write`] replaces no file that was read or written: for a program, whose user may
+/// From now on [`write()`] replaces no file that was read or written: for a program, whose user may
 /// give the same name to two files by mistake.
 pub fn keep() {
     locked(&KEPT).get_or_insert_default();
