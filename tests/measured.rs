@@ -374,6 +374,32 @@ fn a_bat_that_only_moves_on_its_supports_has_no_table_of_bending_shapes() {
     assert!(!text.contains("\nShapes ") && !text.contains("MAC, computed"), "{text}");
 }
 
+/// A laboratory's file may have any number of modes and points; a picture has as many as paper shows.
+#[test]
+fn pictures_of_very_many_modes_and_points_are_no_larger_than_paper_needs() {
+    let folder = Folder::new("measured-many");
+    folder.write("bat.json", BAT);
+    let table = |modes: usize, points: usize| {
+        let row = |first: String, of: &dyn Fn(usize) -> f64| {
+            (0..modes).fold(first, |line, k| format!("{line},{}", of(k))) + "\n"
+        };
+        let names = (0..modes).fold("x_m".to_owned(), |line, k| format!("{line},m{k}")) + "\n";
+        let frequencies = row("frequency_hz".into(), &|k| 100.0 + k as f64);
+        let at = |i: usize| 0.8 * i as f64 / (points - 1) as f64;
+        let rows = (0..points).map(|i| row(at(i).to_string(), &|k| ((i * (k + 3)) as f64).cos()));
+        names + &frequencies + &rows.collect::<String>()
+    };
+    for (modes, points) in [(300, 5), (2, 20_000)] {
+        folder.write("m.csv", table(modes, points));
+        let drawn = format!("p{modes}");
+        folder.text(&["compare", "bat.json", "--measured", "m.csv", "--plots", &drawn]);
+        for name in folder.read_names(&drawn) {
+            let size = std::fs::metadata(folder.0.join(&drawn).join(&name)).unwrap().len();
+            assert!(size < 3_000_000, "{modes} {points} {name} {size}");
+        }
+    }
+}
+
 /// Millimetres taken for metres; and an origin from which the points fit on the bat no way.
 #[test]
 fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {

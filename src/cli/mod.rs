@@ -35,6 +35,7 @@ use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use sweetspot::error::{Error, Result};
 use sweetspot::file;
+use sweetspot::report::xml::is_bidi;
 
 /// What is left to do when a verb is done.
 pub struct Done {
@@ -168,8 +169,7 @@ fn given(matches: &clap::ArgMatches, name: &str) -> bool {
 /// One line that does nothing to a terminal, whatever a file is called or holds.
 pub fn printable(text: &str) -> String {
     // Marks that turn the direction of writing could show a line as another one.
-    let turns = |c| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let acts = |c: char| c.is_control() || turns(c) || matches!(c, '\u{2028}' | '\u{2029}');
+    let acts = |c: char| c.is_control() || is_bidi(c) || matches!(c, '\u{2028}' | '\u{2029}');
     let escaped = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
     text.chars().map(escaped).collect()
 }

@@ -1,6 +1,6 @@
 //! Text that a page shows as it is, whatever it holds.
 
-use crate::report::xml::is_bidi;
+use crate::report::xml::{is_bidi, put};
 
 /// For HTML, between tags and within quoted attributes. Characters that no page may hold become
 /// the sign for what cannot be shown.
@@ -8,15 +8,10 @@ pub fn html(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + text.len() / 8);
     for c in text.chars() {
         match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            '\'' => out += "&#39;",
             '\n' | '\t' => out.push(c),
             '\r' => {}
             c if c.is_control() || is_bidi(c) => out.push('\u{fffd}'),
-            c => out.push(c),
+            c => put(&mut out, c),
         }
     }
     out

@@ -32,9 +32,14 @@ pub const FULL: f64 = 0.5;
 /// Width of a cell (px) at most, its height, and what the scale takes on the right.
 const CELL: [f64; 2] = [74.0, 30.0];
 const SCALE: f64 = 90.0;
+/// Rows and columns that are drawn; in more of them nothing is found.
+const MOST: usize = 100;
 
-/// The map, as wide as it needs and no wider than the others.
+/// The map, as wide as it needs and no wider than the others; of a very large one its beginning.
 pub fn picture(matrix: &Matrix) -> Picture {
+    if matrix.rows.len().max(matrix.columns.len()) > MOST {
+        return picture(&beginning(matrix));
+    }
     let names = matrix.rows.iter().map(|name| width(name, LABEL)).fold(0.0, f64::max).min(200.0);
     let left = 44.0 + names;
     let count = matrix.columns.len().max(1) as f64;
@@ -61,6 +66,17 @@ pub fn picture(matrix: &Matrix) -> Picture {
     }
     scale(&mut svg, matrix, [right + 26.0, top]);
     Picture::new(&matrix.name, &matrix.title, &described(matrix), svg)
+}
+
+fn beginning(matrix: &Matrix) -> Matrix {
+    let row = |row: &Vec<Option<f64>>| row.iter().take(MOST).copied().collect();
+    Matrix {
+        second: format!("{}; the first {MOST}", matrix.second),
+        rows: matrix.rows.iter().take(MOST).cloned().collect(),
+        columns: matrix.columns.iter().take(MOST).cloned().collect(),
+        values: matrix.values.iter().take(MOST).map(row).collect(),
+        ..matrix.clone()
+    }
 }
 
 /// The columns' names, or as many of them as there is room for: every second, fifth or tenth.

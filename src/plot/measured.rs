@@ -18,8 +18,9 @@ const ROW: f64 = 76.0;
 const BETWEEN: f64 = 10.0;
 /// Right of the frame, where a mode is named.
 const RIGHT: f64 = 150.0;
-/// Points of a computed curve.
+/// Points of a computed curve, and measured ones that are drawn at most.
 const POINTS: usize = 160;
+const DRAWN: usize = 400;
 
 /// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is, or no
 /// measured mode bends.
@@ -136,6 +137,8 @@ fn series(study: &Study, shapes: &Shapes, pair: &Pair) -> [Series; 2] {
     let computed = (0..=POINTS).map(|k| Some([CM * at(k), shape.deflection(at(k))])).collect();
     let scale = pair.scale.filter(|scale| scale.norm() > 0.0);
     let values = shapes.placed.x.iter().zip(&shapes.placed.shapes[pair.measured]);
+    // Of very many, points beside each other are one on paper.
+    let values = values.step_by(shapes.placed.x.len().div_ceil(DRAWN));
     let measured = values.map(|(x, w)| Some([CM * x, (w / scale?).re])).collect();
     let points = Series::curve("measured", 1, measured).units("cm", "");
     let points = Series { joined: false, mark: Some(MARKS[0]), ..points };

@@ -6,16 +6,24 @@ pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
             c if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') => out.push(' '),
             c if is_bidi(c) => out.push(char::REPLACEMENT_CHARACTER),
-            c => out.push(c),
+            c => put(&mut out, c),
         }
     }
     out
+}
+
+/// Adds a character, by its name if it could be taken for the end of a text or of a value in quotes.
+pub fn put(out: &mut String, c: char) {
+    match c {
+        '&' => *out += "&amp;",
+        '<' => *out += "&lt;",
+        '>' => *out += "&gt;",
+        '"' => *out += "&quot;",
+        '\'' => *out += "&#39;",
+        c => out.push(c),
+    }
 }
 
 /// Marks that turn the direction of what follows, and could make a name or a number read as another.
