@@ -8,6 +8,7 @@ pub fn html(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + text.len() / 8);
     for c in text.chars() {
         match c {
+            '\'' => out += "&#39;",
             '\n' | '\t' => out.push(c),
             '\r' => {}
             c if c.is_control() || is_bidi(c) => out.push('\u{fffd}'),

@@ -21,7 +21,6 @@ pub fn put(out: &mut String, c: char) {
         '<' => *out += "&lt;",
         '>' => *out += "&gt;",
         '"' => *out += "&quot;",
-        '\'' => *out += "&#39;",
         c => out.push(c),
     }
 }
