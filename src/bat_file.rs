@@ -1,6 +1,8 @@
 //! How a bat is written down: the `sweetspot-bat/1` file, read and checked.
 
-use std::path::Path;
+use std::cell::Cell;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
 
 use crate::bat::{Bat, Weighed};
 use crate::document::Document;
@@ -61,7 +63,7 @@ impl Bat {
         Self::with_text(path).map(|(bat, _)| bat)
     }
 
-    /// The same, and what the file says: a pipe can be read only once.
+    /// The bat of a file, and what the file says: a pipe can be read only once.
     ///
     /// # Errors
     ///
@@ -69,8 +71,22 @@ impl Bat {
     pub fn with_text(path: impl AsRef<Path>) -> Result<(Self, String)> {
         let path = path.as_ref();
         let document = Document::read(path)?;
-        let bat = from_document(&document, path.parent().unwrap_or(Path::new("")))?;
+        let bat = from_document(&document, &Folder::of(path, None))?;
         Ok((bat, document.text))
+    }
+
+    /// Reads a bat file that a person has named, whose `csv` may lie anywhere: where it is outside of
+    /// the bat file's folder, that is to be said.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn named_by_a_person(path: impl AsRef<Path>) -> Result<Named> {
+        let path = path.as_ref();
+        let document = Document::read(path)?;
+        let outside = Cell::new(None);
+        let bat = from_document(&document, &Folder::of(path, Some(&outside)))?;
+        Ok(Named { bat, text: document.text, columns_outside: outside.into_inner() })
     }
 
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
@@ -79,11 +95,50 @@ impl Bat {
     ///
     /// As [`Self::from_file`].
     pub fn from_text(file: &str, text: &str, folder: &Path) -> Result<Self> {
-        from_document(&Document::new(file.to_owned(), text), folder)
+        from_document(&Document::new(file.to_owned(), text), &Folder { path: folder, left: None })
     }
 }
 
-fn from_document(document: &Document, folder: &Path) -> Result<Bat> {
+/// A bat file that a person has named.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// The bat.
+    pub bat: Bat,
+    /// What its file says.
+    pub text: String,
+    /// The CSV file that it was read from, where that is outside of the bat file's folder.
+    pub columns_outside: Option<PathBuf>,
+}
+
+/// The folder of a bat file, in which its `csv` is sought.
+struct Folder<'a> {
+    path: &'a Path,
+    /// Where to note a file outside of it; without such a place there must be none.
+    left: Option<&'a Cell<Option<PathBuf>>>,
+}
+
+impl<'a> Folder<'a> {
+    fn of(file: &'a Path, left: Option<&'a Cell<Option<PathBuf>>>) -> Self {
+        Self { path: file.parent().unwrap_or(Path::new("")), left }
+    }
+
+    /// The path of a file by its name in a bat file, if it may be read.
+    fn find(&self, name: &str) -> Option<PathBuf> {
+        let path = self.path.join(name);
+        let folder = if self.path == Path::new("") { Path::new(".") } else { self.path };
+        // Links are followed; a file that cannot be found is judged by its name.
+        let inside = match (fs::canonicalize(folder), fs::canonicalize(&path)) {
+            (Ok(folder), Ok(file)) => file.starts_with(folder),
+            _ => Path::new(name).components().all(|part| matches!(part, Component::Normal(_))),
+        };
+        if !inside {
+            self.left?.set(Some(path.clone()));
+        }
+        Some(path)
+    }
+}
+
+fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let root = Node::root(document)?.members()?;
     // Before the keys are looked at: another format may have others.
     root.check_format("sweetspot-bat/1")?;
@@ -140,7 +195,7 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
 }
 
 /// The profile, if there is nothing wrong with it but its keys.
-fn profile(node: &Node, folder: &Path, mistakes: &mut Mistakes) -> Option<Profile> {
+fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Profile> {
     let object = node.object(PROFILE_KEYS, mistakes);
     let object = mistakes.some(object)?;
     let from_tip = object.get("measured_from");
@@ -196,7 +251,7 @@ fn formula_piece(node: &Node) -> Result<FormulaPiece> {
 }
 
 /// Columns of stations, in a `profile` object itself or in the CSV file that it names.
-fn columns(object: Object, folder: &Path) -> Result<Profile> {
+fn columns(object: Object, folder: &Folder) -> Result<Profile> {
     let mut mistakes = Mistakes::default();
     let unit = match object.get("unit") {
         Some(node) => node.string().and_then(|unit| {
@@ -226,7 +281,7 @@ fn columns(object: Object, folder: &Path) -> Result<Profile> {
 }
 
 /// The columns that a `profile` object has, or the CSV file that it names.
-fn table<'a>(object: Object<'a>, folder: &Path, unit: (&str, f64)) -> Result<Table<'a>> {
+fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<Table<'a>> {
     let Some(node) = object.get("csv") else { return Table::from_json(object, unit) };
     let mut mistakes = Mistakes::default();
     let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
@@ -237,7 +292,11 @@ fn table<'a>(object: Object<'a>, folder: &Path, unit: (&str, f64)) -> Result<Tab
         }
     }
     mistakes.and(node.string().and_then(|name| {
-        let path = folder.join(name);
+        let path = folder.find(&name).ok_or_else(|| {
+            let expected = "a file in the folder of this one, or below";
+            let hint = "the command line also reads others, of a bat file named there";
+            node.complain(Complaint::new("", node.shown(), expected).hinted(hint))
+        })?;
         Table::from_csv(&path, unit.1).map_err(|error| match error {
             Error::Read { source, .. } => node.error(
                 format!("{}, which cannot be read ({source})", path.display()),

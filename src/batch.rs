@@ -9,8 +9,6 @@
 //! tolerance or a node by its own account is planned and solved on its own; so are all where the
 //! first is such a bat. Once warm nothing is allocated for the others.
 
-use rayon::prelude::*;
-
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Depth;
@@ -25,6 +23,7 @@ use crate::profile::{Piece, Radii};
 use crate::real::{Over, Real};
 use crate::solve::{Request, Solver, solve, stop_at, wanted};
 use crate::theory::Theory;
+use crate::threads;
 
 /// The modes of one bat of many. The slices hold until the next bat.
 #[derive(Debug, Clone, Copy)]
@@ -116,12 +115,14 @@ pub fn all<T: Send>(
     read: impl Fn(usize, Result<Found<'_>>) -> T + Sync,
 ) -> Vec<T> {
     const SHARE: usize = 256;
-    let share = |(k, bats): (usize, &[Bat])| {
+    let shares: Vec<&[Bat]> = bats.chunks(SHARE).collect();
+    let share = |k: usize| {
+        let bats = shares[k];
         let mut results = Vec::with_capacity(bats.len());
         each(bats, request, way, |i, found| results.push(read(k * SHARE + i, found)));
         results
     };
-    bats.par_chunks(SHARE).enumerate().flat_map_iter(share).collect()
+    threads::map(shares.len(), share).into_iter().flatten().collect()
 }
 
 type Visit<'a> = &'a mut dyn FnMut(usize, Result<Found<'_>>);

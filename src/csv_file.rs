@@ -145,8 +145,10 @@ fn scales(
     if let Some(complaint) = not_by_commas(names) {
         return Err(document.error(line(&document.text, header), complaint));
     }
+    /// There are fewer keys, so that a mistake is among so many columns if there are more.
+    const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
-    mistakes::all(names.iter().enumerate().map(|(k, name)| {
+    mistakes::all(names.iter().enumerate().take(LOOKED_AT).map(|(k, name)| {
         let wrong = |complaint| document.error(cell(&document.text, header, k), complaint);
         let (key, scale) = column(name, columns).map_err(wrong)?;
         if seen.contains(&key) {

@@ -6,7 +6,7 @@
 //! The same bits whatever the vectors and in every lane: nothing is added in another order, and no
 //! product is fused with a sum.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
@@ -15,7 +15,7 @@ use crate::beam::statics::{Statics, View};
 use crate::beam::sweep::{Loads, Rigid};
 use crate::eigen::lanczos::{Lanczos, Wanted};
 use crate::error::Result;
-use crate::lanes::{Lanes, WIDTH};
+use crate::lanes::{Lanes, WIDTH, arch};
 use crate::real::{Over, Real};
 use crate::theory::Theory;
 
@@ -56,7 +56,7 @@ where
 
     /// Assembles the bats, one per lane, on meshes of one pattern.
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
-        Arch::new().dispatch(Assembly { statics: &mut self.statics, bats, meshes });
+        arch().dispatch(Assembly { statics: &mut self.statics, bats, meshes });
     }
 
     /// Finds the `count` slowest motions to that residual.
@@ -98,7 +98,7 @@ where
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
         let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
-            Arch::new().dispatch(Start { statics, count: wanted.count, next });
+            arch().dispatch(Start { statics, count: wanted.count, next });
         };
         self.run(wanted, &[], start)
     }
@@ -134,7 +134,7 @@ where
                 &all
             }
         };
-        let arch = Arch::new();
+        let arch = arch();
         arch.dispatch(Iteration {
             lanczos,
             dimension: statics.dimension(),
@@ -170,10 +170,10 @@ where
     fn look_closely(&mut self, value: Option<Lanes>, depth: Depth) {
         let Self { statics, motions, applied, strains, .. } = self;
         let known = value.is_some();
-        Arch::new().dispatch(Inertia { statics, motions, strains, known, applied });
+        arch().dispatch(Inertia { statics, motions, strains, known, applied });
         let cell = |k: usize| statics.cell(k);
         let (view, rigid) = (statics.view(&cell), applied.rigid);
-        Arch::new().dispatch(Look { view, rigid, motions, strains, value, depth });
+        arch().dispatch(Look { view, rigid, motions, strains, value, depth });
     }
 
     /// Strains side by side; the last motion again where there are no more.
@@ -226,7 +226,7 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
 
     /// `y = A q`; `loads` is scratch space.
     pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Loads<f64, W>) {
-        Arch::new().dispatch(Apply { statics: &self.statics, q, y, loads });
+        arch().dispatch(Apply { statics: &self.statics, q, y, loads });
     }
 
     /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].

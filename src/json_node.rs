@@ -16,6 +16,9 @@ use crate::error::{Complaint, Error, Result, nearest, shortened};
 use crate::mistakes::{self, Mistakes};
 use crate::units::{self, Quantity};
 
+/// The most members of an object that are looked at one by one: there are fewer keys by far.
+const MOST_MEMBERS: usize = 1000;
+
 /// One JSON value and where it stands.
 #[derive(Clone)]
 pub(crate) struct Node<'a> {
@@ -136,6 +139,10 @@ impl<'a> Node<'a> {
                 if self.is_object() { format!("broken JSON, {said}") } else { self.shown() };
             self.error(found, "an object { … }")
         })?;
+        if entries.0.len() > MOST_MEMBERS {
+            let found = format!("an object of {} members", entries.0.len());
+            return Err(self.error(found, format!("at most {MOST_MEMBERS}")));
+        }
         let member = |(key, raw): (String, &'a RawValue)| {
             let shown = shortened(&key, 40);
             let path = if self.path.is_empty() { shown } else { format!("{}.{shown}", self.path) };

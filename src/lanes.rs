@@ -2,16 +2,33 @@
 //!
 //! [`Lanes`] holds as many numbers as a vector of the machine.
 //!
-//! Plain loops over arrays, which the compiler turns into vector instructions;
-//! [`crate::eigenpairs`] has pulp choose the widest that the machine knows.
+//! Plain loops over arrays, which the compiler turns into vector instructions; pulp chooses the
+//! widest that the machine knows. The bits of an answer do not depend on that choice.
 
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use pulp::Arch;
 
 use crate::real::{Over, Real};
 
 /// Bats or modes side by side: two vectors of AVX2, or four of the oldest machines.
 pub const WIDTH: usize = 8;
+
+/// Whether vectors beyond those of every machine are left unused.
+static PLAIN: AtomicBool = AtomicBool::new(false);
+
+/// Leaves vectors beyond those of every machine unused from now on, in the whole process: for a test
+/// that answers have equal bits on all machines.
+pub fn leave_wide_vectors_unused() {
+    PLAIN.store(true, Ordering::Relaxed);
+}
+
+/// The widest vectors to use on this machine.
+pub(crate) fn arch() -> Arch {
+    if PLAIN.load(Ordering::Relaxed) { Arch::Scalar } else { Arch::new() }
+}
 
 /// One number for each of several bats or modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

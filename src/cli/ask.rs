@@ -1,11 +1,16 @@
 //! Questions to a person with a bat, a ruler, calipers and a scale.
 
-use std::io::{BufRead, Write};
+use std::io::{BufRead, Read as _, Write};
 
 use sweetspot::error::{Complaint, Error, Result};
 use sweetspot::material::BUILT_IN;
 use sweetspot::report::text::wrapped;
 use sweetspot::units::{self, Quantity, inches};
+
+/// A person gives up sooner, and a program that answers without end is stopped.
+const MOST_TRIES: usize = 50;
+/// The longest line that is read at once (bytes).
+const LONGEST: u64 = 1 << 16;
 
 /// Whoever answers, line by line; questions go to standard error.
 pub struct Dialogue<R> {
@@ -30,7 +35,7 @@ impl<R: BufRead> Dialogue<R> {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] at the end of the answers.
+    /// [`Error::Value`] at the end of the answers, or after too many wrong ones.
     pub fn ask<T>(
         &mut self,
         question: &str,
@@ -39,11 +44,11 @@ impl<R: BufRead> Dialogue<R> {
     ) -> Result<T> {
         let hint = usual.filter(|usual| !usual.is_empty());
         let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
-        loop {
+        for _ in 0..MOST_TRIES {
             let _ = write!(std::io::stderr(), "{question}{hint}: ");
             let mut line = String::new();
             let failed = |source| Error::Read { path: "standard input".into(), source };
-            if self.answers.read_line(&mut line).map_err(failed)? == 0 {
+            if (&mut self.answers).take(LONGEST).read_line(&mut line).map_err(failed)? == 0 {
                 let _ = writeln!(std::io::stderr());
                 let expected = "an answer; nothing was written";
                 return Err(Error::value(question.trim(), "the end of the answers", expected));
@@ -57,6 +62,8 @@ impl<R: BufRead> Dialogue<R> {
                 Err(complaint) => self.say(wrapped(&format!("  {complaint}"), 2).trim_end()),
             }
         }
+        let found = format!("{MOST_TRIES} wrong answers, one after the other");
+        Err(Error::value(question.trim(), found, "an answer; nothing was written"))
     }
 
     /// Places and diameters from knob to tip, in `unit`, for a bat so long in it.

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sweetspot::bat::Bat;
+use sweetspot::bat_file::Named;
 use sweetspot::choice;
 use sweetspot::collision::hit::Impact;
 use sweetspot::error::{Complaint, Error, Result};
@@ -304,8 +305,12 @@ pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
 
 /// The same, and what its file says.
 pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
-    let (bat, text) = Bat::with_text(path)?;
+    let Named { bat, text, columns_outside } = Bat::named_by_a_person(path)?;
     let file = path.display();
+    if let Some(columns) = columns_outside {
+        let columns = columns.display();
+        warn(&format!("note: {file} is of {columns}, which is outside of its folder"), quiet);
+    }
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok((bat, text))
 }

@@ -13,6 +13,7 @@ mod extremes_table;
 mod frf;
 mod help;
 mod hit;
+mod licences;
 mod man;
 mod materials;
 mod modes;
@@ -23,12 +24,14 @@ mod promise_table;
 mod ring;
 mod scene;
 mod schema;
+mod stop;
 pub mod style;
 mod trade;
 mod validate;
 mod value;
 
 use std::ffi::OsString;
+use std::io::IsTerminal;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
@@ -83,7 +86,8 @@ Start here:
       what a verb answers, with examples
 
 Exit codes: 0 done; 1 a check failed; 2 the input or the command line is wrong;
-3 the asked accuracy could not be reached (the best answer, if any, is still given).";
+3 the asked accuracy could not be reached (the best answer, if any, is still given);
+ended by a signal: 128 and its number.";
 
 #[derive(Subcommand)]
 enum Verb {
@@ -102,16 +106,21 @@ enum Verb {
     New(new::Args),
     Man(man::Args),
     Completions(completions::Args),
+    #[command(alias = "licenses")]
+    Licences(licences::Args),
 }
 
 /// Verbs of the trade that this version does not know yet.
 const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
 
-/// Parses the command line and runs the verb. Help, version and wrong usage end the program here.
+/// Parses the command line and runs the verb. Wrong usage ends the program here.
 pub fn run() -> Result<Done> {
     refuse_later(std::env::args_os().nth(1))?;
-    let verb = parse().verb;
-    stop_cleanly();
+    let verb = match parse() {
+        Ok(cli) => cli.verb,
+        Err(said) => return say(&said),
+    };
+    stop::cleanly();
     file::keep();
     match verb {
         Verb::Analyze(args) => analyze::run(&args),
@@ -129,35 +138,33 @@ pub fn run() -> Result<Done> {
         Verb::New(args) => new::run(&args),
         Verb::Man(args) => man::run(&args, Cli::command()),
         Verb::Completions(args) => completions::run(&args, Cli::command()),
+        Verb::Licences(args) => licences::run(&args),
     }
 }
 
-/// The exit code of a program that was interrupted, as shells count it.
-const INTERRUPTED: i32 = 130;
-
-/// On Ctrl-C no half file stays, and no half line on the terminal.
-fn stop_cleanly() {
-    let handler = || {
-        file::abandon();
-        progress::clear();
-        std::process::exit(INTERRUPTED);
-    };
-    // Without a handler the program stops all the same, and may leave a part beside a file.
-    let _ = ctrlc::set_handler(handler);
-}
-
-/// The command line. What sets the scene of a hit is for `ring --hit` alone in that verb.
-fn parse() -> Cli {
+/// The command line, or what is to be said in its place. What sets the scene of a hit is for
+/// `ring --hit` alone in that verb.
+fn parse() -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = help::fitted(Cli::command()).get_matches();
+    let matches = help::fitted(Cli::command()).try_get_matches()?;
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
         if let Some(name) = stray.and_then(clap::Arg::get_long) {
             let text = format!("--{name} sets the scene of a hit: add --hit X, or leave it out");
-            Cli::command().error(ErrorKind::MissingRequiredArgument, text).exit();
+            return Err(Cli::command().error(ErrorKind::MissingRequiredArgument, text));
         }
     }
-    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    Cli::from_arg_matches(&matches)
+}
+
+/// Help and version, which are results as any other; wrong usage ends the program.
+fn say(said: &clap::Error) -> Result<Done> {
+    if said.use_stderr() {
+        said.exit();
+    }
+    let coloured = style::coloured(std::io::stdout().is_terminal());
+    let text = said.render();
+    Ok(Done::new(if coloured { text.ansi().to_string() } else { text.to_string() }, 0))
 }
 
 /// Whether an option stands on the command line.

@@ -3,7 +3,7 @@
 use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread::JoinHandle;
+use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -37,14 +37,20 @@ impl Progress {
         bar.set_message(what.to_owned());
         let (stop, stopped) = channel();
         let shown = bar.clone();
-        let thread = std::thread::spawn(move || {
-            if stopped.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                shown.set_draw_target(ProgressDrawTarget::stderr());
-                shown.enable_steady_tick(TICK);
-                *last() = Some(shown);
+        let wait = move || {
+            let mut wait = PATIENCE;
+            while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                if wait == PATIENCE {
+                    shown.set_draw_target(ProgressDrawTarget::stderr());
+                    *last() = Some(shown.clone());
+                }
+                shown.tick();
+                wait = TICK;
             }
-        });
-        Self { bar: Some((bar, Waiting { stop: Some(stop), thread: Some(thread) })) }
+        };
+        // Where no thread can be started nothing is shown.
+        let thread = Builder::new().spawn(wait).ok();
+        Self { bar: Some((bar, Waiting { stop: Some(stop), thread })) }
     }
 
     /// So much of the work is done, 0 to 1, and this comes next.

@@ -26,13 +26,14 @@
 //! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
 use std::sync::OnceLock;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use crate::collision::collocation::{LANES, Lobatto, POINTS, Pair};
 use crate::collision::events::{CLOSED, Event, Stop};
 use crate::collision::force_law::{ForceLaw, Top};
 use crate::collision::step::{Course, Piece, Step, Table};
 use crate::collision::touch::{Felt, State, Touch};
+use crate::lanes::arch;
 
 /// What a meeting of ball and bat left behind.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -121,7 +122,7 @@ impl Collider {
     /// are gains, in steps whose force is off by about `accuracy`, relative.
     pub fn meet(&self, felt: &Felt, law: &ForceLaw, speed: f64, accuracy: f64) -> Encounter {
         let history = None;
-        Arch::new().dispatch(Meeting { collider: self, felt, law, speed, accuracy, history })
+        arch().dispatch(Meeting { collider: self, felt, law, speed, accuracy, history })
     }
 
     /// The same, and the force in time, piece by piece.
@@ -135,7 +136,7 @@ impl Collider {
         let mut pieces = Vec::new();
         let history = Some(&mut pieces);
         let meeting = Meeting { collider: self, felt, law, speed, accuracy, history };
-        (Arch::new().dispatch(meeting), pieces)
+        (arch().dispatch(meeting), pieces)
     }
 }
 

@@ -2,14 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use crate::bat::Bat;
 use crate::collision::hit::{Effort, Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::error::Result;
 use crate::solve::{Request, Solution, solve};
 use crate::telling::{Tell, nobody};
+use crate::threads;
 
 /// The impacts along a bat.
 #[derive(Debug, Clone)]
@@ -143,13 +142,12 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
         impact
     };
     let Some(few) = (2..=MOST).rev().find(close) else {
-        return places.par_iter().map(|x| told(hitter.strike(*x))).collect();
+        return threads::map(places.len(), |k| told(hitter.strike(places[k])));
     };
     let last = places.len() - 1;
     let mut chosen: Vec<usize> = (0..last).step_by(few).collect();
     chosen.push(last);
-    let compared: Vec<Impact> =
-        chosen.par_iter().map(|k| told(hitter.strike(places[*k]))).collect();
+    let compared = threads::map(chosen.len(), |k| told(hitter.strike(places[chosen[k]])));
     let strike = |k: usize| {
         let after = chosen.partition_point(|at| *at < k);
         if chosen[after] == k {
@@ -159,7 +157,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
         let error = a.zip(b).map(|(a, b)| a.truncation.max(b.truncation));
         told(hitter.strike_knowing(places[k], error))
     };
-    (0..=last).into_par_iter().map(strike).collect()
+    threads::map(places.len(), strike)
 }
 
 /// How many modes a touch needs for that tolerance, measured on a dowel, a cone and an R161: the

@@ -1,11 +1,10 @@
 //! Where is the sweet spot, by each of its definitions.
 
-use rayon::prelude::*;
-
 use crate::bat::Bat;
 use crate::collision::hit::Scene;
 use crate::collision::hitter::{Glance, Hitter};
 use crate::solve::Solution;
+use crate::threads;
 
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,7 +91,7 @@ pub struct Looked<'a> {
 impl<'a> Looked<'a> {
     /// Looks along that stretch (m).
     pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
-        let seen = (0..=GRID).into_par_iter().map(|k| hitter.glance(place(ends, k))).collect();
+        let seen = threads::map(GRID + 1, |k| hitter.glance(place(ends, k)));
         Self { ends, hitter, seen }
     }
 

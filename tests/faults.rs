@@ -1,0 +1,428 @@
+//! What the program leaves behind when something goes wrong around it: open descriptors, links, locked
+//! folders, limits, signals.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs::{self, File, Permissions};
+use std::io::Read;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use common::folder::Folder;
+use serde_json::Value;
+
+const BAT: &str = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+  "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
+
+/// A folder with a bat in it that anybody may work in.
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    fs::set_permissions(&folder.0, Permissions::from_mode(0o777)).unwrap();
+    folder.write("bat.json", BAT);
+    folder
+}
+
+/// Runs a line of bash in the folder; `$S` is the program.
+fn bash(folder: &Folder, line: &str) -> Output {
+    let mut command = Command::new("bash");
+    command.args(["-c", line]).current_dir(&folder.0).env("S", env!("CARGO_BIN_EXE_sweetspot"));
+    command.output().unwrap()
+}
+
+/// As [`bash`], of a user who may not do everything: root goes by no permissions and no limits.
+fn bash_of_a_user(folder: &Folder, line: &str) -> Output {
+    let root = fs::metadata("/proc/self").map_or(1, |process| process.uid()) == 0;
+    if !root {
+        return bash(folder, line);
+    }
+    // The program itself may lie where nobody else may go.
+    let copy = folder.0.join("sweetspot");
+    fs::copy(env!("CARGO_BIN_EXE_sweetspot"), &copy).unwrap();
+    let mut command = Command::new("setpriv");
+    command.args(["--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c", line]);
+    let output = command.current_dir(&folder.0).env("S", &copy).output().unwrap();
+    fs::remove_file(copy).unwrap();
+    output
+}
+
+fn succeeded(output: &Output) -> String {
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn refused(output: &Output) -> String {
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.starts_with("error: "), "{told}");
+    told
+}
+
+fn is_json(text: &str) -> bool {
+    serde_json::from_str::<Value>(text).is_ok()
+}
+
+#[test]
+fn a_log_that_is_appended_to_keeps_what_it_has() {
+    let folder = folder("log");
+    for out in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"] {
+        if !Path::new(out).exists() && out != "link" {
+            continue;
+        }
+        let _ = symlink("/dev/stdout", folder.0.join("link"));
+        folder.write("log", "before\n");
+        let line = format!("$S modes bat.json --json {out} --quiet >> log; echo after >> log");
+        succeeded(&bash(&folder, &line));
+        let log = folder.read("log");
+        let rest = log.strip_prefix("before\n").expect(out);
+        // The document first, then the table.
+        let end = rest.find("\n}\n").unwrap() + 3;
+        assert!(is_json(&rest[..end]) && rest.ends_with("after\n"), "{out}: {log}");
+        assert_eq!(folder.names(), ["bat.json", "link", "log"]);
+    }
+    assert!(fs::symlink_metadata("/dev/stdout").unwrap().is_symlink());
+}
+
+#[test]
+fn an_open_descriptor_is_written_where_it_stands() {
+    let folder = folder("descriptor");
+    let write = "$S modes bat.json --json /dev/fd/3 --quiet > table";
+    for (open, line) in
+        [("3>>", "exec 3>> out; W"), ("3>", "exec 3> out; echo before >&3; W; echo after >&3")]
+    {
+        folder.write("out", "before\n");
+        succeeded(&bash(&folder, &line.replace('W', write)));
+        let out = folder.read("out");
+        let rest = out.strip_prefix("before\n").unwrap_or_else(|| panic!("{open}: {out}"));
+        let json = rest.strip_suffix("after\n").unwrap_or(rest);
+        assert!(is_json(json) && (open == "3>>" || json != rest), "{open}: {out}");
+    }
+    // A file that has no name any more, and one of another process.
+    succeeded(&bash(&folder, &format!("exec 3<> gone; rm gone; {write}; cat /dev/fd/3 > copy")));
+    let line = "exec 3> theirs; $S modes bat.json --json /proc/$$/fd/3 --quiet > table";
+    succeeded(&bash(&folder, line));
+    assert!(is_json(&folder.read("theirs")));
+    let told = refused(&bash(&folder, "exec 3>&-; $S modes bat.json --json /dev/fd/3"));
+    assert!(told.contains("cannot write /dev/fd/3"), "{told}");
+    assert_eq!(folder.names(), ["bat.json", "copy", "out", "table", "theirs"]);
+}
+
+#[test]
+fn a_process_takes_a_document_or_as_much_of_it_as_it_wants() {
+    let folder = folder("process");
+    let line = "$S modes bat.json --quiet --json >(cat > out; echo > done) > table;
+                until [ -e done ]; do sleep 0.01; done";
+    succeeded(&bash(&folder, line));
+    assert!(is_json(&folder.read("out")));
+    let long = "$S modes bat.json --quiet --shape-points 20000 --json >(head -1 > first) > table";
+    succeeded(&bash(&folder, long));
+}
+
+#[test]
+fn the_file_that_standard_output_goes_to_is_not_replaced() {
+    let folder = folder("both");
+    let told = refused(&bash(&folder, "$S modes bat.json --json out > out"));
+    assert!(told.contains("another name"), "{told}");
+    assert_eq!(folder.read("out"), "");
+}
+
+#[test]
+fn a_link_to_a_file_that_is_not_there_yet_stays_a_link() {
+    let folder = folder("dangling");
+    fs::create_dir(folder.0.join("there")).unwrap();
+    symlink("there/new.json", folder.0.join("a")).unwrap();
+    symlink("a", folder.0.join("b")).unwrap();
+    symlink("loop", folder.0.join("loop")).unwrap();
+    folder.text(&["modes", "bat.json", "--json", "b"]);
+    assert!(is_json(&folder.read("there/new.json")));
+    assert!(fs::symlink_metadata(folder.0.join("b")).unwrap().is_symlink());
+    refused(&folder.run(&["modes", "bat.json", "--json", "loop"]));
+    assert_eq!(folder.names(), ["a", "b", "bat.json", "loop", "there"]);
+}
+
+#[test]
+fn permissions_and_other_names_of_a_file_stay() {
+    let folder = folder("names");
+    let path = |name: &str| folder.0.join(name);
+    for mode in [0o600, 0o640, 0o755, 0o666] {
+        folder.write("out", "old");
+        fs::set_permissions(path("out"), Permissions::from_mode(mode)).unwrap();
+        folder.text(&["modes", "bat.json", "--json", "out"]);
+        assert_eq!(fs::metadata(path("out")).unwrap().mode() & 0o7777, mode);
+    }
+    fs::hard_link(path("out"), path("other")).unwrap();
+    folder.text(&["modes", "bat.json", "-n", "2", "--json", "out"]);
+    assert_eq!(fs::metadata(path("out")).unwrap().nlink(), 2);
+    assert!(is_json(&folder.read("out")) && folder.read("out") == folder.read("other"));
+    // A second name of the bat itself is the bat.
+    fs::hard_link(path("bat.json"), path("alias")).unwrap();
+    refused(&folder.run(&["modes", "bat.json", "--json", "alias"]));
+    assert_eq!(folder.read("alias"), BAT);
+    fs::remove_file(path("other")).unwrap();
+    folder.write("out", "old");
+    fs::set_permissions(path("out"), Permissions::from_mode(0o444)).unwrap();
+    let told = refused(&folder.run(&["modes", "bat.json", "--json", "out"]));
+    assert!(told.contains("read-only"), "{told}");
+    assert_eq!(folder.read("out"), "old");
+}
+
+#[test]
+fn the_owner_of_a_file_stays() {
+    let folder = folder("owner");
+    folder.write("out", "old");
+    let path = folder.0.join("out");
+    let own = fs::metadata(&path).unwrap();
+    if own.uid() == 0 {
+        std::os::unix::fs::chown(&path, Some(65534), Some(65534)).unwrap();
+        folder.text(&["modes", "bat.json", "--json", "out"]);
+        let after = fs::metadata(&path).unwrap();
+        assert_eq!((after.uid(), after.gid()), (65534, 65534));
+        // A file of somebody else that everybody may write to.
+        std::os::unix::fs::chown(&path, Some(0), Some(0)).unwrap();
+        fs::set_permissions(&path, Permissions::from_mode(0o666)).unwrap();
+        succeeded(&bash_of_a_user(&folder, "$S modes bat.json --json out"));
+        assert_eq!(fs::metadata(&path).unwrap().uid(), 0);
+        assert!(is_json(&folder.read("out")));
+    } else {
+        folder.text(&["modes", "bat.json", "--json", "out"]);
+        assert_eq!(fs::metadata(&path).unwrap().uid(), own.uid());
+    }
+}
+
+#[test]
+fn a_file_in_a_locked_folder_is_overwritten_and_a_new_one_refused() {
+    let folder = folder("locked");
+    let locked = folder.0.join("locked");
+    fs::create_dir(&locked).unwrap();
+    folder.write("locked/out", "old ".repeat(100_000));
+    fs::set_permissions(locked.join("out"), Permissions::from_mode(0o666)).unwrap();
+    fs::set_permissions(&locked, Permissions::from_mode(0o555)).unwrap();
+    let line = |out: &str| format!("$S modes bat.json --json locked/{out} > /dev/null");
+    let [done, new] = ["out", "new"].map(|out| bash_of_a_user(&folder, &line(out)));
+    let limit = |size: u32| format!("ulimit -f {size}; {}", line("out"));
+    succeeded(&done);
+    let whole = folder.read("locked/out");
+    // One that cannot be written whole is put back.
+    let long = limit(64).replace("modes bat.json", "modes bat.json --shape-points 5000");
+    let told = refused(&bash_of_a_user(&folder, &long));
+    fs::set_permissions(&locked, Permissions::from_mode(0o755)).unwrap();
+    assert!(told.contains("cannot write locked/out"), "{told}");
+    assert!(is_json(&whole) && folder.read("locked/out") == whole);
+    assert!(refused(&new).contains("cannot write locked/new"));
+    assert_eq!(folder.read_names("locked"), ["out"]);
+}
+
+#[test]
+fn a_planted_part_is_not_written_to() {
+    // No name of a part can be foreseen: two runs of one process number would have had one name.
+    let folder = folder("planted");
+    folder.write("victim", "theirs");
+    let plant = "ln -s victim .out.$$.part; exec $S modes bat.json --json out > /dev/null";
+    succeeded(&bash(&folder, plant));
+    assert_eq!(folder.read("victim"), "theirs");
+    assert!(is_json(&folder.read("out")));
+}
+
+#[test]
+fn names_of_255_bytes_are_names() {
+    let folder = folder("long");
+    let long = "n".repeat(250) + ".json";
+    folder.text(&["modes", "bat.json", "--json", &long]);
+    assert!(is_json(&folder.read(&long)));
+    let longer = "n".repeat(256);
+    assert!(refused(&folder.run(&["modes", "bat.json", "--json", &longer])).contains("too long"));
+}
+
+#[test]
+fn a_limit_on_the_size_of_files_is_an_error_that_leaves_nothing() {
+    let folder = folder("size");
+    folder.write("out", "old");
+    for out in ["out", "new"] {
+        let line = format!("ulimit -f 8; $S modes bat.json --shape-points 5000 --json {out}");
+        let told = refused(&bash(&folder, &line));
+        assert!(told.contains(&format!("cannot write {out}")), "{told}");
+    }
+    let line = "ulimit -f 8; $S modes bat.json --shape-points 5000 --json - > table";
+    assert!(refused(&bash(&folder, line)).contains("standard output"));
+    assert_eq!((folder.read("out"), folder.names().len()), ("old".to_owned(), 3));
+}
+
+#[test]
+fn every_signal_that_ends_a_program_leaves_no_part_and_its_number() {
+    let folder = folder("signals");
+    // The pipe is not read, so that it waits there for ever.
+    let made = Command::new("mkfifo").arg(folder.0.join("pipe")).status().unwrap();
+    assert!(made.success());
+    let before = folder.names();
+    for (name, number) in
+        [("HUP", 1), ("INT", 2), ("QUIT", 3), ("TERM", 15), ("XCPU", 24), ("USR1", 10)]
+    {
+        let number = if cfg!(target_os = "macos") && name == "USR1" { 30 } else { number };
+        let mut child = folder
+            .command(&["modes", "bat.json", "--shape-points", "40000", "--json", "pipe"])
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        // Some of what it writes, so that it is in the middle of it.
+        let mut pipe = File::open(folder.0.join("pipe")).unwrap();
+        pipe.read_exact(&mut [0]).unwrap();
+        let kill = Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), Some(128 + number), "{name}");
+        assert_eq!(folder.names(), before, "{name}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_that_is_ignored_stays_so() {
+    let folder = folder("nohup");
+    let line = "mkfifo pipe; trap '' HUP
+        $S modes bat.json --shape-points 40000 --json pipe > /dev/null & 
+        exec 3< pipe; head -c 1 <&3 > /dev/null; kill -s HUP $!; cat <&3 > rest; wait $!";
+    succeeded(&bash(&folder, line));
+    assert!(folder.read("rest").ends_with("}\n"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_to_a_full_device_is_an_error_as_any_other_result() {
+    let folder = folder("help");
+    for args in ["--help", "--version", "help modes", "hit -h", "man", "completions bash"] {
+        let output = bash(&folder, &format!("$S {args} > /dev/full"));
+        assert!(refused(&output).contains("standard output"), "{args}");
+        assert!(!succeeded(&bash(&folder, &format!("$S {args}"))).is_empty());
+    }
+    // Whoever closed the pipe has read enough.
+    succeeded(&bash(&folder, "set -o pipefail; $S hit --help | true"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn one_thread_does_the_work_where_no_other_may_be_started() {
+    let folder = folder("threads");
+    for verb in ["hit bat.json --json -", "modes bat.json -n 3 --json - --reproducible"] {
+        let alone = bash_of_a_user(&folder, &format!("ulimit -u 1; exec $S {verb}"));
+        let usual = bash(&folder, &format!("$S {verb}"));
+        assert_eq!(succeeded(&alone), succeeded(&usual), "{verb}");
+    }
+}
+
+#[test]
+fn what_has_no_end_is_refused() {
+    let folder = folder("endless");
+    folder.write(
+        "csv.json",
+        BAT.replace(r#""x": [0, 33], "diameter": [1.7, 1.7]"#, r#""csv": "/dev/zero""#),
+    );
+    let zero = |line: &str| refused(&bash(&folder, line));
+    assert!(zero("$S modes /dev/zero").contains("more than 256 MiB"));
+    assert!(zero("$S modes csv.json").contains("more than 256 MiB"));
+    assert!(zero("$S hit bat.json --ball /dev/zero").contains("more than 256 MiB"));
+    assert!(zero("$S convert /dev/zero --to csv").contains("more than 256 MiB"));
+    let huge = File::create(folder.0.join("huge.json")).unwrap();
+    huge.set_len(1 << 40).unwrap();
+    assert!(zero("$S modes huge.json").contains("more than 256 MiB"));
+    for answers in ["yes | $S new --ask x.json", "$S new --ask x.json < /dev/zero"] {
+        let output = bash(&folder, answers);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && told.contains("wrong answers"), "{answers}");
+    }
+}
+
+/// More of each than anybody writes: an answer or a refusal, in a time that a test can wait for.
+#[test]
+fn very_much_of_one_thing_is_read_or_refused() {
+    let folder = folder("much");
+    let n = 100_000;
+    let bat = |profile: &str, more: &str| {
+        format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile": {profile}{more} }}"#
+        )
+    };
+    let dowel = r#"{ "x": [0, 0.8], "radius": [0.02, 0.02] }"#;
+    let csv = bat(r#"{ "csv": "t.csv" }"#, "");
+    let list = |of: &str| vec![of; n].join(",");
+    let unknown: String = (0..n).map(|k| format!(r#", "k{k}": 0"#)).collect();
+    let formula = |text: &str| {
+        bat(&format!(r#"{{ "pieces": [{{ "from": 0, "to": 0.8, "formula": "{text}" }}] }}"#), "")
+    };
+    let nested = format!("{}0.02+0*x{}", "abs(".repeat(450), ")".repeat(450));
+    for (name, text, table, code) in [
+        ("name", bat(dowel, &format!(r#", "name": "{}""#, "a".repeat(n))), String::new(), 0),
+        ("keys", bat(dowel, &unknown), String::new(), 2),
+        ("twice", bat(dowel, &r#", "name": "x""#.repeat(n)), String::new(), 2),
+        (
+            "masses",
+            bat(dowel, &format!(r#", "attachments": [{}]"#, list(r#"{ "x": 9, "mass": 1 }"#))),
+            String::new(),
+            2,
+        ),
+        ("nested", formula(&nested), String::new(), 2),
+        ("columns", csv.clone(), (0..n).map(|k| format!("c{k},")).collect(), 2),
+        ("repeated", csv.clone(), list("x"), 2),
+        ("cells", csv.clone(), format!("x_m,radius_m\n{}", list("1")), 2),
+        ("rows", csv.clone(), format!("x_m,radius_m\n{}", "a,b\n".repeat(n)), 2),
+        ("comments", csv, format!("x_m,radius_m\n0,0.02\n{}0.8,0.02\n", "#\n".repeat(n)), 0),
+    ] {
+        folder.write("much.json", text);
+        folder.write("t.csv", table);
+        let output = folder.run(&["modes", "much.json", "-n", "2", "--json", "-"]);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{name}: {told}");
+        assert!(told.len() < 10_000, "{name}");
+    }
+}
+
+#[test]
+fn columns_outside_of_the_folder_are_read_of_a_named_bat_alone_and_said() {
+    let folder = folder("outside");
+    fs::create_dir(folder.0.join("bats")).unwrap();
+    folder.write("columns.csv", "x_in,diameter_in\n0,1\n33,2.5\n");
+    folder.write("bats/columns.csv", "x_in,diameter_in\n0,1\n33,2.5\n");
+    symlink("../columns.csv", folder.0.join("bats/link.csv")).unwrap();
+    let bat = |csv: &str| {
+        BAT.replace(
+            r#""unit": "in", "x": [0, 33], "diameter": [1.7, 1.7]"#,
+            &format!(r#""csv": "{csv}""#),
+        )
+    };
+    let absolute = folder.0.join("columns.csv").display().to_string();
+    for (csv, outside) in [
+        ("columns.csv", false),
+        ("../bats/columns.csv", false),
+        ("../columns.csv", true),
+        ("link.csv", true),
+        (&absolute, true),
+    ] {
+        folder.write("bats/bat.json", bat(csv));
+        let output = folder.run(&["modes", "bats/bat.json"]);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{csv}: {told}");
+        assert_eq!(told.contains("outside of its folder"), outside, "{csv}: {told}");
+        let quiet = folder.run(&["modes", "bats/bat.json", "--quiet"]);
+        assert!(quiet.status.success() && quiet.stderr.is_empty());
+        let path = folder.0.join("bats/bat.json");
+        for read in [
+            sweetspot::Bat::from_file(&path),
+            sweetspot::Bat::from_text("b", &bat(csv), &folder.0.join("bats")),
+        ] {
+            assert_eq!(read.is_err(), outside, "{csv}");
+            let said = read.err().map_or(String::new(), |error| error.to_string());
+            assert!(!outside || said.contains("in the folder of this one"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn the_licences_of_everything_in_the_program_come_with_it() {
+    let folder = folder("licences");
+    let text = folder.text(&["licences"]);
+    for part in ["UBUNTU FONT LICENCE", "Apache License", "| faer ", "| rustix ", "| windows-sys "]
+    {
+        assert!(text.contains(part), "{part}");
+    }
+    assert_eq!(text, folder.text(&["licenses"]));
+}
