@@ -4,8 +4,7 @@ mod common;
 
 use std::time::Duration;
 
-use common::{LENGTH, bat, beta, cone, dowel, dowel_frequency};
-use sweetspot::profile::Interpolation;
+use common::{LENGTH, beta, cone, dowel, dowel_frequency};
 use sweetspot::solve::solve_within;
 use sweetspot::validation::{CASES, Truth, bundled_bat};
 use sweetspot::{Bat, Request, Solver, solve};
@@ -197,46 +196,50 @@ fn one_element_bends_in_two_ways_and_no_more() {
 
 #[test]
 fn a_bat_that_ends_in_a_point_rings_within_its_stated_error() {
-    // Complete cone, free-free: converged values of two tolerances must agree within the coarser.
-    let bat = bat(&[0.0, LENGTH], &[0.0, 0.033], &[0.0; 2], Interpolation::Linear);
-    let fine = solve(&bat, &Request { tolerance: 1e-9, modes: 5, ..Request::default() }).unwrap();
-    let coarse = solve(&bat, &Request { tolerance: 1e-4, modes: 5, ..Request::default() }).unwrap();
-    for (a, b) in coarse.modes.iter().zip(&fine.modes) {
-        let difference = (a.omega / b.omega - 1.0).abs();
-        assert!(difference <= 3.0 * a.error.total(), "{difference:e} {:e}", a.error.total());
+    // Known to more than 20 digits from Kirchhoff's equation and two other ways.
+    let truth = Truth::of_cases(&["cone_complete"]).unwrap();
+    for tolerance in [1e-2, 1e-4, 1e-6, 1e-9] {
+        let request = Request { tolerance, modes: 5, ..Request::default() };
+        let solution = solve(&truth.bat, &request).unwrap();
+        for (mode, exact) in solution.modes.iter().zip(&truth.frequencies) {
+            let off = (mode.frequency() / exact - 1.0).abs();
+            let stated = mode.error.total();
+            assert!(off <= 3.0 * stated + 1e-14 && stated <= tolerance, "{off:e} {stated:e}");
+        }
     }
 }
 
 /// Whatever the time, an answer comes with its error; more time never makes it worse.
 #[test]
 fn a_budget_gives_the_best_answer_that_fits() {
-    let bat = cone(0.0125, 0.033);
+    let truth = Truth::of_cases(&["cone_1_2p64_60"]).unwrap();
     let request = Request { modes: 5, ..Request::default() };
-    let plenty = solve_within(&bat, &request, Duration::from_secs(5)).unwrap();
+    let plenty = solve_within(&truth.bat, &request, Duration::from_secs(5)).unwrap();
     assert!(plenty.met && plenty.worst() < 1e-12, "{:e}", plenty.worst());
-    let nothing = solve_within(&bat, &request, Duration::from_nanos(1)).unwrap();
+    let nothing = solve_within(&truth.bat, &request, Duration::from_nanos(1)).unwrap();
     assert!(!nothing.met && nothing.worst() <= 0.1 && nothing.modes.len() == 5);
-    for (a, b) in nothing.modes.iter().zip(&plenty.modes) {
-        let truth = (a.omega / b.omega - 1.0).abs();
-        assert!(truth <= 3.0 * (a.error.total() + b.error.total()), "{truth:e}");
+    for solution in [&nothing, &plenty] {
+        for (mode, exact) in solution.modes.iter().zip(&truth.frequencies) {
+            let (off, stated) = ((mode.frequency() / exact - 1.0).abs(), mode.error.total());
+            assert!(off <= 3.0 * stated + 1e-14, "{off:e} {stated:e}");
+        }
     }
 }
 
 /// What the planner may choose from, all degrees reach a tolerance, each on its own mesh.
 #[test]
 fn every_degree_keeps_the_promise() {
-    let bat = cone(0.0125, 0.033);
-    let exact = solve(&bat, &Request { tolerance: 1e-13, ..Request::default() }).unwrap();
+    let truth = Truth::of_cases(&["cone_1_2p64_60"]).unwrap();
     let mut elements = usize::MAX;
     for degree in 3..=12 {
         let request = Request { degree: Some(degree), tolerance: 1e-7, ..Request::default() };
-        let solution = solve(&bat, &request).unwrap();
+        let solution = solve(&truth.bat, &request).unwrap();
         assert!(solution.met && solution.degree == degree);
         assert!(solution.mesh.len() <= elements, "a higher degree needs fewer elements");
         elements = solution.mesh.len();
-        for (mode, exact) in solution.modes.iter().zip(&exact.modes) {
-            let truth = (mode.omega / exact.omega - 1.0).abs();
-            assert!(truth <= 3.0 * mode.error.total() + 1e-13, "p{degree} {truth:e}");
+        for (mode, exact) in solution.modes.iter().zip(&truth.frequencies) {
+            let (off, stated) = ((mode.frequency() / exact - 1.0).abs(), mode.error.total());
+            assert!(off <= 3.0 * stated + 1e-14, "p{degree} {off:e} {stated:e}");
         }
     }
 }

@@ -110,11 +110,25 @@ fn a_bore_is_the_bore_of_stations() {
     assert_same(&solid, &one("0.0125 + 0.02*x"), 1e-13, 1e-13);
 }
 
+/// Fritsch and Carlson's cubic through three stations at equal distances h, slopes as SciPy has them:
+/// the harmonic mean of both rises inside; at the ends `(3 rise − next rise)/2`, 0 where that turns
+/// back.
 #[test]
-fn a_polynomial_is_the_cubic_of_stations() {
-    // Through three points of a parabola that SciPy's cubic keeps: rising, not straight.
-    let stations = bat(&[0.0, LENGTH], &[0.02, 0.03], &[0.0; 2], Interpolation::Pchip);
-    assert_same(&one(&format!("0.02 + 0.01*x/{LENGTH}")), &stations, 1e-12, 1e-13);
+fn polynomials_are_the_cubic_of_stations() {
+    let (h, radii) = (0.5 * LENGTH, [0.02, 0.022, 0.03]);
+    let stations = bat(&[0.0, h, LENGTH], &radii, &[0.0; 3], Interpolation::Pchip);
+    let rises = [(radii[1] - radii[0]) / h, (radii[2] - radii[1]) / h];
+    let inside = 2.0 * rises[0] * rises[1] / (rises[0] + rises[1]);
+    let slopes = [0.0, inside, 1.5 * rises[1] - 0.5 * rises[0]];
+    let cubic = |k: usize| {
+        let (from, [a, b]) = (k as f64 * h, [slopes[k], slopes[k + 1]]);
+        let (square, cube) = ((3.0 * rises[k] - 2.0 * a - b) / h, (a + b - 2.0 * rises[k]) / h / h);
+        let x = format!("(x - {from})");
+        let formula = format!("{} + ({a})*{x} + ({square})*{x}**2 + ({cube})*{x}**3", radii[k]);
+        piece(from, if k == 1 { LENGTH } else { h }, &formula)
+    };
+    let formula = read(json!({ "pieces": [cubic(0), cubic(1)] }));
+    assert_same(&formula, &stations, 1e-12, 1e-13);
 }
 
 #[test]

@@ -111,6 +111,20 @@ fn ball(text: &str) -> Ball {
     ball
 }
 
+/// Official rules: a baseball weighs 5 to 5.25 oz and is 9 to 9.25 in around (MLB, 3.01), a 12 in
+/// softball 6.25 to 7 oz and 11.875 to 12.125 in.
+#[test]
+fn balls_are_within_the_rules() {
+    for (ball, ounces, inches) in [
+        (Ball::baseball(), 5.0..=5.25, 9.0..=9.25),
+        (Ball::softball(), 6.25..=7.0, 11.875..=12.125),
+    ] {
+        assert!(ounces.contains(&(ball.mass / 0.028_349_523_125)), "{}", ball.name);
+        let around = std::f64::consts::TAU * ball.radius / 0.0254;
+        assert!(inches.contains(&around), "{}: {around}", ball.name);
+    }
+}
+
 /// On a bat that is as heavy as a wall the ball returns what its file says for that speed.
 #[test]
 fn a_ball_bounces_as_its_file_says_for_that_speed() {

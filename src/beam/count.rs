@@ -186,7 +186,6 @@ impl Form {
         });
         let beds: Vec<(usize, f64)> = beds.collect();
         let size = strains + carried + beds.len() + 2;
-        let (w, theta) = (size - 2, size - 1);
         let place = |i: usize| if i < strains { i } else { size - W + i };
         form.clear(size);
         for i in 0..W {
@@ -229,7 +228,6 @@ impl Form {
             }
             form[(reaction, reaction)] -= softness * softness;
         }
-        debug_assert!(w + 1 == theta);
     }
 
     /// Two sides' forms in one, with the same deflection and rotation.

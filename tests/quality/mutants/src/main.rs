@@ -1,0 +1,69 @@
+//! Plants errors in sweetspot's engine and counts how many of them its tests notice.
+//!
+//! A build of the engine costs minutes, so all errors of a sample are built into one copy of the
+//! sources and switched on one at a time by an environment variable (mutant schemata: R. H. Untch,
+//! A. J. Offutt, M. J. Harrold, Proc. ISSTA '93, 139).
+//!
+//! ```text
+//! mutants ROOT COPY --seed 1 --count 150 --tests collision,held,…
+//! ```
+//!
+//! writes the copy of the package ROOT, leaves out errors that do not compile, builds the tests
+//! once, runs them without an error for their times, and then once per error, the quickest first,
+//! until one fails. The result is a table in `COPY/mutants.txt`. What is in there is kept: started
+//! again, the program goes on where it stopped.
+
+mod copy;
+mod run;
+mod sites;
+
+use std::path::PathBuf;
+
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// What is asked on the command line.
+struct Asked {
+    root: PathBuf,
+    copy: PathBuf,
+    seed: u64,
+    count: usize,
+    tests: Vec<String>,
+    /// Only these mutants, by number; all of them if empty.
+    only: Vec<usize>,
+}
+
+const USAGE: &str =
+    "usage: mutants ROOT COPY [--seed N] [--count N] [--tests NAME,NAME…] [--only N,N…]";
+
+fn asked() -> Result<Asked> {
+    let mut words = std::env::args().skip(1);
+    let (Some(root), Some(copy)) = (words.next(), words.next()) else { return Err(USAGE.into()) };
+    let (root, copy) = (PathBuf::from(root), PathBuf::from(copy));
+    let mut asked = Asked { root, copy, seed: 1, count: 150, tests: vec![], only: vec![] };
+    while let Some(word) = words.next() {
+        let value = words.next().ok_or(USAGE)?;
+        match word.as_str() {
+            "--seed" => asked.seed = value.parse()?,
+            "--count" => asked.count = value.parse()?,
+            "--tests" => asked.tests = value.split(',').map(str::to_owned).collect(),
+            "--only" => {
+                asked.only =
+                    value.split(',').map(str::parse).collect::<std::result::Result<_, _>>()?
+            }
+            _ => return Err(USAGE.into()),
+        }
+    }
+    Ok(asked)
+}
+
+fn main() -> Result<()> {
+    let asked = asked()?;
+    let all = sites::of_folders(&asked.root, &["src/beam", "src/eigen", "src/collision"])?;
+    println!("{} places for an error", all.len());
+    let drawn = sites::drawn(all, asked.seed, asked.count);
+    let built = copy::viable(&asked.root, &asked.copy, drawn)?;
+    println!("{} of {} drawn errors compile", built.len(), asked.count);
+    let list: String = built.iter().map(|(number, site)| format!("{number}\t{site}\n")).collect();
+    std::fs::write(asked.copy.join("sites.txt"), list)?;
+    run::all(&asked.copy, &built, &asked.tests, &asked.only)
+}
