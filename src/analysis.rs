@@ -4,6 +4,7 @@ use crate::advise::advice::{Advice, advise};
 use crate::bat::Bat;
 use crate::collision::figures::{Figures, SwingLaw};
 use crate::collision::hit::{Model, Scene};
+use crate::collision::strength::Strength;
 use crate::collision::sweep::{Sweep, sweep_telling};
 use crate::error::Result;
 use crate::solve::{Request, Solution};
@@ -52,6 +53,9 @@ pub struct Analysis {
     pub hits: Sweep,
     /// The figures by which bats are compared, and the sweet spot.
     pub figures: Figures,
+    /// What hits at the sweet spot and five inches inside of it ask of the bat; empty where the model
+    /// has no force in time.
+    pub strength: Vec<Strength>,
     /// The same solver on a dowel, whose frequencies are known.
     pub proof: Proof,
     /// What the model needs; None for a bat of so many pieces that it would take long, and where
@@ -84,12 +88,22 @@ impl Analysis {
         let hits = sweep_telling(&bat, (*model, scene), asked, &places, &half_of_it)?;
         tell(0.5, "the sweet spot");
         let figures = Figures::new(&bat, (*model, hits.effort), (scene, *law), &hits.solution)?;
+        let strength = strength(&bat, &task, &hits, &figures);
         let [truth, stated] = dowel_proof(&task.proof)?;
         let proof = Proof { modes: task.proof.modes, truth, stated };
         tell(0.8, "what the model needs");
         let advice = advice(&bat, task.hits.tolerance);
-        Ok(Self { bat, solution, task, hits, figures, proof, advice })
+        Ok(Self { bat, solution, task, hits, figures, strength, proof, advice })
     }
+}
+
+/// At the sweet spot, and five inches towards the hands, where a ball jams them.
+fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Strength> {
+    const INSIDE: f64 = 5.0 * 0.0254;
+    let best = figures.spot.exit_speed_max.filter(|_| task.model == Model::Contact);
+    let places = best.map_or(vec![], |best| vec![best.x, best.x - INSIDE]);
+    let at = |x: f64| Strength::at(bat, &hits.solution, (&task.scene, hits.effort), x);
+    places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
 }
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {

@@ -165,6 +165,42 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     if bat.fixtures.grip.is_none() {
         ignored.push("hands: nothing of them; a \"grip\" in the bat file puts them on".to_owned());
     }
-    ignored.push("hoop modes of hollow barrels: not a beam's, and not modelled".to_owned());
+    ignored.push(match thinnest_wall(bat) {
+        Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),
+        None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
+    });
     ignored
+}
+
+/// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
+/// where that half is solid. A bore with a core in it is hollow too.
+pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
+    const STRETCHES: usize = 200;
+    let half = 0.5 * bat.length();
+    let wall = |k: usize| {
+        // Between the stations too, and not at the tip, where a cap is no wall.
+        let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
+        let section = bat.profile.at(x);
+        (section.inner > 0.0).then_some([section.outer - section.inner, x])
+    };
+    (0..STRETCHES).filter_map(wall).min_by(|a, b| a[0].total_cmp(&b[0]))
+}
+
+/// What a hit on this bat leaves out, a sentence each: of a hollow barrel whose wall has no figures,
+/// how the wall gives way.
+///
+/// # Source
+///
+/// For the direction: A. M. Nathan, D. A. Russell, L. V. Smith, "The physics of the trampoline effect
+/// in baseball and softball bats", Engineering of Sport 5 (2004).
+pub fn in_hit(bat: &Bat, wall_given: bool) -> Vec<String> {
+    let Some([wall, x]) = thinnest_wall(bat).filter(|_| !wall_given) else { return vec![] };
+    vec![format!(
+        "the wall of this hollow barrel ({:.1} mm at its thinnest, {:.0} cm from the knob) is rigid \
+         here: a thin one gives way under the ball and spares it a loss, so that the ball leaves \
+         faster and BBCOR is larger than computed; --wall-stiffness and --wall-mass put in what is \
+         known of it",
+        1e3 * wall,
+        100.0 * x
+    )]
 }

@@ -66,6 +66,8 @@ pub enum Seen {
     VibrationShare,
     /// Where the exit speed is largest, from the knob end.
     BestPlaceM,
+    /// The largest exit speed, m/s.
+    BestExitSpeedMPerS,
     /// On a wall, to 99 % of the impulse (ms).
     WallTimeMs,
     /// Until the force ends (ms).
@@ -92,6 +94,7 @@ impl Seen {
             Self::RecoilShare => format!("{place} recoil"),
             Self::VibrationShare => format!("{place} vibration"),
             Self::BestPlaceM => "best place (m)".into(),
+            Self::BestExitSpeedMPerS => "best exit m/s".into(),
             Self::WallTimeMs => format!("{speed} m/s 99 % ms"),
             Self::WallContactMs => format!("{speed} m/s contact ms"),
             Self::WallCompressionMm => format!("{speed} m/s depth mm"),
@@ -153,8 +156,9 @@ impl Throw {
         let effort = Effort { accuracy: STEPS, completed: !self.modes_alone };
         let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
         let seen = |&(seen, at): &(Seen, f64)| {
-            if seen == Seen::BestPlaceM {
-                return Some(SweetSpot::find(bat, &scene, solution, &hitter).exit_speed_max?.x);
+            if matches!(seen, Seen::BestPlaceM | Seen::BestExitSpeedMPerS) {
+                let best = SweetSpot::find(bat, &scene, solution, &hitter).exit_speed_max?;
+                return Some(if seen == Seen::BestPlaceM { best.x } else { best.value });
             }
             let impact = hitter.strike(at);
             let rigid = impact.rigid_exit_speed?;

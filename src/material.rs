@@ -23,6 +23,10 @@ pub struct Material {
     pub shear_coefficient: Option<f64>,
     /// Loss factor η; a mode's damping ratio is ζ = η/2.
     pub loss_factor: f64,
+    /// Stress at which it breaks in bending (Pa), if known; of wood the modulus of rupture.
+    pub strength: Option<f64>,
+    /// Strain at which it breaks, if known.
+    pub strain_to_failure: Option<f64>,
 }
 
 impl Material {
@@ -40,12 +44,15 @@ impl Material {
             poisson_ratio: None,
             shear_coefficient: None,
             loss_factor: 0.0,
+            strength: None,
+            strain_to_failure: None,
         };
         material.check()?;
         Ok(material)
     }
 
-    /// Every value in its possible range: ρ, E, G, κ positive, η not negative, −1 < ν ≤ ½.
+    /// Every value in its possible range: ρ, E, G, κ and the strength positive, η not negative,
+    /// −1 < ν ≤ ½, a strain to failure above 0 and below 1.
     ///
     /// # Errors
     ///
@@ -67,6 +74,11 @@ impl Material {
         }
         if let Some(nu) = self.poisson_ratio.filter(|nu| !(*nu > -1.0 && *nu <= 0.5)) {
             mistakes.add(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
+        }
+        mistakes.note(positive("strength", self.strength, "Pa"));
+        if let Some(strain) = self.strain_to_failure.filter(|e| !(*e > 0.0 && *e < 1.0)) {
+            let expected = "a number above 0 and below 1, such as 0.02";
+            mistakes.add(Error::value("strain_to_failure", strain, expected));
         }
         mistakes.end(())?;
         // After the modulus and the ratio, which it may have been made from.
@@ -98,6 +110,8 @@ impl Material {
             poisson_ratio: None,
             shear_coefficient: None,
             loss_factor: 0.0,
+            strength: m.strength,
+            strain_to_failure: m.strain_to_failure,
         })
     }
 }
@@ -113,9 +127,18 @@ pub struct BuiltIn {
     pub youngs_modulus: f64,
     /// G (Pa), if known.
     pub shear_modulus: Option<f64>,
+    /// Stress at which it breaks in bending (Pa), if known.
+    pub strength: Option<f64>,
+    /// Strain at which it breaks in a blow, if known.
+    pub strain_to_failure: Option<f64>,
+    /// Where strength and strain to failure come from; empty where neither is known.
+    pub strength_source: &'static str,
     /// Where the values come from.
     pub source: &'static str,
 }
+
+/// A pound-force per square inch (Pa).
+const PSI: f64 = 6_894.757_293_168_361;
 
 /// The built-in materials.
 ///
@@ -124,12 +147,18 @@ pub struct BuiltIn {
 /// planes, density 1.12 times the specific gravity. The `-dynamic` ones are what models of real
 /// bats are given to ring or break as measured, 20 to 50 % stiffer. The two kinds are kept
 /// apart, so that nobody mixes them unawares.
+///
+/// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until
+/// they break: the mean of a species. A strain to failure is of blows as fast as a hit.
 pub const BUILT_IN: &[BuiltIn] = &[
     BuiltIn {
         name: "white-ash",
         density: 672.0,
         youngs_modulus: 12.0e9,
         shear_modulus: Some(1.116e9),
+        strength: Some(15_000.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
         source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.109, 0.077) and 5-3a, in transcription",
     },
     BuiltIn {
@@ -137,6 +166,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 649.0,
         youngs_modulus: 18.14e9,
         shear_modulus: Some(1.05e9),
+        strength: Some(15_000.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
         source: "fit to the first frequency of an R161: A. M. Nathan, Am. J. Phys. 68, 979 (2000), table I",
     },
     BuiltIn {
@@ -144,6 +176,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 705.6,
         youngs_modulus: 12.6e9,
         shear_modulus: Some(1.0962e9),
+        strength: Some(15_800.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties",
         source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.111, 0.063) and 5-3a, in transcription",
     },
     BuiltIn {
@@ -151,6 +186,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 673.0,
         youngs_modulus: 15.52e9,
         shear_modulus: Some(1.72e9),
+        strength: Some(15_800.0 * PSI),
+        strain_to_failure: Some(0.0234),
+        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties; strain to failure of profile A: Appl. Sci. 12 (2022) 3494, appendix A",
         source: "bat-grade maple, profile A: Appl. Sci. 12 (2022) 3494, appendix A",
     },
     BuiltIn {
@@ -158,6 +196,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 694.4,
         youngs_modulus: 13.9e9,
         shear_modulus: Some(0.9869e9),
+        strength: Some(16_600.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of yellow birch, 16,600 psi: rexlumber.com, species data",
         source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.074, 0.068) and 5-3a, in transcription",
     },
     BuiltIn {
@@ -165,6 +206,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 806.4,
         youngs_modulus: 14.9e9,
         shear_modulus: None,
+        strength: None,
+        strain_to_failure: None,
+        strength_source: "",
         source: "handbook-like strength table, specific gravity 0.72, 2.16e6 psi (synthmind.com); no shear modulus found",
     },
     BuiltIn {
@@ -172,6 +216,9 @@ pub const BUILT_IN: &[BuiltIn] = &[
         density: 2810.0,
         youngs_modulus: 71.7e9,
         shear_modulus: Some(71.7e9 / (2.0 * 1.33)),
+        strength: None,
+        strain_to_failure: None,
+        strength_source: "",
         source: "typical of 7075 (2.81 g/cm³, 71.7 GPa, Poisson 0.33); other 7xxx bat alloys differ by 1 to 2 %",
     },
 ];
@@ -186,6 +233,8 @@ mod tests {
             let material = Material::named(built_in.name).expect(built_in.name);
             material.check().expect(built_in.name);
             assert!(!built_in.source.is_empty());
+            let known = built_in.strength.is_some() || built_in.strain_to_failure.is_some();
+            assert_eq!(known, !built_in.strength_source.is_empty(), "{}", built_in.name);
         }
         assert_eq!(Material::named("cork"), None);
     }

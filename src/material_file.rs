@@ -23,6 +23,8 @@ pub(crate) fn read(node: &Node, density: Without, modulus: Without) -> Result<Ma
         "poisson_ratio",
         "shear_coefficient",
         "loss_factor",
+        "strength",
+        "strain_to_failure",
     ];
     let mut mistakes = Mistakes::default();
     let object = node.object(&keys, &mut mistakes)?;
@@ -51,6 +53,8 @@ pub(crate) fn read(node: &Node, density: Without, modulus: Without) -> Result<Ma
         poisson_ratio,
         shear_coefficient: mistakes.note(object.number("shear_coefficient")),
         loss_factor: mistakes.note(object.number("loss_factor")).unwrap_or(0.0),
+        strength: mistakes.note(object.quantity("strength", Quantity::Pressure)),
+        strain_to_failure: mistakes.note(object.number("strain_to_failure")),
     };
     let placed = |complaint: Complaint| {
         // A value that is not in the file was made from others.

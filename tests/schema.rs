@@ -223,7 +223,10 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
     assert_eq!(folder.json(&["schema"]), schema::all());
     let bat = format!("{}/meshes/dowel.json", env!("CARGO_MANIFEST_DIR"));
     folder.text(&["analyze", &bat, "--tol", "1e-2", "--out", "."]);
-    for (file, name) in [(File::Modes, "modes.json"), (File::Hit, "hit.json")] {
+    folder.text(&["bbcor", &bat, "--tol", "1e-2", "--json", "bbcor.json"]);
+    let written =
+        [(File::Modes, "modes.json"), (File::Hit, "hit.json"), (File::Bbcor, "bbcor.json")];
+    for (file, name) in written {
         let document: Value = serde_json::from_str(&folder.read(name)).unwrap();
         assert_valid(&validator(&file.schema()), &document, name);
     }

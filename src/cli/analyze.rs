@@ -13,7 +13,7 @@ use sweetspot::plot::sets;
 use sweetspot::report::json::{self, ShapePoints};
 use sweetspot::report::sketch::{self, Row};
 use sweetspot::report::text::{self, Units};
-use sweetspot::report::{advice, hit_json, hit_text};
+use sweetspot::report::{advice, aftermath, hit_json, hit_text};
 use sweetspot::solve::Request;
 
 use crate::cli::common::{
@@ -107,7 +107,13 @@ pub fn run(args: &Args) -> Result<Done> {
         let report = Report { us_first, ..Report::new(&analysis, command(), inputs)? };
         page::file::write(path, &report)?;
     }
-    let both = || json!({ "modes": modes_json(args, &analysis), "hit": hit_json(&analysis) });
+    let both = || {
+        json!({
+            "modes": modes_json(args, &analysis),
+            "hit": hit_json(&analysis),
+            "strength": aftermath::strengths_json(&analysis.strength),
+        })
+    };
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = table(&analysis, &args.output) + &written(args);
@@ -156,7 +162,7 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     format!(
-        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}",
+        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
         text::summary(bat, units),
         output.sketch(bat, &rows(analysis)),
         text::modes(bat, solution, 3, units),
@@ -170,7 +176,8 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::sweet_spot(bat, &figures.spot, units),
         hit_text::why(figures, units),
         hit_text::beyond(hits, &task.scene, units),
-        hit_text::figures(figures, units)
+        hit_text::figures(figures, units),
+        aftermath::strengths(&analysis.strength, units)
     )
 }
 

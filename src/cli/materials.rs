@@ -88,8 +88,23 @@ fn table(units: Units) -> String {
     for material in BUILT_IN {
         out += &line(Some(material));
         out += &wrapped(&format!("  {}", material.source), 2);
+        out += &strength(material, units);
     }
     out
+}
+
+/// Where it breaks, if that is known.
+fn strength(material: &BuiltIn, units: Units) -> String {
+    let stress = material.strength.map(|stress| {
+        let us = format!("{:.0} psi", 1e6 * stress / MPSI);
+        format!("breaks at {}", units.inline(units.show(format!("{:.0} MPa", 1e-6 * stress), us)))
+    });
+    let strain = material.strain_to_failure.map(|e| format!("at a strain of {:.2} %", 100.0 * e));
+    let known: Vec<String> = stress.into_iter().chain(strain).collect();
+    match known.is_empty() {
+        true => "  no strength found\n".to_owned(),
+        false => wrapped(&format!("  {}: {}", known.join(", "), material.strength_source), 4),
+    }
 }
 
 fn document() -> Value {
@@ -99,6 +114,9 @@ fn document() -> Value {
             "density_kg_m3": m.density,
             "youngs_modulus_pa": m.youngs_modulus,
             "shear_modulus_pa": m.shear_modulus,
+            "strength_pa": m.strength,
+            "strain_to_failure": m.strain_to_failure,
+            "strength_source": m.strength_source,
             "source": m.source,
         })
     };

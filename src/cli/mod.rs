@@ -4,6 +4,7 @@ mod advise;
 mod analyze;
 mod ask;
 mod bat_text;
+mod bbcor;
 mod common;
 mod compare;
 mod convert;
@@ -94,6 +95,7 @@ enum Verb {
     Analyze(analyze::Args),
     Modes(modes::Args),
     Hit(hit::Args),
+    Bbcor(bbcor::Args),
     Compare(compare::Args),
     Ring(ring::Args),
     Frf(frf::Args),
@@ -126,6 +128,7 @@ pub fn run() -> Result<Done> {
         Verb::Analyze(args) => analyze::run(&args),
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
+        Verb::Bbcor(args) => bbcor::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),

@@ -7,9 +7,11 @@ use sweetspot::bat::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::hit::{Effort, Model};
 use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::strength::breaking_swing;
 use sweetspot::error::{Error, Result};
 use sweetspot::file;
 use sweetspot::force_file::{self, ForceHistory};
+use sweetspot::ignored;
 use sweetspot::report::aftermath::{self, AfterHit};
 use sweetspot::report::{hit_json, hit_text, json};
 use sweetspot::ringing::Ringing;
@@ -222,13 +224,13 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         on_the_bat(&bat, "--watch", *place)?;
     }
     args.solve.refuse_budget("ring --hit")?;
-    let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
-    let Prepared { bat, request, warning } = prepared;
     let model = args.scene.model()?;
     if model != Model::Contact {
         let expected = "contact, the model with a force in time";
         return Err(Error::value("--model", hit_json::model_name(model), expected));
     }
+    let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
     let (scene, _) = args.scene.scene(&bat)?;
     args.scene.warn(&args.output);
     let solution = solve(&bat, &request)?;
@@ -247,7 +249,10 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         return Err(Error::value("--until", format!("{until:?} s"), "above 0 and below 1000 s"));
     }
     let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
-    let report = AfterHit::new(&bat, &after, &watched, until);
+    let mut report = AfterHit::new(&bat, &after, &watched, until);
+    for (load, swing) in &mut report.loads {
+        *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
+    }
     let units = args.output.units;
     let text = format!(
         "{}{}{}",
@@ -272,13 +277,14 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let document = || {
         let mut document = aftermath::json(&after, &report);
         document["impact"] = hit_json::impact(&bat, &impact);
+        document["ignored"] = json!(ignored::in_hit(&bat, scene.wall.is_some()));
         document
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }
 
 /// A place on that bat (m); a tip given in inches may be a rounding beyond it.
-fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
+pub fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
     if (0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
         return Ok(x.min(bat.length()));
     }

@@ -41,9 +41,20 @@ pub struct SceneArgs {
           value_parser = |s: &str| quantity(s, Quantity::Speed))]
     pitch: f64,
 
-    /// Ball: baseball, softball or a ball file
+    /// Ball: baseball, humid-baseball, softball or a ball file
+    ///
+    /// humid-baseball is the baseball kept at 50 instead of 30 % relative humidity. No source was
+    /// found for a softball's force law: with --model contact it needs --ball-stiffness.
     #[arg(long, value_name = "BALL", default_value = "baseball")]
     ball: String,
+
+    /// The ball is a linear spring of this stiffness, such as "7000 lbf/in"
+    ///
+    /// In place of its own force law. A dynamic stiffness measured on a rigid cylinder is meant:
+    /// F²/(m v²) for the largest force F at the speed v.
+    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
+          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+    ball_stiffness: Option<f64>,
 
     /// Coefficient of restitution, in place of the ball's own
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
@@ -105,17 +116,18 @@ pub struct SceneArgs {
 impl SceneArgs {
     /// The ball's file, if it has one.
     pub fn ball_file(&self) -> Option<&Path> {
-        let built_in = matches!(self.ball.as_str(), "baseball" | "softball");
+        let built_in = BALLS.iter().any(|(name, _)| *name == self.ball);
         (!built_in).then(|| Path::new(&self.ball))
+    }
+
+    /// The ball, with what the command line says of it.
+    fn ball(&self) -> Result<Ball> {
+        ball(&self.ball, self.ball_stiffness)
     }
 
     /// The scene on that bat, and where its swing is from.
     pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
-        let mut ball = match self.ball.as_str() {
-            "baseball" => Ball::baseball(),
-            "softball" => Ball::softball(),
-            path => Ball::from_file(path).map_err(|error| unknown_ball(path, error))?,
-        };
+        let mut ball = self.ball()?;
         let cor = self.cor.unwrap_or(ball.cor);
         if !(self.pitch.abs() < 1e6 && self.swing_speed.abs() < 1e6 && self.pivot.abs() < 1e6) {
             let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
@@ -211,7 +223,12 @@ impl SceneArgs {
                 })
             }
             "pulse" => Model::Pulse(self.pulse()?),
-            _ => Model::Contact,
+            _ => {
+                // What the ball lacks is told before anything is solved.
+                let ball = self.ball()?;
+                Scene { ball, ..Scene::default() }.force_law(1.0)?;
+                Model::Contact
+            }
         })
     }
 
@@ -230,20 +247,44 @@ impl SceneArgs {
     }
 }
 
+/// The balls that are known by name.
+const BALLS: [(&str, fn() -> Ball); 3] = [
+    ("baseball", Ball::baseball),
+    ("humid-baseball", Ball::humid_baseball),
+    ("softball", Ball::softball),
+];
+
+/// A ball by its name or its file, as a linear spring if a stiffness (N/m) is given.
+pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
+    let ball = match BALLS.iter().find(|(known, _)| *known == name) {
+        Some((_, built_in)) => built_in(),
+        None => Ball::from_file(name).map_err(|error| unknown_ball(name, error))?,
+    };
+    match stiffness {
+        Some(stiffness) => ball.linear(stiffness),
+        None => Ok(ball),
+    }
+}
+
 /// What is wrong with a ball: a word that is near a known one is no file's name.
 fn unknown_ball(name: &str, error: Error) -> Error {
-    let known = ["baseball", "softball"];
+    let known = BALLS.map(|(name, _)| name);
     match error {
         Error::Read { source, .. } if nearest(name, &known).is_some() => {
             let found = format!("{name}, which cannot be read ({source})");
-            let complaint = Complaint::new("--ball", found, "baseball, softball or a ball file");
+            let complaint = Complaint::new(
+                "--ball",
+                found,
+                "baseball, humid-baseball, softball or a ball file",
+            );
             Error::Value(complaint.or_nearest(name, &known))
         }
         other => other,
     }
 }
 
-fn cor(text: &str) -> std::result::Result<f64, String> {
+/// A coefficient of restitution on the command line.
+pub fn cor(text: &str) -> std::result::Result<f64, String> {
     text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
 }
 

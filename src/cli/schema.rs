@@ -1,4 +1,4 @@
-//! `sweetspot schema [bat|modes|hit]`: what the files look like.
+//! `sweetspot schema [bat|modes|hit|bbcor]`: what the files look like.
 
 use sweetspot::error::Result;
 use sweetspot::schema::{self, File};
@@ -6,14 +6,14 @@ use sweetspot::schema::{self, File};
 use crate::cli::Done;
 use crate::cli::value::named;
 
-/// JSON Schema of the files: what a bat file may say, what modes and hit write
+/// JSON Schema of the files: what a bat file may say, what modes, hit and bbcor write
 ///
 /// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
-/// three, which tells them apart by their "format".
+/// of them, which tells them apart by their "format".
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Which file: bat, modes or hit [default: all of them in one schema]
+    /// Which file: bat, modes, hit or bbcor [default: all of them in one schema]
     #[arg(value_name = "FILE", value_parser = named(File::ALL, File::name),
           hide_possible_values = true)]
     file: Option<File>,

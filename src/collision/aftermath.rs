@@ -214,23 +214,28 @@ impl<'a> Aftermath<'a> {
 
     /// The largest strain at those places (m) and instants, with so many modes.
     pub fn worst(&self, places: &[f64], instants: &[Instant], count: usize) -> Option<Strained> {
-        let curvatures: Vec<Vec<f64>> = places
-            .iter()
-            .map(|x| self.modes.iter().take(count).map(|r| r.mode.shape.curvature(*x)).collect())
-            .collect();
-        let radii: Vec<f64> = places.iter().map(|x| self.bat.profile.at(*x).outer).collect();
-        let mut worst: Option<Strained> = None;
-        for now in instants {
-            for ((x, radius), curvature) in places.iter().zip(&radii).zip(&curvatures) {
+        let envelope = self.envelope(places, instants, count);
+        // The first of equal ones.
+        envelope.into_iter().reduce(|worst, at| if at.strain > worst.strain { at } else { worst })
+    }
+
+    /// The largest strain of every place (m) among those instants, with so many modes.
+    pub fn envelope(&self, places: &[f64], instants: &[Instant], count: usize) -> Vec<Strained> {
+        let at = |x: &f64| {
+            let modes = self.modes.iter().take(count);
+            let curvature: Vec<f64> = modes.map(|r| r.mode.shape.curvature(*x)).collect();
+            let radius = self.bat.profile.at(*x).outer;
+            let mut worst = Strained { x: *x, time: 0.0, strain: 0.0, stress: 0.0 };
+            for now in instants {
                 let sum: f64 = curvature.iter().zip(&now.modes).map(|(c, part)| c * part[0]).sum();
                 let strain = (radius * sum).abs();
-                if worst.is_none_or(|worst| strain > worst.strain) {
-                    let stress = self.modulus(*x) * strain;
-                    worst = Some(Strained { x: *x, time: now.time, strain, stress });
+                if strain > worst.strain {
+                    (worst.time, worst.strain) = (now.time, strain);
                 }
             }
-        }
-        worst
+            Strained { stress: self.modulus(*x) * worst.strain, ..worst }
+        };
+        places.iter().map(at).collect()
     }
 
     /// Young's modulus (Pa) of the outer material at `x` (m).

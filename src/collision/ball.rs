@@ -59,13 +59,48 @@ impl Ball {
         }
     }
 
+    /// The baseball kept at 50 instead of 30 % relative humidity, so that it is 1.6 % heavier and e₀
+    /// 3.7 % smaller.
+    pub fn humid_baseball() -> Self {
+        let dry = Self::baseball();
+        Self {
+            name: "humid baseball".into(),
+            source: format!(
+                "{}; kept at 50 instead of 30 % relative humidity: mass 1.6 % more, e0 3.7 % less \
+                 (A. M. Nathan, Baseball Prospectus, as quoted on arizona.sbnation.com, 26 Feb 2011). \
+                 How humid the dry one was is not known: the difference of both counts",
+                dry.source
+            ),
+            mass: 1.016 * dry.mass,
+            cor: (1.0 - 0.037) * dry.cor,
+            ..dry
+        }
+    }
+
+    /// The ball as a linear spring of that stiffness (N/m).
+    ///
+    /// Without loss `½ m v² = ½ F²/k`, so that a force F on a rigid surface at a speed v measures
+    /// `k = F²/(m v²)`, a dynamic stiffness.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a stiffness that no ball has.
+    pub fn linear(self, stiffness: f64) -> Result<Self> {
+        if !(1.0..=1e12).contains(&stiffness) {
+            let found = format!("{stiffness:?} N/m");
+            return Err(Error::value("--ball-stiffness", found, "1 to 1e12 N/m"));
+        }
+        let source = format!("{}; a linear spring of {stiffness} N/m, as was asked", self.source);
+        Ok(Self { source, stiffness: Some(stiffness), exponent: Some(1.0), ..self })
+    }
+
     /// A 12 in softball: 6¼ to 7 oz, 11⅞ to 12⅛ in around by the rules, e₀ 0.44.
     pub fn softball() -> Self {
         Self {
             name: "softball".into(),
             source: "mass and radius: middle of the rules' 6.25 to 7 oz and 11.875 to 12.125 in \
-                     around; e0: the common 0.44 ball (0.47 and 0.52 are approved too); force law \
-                     not known"
+                     around; e0: the common 0.44 ball (0.47 and 0.52 are approved too); no source \
+                     of a force law was found"
                 .into(),
             mass: 6.625 * 0.028_349_523_125,
             radius: 12.0 * 0.0254 / std::f64::consts::TAU,

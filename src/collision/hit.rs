@@ -91,8 +91,10 @@ impl Scene {
             (Some(stiffness), Some(exponent)) => Ok(ForceLaw::new(stiffness, exponent, cor)),
             _ => {
                 let found = format!("{}, of which no force law is known", self.ball.name);
-                let expected = "a ball file with \"stiffness\" and \"exponent\", or --model \
-                                rigid, energy-loss or pulse";
+                let expected = "--ball-stiffness with its dynamic stiffness as a laboratory \
+                                measures it (force F on a rigid cylinder at speed v: F²/(m v²)), a \
+                                ball file with \"stiffness\" and \"exponent\", or --model rigid, \
+                                energy-loss or pulse";
                 Err(Error::value("ball", found, expected))
             }
         }
@@ -147,6 +149,8 @@ pub struct Outcome {
     pub contact_time: Option<f64>,
     /// Largest force (N), where the model has one.
     pub peak_force: Option<f64>,
+    /// Largest compression of the ball (m), where the model has one.
+    pub peak_compression: Option<f64>,
     /// `e_A (1 + r) + r`, r = m/M_eff of the free bat.
     pub bbcor: f64,
     /// The same with `r = m Q²/I` of the bat held 6 in from the knob.

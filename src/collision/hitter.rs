@@ -53,6 +53,7 @@ struct Answer {
     in_wall: f64,
     contact_time: Option<f64>,
     peak_force: Option<f64>,
+    peak_compression: Option<f64>,
     flags: Vec<&'static str>,
     error: f64,
     truncation: f64,
@@ -73,6 +74,7 @@ impl Answer {
             in_wall: 0.0,
             contact_time: None,
             peak_force: None,
+            peak_compression: None,
             flags: vec![],
             error,
             truncation: 0.0,
@@ -409,6 +411,7 @@ impl<'a> Hitter<'a> {
         answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         answer.contact_time = Some(met.time);
         answer.peak_force = Some(met.peak_force);
+        answer.peak_compression = Some(met.compression);
         let walls = met.in_modes.len() - count;
         answer.in_wall = met.in_modes[..walls].iter().sum();
         answer.in_modes = met.in_modes[walls..].to_vec();
@@ -442,6 +445,7 @@ impl<'a> Hitter<'a> {
             collision_efficiency,
             contact_time: answer.contact_time,
             peak_force: answer.peak_force,
+            peak_compression: answer.peak_compression,
             bbcor,
             bbcor_pivoted,
             energy: Energy {

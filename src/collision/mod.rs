@@ -13,7 +13,8 @@
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`hit`], [`hitter`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
-//! | [`aftermath`] | what do the hands and the wood feel |
+//! | [`bbcor`] | what would a laboratory's test say |
+//! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
 pub mod ball;
 pub mod force_law;
@@ -30,9 +31,11 @@ pub mod aftermath;
 pub mod history;
 pub mod hit;
 pub mod hitter;
+pub mod strength;
 pub mod sweet_spot;
 pub mod figures;
 pub mod sweep;
+pub mod bbcor;
 
 pub use ball::Ball;
 pub use hit::{Effort, Impact, Model, Outcome, Scene};

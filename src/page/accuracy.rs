@@ -1,7 +1,7 @@
 //! How far the numbers may be trusted: what is certified, what was left out and what that costs.
 
 use crate::analysis::Analysis;
-use crate::ignored::ignored;
+use crate::ignored::{ignored, in_hit};
 use crate::page::shown::{self, inline, speed};
 use crate::report::advice;
 use crate::report::hit_text;
@@ -116,7 +116,15 @@ pub fn method(analysis: &Analysis) -> Vec<String> {
 /// What the model left out and what that costs.
 pub fn left_out(analysis: &Analysis) -> Vec<String> {
     let ignored = ignored(&analysis.bat, &analysis.solution);
-    ignored.iter().map(|text| shown::sentence(text)).collect()
+    let mut told: Vec<String> = ignored.iter().map(|text| shown::sentence(text)).collect();
+    told.extend(left_out_of_hit(analysis));
+    told
+}
+
+/// What the hits left out, of which the modes know nothing.
+pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
+    let ignored = in_hit(&analysis.bat, analysis.task.scene.wall.is_some());
+    ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
 }
 
 /// What the model needs on this bat.

@@ -138,6 +138,7 @@ impl<'a> Report<'a> {
         }
         let mut parts: Vec<Part> =
             accuracy::why(self.analysis).map(Part::Text).into_iter().collect();
+        parts.extend(accuracy::left_out_of_hit(self.analysis).into_iter().map(Part::Text));
         parts.extend(self.hovered("exit_speed"));
         parts.push(Part::Table(tables::sweet_spots(self.analysis)));
         parts.extend(self.pictured(&["hands"]));

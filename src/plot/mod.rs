@@ -39,6 +39,7 @@ pub mod marks;
 pub mod profile;
 pub mod shapes;
 pub mod exit_speed;
+pub mod bbcor;
 pub mod ledger;
 pub mod contact;
 pub mod hands;

@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 use crate::bat::Bat;
 use crate::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
 use crate::collision::hit::Impact;
+use crate::collision::strength::{Limit, Load, Strength, nearest};
 use crate::report::json::generator;
-use crate::report::text::Units;
+use crate::report::text::{Units, wrapped};
 use crate::units::{inches, miles_per_hour};
 
 /// All that is told of a hit's aftermath.
@@ -21,6 +22,11 @@ pub struct AfterHit {
     pub during: Option<Strained>,
     /// The largest strain of the whole time.
     pub after: Option<Strained>,
+    /// The largest strain of every place in the whole time.
+    pub envelope: Vec<Strained>,
+    /// Where the bat comes nearest to what its materials bear, and the swing (rad/s) that takes it
+    /// there, by every limit that is known.
+    pub loads: Vec<(Load, Option<f64>)>,
     /// How far the largest strain changes where a quarter of the modes is left out, relative.
     pub strain_error: f64,
     instants: Vec<Instant>,
@@ -48,7 +54,10 @@ impl AfterHit {
             (0..=PLACES).map(|k| bat.length() * k as f64 / PLACES as f64).collect();
         let all = after.count();
         let during = after.worst(&places, &instants[..=WITHIN], all);
+        let envelope = after.envelope(&places, &instants, all);
         let whole = after.worst(&places, &instants, all);
+        let loads = Limit::ALL.iter().filter_map(|limit| nearest(bat, &envelope, *limit));
+        let loads = loads.map(|load| (load, None)).collect();
         let fewer = after.worst(&places, &instants, all - all / 4);
         let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
         let seen = |x: &f64| (*x, after.sting(*x, &instants), after.lines(*x));
@@ -57,6 +66,8 @@ impl AfterHit {
             watched: watched.iter().map(seen).collect(),
             during,
             after: whole,
+            envelope,
+            loads,
             strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
             instants,
         }
@@ -122,6 +133,7 @@ pub fn text(report: &AfterHit, units: Units) -> String {
             );
         }
     }
+    out += &strength(report, units);
     let Some((x, _, lines)) = report.watched.first() else { return out };
     let _ = writeln!(
         out,
@@ -141,6 +153,79 @@ pub fn text(report: &AfterHit, units: Units) -> String {
         );
     }
     out
+}
+
+/// What the bat bears of it, and along it.
+fn strength(report: &AfterHit, units: Units) -> String {
+    let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
+    let every = (report.envelope.len() / 10).max(1);
+    for at in report.envelope.iter().step_by(every) {
+        let place = format!("at {}", place(at.x, units));
+        let _ =
+            writeln!(out, "  {place:<24} {:.3} %, {:.1} MPa", 100.0 * at.strain, 1e-6 * at.stress);
+    }
+    out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";
+    if report.loads.is_empty() {
+        let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
+                       the material in the bat file say what it bears";
+        return out + &wrapped(unknown, 4);
+    }
+    for (load, swing) in &report.loads {
+        out += &wrapped(&format!("  {}", reached(load, *swing, units)), 4);
+    }
+    out
+}
+
+/// How near a hit takes the bat to a limit, where, and the swing (rad/s) that takes it there.
+pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
+    let (bears, most, test) = match load.limit {
+        Limit::Stress => (
+            format!("{:.0} MPa", 1e-6 * load.bears),
+            format!("{:.1} MPa", 1e-6 * load.at.stress),
+            "that slow bending bears; how much more a blow does is not known",
+        ),
+        Limit::Strain => (
+            format!("{:.2} %", 100.0 * load.bears),
+            format!("a strain of {:.3} %", 100.0 * load.at.strain),
+            "at which it breaks in a blow",
+        ),
+    };
+    let swing = match swing {
+        Some(0.0) => "reached by the pitch alone, without a swing".to_owned(),
+        Some(swing) => format!("reached at a swing of about {swing:.1} rad/s"),
+        None => "reached by no swing up to 200 rad/s".to_owned(),
+    };
+    format!(
+        "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
+        place(load.at.x, units),
+        100.0 * load.share
+    )
+}
+
+/// What hits at some places ask of the bat, for a screen.
+pub fn strengths(all: &[Strength], units: Units) -> String {
+    if all.iter().all(|at| at.loads.is_empty()) {
+        return String::new();
+    }
+    let mut out = String::from(
+        "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
+    );
+    for at in all {
+        for (load, swing) in &at.loads {
+            let text = reached(load, *swing, units);
+            out += &wrapped(&format!("  hit at {}: {text}", place(at.x, units)), 4);
+        }
+    }
+    out
+}
+
+/// The same for a file.
+pub fn strengths_json(all: &[Strength]) -> Value {
+    let at = |at: &Strength| {
+        let loads: Vec<Value> = at.loads.iter().map(strength_json).collect();
+        json!({ "x_m": at.x, "limits": loads })
+    };
+    all.iter().map(at).collect()
 }
 
 /// Force, and motion and strain at the watched places, in time.
@@ -200,6 +285,7 @@ pub fn json(after: &Aftermath, report: &AfterHit) -> Value {
             "strain": strains.collect::<Vec<_>>(),
         })
     });
+    let along = |of: &dyn Fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
     let times: Vec<f64> = report.instants.iter().map(|now| now.time).collect();
     let forces: Vec<f64> = report.instants.iter().map(|now| now.force).collect();
     json!({
@@ -214,5 +300,29 @@ pub fn json(after: &Aftermath, report: &AfterHit) -> Value {
         "strain_max_in_contact": worst(report.during),
         "strain_max": worst(report.after),
         "strain_error": report.strain_error,
+        "along": {
+            "x_m": along(&|at| at.x),
+            "strain_max": along(&|at| at.strain),
+            "stress_max_pa": along(&|at| at.stress),
+        },
+        "strength": report.loads.iter().map(strength_json).collect::<Vec<_>>(),
+    })
+}
+
+/// How near the bat comes to one limit.
+fn strength_json((load, swing): &(Load, Option<f64>)) -> Value {
+    let (limit, bears) = match load.limit {
+        Limit::Stress => ("stress", "strength_pa"),
+        Limit::Strain => ("strain", "strain_to_failure"),
+    };
+    json!({
+        "limit": limit,
+        bears: load.bears,
+        "x_m": load.at.x,
+        "time_s": load.at.time,
+        "strain": load.at.strain,
+        "stress_pa": load.at.stress,
+        "share": load.share,
+        "reached_at_swing_rad_s": swing,
     })
 }

@@ -7,6 +7,7 @@ use crate::comparison::contender::Contender;
 use crate::comparison::rows::{Difference, From, Row, Unit, energies_compare};
 use crate::comparison::stretches::Stretch;
 use crate::comparison::table::Comparison;
+use crate::ignored::in_hit;
 use crate::report::hit_json::model_name;
 use crate::report::text::{Units, wrapped};
 use crate::units::{inches, miles_per_hour, ounce_square_inches, ounces};
@@ -89,6 +90,9 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         let theory = contender.sweep.solution.theory.name();
         let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name);
         out += &wrapped(&line, 5);
+        for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
+            out += &wrapped(&format!("     left out: {effect}"), 5);
+        }
     }
     let first = &comparison.bats[0];
     let Scene { pivot, ball, ball_speed, .. } = &first.scene;

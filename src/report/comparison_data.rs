@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::comparison::contender::Contender;
 use crate::comparison::rows::Row;
 use crate::comparison::table::Comparison;
+use crate::ignored::in_hit;
 use crate::report::comparison::{letter, words};
 use crate::report::hit_json::{hit, model_name, seen_from};
 use crate::report::json::generator;
@@ -85,6 +86,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> Val
         "theory": bat.sweep.solution.theory.name(),
         "modes": bat.sweep.solution.modes.len(),
         "tolerance_met": bat.sweep.met,
+        "ignored": in_hit(&bat.bat, bat.scene.wall.is_some()),
         "figures": figures,
         "harder": stretches.collect::<Vec<_>>(),
     })

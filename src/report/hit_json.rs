@@ -7,6 +7,7 @@ use crate::collision::ball::Ball;
 use crate::collision::figures::{Figures, Swung};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Wall};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::ignored;
 use crate::schema;
 use crate::schema::hit as file;
 use crate::schema::modes::Generator;
@@ -20,6 +21,7 @@ pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &Sw
         scene: scene_out(bat, scene),
         impacts: impacts.iter().map(|impact| impact_out(bat, impact)).collect(),
         sweet_spot: sweet_spot(spot),
+        ignored: ignored::in_hit(bat, scene.wall.is_some()),
         figures: None,
     })
 }
@@ -63,7 +65,8 @@ fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
     }
 }
 
-fn ball_out(ball: &Ball) -> file::Ball {
+/// The ball, with what its numbers come from.
+pub fn ball_out(ball: &Ball) -> file::Ball {
     file::Ball {
         name: ball.name.clone(),
         source: ball.source.clone(),
@@ -132,6 +135,7 @@ fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
         impulse_n_s: number(&|o| o.impulse),
         contact_time_s: outcome.and_then(|o| o.contact_time),
         peak_force_n: outcome.and_then(|o| o.peak_force),
+        peak_compression_m: outcome.and_then(|o| o.peak_compression),
         collision_efficiency: number(&|o| o.collision_efficiency),
         bbcor: number(&|o| o.bbcor),
         bbcor_pivoted: number(&|o| o.bbcor_pivoted),

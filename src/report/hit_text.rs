@@ -7,6 +7,7 @@ use crate::collision::figures::Figures;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::ignored;
 use crate::report::curve;
 use crate::report::text::{Units, rounded, wrapped};
 use crate::units::{inches, miles_per_hour};
@@ -282,6 +283,9 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
             "     the barrel's wall gives way: {:.3e} N/m, {} kg",
             wall.stiffness, wall.mass
         );
+    }
+    for effect in ignored::in_hit(bat, scene.wall.is_some()) {
+        out += &wrapped(&format!("     left out: {effect}"), 5);
     }
     if bat.fixtures.holding() {
         out += "     the bat is held: energies are as its hands see them, the bat at rest;\n     \

@@ -12,6 +12,7 @@ pub mod text;
 pub mod sketch;
 pub mod hit_text;
 pub mod hit_json;
+pub mod bbcor;
 pub mod aftermath;
 pub mod u_curve;
 pub mod trade;

@@ -68,6 +68,8 @@ fn material(material: &Material) -> file::Material {
         shear_modulus: material.shear_modulus,
         poisson_ratio: material.poisson_ratio,
         shear_coefficient: material.shear_coefficient,
+        strength: material.strength,
+        strain_to_failure: material.strain_to_failure,
     }
 }
 

@@ -24,6 +24,9 @@ pub struct HitFile {
     pub impacts: Vec<Impact>,
     /// The sweet spot of this scene, by each of its definitions.
     pub sweet_spot: SweetSpot,
+    /// What was left out of these hits, and what that does; empty where nothing is known to be.
+    #[serde(default)]
+    pub ignored: Vec<String>,
     /// The figures by which bats are compared; left out where they were not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figures: Option<Figures>,
@@ -114,6 +117,9 @@ pub struct Impact {
     pub contact_time_s: Option<f64>,
     /// Largest force (N), where the model has it.
     pub peak_force_n: Option<f64>,
+    /// Largest compression of the ball (m), where the model has it.
+    #[serde(default)]
+    pub peak_compression_m: Option<f64>,
     /// e_A = (v_out − V)/(v_in + V), V the bat's speed there.
     pub collision_efficiency: Option<f64>,
     /// Bat-ball coefficient of restitution of the free bat: e_A (1 + r) + r, r the ball's mass over

@@ -62,4 +62,10 @@ pub struct MaterialNumbers {
     /// Loss factor: a mode's damping ratio is half of it.
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 2, "default" = 0), example = 0.01)]
     pub loss_factor: Option<f64>,
+    /// Stress at which it breaks in bending: of wood the modulus of rupture.
+    #[schemars(transform = Measures(Quantity::Pressure), extend("exclusiveMinimum" = 0))]
+    pub strength: Option<Amount>,
+    /// Strain at which it breaks.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1), example = 0.02)]
+    pub strain_to_failure: Option<f64>,
 }

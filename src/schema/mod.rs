@@ -1,7 +1,7 @@
 //! What the files look like: each a type whose JSON Schema follows from it (draft 2020-12).
 //!
-//! The documents that are written, [`modes::ModesFile`] and [`hit::HitFile`], are these types
-//! themselves. They may grow: who reads them passes over members he does not know. The file that
+//! The documents that are written, [`modes::ModesFile`], [`hit::HitFile`] and
+//! [`bbcor::BbcorFile`], are these types themselves. They may grow: who reads them passes over members he does not know. The file that
 //! is read, [`bat::BatFile`], has no members but its own, as its reader. A document whose name ends
 //! in another number than `/1` is none of them.
 //!
@@ -17,6 +17,7 @@ pub mod fixtures;
 pub mod bat;
 pub mod modes;
 pub mod hit;
+pub mod bbcor;
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
@@ -33,11 +34,13 @@ pub enum File {
     Modes,
     /// What `sweetspot hit --json` writes.
     Hit,
+    /// What `sweetspot bbcor --json` writes.
+    Bbcor,
 }
 
 impl File {
     /// Every kind, in this order.
-    pub const ALL: [Self; 3] = [Self::Bat, Self::Modes, Self::Hit];
+    pub const ALL: [Self; 4] = [Self::Bat, Self::Modes, Self::Hit, Self::Bbcor];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -45,6 +48,7 @@ impl File {
             Self::Bat => "bat",
             Self::Modes => "modes",
             Self::Hit => "hit",
+            Self::Bbcor => "bbcor",
         }
     }
 
@@ -69,6 +73,7 @@ impl File {
             // What is written.
             Self::Modes => written::<modes::ModesFile>(settings),
             Self::Hit => written::<hit::HitFile>(settings),
+            Self::Bbcor => written::<bbcor::BbcorFile>(settings),
         };
         finished(generated, &self.id())
     }
@@ -92,7 +97,7 @@ pub fn all() -> Value {
         "$schema": DRAFT,
         "$id": "urn:sweetspot:1",
         "title": "A file of sweetspot",
-        "description": "A bat, its modes or its hits, told apart by the member \"format\".",
+        "description": "A bat, its modes, its hits or its BBCOR, told apart by the member \"format\".",
         "type": "object",
         "properties": { "format": { "enum": formats } },
         "required": ["format"],

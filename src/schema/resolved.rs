@@ -70,6 +70,12 @@ pub struct Material {
     /// Timoshenko's shear coefficient, if it was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_coefficient: Option<f64>,
+    /// Stress at which it breaks in bending (Pa), if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strength: Option<f64>,
+    /// Strain at which it breaks, if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strain_to_failure: Option<f64>,
 }
 
 /// Outer and inner radius along the bat.

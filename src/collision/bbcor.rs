@@ -1,0 +1,199 @@
+//! BBCOR as laboratories measure it, place by place: computed, and no certificate.
+//!
+//! The bat is at rest and turns about a pivot 6 in from the knob end; a ball meets it at the test
+//! speed, and how fast it comes back tells
+//!
+//! ```text
+//! e_A = v_out/v_in,   BBCOR = e_A (1 + r) + r,   r = m Q²/I
+//! ```
+//!
+//! with Q from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit
+//! speed relative to the closing speed, so that BBCOR may be off by `1 + r` times as much.
+
+use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::collision::ball::Ball;
+use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::sweep::{Sweep, sweep_telling};
+use crate::error::{Error, Result};
+use crate::fixtures::{Fixtures, Held, Support};
+use crate::solve::Request;
+use crate::telling::Tell;
+
+/// Speed of the ball in the test: 136 mph (m/s).
+pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
+/// From one place to the next, counted from the tip: half an inch (m).
+pub const STEP: f64 = 0.0127;
+/// What a bat may have at most.
+///
+/// # Source
+///
+/// Letter of the NCAA's Baseball Research Panel and Baseball Rules Committee to bat manufacturers, 16
+/// September 2008, as copied on 9county9.com: 0.50 for every length.
+pub const LIMIT: f64 = 0.5;
+/// Where the limit is from, for the documents.
+pub const LIMIT_SOURCE: &str =
+    "NCAA letter to bat manufacturers, 16 September 2008, as copied on 9county9.com";
+/// Where the ball's restitution is from that is taken if none is given.
+pub const COR_SOURCE: &str =
+    "A. M. Nathan, Am. J. Phys. 68, 979 (2000), at game speed; the paper's fit at 58 m/s has 0.53";
+/// The first and the last place of the scan, from the tip: 12 in and 1 in (m).
+const SCAN: [f64; 2] = [12.0 * 0.0254, 0.0254];
+
+/// A test: what is shot at the bat, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Protocol {
+    /// What is shot at the bat.
+    pub ball: Ball,
+    /// Its speed (m/s).
+    pub ball_speed: f64,
+    /// Its restitution on a rigid wall, unless its own depends on the speed.
+    pub cor: f64,
+    /// From where to where the bat is scanned (m from the knob end).
+    pub scan: [f64; 2],
+}
+
+/// One place of the scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// The hit; its exit speed is the rebound.
+    pub impact: Impact,
+    /// BBCOR about the pivot; None where ball and bat do not meet.
+    pub bbcor: Option<f64>,
+    /// How far it may be off.
+    pub error: Option<f64>,
+}
+
+/// A bat that was tested.
+#[derive(Debug, Clone)]
+pub struct Tested {
+    /// The bat as it was held.
+    pub bat: Bat,
+    /// What was done.
+    pub protocol: Protocol,
+    /// Every place, from the first to the last.
+    pub places: Vec<Place>,
+    /// The place with the largest BBCOR, among [`Self::places`].
+    pub largest: Option<usize>,
+    /// The hits as they were computed.
+    pub sweep: Sweep,
+}
+
+impl Protocol {
+    /// The laboratories' test of that bat with that ball, every half inch from 12 in to 1 in from the
+    /// tip, as far as that is beyond the middle of the bat.
+    pub fn of(bat: &Bat, ball: Ball) -> Self {
+        let [from, to] = SCAN.map(|from_tip| bat.length() - from_tip);
+        let scan = [from.max(0.5 * bat.length()), to.max(0.5 * bat.length())];
+        Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan }
+    }
+
+    /// The same with its force law and its places checked, before anything is computed.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a ball whose force law is not known, and for a scan that ends before it
+    /// begins.
+    pub fn checked(self) -> Result<Self> {
+        self.scene().force_law(self.cor)?;
+        let [from, to] = self.scan;
+        if to < from {
+            let expected = format!("a place at {from:.4} m or beyond, where the scan begins");
+            return Err(Error::value("--to", format!("{to:.4} m"), expected));
+        }
+        Ok(self)
+    }
+
+    /// The places (m from the knob end), whole half inches from the tip.
+    fn places(&self, length: f64) -> Vec<f64> {
+        /// Of a step, so that a rounding does not lose the ends.
+        const ROUNDING: f64 = 1e-9;
+        let [first, last] = self.scan.map(|x| (length - x) / STEP);
+        let [most, least] = [(first + ROUNDING).floor(), (last - ROUNDING).ceil()];
+        let count = (most - least + 1.0).max(0.0) as usize;
+        (0..count).map(|k| length - (most - k as f64) * STEP).collect()
+    }
+
+    /// The scene of every hit: nothing swings.
+    fn scene(&self) -> Scene {
+        let Self { ball, ball_speed, cor, .. } = self.clone();
+        Scene { swing: 0.0, ball, ball_speed, cor, ..Scene::default() }
+    }
+
+    /// Shoots the ball at every place, with as many modes as the accuracy needs; with `exactly` those
+    /// of the request and no others.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if there is no place to shoot at, and as
+    /// [`sweep`](crate::collision::sweep::sweep).
+    pub fn test(self, bat: &Bat, asked: (&Request, bool), tell: Tell) -> Result<Tested> {
+        let beyond = |x: &f64| *x > STANDARD_PIVOT && *x <= bat.length();
+        let places: Vec<f64> = self.places(bat.length()).into_iter().filter(beyond).collect();
+        if places.is_empty() {
+            let expected = "a stretch with a whole half inch from the tip in it, beyond the pivot 6 in \
+                            from the knob end";
+            let [from, to] = self.scan;
+            return Err(Error::value("scan", format!("{from:.4} to {to:.4} m"), expected));
+        }
+        let (bat, scene) = (pivoted(bat), self.scene());
+        let sweep = sweep_telling(&bat, (Model::Contact, &scene), asked, &places, tell)?;
+        let inertia = bat.inertia().about(STANDARD_PIVOT);
+        let place = |impact: &Impact| {
+            let ratio = self.ball.mass * (impact.x - STANDARD_PIVOT).powi(2) / inertia;
+            let outcome = impact.outcome.as_ref();
+            let bbcor = outcome.map(|outcome| outcome.bbcor_pivoted);
+            let error = outcome.map(|outcome| (1.0 + ratio) * outcome.error);
+            Place { impact: impact.clone(), bbcor, error }
+        };
+        let places: Vec<Place> = sweep.impacts.iter().map(place).collect();
+        let known = places.iter().enumerate().filter_map(|(k, place)| Some((k, place.bbcor?)));
+        let largest = known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
+        Ok(Tested { bat, protocol: self, places, largest, sweep })
+    }
+}
+
+/// The bat on the pivot alone: what else held it is taken away.
+fn pivoted(bat: &Bat) -> Bat {
+    let pivot = Support { x: STANDARD_PIVOT, kind: Held::Pinned };
+    let fixtures = bat.fixtures.without_springs();
+    let mut held = bat.clone();
+    held.fixtures = Fixtures { supports: vec![pivot], ..fixtures };
+    held.lay_out();
+    held
+}
+
+impl Tested {
+    /// The largest BBCOR of the scan.
+    pub fn most(&self) -> Option<&Place> {
+        self.places.get(self.largest?)
+    }
+
+    /// Whether it is within the limit: None where its error does not tell.
+    pub fn within(&self) -> Option<bool> {
+        let most = self.most()?;
+        let (bbcor, error) = (most.bbcor?, most.error?);
+        ((bbcor - LIMIT).abs() > error).then_some(bbcor < LIMIT)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_whole_half_inches_from_the_tip() {
+        let protocol = Protocol {
+            ball: Ball::baseball(),
+            ball_speed: TEST_SPEED,
+            cor: 0.5,
+            scan: [0.8382 - 0.3048, 0.8382 - 0.0254],
+        };
+        let places = protocol.places(0.8382);
+        assert_eq!(places.len(), 23);
+        for (k, x) in places.iter().enumerate() {
+            assert!((0.8382 - x - (24 - k) as f64 * 0.0127).abs() < 1e-12, "{x}");
+        }
+        let none = Protocol { scan: [0.700, 0.701], ..protocol };
+        assert_eq!(none.places(0.8382), [] as [f64; 0]);
+    }
+}

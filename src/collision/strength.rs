@@ -1,0 +1,158 @@
+//! How near does a hit come to breaking the bat, where, and at which swing does it get there?
+//!
+//! The bending stress at the outermost fibre is set against the material's strength, the strain
+//! against its strain to failure, place by place. Both are of clear wood along the grain: slope of
+//! grain, knots, dents and earlier hits are not known here, nor how much more than in a slow test the
+//! wood bears for a millisecond.
+
+use crate::bat::Bat;
+use crate::collision::aftermath::{Aftermath, Strained};
+use crate::collision::hit::{Effort, Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::material::Material;
+use crate::solve::Solution;
+
+/// What a strength is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// Of the stress, in slow bending (Pa).
+    Stress,
+    /// Of the strain, in a blow.
+    Strain,
+}
+
+impl Limit {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Stress, Self::Strain];
+
+    /// What the material bears, if it is known.
+    fn of(self, material: &Material) -> Option<f64> {
+        match self {
+            Self::Stress => material.strength,
+            Self::Strain => material.strain_to_failure,
+        }
+    }
+}
+
+/// Where a hit comes nearest to a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// Which limit.
+    pub limit: Limit,
+    /// What the material bears there (Pa, or a strain).
+    pub bears: f64,
+    /// The largest strain at that place.
+    pub at: Strained,
+    /// How much of the limit that is; 1 and more is beyond it.
+    pub share: f64,
+}
+
+/// The nearest to a limit among the largest strains of every place; None where no material has it.
+pub fn nearest(bat: &Bat, envelope: &[Strained], limit: Limit) -> Option<Load> {
+    let load = |at: &Strained| {
+        let bears = limit.of(&bat.layup(bat.profile.piece_at(at.x)).outer)?;
+        let reached = if limit == Limit::Stress { at.stress } else { at.strain };
+        Some(Load { limit, bears, at: *at, share: reached / bears })
+    };
+    envelope.iter().filter_map(load).max_by(|a, b| a.share.total_cmp(&b.share))
+}
+
+/// Instants at which a hit is looked at, even ones: while the ball is there, and after it, where three
+/// periods of the first mode hold some hundred of the tenth.
+const INSTANTS: [usize; 2] = [100, 2000];
+/// Places along the bat.
+const PLACES: usize = 100;
+/// The swing is found where the limit is reached to this share of it.
+const FOUND: f64 = 1e-3;
+/// More hits are not tried for it.
+const MOST: usize = 60;
+
+/// A hit's nearness to every limit that is known, and the swing (rad/s) that takes the bat to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strength {
+    /// Where the ball meets the bat (m).
+    pub x: f64,
+    /// Where the bat comes nearest to each limit, and the swing at which it gets there.
+    pub loads: Vec<(Load, Option<f64>)>,
+}
+
+impl Strength {
+    /// Of a ball that meets the bat at `x` (m), looked at for three periods of the first mode; None
+    /// where they do not meet, and where the model has no force in time.
+    pub fn at(
+        bat: &Bat,
+        solution: &Solution,
+        (scene, effort): (&Scene, Effort),
+        x: f64,
+    ) -> Option<Self> {
+        let until = 3.0 / solution.modes.first()?.frequency();
+        let envelope = largest_strains(bat, solution, (scene, effort), (x, until))?;
+        let reached = |limit| breaking_swing(bat, solution, (scene, effort), (x, until), limit);
+        let load = |limit: &Limit| Some((nearest(bat, &envelope, *limit)?, reached(*limit)));
+        Some(Self { x, loads: Limit::ALL.iter().filter_map(load).collect() })
+    }
+}
+
+/// The largest strain of places along the bat after a hit at `x` (m), until that time (s) or, if that
+/// is later, until the ball leaves.
+fn largest_strains(
+    bat: &Bat,
+    solution: &Solution,
+    (scene, effort): (&Scene, Effort),
+    (x, until): (f64, f64),
+) -> Option<Vec<Strained>> {
+    let hitter = Hitter::new(Model::Contact, scene, bat, solution, effort).ok()?;
+    let after = Aftermath::new(bat, solution, x, hitter.force(x)?);
+    let end = after.end();
+    let even = |from: f64, to: f64, count: usize| {
+        (0..=count).map(move |k| from + (to - from) * k as f64 / count as f64)
+    };
+    let [within, beyond] = INSTANTS;
+    let times: Vec<f64> =
+        even(0.0, end, within).chain(even(end, until.max(end), beyond).skip(1)).collect();
+    let places: Vec<f64> = even(0.0, bat.length(), PLACES).collect();
+    Some(after.envelope(&places, &after.at(&times), after.count()))
+}
+
+/// The swing (rad/s) at which a ball that meets the bat at `x` (m) takes it to the limit, the rest of
+/// the scene as it is. Each hit is computed anew, since the ball's force does not grow as the swing
+/// does. 0 where the pitch alone is enough; None where no swing up to 200 rad/s is.
+///
+/// # Source
+///
+/// The Illinois variant of false position: M. Dowell, P. Jarratt, BIT 11 (1971) 168.
+pub fn breaking_swing(
+    bat: &Bat,
+    solution: &Solution,
+    (scene, effort): (&Scene, Effort),
+    about: (f64, f64),
+    limit: Limit,
+) -> Option<f64> {
+    let beyond = |swing: f64| {
+        let scene = Scene { swing, ..scene.clone() };
+        let envelope = largest_strains(bat, solution, (&scene, effort), about);
+        // A bat that no ball comes to is not struck, and not broken.
+        envelope.map_or(Some(-1.0), |all| Some(nearest(bat, &all, limit)?.share - 1.0))
+    };
+    let (mut low, mut high) = (0.0, 200.0);
+    let (mut below, mut above) = (beyond(low)?, beyond(high)?);
+    if below >= 0.0 {
+        return Some(0.0);
+    }
+    if above < 0.0 {
+        return None;
+    }
+    for _ in 0..MOST {
+        let swing = (low * above - high * below) / (above - below);
+        let value = beyond(swing)?;
+        if value.abs() < FOUND || high - low < FOUND * high {
+            return Some(swing);
+        }
+        // The end that stays is taken for half as far, so that it does not stay for ever.
+        match value < 0.0 {
+            true => (low, below, above) = (swing, value, 0.5 * above),
+            false => (high, above, below) = (swing, value, 0.5 * below),
+        }
+    }
+    None
+}

@@ -1,0 +1,219 @@
+//! Facts of the field: what laboratories, broadcasts and makers say of bats and balls.
+
+mod common;
+
+use common::folder::Folder;
+use serde_json::Value;
+use sweetspot::bat::STANDARD_PIVOT;
+use sweetspot::collision::aftermath::Aftermath;
+use sweetspot::collision::bbcor::{Protocol, Tested};
+use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
+use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::{Ball, SweetSpot};
+use sweetspot::telling::nobody;
+use sweetspot::theory::Theory;
+use sweetspot::units::miles_per_hour;
+use sweetspot::validation::bundled_bat;
+use sweetspot::{Bat, Request, solve};
+
+fn asked() -> Request {
+    Request { tolerance: 1e-4, theory: Theory::Timoshenko, ..Request::default() }
+}
+
+fn tested(bat: &Bat) -> Tested {
+    let protocol = Protocol::of(bat, Ball::baseball());
+    protocol.test(bat, (&asked(), false), &nobody).unwrap()
+}
+
+/// The corked bat of the project and the bat that it was before it was bored.
+fn corked_and_solid() -> [Bat; 2] {
+    let text = include_str!("../meshes/corked.json");
+    let mut file: Value = serde_json::from_str(text).unwrap();
+    let read = |file: &Value| Bat::from_text("c", &file.to_string(), "".as_ref()).unwrap();
+    let corked = read(&file);
+    file.as_object_mut().unwrap().remove("regions");
+    file["profile"].as_object_mut().unwrap().remove("inner_diameter");
+    [corked, read(&file)]
+}
+
+fn fastest(bat: &Bat, scene: &Scene) -> f64 {
+    let hits: Sweep = sweep(bat, Model::Contact, scene, &asked(), false, &[0.7]).unwrap();
+    let hitter = Hitter::new(Model::Contact, scene, bat, &hits.solution, hits.effort).unwrap();
+    SweetSpot::find(bat, scene, &hits.solution, &hitter).exit_speed_max.unwrap().value
+}
+
+/// The pivot is felt when the ball has gone; 30.7 mph is an explicit integration of 84 slices.
+#[test]
+fn a_bat_on_the_laboratories_pivot_sends_the_ball_back_like_a_free_one() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let pivoted = tested(&bat);
+    let scene = Scene { swing: 0.0, ball_speed: pivoted.protocol.ball_speed, ..Scene::default() };
+    let places: Vec<f64> = pivoted.places.iter().map(|place| place.impact.x).collect();
+    let free = sweep(&bat, Model::Contact, &scene, &asked(), false, &places).unwrap();
+    let mut most = f64::NEG_INFINITY;
+    for (held, free) in pivoted.places.iter().zip(&free.impacts) {
+        let [held, free] = [&held.impact, free].map(|i| i.outcome.as_ref().unwrap().exit_speed);
+        assert!((held - free).abs() < 5e-4 * scene.ball_speed, "{held} {free}");
+        most = most.max(held);
+    }
+    assert!((miles_per_hour(most) - 30.7).abs() < 0.1, "{most}");
+}
+
+/// `e_A (1 + r) + r` from the rebound and the inertia, and a wooden bat is below the limit.
+#[test]
+fn bbcor_follows_from_the_rebound_and_the_swing_weight() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let tested = tested(&bat);
+    assert_eq!(tested.places.len(), 23);
+    let inertia = bat.inertia().about(STANDARD_PIVOT);
+    for place in &tested.places {
+        let outcome = place.impact.outcome.as_ref().unwrap();
+        let efficiency = outcome.exit_speed / tested.protocol.ball_speed;
+        let arm = place.impact.x - STANDARD_PIVOT;
+        let r = tested.protocol.ball.mass * arm * arm / inertia;
+        let bbcor = efficiency * (1.0 + r) + r;
+        assert!((place.bbcor.unwrap() - bbcor).abs() < 1e-12, "{}", place.impact.x);
+        assert!(place.error.unwrap() >= outcome.error);
+    }
+    let most = tested.most().unwrap().bbcor.unwrap();
+    assert!(most < 0.5 && most > 0.48, "{most}");
+    assert_eq!(tested.within(), Some(true));
+}
+
+/// Of a rigid wall a ball comes back with its own restitution; a bat returns as much where it is
+/// stiff and does not recoil, and what holds it in its file changes nothing.
+#[test]
+fn what_holds_the_bat_in_its_file_is_no_part_of_the_test() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let text = include_str!("../meshes/r161.json");
+    let mut file: Value = serde_json::from_str(text).unwrap();
+    file["grip"] = serde_json::json!({ "from": 0.0, "to": 0.2, "stiffness": 1e5 });
+    file["supports"] = serde_json::json!([{ "x": 0.3, "type": "clamped" }]);
+    let held = Bat::from_text("h", &file.to_string(), "".as_ref()).unwrap();
+    let [bare, held] = [&bat, &held].map(|bat| tested(bat).most().unwrap().bbcor.unwrap());
+    assert!((bare - held).abs() < 1e-4, "{bare} {held}");
+}
+
+/// By the same swing, and by a swing that grows with the fourth root of what the swing weight is less;
+/// at the same BBCOR less of the ball's speed comes back from a lighter barrel.
+#[test]
+fn a_corked_bat_loses_speed_at_equal_bbcor() {
+    let [corked, solid] = corked_and_solid();
+    let most = |bat| tested(bat).most().unwrap().bbcor.unwrap();
+    assert!((most(&corked) - most(&solid)).abs() < 2e-3);
+    let inertia = |bat: &Bat| bat.inertia().about(STANDARD_PIVOT);
+    let faster = (inertia(&solid) / inertia(&corked)).powf(0.25);
+    assert!(faster > 1.01);
+    let scene = Scene::default();
+    let whole = fastest(&solid, &scene);
+    for swing in [scene.swing, faster * scene.swing] {
+        let bored = fastest(&corked, &Scene { swing, ..scene.clone() });
+        assert!(bored < whole - 0.3, "{swing}: {bored} {whole}");
+    }
+}
+
+/// From 30 to 50 % relative humidity: 2.8 ± 0.5 mph less, A. M. Nathan as quoted on
+/// arizona.sbnation.com, 26 Feb 2011.
+#[test]
+fn a_humid_ball_leaves_slower_by_as_much_as_was_published() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let speed = |ball: Ball| fastest(&bat, &Scene { cor: ball.cor, ball, ..Scene::default() });
+    let less = miles_per_hour(speed(Ball::baseball()) - speed(Ball::humid_baseball()));
+    assert!((less - 2.8).abs() < 0.5, "{less} mph");
+}
+
+/// Without the bat's modes the ball has its largest compression where all of the energy of the
+/// relative motion is in it: a linear ball's is `u √(μ/k)`.
+#[test]
+fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let ball = Ball { cor: 1.0, ..Ball::softball() }.linear(1.2e6).unwrap();
+    let scene = Scene { cor: 1.0, ball, ..Scene::default() };
+    let request = Request { modes: 0, ..asked() };
+    let solution = solve(&bat, &request).unwrap();
+    let effort = Effort { accuracy: 1e-8, completed: false };
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+    let impact = hitter.strike(0.65);
+    let outcome = impact.outcome.unwrap();
+    let closing = impact.bat_speed + scene.ball_speed;
+    let mass = outcome.impulse / (2.0 * closing);
+    let deepest = closing * (mass / 1.2e6).sqrt();
+    let found = outcome.peak_compression.unwrap();
+    assert!((found / deepest - 1.0).abs() < 1e-6, "{found} {deepest}");
+    assert!((outcome.peak_force.unwrap() / (1.2e6 * found) - 1.0).abs() < 1e-6);
+}
+
+/// At the swing that is said to take the bat to its strength the stress is the strength.
+#[test]
+fn a_hit_at_the_breaking_swing_reaches_the_strength() {
+    let mut bat = bundled_bat("meshes/r161.json").unwrap();
+    bat.layups.iter_mut().for_each(|layup| layup.outer.strength = Some(300e6));
+    let request = Request { modes: 20, ..asked() };
+    let solution = solve(&bat, &request).unwrap();
+    let effort = Effort { completed: false, ..Effort::default() };
+    let (scene, x, until) = (Scene::default(), 0.6, 0.02);
+    let about = (x, until);
+    let swing = breaking_swing(&bat, &solution, (&scene, effort), about, Limit::Stress).unwrap();
+    assert!(swing > 5.0 && swing < 50.0, "{swing}");
+    let scene = Scene { swing, ..scene };
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+    let after = Aftermath::new(&bat, &solution, x, hitter.force(x).unwrap());
+    let places: Vec<f64> = (0..=400).map(|k| bat.length() * f64::from(k) / 400.0).collect();
+    let times: Vec<f64> = (0..=4000).map(|k| until * f64::from(k) / 4000.0).collect();
+    let envelope = after.envelope(&places, &after.at(&times), after.count());
+    let load = nearest(&bat, &envelope, Limit::Stress).unwrap();
+    assert!((load.share - 1.0).abs() < 0.01, "{swing} rad/s: {}", load.share);
+    assert!((load.at.stress / (load.share * 300e6) - 1.0).abs() < 1e-12);
+    assert_eq!(nearest(&bat, &envelope, Limit::Strain), None);
+}
+
+const TUBE: &str = r#"{ "format": "sweetspot-bat/1", "name": "tube", "material": "aluminium-7075",
+    "profile": { "x": [0, 0.3, 0.55, 0.84], "diameter": [0.024, 0.024, 0.066, 0.066],
+                 "wall_thickness": [0.004, 0.004, 0.003, 0.003] } }"#;
+
+/// Every result of a hollow barrel without figures for its wall says that it has none.
+#[test]
+fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
+    let folder = Folder::new("hollow");
+    folder.write("tube.json", TUBE);
+    let told = "the wall of this hollow barrel (3.0 mm";
+    let flat = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let commands: [&[&str]; 5] = [
+        &["hit", "tube.json", "--points", "3"],
+        &["analyze", "tube.json", "--report", "tube.html"],
+        &["bbcor", "tube.json"],
+        &["compare", "tube.json", "tube.json"],
+        &["ring", "tube.json", "--hit", "0.7"],
+    ];
+    for command in commands {
+        let text = flat(folder.text(command));
+        assert!(text.contains(told), "{command:?}: {text}");
+        let json = folder.text(&[command, &["--json", "-"]].concat());
+        assert!(json.contains(told), "{command:?}: no member says it");
+    }
+    let modes = folder.text(&["modes", "tube.json", "--json", "-"]);
+    assert!(modes.contains("hoop modes of this hollow barrel"));
+    assert!(flat(folder.read("tube.html")).contains("wall of this hollow barrel (3.0 mm"));
+    let given = ["hit", "tube.json", "--points", "3", "--wall-stiffness", "5e6"];
+    assert!(!flat(folder.text(&given)).contains(told));
+}
+
+#[test]
+fn the_bbcor_verb_writes_what_it_prints() {
+    let folder = Folder::new("bbcor");
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    let text = folder.text(&["bbcor", "r161.json", "--csv", "b.csv", "--plots", "p"]);
+    assert!(text.contains("computed, not certified") && text.contains("limit of 0.50"), "{text}");
+    let json = folder.text(&["bbcor", "r161.json", "--json", "-"]);
+    let document: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(document["format"], "sweetspot-bbcor/1");
+    assert_eq!(document["certified"], false);
+    let places = document["places"].as_array().unwrap();
+    let most = places.iter().map(|p| p["bbcor"].as_f64().unwrap()).fold(0.0, f64::max);
+    assert_eq!(document["largest"]["bbcor"], most);
+    assert!(places.iter().all(|p| p["error"]["bbcor"].as_f64().unwrap() > 0.0));
+    assert_eq!(folder.read("b.csv").lines().count(), places.len() + 1);
+    assert!(folder.read("p/bbcor.svg").contains("BBCOR"));
+}
