@@ -37,9 +37,20 @@ pub fn account(
         mode.error.discretization = (mode.error.discretization - solver).max(0.0);
         mode.error.round_off += solver;
     }
+    blur(mode, sums);
+}
+
+/// What round-off of a frequency, relative, is worth in the shape, the nodes and the modal mass.
+fn blur(mode: &mut Mode, sums: f64) {
     mode.error.nodes += 10.0 * sums * mode.shape.length() / mode.nodes.len().max(1) as f64;
     mode.error.modal_mass += 10.0 * sums;
     mode.error.shape += 10.0 * sums;
+}
+
+/// What round-off of the sections adds, relative: a frequency goes as `√(EI/ρA)`.
+pub fn add_sections(mode: &mut Mode, sections: f64) {
+    mode.error.round_off += sections;
+    blur(mode, sections);
 }
 
 /// What other modes add to a mode's errors; `beyond` is ω (rad/s) of the first mode above the list,

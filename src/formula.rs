@@ -53,7 +53,7 @@ struct Parsed {
 /// A part of a formula with its own value. Sums and products are lists, so that a long one is
 /// no deep one.
 #[derive(Debug, Clone, PartialEq)]
-enum Node {
+pub(crate) enum Node {
     Number(f64),
     X,
     /// Terms, and whether each is subtracted.
@@ -66,7 +66,7 @@ enum Node {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Function {
+pub(crate) enum Function {
     Sin,
     Cos,
     Tan,
@@ -130,6 +130,11 @@ impl Formula {
     /// The formula as it was written.
     pub fn text(&self) -> &str {
         &self.0.text
+    }
+
+    /// The whole of it as a tree.
+    pub(crate) fn root(&self) -> &Node {
+        &self.0.root
     }
 
     /// Its value at `x`: not a number where it has none, such as `sqrt(-1)`.

@@ -1,11 +1,11 @@
-//! A profile from formulas: cut where they have corners, checked everywhere.
+//! A profile from formulas: cut where they have corners and at their features, checked everywhere.
 
 use crate::error::{Complaint, Error, Result, shortened};
 use crate::formula::Formula;
+use crate::formula_bounds::Bounds;
 use crate::profile::{
     Curves, FormulaPiece, Formulas, Interpolation, Piece, Profile, Radii, Section, Stations,
 };
-use crate::quadrature::converged;
 
 /// Samples of one written piece, at which its radii are checked.
 const SAMPLES: f64 = 1000.0;
@@ -17,15 +17,23 @@ const TOUCHING: f64 = 1e-12;
 const ONE_CORNER: f64 = 1e-9;
 /// A value this small, as a share of the largest radius, is the round-off of 0.
 const ROUND_OFF: f64 = 1e-15;
-/// Volume and stiffness must converge to this, relative.
-const SMOOTH: f64 = 1e-10;
+/// A stretch between two cuts is smooth if polynomials are as near to its sections, relative.
+const SMOOTH: f64 = 1e-3;
+/// Round-off of a section, relative, beyond which a formula has lost its digits.
+const LOST: f64 = 1e-8;
+/// Halvings of a stretch: the last ones are as short as two corners may lie apart.
+const MOST_HALVINGS: usize = 30;
+/// Sections on so short a stretch may vary by this share, whatever they do there.
+const MOST_VARIATION: f64 = 1.0;
+/// More stretches than this in one formula vary too fast.
+const MOST_STRETCHES: usize = 4096;
 
 impl Profile {
     /// The profile of these formulas, whose pieces touch end to end from 0.
     ///
-    /// A piece is cut where an `abs`, a `min` or a `max` in it has a corner, so that between the
-    /// cuts all is smooth. Radii are checked at 1000 points of every piece and at the bottoms
-    /// between them.
+    /// A piece is cut where an `abs`, a `min` or a `max` in it has a corner, and halved until bounds
+    /// from the parse tree leave no place for a feature between two cuts ([`crate::interval`]).
+    /// The same bounds show that both radii are possible everywhere.
     ///
     /// # Errors
     ///
@@ -47,11 +55,21 @@ impl Profile {
             for (from, to) in named.smooth_parts()? {
                 let (outer, inner) = (piece.outer.clone(), piece.inner.clone());
                 let curves = Curves { outer, inner, from, to, floor };
-                let samples = named.samples(&curves);
+                let mut samples = named.samples(&curves);
                 named.check(&curves, &samples)?;
+                let mut stretches = Vec::new();
+                named.halve(&curves, MOST_HALVINGS, &mut stretches)?;
+                for stretch in stretches {
+                    let (start, length) = (stretch.from, stretch.to - stretch.from);
+                    let s = (start + 0.5 * length - from) / (to - from);
+                    samples.push((s, curves.at(s)));
+                    let radii = Radii::Formula(stretch);
+                    pieces.push(Piece { start, length, radii, layup: 0 });
+                }
+                samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+                // A place twice but for its rounding would look like a peak.
+                samples.dedup_by(|b, a| b.0 - a.0 < TOUCHING);
                 add_stations(&mut stations, &curves, &samples);
-                let radii = Radii::Formula(curves);
-                pieces.push(Piece { start: from, length: to - from, radii, layup: 0 });
             }
         }
         let formulas = Some(Formulas { pieces: written, from_tip: false });
@@ -146,9 +164,8 @@ impl Named<'_> {
         Ok(largest)
     }
 
-    /// Where the piece is cut at corners: from and to of each part (m).
-    fn smooth_parts(&self) -> Result<Vec<(f64, f64)>> {
-        let FormulaPiece { from, to, .. } = *self.piece;
+    /// The corners of both radii between these places (m), rising.
+    fn corners(&self, from: f64, to: f64) -> Result<Vec<f64>> {
         let mut corners = Vec::new();
         for (key, formula) in self.formulas() {
             corners.extend(
@@ -158,6 +175,13 @@ impl Named<'_> {
             );
         }
         corners.sort_by(f64::total_cmp);
+        Ok(corners)
+    }
+
+    /// Where the piece is cut at corners: from and to of each part (m).
+    fn smooth_parts(&self) -> Result<Vec<(f64, f64)>> {
+        let FormulaPiece { from, to, .. } = *self.piece;
+        let corners = self.corners(from, to)?;
         let least = ONE_CORNER * (to - from);
         let mut cuts = vec![from];
         for corner in corners {
@@ -175,7 +199,7 @@ impl Named<'_> {
         (0..=count as usize).map(|j| (j as f64 / count, curves.at(j as f64 / count))).collect()
     }
 
-    /// Both radii must be possible everywhere, and smooth.
+    /// Both radii must be possible at the samples and at the bottoms between them.
     fn check(&self, curves: &Curves, samples: &Samples) -> Result<()> {
         let places = samples.iter().copied();
         let bottoms = [
@@ -186,12 +210,60 @@ impl Named<'_> {
         for (s, section) in bottoms.into_iter().flatten().chain(places) {
             self.check_section(curves.x(s), section)?;
         }
-        let integrals = converged(|s| {
-            let section = curves.at(s);
-            [section.area(), section.second_moment()]
-        });
-        if integrals.error <= SMOOTH {
+        Ok(())
+    }
+
+    /// Cuts a stretch at corners and in the middle until all parts are possible and smooth.
+    fn halve(&self, curves: &Curves, halvings: usize, parts: &mut Vec<Curves>) -> Result<()> {
+        let Curves { from, to, .. } = *curves;
+        let bounds = curves.bounds(0.0, 1.0);
+        let possible = |bounds: &Bounds| bounds.possible([from == 0.0, to == self.length]);
+        let short = halvings == 0;
+        // The last of a point neither weighs nor bends.
+        let at_end = from == 0.0 || to == self.length;
+        let smooth = |bounds: &Bounds| {
+            bounds.missed(0.0) <= SMOOTH && bounds.round_off() <= LOST
+                || short && (at_end || bounds.variation(0.0) <= MOST_VARIATION)
+        };
+        if bounds.as_ref().is_some_and(|bounds| possible(bounds) && smooth(bounds)) {
+            parts.push(curves.clone());
             return Ok(());
+        }
+        if short && bounds.is_none() && self.is_level(curves)? {
+            parts.push(curves.clone());
+            return Ok(());
+        }
+        if short || parts.len() > MOST_STRETCHES {
+            return Err(self.rough(curves));
+        }
+        let corner = if bounds.is_none() { self.corner(from, to)? } else { None };
+        let middle = corner.unwrap_or(0.5 * (from + to));
+        self.halve(&Curves { to: middle, ..curves.clone() }, halvings - 1, parts)?;
+        self.halve(&Curves { from: middle, ..curves.clone() }, halvings - 1, parts)
+    }
+
+    /// A corner that lies between these places and not at one of them.
+    fn corner(&self, from: f64, to: f64) -> Result<Option<f64>> {
+        let least = ONE_CORNER * (self.piece.to - self.piece.from);
+        let inside = |corner: &f64| corner - from > least && to - corner > least;
+        Ok(self.corners(from, to)?.into_iter().find(inside))
+    }
+
+    /// Whether sections at three places of a short stretch are possible and much the same.
+    fn is_level(&self, curves: &Curves) -> Result<bool> {
+        let sections = [0.0, 0.5, 1.0].map(|s| curves.at(s));
+        let places = sections.iter().zip([0.0, 0.5, 1.0]);
+        places.into_iter().try_for_each(|(at, s)| self.check_section(curves.x(s), *at))?;
+        let stiffness = sections.map(Section::second_moment);
+        let most = stiffness.into_iter().fold(0.0, f64::max);
+        Ok(most <= (1.0 + MOST_VARIATION) * stiffness.into_iter().fold(most, f64::min))
+    }
+
+    /// A stretch in which a feature hides that no halving shows.
+    fn rough(&self, curves: &Curves) -> Error {
+        let [first, last] = [0.0, 1.0].map(|s| self.check_section(curves.x(s), curves.at(s)));
+        if let Err(error) = first.and(last) {
+            return error;
         }
         let found = format!(
             "a radius that jumps, varies too fast or loses its digits between x = {} and {}, {}",
@@ -199,7 +271,7 @@ impl Named<'_> {
             metres(curves.to),
             quoted(&self.piece.outer),
         );
-        Err(self.error("formula", found, "a smooth radius; a jump is the end of a piece"))
+        self.error("formula", found, "a smooth radius; a jump is the end of a piece")
     }
 
     fn check_section(&self, x: f64, section: Section) -> Result<()> {

@@ -79,6 +79,7 @@
 //! |---|---|
 //! | [`error`], [`telling`], [`units`] | what did the caller get wrong; how far is long work; what is a number with a unit in SI |
 //! | [`real`], [`lanes`], [`quadrature`] | what do we count with, how do we integrate |
+//! | [`interval`] | which values can an expression take on an interval |
 //! | [`material`], [`theory`] | how stiff, how heavy; which beam |
 //! | [`formula`], [`profile`], [`layup`] | what is the section at `x`, and what is it worth |
 //! | [`fixtures`] | what is on the bat, what holds it |
@@ -197,11 +198,14 @@ pub mod units;
 pub mod real;
 pub mod lanes;
 pub mod quadrature;
+pub mod interval;
 pub mod material;
 pub mod theory;
 mod pchip;
 pub mod formula;
+mod formula_range;
 pub mod profile;
+mod formula_bounds;
 mod formula_profile;
 pub mod layup;
 pub mod fixtures;

@@ -87,7 +87,7 @@ impl Mode {
         let sign = if leading < 0.0 { -1.0 } else { 1.0 };
         let scale = sign / largest;
         let rest = if view.fixed.is_some() { STILL * largest } else { 0.0 };
-        let mut nodes = shape.zeros(&track.samples, &track.xi, rest);
+        let mut nodes = shape.zeros(&track, rest);
         if let Some(fixed) = view.fixed {
             // Where a clamp holds the bat its deflection has more than a zero.
             let near = STILL.cbrt() * shape.length();
@@ -291,89 +291,155 @@ impl Shape {
         sum
     }
 
-    /// Largest |deflection| over the continuous shape, and the relative change there.
+    /// Deflection at the left end, the points and the right end of element `k`, from its values at
+    /// the points.
+    fn places(&self, k: usize, track: &Track, places: &mut Vec<(f64, f64)>) {
+        let points = track.xi.len();
+        let own = &self.coefficients[k * self.terms..(k + 1) * self.terms];
+        let left = own.iter().enumerate().map(|(j, w)| if j % 2 == 1 { -w } else { *w }).sum();
+        let inner = track.samples[k * points..(k + 1) * points].iter();
+        places.clear();
+        places.push((-1.0, left));
+        places.extend(track.xi.iter().copied().zip(inner.copied()));
+        places.push((1.0, own.iter().sum()));
+    }
+
+    /// Largest |deflection| over the continuous shape, and the relative change there: of the ends
+    /// of every element, where joints make cusps, and of the peaks between its places.
     fn largest(&self, track: &Track) -> (f64, f64) {
-        // A peak is higher than the samples beside it, hardly ever by more than that.
+        // A peak is higher than the places beside it, hardly ever by more than that.
         const LOWEST: f64 = 0.5;
+        let points = track.xi.len();
         let [knob, tip] = track.ends;
         let end = if knob[0].abs() > tip[0].abs() { knob } else { tip };
         let (mut most, mut change) = (end[0].abs(), end[1] / end[0]);
         let highest = track.samples.iter().fold(most, |most, w| most.max(w.abs()));
-        let size = |i: usize| track.samples[i].abs();
-        let last = track.samples.len() - 1;
-        for i in (0..=last).filter(|&i| size(i) > LOWEST * highest) {
-            let sign = track.samples[i].signum();
-            let before = if i == 0 { knob[0] } else { track.samples[i - 1] };
-            let after = if i == last { tip[0] } else { track.samples[i + 1] };
-            // Beyond a zero begins another peak.
-            if before * sign > size(i) || after * sign > size(i) {
-                continue;
-            }
-            let peak = self.peak(i / track.xi.len(), track.xi[i % track.xi.len()]).max(size(i));
-            if peak > most {
-                (most, change) = (peak, track.changes[i] / track.samples[i]);
+        let mut places = Vec::with_capacity(points + 2);
+        for k in 0..self.stretches.len() {
+            self.places(k, track, &mut places);
+            let size = |j: usize| places.get(j).map_or(0.0, |(_, w)| w.abs());
+            for j in 0..places.len() {
+                let highest_here = size(j) >= size(j.wrapping_sub(1)) && size(j) >= size(j + 1);
+                if size(j) <= LOWEST * highest.max(most) || !highest_here {
+                    continue;
+                }
+                let peak = self.extreme(k, &places, j).1.abs().max(size(j));
+                if peak > most {
+                    let near = k * points + j.saturating_sub(1).min(points - 1);
+                    (most, change) = (peak, track.changes[near] / track.samples[near]);
+                }
             }
         }
         (most, change)
     }
 
-    /// The largest |deflection| on Newton's way from ξ on element `k` to where the slope is zero,
-    /// over the border of an element if need be.
-    fn peak(&self, mut k: usize, mut xi: f64) -> f64 {
-        let mut most = 0.0_f64;
-        for _ in 0..20 {
+    /// The place ξ beside place `j` of element `k` where the slope is zero, and the deflection
+    /// there; place `j` itself if the slope has one sign up to the next places.
+    fn extreme(&self, k: usize, places: &[(f64, f64)], j: usize) -> (f64, f64) {
+        let slope = |xi: f64| self.derivatives(k, xi)[1];
+        let (at, value) = places[j];
+        let here = slope(at);
+        let beside = [j.wrapping_sub(1), j + 1].map(|j| places.get(j).map(|place| place.0));
+        let across = |xi: &f64| here * slope(*xi) < 0.0;
+        let Some(mut other) = beside.into_iter().flatten().find(across) else { return (at, value) };
+        let (mut own, mut xi) = (at, at);
+        // Newton's steps where they stay inside the shrinking bracket, halving where not.
+        for _ in 0..60 {
             let [w, slope, bend] = self.derivatives(k, xi);
-            most = most.max(w.abs());
-            let next = xi - slope / bend;
-            if !next.is_finite() || (next - xi).abs() < 1e-9 {
-                break;
-            }
-            if next.abs() <= 1.0 {
-                xi = next;
-            } else if next > 1.0 && xi < 1.0 {
-                xi = 1.0;
-            } else if next < -1.0 && xi > -1.0 {
-                xi = -1.0;
-            } else if next > 1.0 && k + 1 < self.stretches.len() {
-                (k, xi) = (k + 1, -1.0);
-            } else if next < -1.0 && k > 0 {
-                (k, xi) = (k - 1, 1.0);
+            if slope * here > 0.0 {
+                own = xi
             } else {
-                break;
+                other = xi
             }
+            let next = xi - slope / bend;
+            let inside = next > own.min(other) && next < own.max(other);
+            let next = if inside { next } else { 0.5 * (own + other) };
+            if (next - xi).abs() < 1e-9 {
+                return (xi, w);
+            }
+            xi = next;
         }
-        most
+        (xi, self.derivatives(k, xi)[0])
     }
 
-    /// The isolated zeros of the deflection inside the bat (m), rising, from its values at the
-    /// points of the elements.
+    /// The isolated zeros of the deflection inside the bat (m), rising.
     ///
-    /// A deflection of at most `rest` is none: a stretch at rest has no nodes.
-    fn zeros(&self, samples: &[f64], places: &[f64], rest: f64) -> Vec<f64> {
-        let (count, points) = (self.stretches.len(), places.len());
-        let end = |k: usize| self.coefficients[k * self.terms..(k + 1) * self.terms].iter().sum();
+    /// A deflection of at most `rest` is none: a stretch at rest has no nodes. Beside a place of
+    /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
+    /// where the deflection comes nearest to zero beyond it.
+    fn zeros(&self, track: &Track, rest: f64) -> Vec<f64> {
         let mut zeros = Vec::new();
-        // The knob end counts as a sample: the first may lie beyond the first node.
-        let knob = self.derivatives(0, -1.0)[0];
-        let knob = if knob.abs() <= rest { 0.0 } else { knob };
-        let (mut before, mut at) = (knob, -1.0);
-        for k in 0..count {
-            let inner = samples[k * points..(k + 1) * points].iter().copied();
-            let all = inner.zip(places.iter().copied()).chain([(end(k), 1.0)]);
-            for (value, xi) in all {
-                let value = if f64::abs(value) <= rest { 0.0 } else { value };
-                if value * before < 0.0 {
-                    let (middle, length) = self.stretches[k];
-                    zeros.push(middle + 0.5 * length * self.zero(k, at, xi, before, value));
+        let mut places = Vec::with_capacity(track.xi.len() + 2);
+        // The sign that the deflection had last, and its value at the end of the last element.
+        let (mut before, mut border) = (0.0, None);
+        for (k, (middle, length)) in self.stretches.iter().enumerate() {
+            self.places(k, track, &mut places);
+            places[0].1 = border.unwrap_or(places[0].1);
+            border = places.last().map(|place| place.1);
+            places.iter_mut().filter(|place| place.1.abs() <= rest).for_each(|at| at.1 = 0.0);
+            for j in 1..places.len() {
+                let [(left, a), (right, b)] = [places[j - 1], places[j]];
+                let signs = [
+                    self.sign(k, places[j - 1], right - left, b),
+                    self.sign(k, places[j], left - right, a),
+                ];
+                let first = if signs[0] == 0.0 { before } else { signs[0] };
+                let mut add = |xi: f64| zeros.push(middle + 0.5 * length * xi);
+                if first * before < 0.0 {
+                    add(left);
                 }
-                if value != 0.0 {
-                    before = value;
+                if first * signs[1] < 0.0 {
+                    // A zero at a place itself is not the one that is sought.
+                    let (left, a) = match a {
+                        0.0 if signs[0] != 0.0 => self.off(k, [left, right], first),
+                        _ => (left, first * a.abs()),
+                    };
+                    let (right, b) = match b {
+                        0.0 => self.off(k, [right, left], signs[1]),
+                        _ => (right, b),
+                    };
+                    add(self.zero(k, left, right, a, b));
+                } else if let Some((xi, w)) =
+                    self.dip(k, &places, j).filter(|dip| dip.1 * first < 0.0)
+                {
+                    add(self.zero(k, left, xi, a, w));
+                    add(self.zero(k, xi, right, w, b));
                 }
-                at = xi;
+                before = if signs[1] == 0.0 { first } else { signs[1] };
             }
-            at = -1.0;
         }
         zeros
+    }
+
+    /// The first place on the way from one to another of element `k`, halving it, where the
+    /// deflection has that sign, and the deflection there.
+    fn off(&self, k: usize, [from, to]: [f64; 2], sign: f64) -> (f64, f64) {
+        let value = |xi: f64| (xi, self.derivatives(k, xi)[0]);
+        let mut halves = (1..52).map(|halvings| value(from + (to - from) * 0.5f64.powi(halvings)));
+        let found = halves.find(|(_, w)| w * sign > 0.0);
+        found.unwrap_or((from, sign * f64::MIN_POSITIVE))
+    }
+
+    /// The sign of the deflection at a place of element `k`, or just beside it on the way `to`
+    /// another where the deflection is `other`.
+    fn sign(&self, k: usize, (xi, w): (f64, f64), to: f64, other: f64) -> f64 {
+        // A slope that carries less than this of the other deflection is that of a clamp.
+        const FLAT: f64 = 1e-6;
+        if w != 0.0 {
+            return w.signum();
+        }
+        let rise = self.derivatives(k, xi)[1] * to;
+        if other != 0.0 && rise.abs() > FLAT * other.abs() { rise.signum() } else { 0.0 }
+    }
+
+    /// Where between places `j − 1` and `j` of element `k` the deflection is nearest to zero, if
+    /// it may be between them, and the deflection there.
+    fn dip(&self, k: usize, places: &[(f64, f64)], j: usize) -> Option<(f64, f64)> {
+        let size = |j: usize| places.get(j).map_or(f64::INFINITY, |(_, w)| w.abs());
+        let lowest = |j: usize| size(j) <= size(j.wrapping_sub(1)) && size(j) <= size(j + 1);
+        let nearest = [j - 1, j].into_iter().find(|j| size(*j) > 0.0 && lowest(*j))?;
+        let (xi, w) = self.extreme(k, places, nearest);
+        (xi > places[j - 1].0 && xi < places[j].0).then_some((xi, w))
     }
 
     /// Leaves no nodes on stretches between clamps where the deflection is nowhere above `rest`.
@@ -396,9 +462,11 @@ impl Shape {
         let halley = |xi: f64| {
             let [value, slope, bend] = self.derivatives(k, xi);
             let step = value * slope / (slope * slope - 0.5 * value * bend);
-            (value, xi - step, value.abs() <= 2.0 * SMALL * slope.abs())
+            let near = value.abs() <= 2.0 * SMALL * slope.abs();
+            (value, xi - step, near && (value * bend).abs() <= 4.0 * SMALL * slope * slope)
         };
-        // The error is about the cube of the step: after a step of 1e-5 there is none left.
+        // The error is about the cube of the step, over the square of the distance to where the
+        // slope is zero: after a step of 1e-5 of both there is none left.
         const SMALL: f64 = 1e-5;
         let start = left + (right - left) * (before / (before - after));
         // Nearly always two steps do, with nothing to decide on the way.
@@ -448,10 +516,69 @@ mod tests {
 
     const PLACES: [f64; 6] = [-0.93, -0.66, -0.24, 0.24, 0.66, 0.93];
 
-    fn zeros(shape: &Shape) -> Vec<f64> {
+    /// What is known of a shape at the points of its elements, as if it were exact.
+    fn track(shape: &Shape) -> Track {
         let samples = |k: usize| PLACES.map(|xi| shape.derivatives(k, xi)[0]);
         let samples: Vec<f64> = (0..shape.stretches.len()).flat_map(samples).collect();
-        shape.zeros(&samples, &PLACES, 0.0)
+        let last = shape.stretches.len() - 1;
+        let ends = [(0, -1.0), (last, 1.0)].map(|(k, xi)| [shape.derivatives(k, xi)[0], 0.0]);
+        Track { changes: vec![0.0; samples.len()], samples, ends, xi: PLACES.to_vec() }
+    }
+
+    fn zeros(shape: &Shape) -> Vec<f64> {
+        shape.zeros(&track(shape), 1e-15)
+    }
+
+    /// A shape of those Legendre coefficients on two elements, from 0 to 1 and on to 2.
+    fn on_two(coefficients: [[f64; 4]; 2]) -> Shape {
+        let stretches = Arc::new(vec![(0.5, 1.0), (1.5, 1.0)]);
+        Shape { stretches, terms: 4, coefficients: coefficients.concat(), turns: vec![] }
+    }
+
+    /// `(ξ − a)(ξ − b)` in Legendre polynomials.
+    fn parabola(a: f64, b: f64) -> [f64; 4] {
+        [1.0 / 3.0 + a * b, -(a + b), 2.0 / 3.0, 0.0]
+    }
+
+    #[test]
+    fn two_nodes_between_two_places_are_both_found() {
+        for (a, b) in [(0.01, 0.02), (-0.99, -0.95), (0.3, 0.3001), (0.94, 0.999)] {
+            let shape = on_two([parabola(a, b), [(1.0 - a) * (1.0 - b), 0.0, 0.0, 0.0]]);
+            let found = zeros(&shape);
+            assert_eq!(found.len(), 2, "{a} {b} {found:?}");
+            for (found, exact) in found.iter().zip([a, b]) {
+                assert!((found - 0.5 - 0.5 * exact).abs() < 1e-9, "{a} {b} {found:?}");
+            }
+        }
+    }
+
+    /// A pin at the border of two elements, and another node before the next place.
+    #[test]
+    fn a_pin_with_a_node_near_it_is_two_nodes() {
+        for node in [-0.999, -0.98, -0.94] {
+            let slope = -1.0 - node;
+            // Beyond the pin (ξ + 1)(ξ − node), before it the line of that slope.
+            let before = [-slope, slope, 0.0, 0.0].map(|w: f64| w);
+            let shape = on_two([before, parabola(-1.0, node)]);
+            let found = zeros(&shape);
+            let exact = [1.0, 1.5 + 0.5 * node];
+            assert_eq!(found.len(), 2, "{node} {found:?}");
+            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        }
+    }
+
+    /// A cusp at a joint, higher than every sample; a peak between the end and the first sample.
+    #[test]
+    fn the_largest_deflection_is_found_at_cusps_and_beside_ends() {
+        let cusp = on_two([[0.0, 1.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0]]);
+        assert_eq!(cusp.largest(&track(&cusp)).0, 1.0);
+        // 5 − (ξ − a)², whose largest value is 5 at a.
+        for a in [-0.97, 0.96, 0.0] {
+            let parabola = parabola(a, a).map(|w| -w);
+            let beside = on_two([[parabola[0] + 5.0, parabola[1], parabola[2], 0.0], [0.0; 4]]);
+            let largest = beside.largest(&track(&beside)).0;
+            assert!((largest - 5.0).abs() < 1e-14, "{a} {largest}");
+        }
     }
 
     #[test]

@@ -119,6 +119,8 @@ pub struct Wanted {
 const AIM: f64 = 0.4;
 /// The smallest relative error worth planning for: arithmetic tells no finer one.
 const FINEST: f64 = 1e-16;
+/// The share of the wanted error that sections may lose.
+const MISSED: f64 = 1e-3;
 /// Halvings of an element for a formula.
 const MOST_HALVINGS: usize = 12;
 
@@ -162,7 +164,7 @@ impl Plan {
         }
         let ((_, degree, reach), degrees) = best.zip(range).expect("there is a degree");
         let borders = |k: usize, borders: &mut Vec<f64>| reach.borders(survey.piece(k), borders);
-        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree, wanted.theory);
+        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree, wanted);
         // Too few unknowns for so many modes: shorter elements.
         while (degree - 1) * mesh.len() < modes {
             mesh = mesh.refined(|_| 2);
@@ -198,17 +200,21 @@ impl Plan {
     }
 }
 
-/// The mesh with every element halved where the points of its rule do not hold a formula, or the κ
-/// of a bore that tapers.
-fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, theory: Theory) -> Mesh {
+/// The mesh with every element halved where the points of its rule miss more of a formula, or of
+/// the κ of a bore that tapers, than the wanted error has room for.
+fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
+    let Wanted { theory, tolerance, .. } = *wanted;
     let bored = bat.profile.stations.inner.iter().any(|r| *r > 0.0);
     if bat.profile.formulas.is_none() && !(bored && theory.shears()) {
         return mesh;
     }
     let rule = Rule::of(bat, degree);
     for _ in 0..MOST_HALVINGS {
-        let unresolved: Vec<bool> =
-            mesh.elements.iter().map(|e| missed(bat, e, rule, theory) > 0.0).collect();
+        let unresolved: Vec<bool> = mesh
+            .elements
+            .iter()
+            .map(|e| missed(bat, e, rule, theory) > MISSED * tolerance)
+            .collect();
         if !unresolved.contains(&true) {
             break;
         }

@@ -132,6 +132,11 @@ impl Section {
         self.area() * (r * r + ri * ri) / 4.0
     }
 
+    /// By how much rounding of the radii is larger in the wall, `r/(r − rᵢ)`.
+    pub fn thinness(self) -> f64 {
+        if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
+    }
+
     /// What is inside the inner radius, as a section of its own.
     #[inline]
     pub fn bore(self) -> Self {

@@ -14,7 +14,7 @@ use crate::beam::mesh::Mesh;
 use crate::beam::motion::{Depth, Motion};
 use crate::beam::rule::DEGREES;
 use crate::beam::statics::Statics;
-use crate::certificate::{account, add_neighbours, round_off};
+use crate::certificate::{account, add_neighbours, add_sections};
 use crate::damping::{Damping, damping};
 use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
@@ -417,6 +417,7 @@ impl Task<'_> {
         let stretches = Arc::new(plan.mesh.stretches());
         let missed = |e| element::missed(bat, e, pairs.statics.rule, request.theory);
         let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
+        let sections = element::round_off(bat, &plan.mesh);
         let factored = request.solver != Solver::Statics;
         let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
         let mut defects = vec![0.0; plan.mesh.len()];
@@ -428,19 +429,17 @@ impl Task<'_> {
             let first = modes.get(if slow { 0 } else { apart });
             let left = residuals.get(modes.len()).filter(|_| apart > 0 && !slow);
             account(&mut mode, first, plan.mesh.len(), factored, left.copied());
+            add_sections(&mut mode, sections);
             modes.push(mode);
         };
         let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
         if size > LARGE || pairs.statics.fixed.is_some() || apart > 0 {
             let mut motion = Motion::<f64>::default();
             for (k, own) in strains.chunks_exact(size).enumerate() {
-                if size > LARGE {
-                    look_closer(&pairs, own, k, &mut motion);
-                } else {
-                    // The compliance's rounding in the slower modes is no part of this one.
-                    let known = &strains[..size * if k < apart { 0 } else { k }];
-                    pairs.look_at_one(own, known, Depth::Changes, &mut motion);
-                }
+                // The compliance's rounding in the slower modes is no part of this one; of a large
+                // mesh that would cost the square of the modes.
+                let slower = if size > LARGE || k < apart { 0 } else { k };
+                pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, &mut motion);
                 let cell = |k: usize| pairs.statics.cell(k);
                 add(Mode::new(k + 1, &pairs.statics.view(&cell), &motion, 0, &stretches));
                 motion.add_defects(split, &mut defects);
@@ -509,21 +508,6 @@ fn none_missing<const N: usize, const W: usize>(
     let Some(below) = gap else { return modes.is_empty().then_some(true) };
     let between = (omegas[below - 1] * omegas[below]).sqrt();
     Some(count::slower(statics, between)? == below + statics.rigid_modes())
-}
-
-/// Looks at one motion of a large mesh, at its changes only if there are any beyond round-off.
-fn look_closer<const N: usize, const W: usize>(
-    pairs: &Eigenpairs<f64, N, W>,
-    strains: &[f64],
-    k: usize,
-    motion: &mut Motion<f64>,
-) {
-    pairs.look_at_one(strains, &[], Depth::Defect, motion);
-    // Mode n's frequency is about (n + ½)²/2.25 times the first.
-    let ratio = (k as f64 + 1.5).powi(2) / 2.25;
-    if 0.5 * motion.defect > round_off(ratio, pairs.statics.cells.len()) {
-        pairs.look_at_one(strains, &[], Depth::Changes, motion);
-    }
 }
 
 /// Beyond so many unknowns the iteration starts from a coarse solution.

@@ -407,31 +407,71 @@ pub fn losses(bat: &Bat, e: &mesh::Element, rule: &Rule, mut take: impl FnMut(us
     sections(bat, e, rule, |i, section| take(i, layup.loss(section)));
 }
 
-/// The Legendre series of a formula ends in its round-off below this.
+/// What the points of a rule miss of a section is mere round-off up to this.
 const RESOLVED: f64 = 1e-13;
+/// Elements shorter than this, as a share of the bat, may hold what no polynomial holds.
+const SHORT: f64 = 1e-8;
 
-/// How much of EI and ρA on an element the points of its rule may miss, relative: the last terms
-/// of their Legendre series through the points, 0 where these are mere round-off. 0 for stations,
-/// whose polynomials the rule holds exactly, but for the κGA of a bore that tapers, which is none.
+/// How much of the sections on an element the points of its rule may miss, relative; 0 where that
+/// is mere round-off.
+///
+/// Stations are polynomials that the rule holds exactly, but for the κGA of a bore that tapers: the
+/// last terms of its Legendre series through the points count. Of formulas it is what bounds from
+/// the parse tree leave, and on an element so short that nothing on it matters its variation times
+/// its share of the bat.
 pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule, theory: Theory) -> f64 {
     let piece = &bat.profile.pieces[e.piece];
-    let bored = match &piece.radii {
-        Radii::Cubic(cubics) => cubics.inner != [0.0; 4] && cubics.degree > 0,
-        Radii::Formula(_) => true,
+    let layup = bat.layup(piece);
+    let (bored, missed) = match &piece.radii {
+        Radii::Cubic(cubics) => (cubics.inner != [0.0; 4] && cubics.degree > 0, 0.0),
+        Radii::Formula(curves) => {
+            let core = layup.core.as_ref().map_or(0.0, |core| {
+                let of = [
+                    core.youngs_modulus / layup.outer.youngs_modulus,
+                    core.density / layup.outer.density,
+                ];
+                of[0].max(of[1])
+            });
+            let bounds = curves.bounds(e.from, e.to);
+            let share = e.length / bat.length();
+            let missed = bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.missed(core));
+            let rough = || share * bounds.map_or(1.0, |bounds| bounds.variation(core));
+            (true, if share < SHORT { missed.min(rough()) } else { missed.min(1.0) })
+        }
     };
-    let formula = matches!(piece.radii, Radii::Formula(_));
-    if !(formula || bored && theory.shears()) {
-        return 0.0;
-    }
-    let [mut bending, mut line, mut shear] = [[0.0; MOST_POINTS]; 3];
-    worths(bat, e, rule, |i, worth| {
-        (bending[i], line[i], shear[i]) = (worth.bending, worth.mass, worth.shear);
+    let tail = if bored && theory.shears() { shear_tail(bat, e, rule) } else { 0.0 };
+    if missed.max(tail) > RESOLVED { missed.max(tail) } else { 0.0 }
+}
+
+/// The last terms of the Legendre series of κGA through the points, relative; 0 where that is the
+/// round-off of a thin wall.
+fn shear_tail(bat: &Bat, e: &mesh::Element, rule: &Rule) -> f64 {
+    let (mut shear, mut thinness) = ([0.0; MOST_POINTS], 1.0_f64);
+    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    sections(bat, e, rule, |i, section| {
+        shear[i] = layup.worth(section).shear;
+        thinness = thinness.max(section.thinness());
     });
-    let mut tail = f64::max(rule.tail(&bending), rule.tail(&line));
-    if theory.shears() {
-        tail = tail.max(rule.tail(&shear));
-    }
-    if tail > RESOLVED { tail } else { 0.0 }
+    let tail = rule.tail(&shear);
+    if tail > 64.0 * f64::EPSILON * thinness { tail } else { 0.0 }
+}
+
+/// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
+/// two radii, and what evaluating a formula costs.
+pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
+    let of = |e: &mesh::Element| match &bat.profile.pieces[e.piece].radii {
+        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,
+        Radii::Cubic(cubics) => {
+            let walls = cubics.outer.iter().zip(&cubics.inner);
+            let thinness =
+                walls.map(|(outer, inner)| Section { outer: *outer, inner: *inner }.thinness());
+            f64::EPSILON * thinness.fold(0.0, f64::max)
+        }
+        Radii::Formula(curves) => {
+            curves.bounds(e.from, e.to).map_or(0.0, |bounds| bounds.round_off().min(1.0))
+        }
+    };
+    mesh.elements.iter().map(of).fold(0.0, f64::max)
 }
 
 /// All elements of a mesh, as degree `N − 1` and the theory see them.
