@@ -13,7 +13,7 @@ use crate::bat::Bat;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Depth;
 use crate::beam::rule::Rule;
-use crate::certificate::round_off;
+use crate::certificate::{is_twin, round_off, share};
 use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, WIDTH};
@@ -282,7 +282,8 @@ where
         Ok(())
     }
 
-    /// What the iteration left: `½ residual²/gap`, as [`crate::certificate::add_neighbours`].
+    /// What the iteration left, `½ residual²/gap`, and what near twins share, as
+    /// [`crate::certificate::add_neighbours`]; a near twin beyond the list is no lane's work.
     fn add_residuals(&mut self, modes: usize) {
         let lanczos = &self.pairs.lanczos;
         for k in 0..modes {
@@ -296,6 +297,13 @@ where
                 let residual = lanczos.residuals[k].lane(bat);
                 self.errors[bat * modes + k] += 0.5 * residual * residual / nearest;
             }
+        }
+        for bat in 0..R::LANES {
+            let own = bat * modes..(bat + 1) * modes;
+            share(&self.omegas[own.clone()], &mut self.errors[own]);
+            let last = lanczos.values[modes - 1].lane(bat);
+            let twin = |beyond: &R| is_twin(beyond.lane(bat) / last, modes);
+            self.counted[bat] &= !lanczos.beyond.as_ref().is_some_and(twin);
         }
     }
 

@@ -53,54 +53,140 @@ pub fn add_sections(mode: &mut Mode, sections: f64) {
     blur(mode, sections);
 }
 
+/// A faster motion's η may be this many times its estimate, or have made as much of the gap to it.
+const UNSURE: f64 = 2.0;
+
+/// Where that share of the energy may be another motion's nothing is known of the nodes.
+const UNKNOWN: f64 = 0.25;
+
+/// Beside a motion as near as that a mode's nodes may move far where its deflection is flat.
+const NEAR: f64 = 0.1;
+
+/// Adds to relative errors of frequencies, of rising `omegas`, what near twins share.
+///
+/// A mesh may hold two motions of one frequency unequally well: of two equal whips, one on longer
+/// elements, each rings alone on the mesh, while both ring in every mode of the bat. With `r_j` what
+/// is left of the exact compliance's product with motion j, which is orthogonal to the mesh's
+/// motions, the exact eigenvalues are those of
+///
+/// ```text
+/// diag(θ_j) + (r_i·r_j)/θ,     (r_j·r_j)/θ² = η_j
+/// ```
+///
+/// but for a factor `1 − λ/λ_l` of the motions l that the mesh does not hold, as in η itself. The
+/// second part has no negative eigenvalue and a trace of `Σ η_j`, and slower motions do not raise
+/// the k-th eigenvalue (Courant and Fischer): it rises by no more than `η_k` and those `η_j` of
+/// faster ones that are not small beside their gap `1 − λ_k/λ_j`.
+///
+/// # Source
+///
+/// B. N. Parlett, The Symmetric Eigenvalue Problem (1980), chapters 10 and 11.
+pub fn share(omegas: &[f64], errors: &mut [f64]) {
+    let worst = errors.iter().fold(0.0, |worst: f64, error| worst.max(*error));
+    for k in 0..omegas.len() {
+        for j in k + 1..omegas.len() {
+            let gap = 1.0 - (omegas[k] / omegas[j]).powi(2);
+            if gap > (UNSURE + 1.0) * 2.0 * worst {
+                break;
+            }
+            let part = UNSURE + 1.0 - gap / (2.0 * errors[j]).max(f64::MIN_POSITIVE);
+            errors[k] += errors[j] * part.clamp(0.0, 1.0);
+        }
+    }
+}
+
+/// Whether the motion beyond `count` others is so near to the last of them that it has to be looked
+/// at too, from the `ratio` of their λ (at most 1). A bat's own gaps are about 2/n and more at its
+/// n-th mode.
+pub fn is_twin(ratio: f64, count: usize) -> bool {
+    (1.0 - ratio) * (count as f64) < 0.2
+}
+
+/// What is known of a motion beside others: ω (rad/s), the relative error of the frequency, the
+/// modal mass.
+#[derive(Clone, Copy)]
+struct Known {
+    omega: f64,
+    error: f64,
+    mass: f64,
+}
+
+/// How much of another motion may be in one.
+#[derive(Clone, Copy)]
+struct Part {
+    /// Number of the other.
+    other: usize,
+    /// `|1 − λ/λ_j|`.
+    gap: f64,
+    /// Sine of the angle towards the other.
+    turn: f64,
+    /// The other's part of the shape, of which the largest deflection is 1.
+    share: f64,
+}
+
+/// What motion `other` may have to do with motion `k` where the iteration left that residual.
+fn part(all: &[Known], k: usize, other: usize, residual: f64) -> Part {
+    let (own, its) = (all[k], all[other]);
+    let gap = (1.0 - (own.omega / its.omega).powi(2)).abs().max(f64::EPSILON);
+    let certain = (gap - 2.0 * UNSURE * all[k.max(other)].error).max(f64::EPSILON);
+    let mesh = 2.0 * (own.error * its.error).sqrt() / certain;
+    let turn = (mesh + residual / gap.min(1.0)).min(1.0);
+    Part { other, gap, turn, share: turn * (own.mass / its.mass).sqrt() }
+}
+
 /// What other modes add to a mode's errors; `beyond` is ω (rad/s) of the first mode above the list,
 /// `left` the residuals that an iteration stopped at.
 ///
 /// The defect weighs the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees
 /// the nearest ones. The eigensolve left no more of them than `c = residual/gap` (Davis and Kahan),
 /// which costs Rayleigh's quotient `c² gap`; the mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the
-/// relative errors of both frequencies. Of the two nearest all is counted, because where a
-/// deflection is superconvergent, at the ends, that is all its error; of the others what the defect
-/// does not see. In a shape of modal mass m the share is `c √(m/m_j)`. Where there is no mode above
-/// or below, the other side counts twice. Frequencies nearer to each other than ε count as that
-/// near.
+/// relative errors of both frequencies: what is off the diagonal in [`share`], over a gap less what
+/// the errors may have made of it. Of the two nearest all is counted, because where a deflection is
+/// superconvergent, at the ends, that is all its error; of the others what the defect does not see.
+/// In a shape of modal mass m the share is `c √(m/m_j)` beside a rest of `√(1 − c²)`. Where there is no mode above or
+/// below, the other side counts twice. Frequencies nearer to each other than ε count as that near.
 pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], factored: bool) {
-    let lightest = modes.iter().fold(f64::INFINITY, |m, mode| m.min(mode.modal_mass));
-    let known = |mode: &Mode| (mode.omega, mode.error.discretization, mode.modal_mass);
-    let all: Vec<(f64, f64, f64)> = modes.iter().map(known).collect();
-    for (k, mode) in modes.iter_mut().enumerate() {
-        let (omega, error, mass) = all[k];
-        let gap = |other: f64| (1.0 - (omega / other).powi(2)).abs().max(f64::EPSILON);
-        // Of the other mode: its gap, and its share of this shape.
-        let part = |(other, of_other, its_mass): (f64, f64, f64)| {
-            let (gap, larger) = (gap(other), (mass / its_mass).sqrt());
-            (gap, larger, 2.0 * (error * of_other).sqrt() / gap * larger)
-        };
-        let below = (k > 0).then(|| part(all[k - 1]));
-        let next = all.get(k + 1).copied();
-        let above = next.or(beyond.map(|omega| (omega, error, lightest))).map(part);
-        let both = [below.or(above), above.or(below)];
-        let mut mixed: f64 = both.iter().flatten().map(|(_, _, share)| share).sum();
-        for (_, other) in all.iter().enumerate().filter(|(j, _)| j.abs_diff(k) > 1) {
-            let (gap, _, share) = part(*other);
-            mixed += share * (1.0 - gap).max(0.0);
-        }
-        if both == [None, None] {
-            mixed = 4.0 * error;
-        }
+    let (mut lightest, mut worst) = (f64::INFINITY, 0.0_f64);
+    let mut all: Vec<Known> = Vec::with_capacity(modes.len() + 1);
+    for mode in modes.iter() {
+        let known = Known { omega: mode.omega, error: mode.error.total(), mass: mode.modal_mass };
+        (lightest, worst) = (lightest.min(known.mass), worst.max(known.error));
+        all.push(known);
+    }
+    all.extend(beyond.map(|omega| Known { omega, error: worst, mass: lightest }));
+    let omegas: Vec<f64> = all.iter().map(|known| known.omega).collect();
+    let mut errors: Vec<f64> = all.iter().map(|known| known.error).collect();
+    share(&omegas, &mut errors);
+    for k in 0..modes.len() {
         // The residual of a factored `K` is its round-off, in the fastest modes.
-        let residual = if factored { 0.0 } else { mode.error.residual };
-        let cost = |(gap, larger, _): &(f64, f64, f64)| residual / gap.min(1.0) * larger;
-        mixed += both.iter().flatten().map(cost).fold(residual, f64::max);
-        let nearest = both.iter().flatten().map(|(gap, ..)| *gap).fold(1.0, f64::min);
+        let residual = if factored { 0.0 } else { modes[k].error.residual };
+        let below = (k > 0).then(|| part(&all, k, k - 1, residual));
+        let above = (k + 1 < all.len()).then(|| part(&all, k, k + 1, residual));
+        let both: Vec<Part> = [below.or(above), above.or(below)].into_iter().flatten().collect();
+        let far = (0..all.len()).filter(|j| j.abs_diff(k) > 1).map(|j| {
+            let part = part(&all, k, j, 0.0);
+            let unseen = (1.0 - part.gap).max(0.0);
+            Part { turn: part.turn * unseen, share: part.share * unseen, ..part }
+        });
+        let parts: Vec<Part> = both.iter().copied().chain(far).collect();
+        let alone = if parts.is_empty() { 4.0 * all[k].error + residual } else { 0.0 };
+        let mixed = alone + parts.iter().map(|part| part.share).sum::<f64>();
+        let lost = parts.iter().map(|part| part.turn.powi(2)).sum::<f64>().min(1.0);
+        let beside = 1.0 / (1.0 - lost).max(f64::EPSILON).sqrt();
+        let near = parts.iter().filter(|part| part.gap < NEAR && part.other < modes.len());
+        let shift = |other: usize| modes[k].shape.shift(&modes[k].nodes, &modes[other].shape);
+        let moved: f64 = near.map(|part| part.share * shift(part.other)).sum();
+        let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
+        let mode = &mut modes[k];
+        let length = mode.shape.length();
         // A frequency is never farther from a mode's than the residual, however near others are.
         let cost_of = |left: &f64| 0.5 * left * (left / nearest).min(1.0);
-        mode.error.discretization += left.get(k).map_or(0.0, cost_of);
-        // Two shapes of one frequency mix in any way: all of a shape, and no more, may be the
-        // other's.
-        mixed = mixed.min(1.0);
-        mode.error.nodes += mixed * mode.shape.length() / mode.nodes.len().max(1) as f64;
-        mode.error.modal_mass += 2.0 * mixed;
-        mode.error.shape += mixed;
+        mode.error.discretization += left.get(k).map_or(0.0, cost_of) + errors[k] - all[k].error;
+        mode.error.modal_mass += mixed * (2.0 + mixed) + lost;
+        // All of a shape, and no more, may be another's, and its nodes anywhere.
+        mode.error.shape += (mixed * beside).min(1.0);
+        let spread = (mixed * length / mode.nodes.len().max(1) as f64).max(2.0 * moved);
+        let shifted = if lost < UNKNOWN { spread * beside } else { length };
+        mode.error.nodes += shifted.min(length);
     }
 }

@@ -126,8 +126,7 @@ fn of_pencil<const N: usize, const W: usize>(
     let mut pairs = match solver {
         Solver::Arpack => arpack(&k, &m, shift, all)?,
         Solver::Dense => {
-            let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
-            let (values, vectors) = dense::lowest(&k, &m, shift, all).ok_or(failed)?;
+            let (values, vectors) = dense::lowest(&k, &m, shift, all)?;
             Pairs { values, vectors, steps: 0 }
         }
         Solver::ShiftInvert | Solver::Statics => {

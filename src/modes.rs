@@ -227,6 +227,17 @@ impl Shape {
         }
     }
 
+    /// How far these nodes move (m), the farthest of them, for each part of another shape that is
+    /// added: its deflection over the slope of this one.
+    pub fn shift(&self, nodes: &[f64], other: &Self) -> f64 {
+        let of = |x: &f64| {
+            let (k, xi) = self.locate(*x);
+            let slope = self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1;
+            (other.deflection(*x) / slope).abs()
+        };
+        nodes.iter().map(of).fold(0.0, f64::max)
+    }
+
     /// Curvature `dθ/dx` at `x` (1/m² of largest deflection).
     pub fn curvature(&self, x: f64) -> f64 {
         let (k, xi) = self.locate(x);

@@ -14,8 +14,9 @@ use crate::beam::mesh::Mesh;
 use crate::beam::motion::{Depth, Motion};
 use crate::beam::rule::DEGREES;
 use crate::beam::statics::Statics;
-use crate::certificate::{account, add_neighbours, add_sections};
+use crate::certificate::{account, add_neighbours, add_sections, is_twin};
 use crate::damping::{Damping, damping};
+use crate::eigen::lanczos::Lanczos;
 use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::factored::{self, Found};
@@ -119,7 +120,7 @@ pub struct Solution {
     /// missing.
     pub met: bool,
     /// Whether it is certain that no mode is missing: by the number of nodes where theory demands
-    /// it, else by the number of slower motions. None where that could not be counted.
+    /// it, or by the number of slower motions. None where that could not be counted.
     pub none_missing: Option<bool>,
     /// What ended the refinement before the tolerance was met, if something did.
     pub stopped: Option<String>,
@@ -145,25 +146,18 @@ impl Solution {
     /// Why the wanted tolerance was not met, for a person; empty if it was.
     pub fn shortfall(&self, tolerance: f64) -> String {
         let round_off = self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
-        let lost = self.modes.iter().find(|mode| !mode.has_its_nodes());
-        match lost.filter(|_| !self.complete()) {
-            _ if self.met => String::new(),
-            _ if round_off > tolerance => format!("round-off alone is {round_off:.1e}"),
-            Some(mode) if self.rigid_modes == 2 && !self.theory.shears() => format!(
-                "mode {} has {} nodes, not {}: two frequencies are too near each other to tell \
-                 their shapes apart, or a mode is missing",
-                mode.order,
-                mode.nodes.len(),
-                mode.order + 1
-            ),
-            _ if !self.complete() => "the number of slower motions does not show that no mode is \
-                 missing: two frequencies are too near each other to count between them"
-                .to_owned(),
-            _ => match &self.stopped {
-                Some(reason) => reason.clone(),
-                None => "further refinement gained nothing".to_owned(),
-            },
+        if self.met {
+            return String::new();
         }
+        if round_off > tolerance {
+            return format!("round-off alone is {round_off:.1e}");
+        }
+        if !self.complete() {
+            return "the number of slower motions does not show that no mode is missing: two \
+                    frequencies are too near each other to count between them"
+                .to_owned();
+        }
+        self.stopped.clone().unwrap_or_else(|| "further refinement gained nothing".to_owned())
     }
 
     /// Unknowns of the assembled matrices.
@@ -457,7 +451,9 @@ impl Task<'_> {
             }
         }
         add_neighbours(&mut modes, beyond, &residuals, factored);
-        let none_missing = none_missing(&pairs.statics, &modes, beyond);
+        let none_missing = none_missing(&pairs.statics, &modes, beyond, self.residual);
+        // Those beyond were looked at for their near twins' sake.
+        modes.truncate(request.modes);
         timing.solve += assembled.elapsed();
         Ok(Answer { modes, steps, defects, none_missing, rigid_modes: pairs.statics.rigid_modes() })
     }
@@ -471,11 +467,20 @@ impl Task<'_> {
         match request.solver {
             _ if request.modes == 0 => Ok(Found::default()),
             Solver::Statics => {
-                match Moments::of(bat, plan, request) {
-                    Some(coarse) => {
-                        pairs.solve_from(request.modes, residual, |places| coarse.at(places))?;
+                let coarse = Moments::of(bat, plan, request);
+                let most = (request.modes + MOST_TWINS).min(pairs.statics.freedom());
+                for count in request.modes..=most {
+                    match &coarse {
+                        Some(coarse) => {
+                            pairs.solve_from(count, residual, |places| coarse.at(places))?;
+                        }
+                        None => pairs.solve(count, residual)?,
                     }
-                    None => pairs.solve(request.modes, residual)?,
+                    let Lanczos { values, beyond, .. } = &pairs.lanczos;
+                    let twin = |beyond: f64| is_twin(beyond / values[count - 1], count);
+                    if !beyond.is_some_and(twin) {
+                        break;
+                    }
                 }
                 // Bats of far slower modes are stiff parts on soft ones, whose modes may be twins:
                 // these are told apart at the end of the iteration only.
@@ -491,24 +496,34 @@ impl Task<'_> {
     }
 }
 
-/// Whether no mode is missing: mode n of a free bat that does not shear has n + 1 nodes; else as
-/// many motions must be slower than a frequency in the last gap of the list that is wide enough.
+/// Whether no mode is missing, not even a near twin just beyond the list, which an iteration that
+/// ends at `residual` does not tell from the last mode: as many motions must be slower than a
+/// frequency in the last gap of the list that is wide enough. Where that cannot be counted, or the
+/// iteration tells as much as the count would, the nodes do: mode n of a free Euler-Bernoulli bat
+/// has n + 1.
 fn none_missing<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     modes: &[Mode],
     beyond: Option<f64>,
+    residual: f64,
 ) -> Option<bool> {
     const WIDE: f64 = 1e-9;
-    if statics.fixed.is_none() && !statics.theory.shears() {
-        return Some(modes.iter().all(Mode::has_its_nodes));
+    let oscillates = statics.fixed.is_none() && !statics.theory.turns();
+    let by_nodes = (oscillates && modes.iter().all(Mode::has_its_nodes)).then_some(true);
+    if residual < WIDE && by_nodes.is_some() {
+        return by_nodes;
     }
     let omegas = modes.iter().map(|mode| mode.omega).chain(beyond);
     let omegas: Vec<f64> = omegas.collect();
     let gap = (1..omegas.len()).rev().find(|&k| omegas[k] > (1.0 + WIDE) * omegas[k - 1]);
-    let Some(below) = gap else { return modes.is_empty().then_some(true) };
+    let Some(below) = gap else { return by_nodes.or(modes.is_empty().then_some(true)) };
     let between = (omegas[below - 1] * omegas[below]).sqrt();
-    Some(count::slower(statics, between)? == below + statics.rigid_modes())
+    let Some(slower) = count::slower(statics, between) else { return by_nodes };
+    Some(slower == below + statics.rigid_modes())
 }
+
+/// So many motions beyond the wanted ones are looked at where they are near twins of these.
+const MOST_TWINS: usize = 4;
 
 /// Beyond so many unknowns the iteration starts from a coarse solution.
 const LARGE: usize = 20_000;

@@ -6,20 +6,27 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par, Side};
 use nalgebra_sparse::CscMatrix;
 
-/// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`, or None where a
-/// factorisation fails.
+use crate::eigen::factor::INDEFINITE;
+use crate::error::{Error, Result};
+
+/// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`.
 ///
 /// `K + σM = L Lᵀ` with σ of the size of the lowest wanted λ, then the symmetric problem
 /// `L⁻¹ M L⁻ᵀ z = z/(λ + σ)`, `x = L⁻ᵀ z √(λ + σ)`. The wanted pairs are then the largest, which
 /// matters: faer's divide and conquer, used beyond 128 unknowns, is accurate relative to the
 /// largest eigenvalue only, and `L⁻¹ K L⁻ᵀ` of a beam of 264 elements came back with a first
 /// frequency of twice its value. What remains is the error of factoring `K`, about `ε n⁴`.
+///
+/// # Errors
+///
+/// [`Error::Factorization`] where round-off makes `K + σM` indefinite, as beside an element of a
+/// micrometre; [`Error::NotConverged`] if the symmetric problem has no solution.
 pub fn lowest(
     k: &CscMatrix<f64>,
     m: &CscMatrix<f64>,
     shift: f64,
     count: usize,
-) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+) -> Result<(Vec<f64>, Vec<Vec<f64>>)> {
     let n = k.nrows();
     let (mut shifted, mut reduced) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
     k.triplet_iter().for_each(|(i, j, v)| shifted[(i, j)] += *v);
@@ -27,12 +34,14 @@ pub fn lowest(
         shifted[(i, j)] += shift * v;
         reduced[(i, j)] = *v;
     });
-    let factor = shifted.llt(Side::Lower).ok()?;
+    let indefinite = Error::Factorization { unknowns: n, reason: INDEFINITE };
+    let factor = shifted.llt(Side::Lower).map_err(|_| indefinite)?;
     let lower = factor.L();
     solve_lower_triangular_in_place(lower, reduced.as_mut(), Par::Seq);
     let mut reduced = reduced.transpose().to_owned();
     solve_lower_triangular_in_place(lower, reduced.as_mut(), Par::Seq);
-    let eigen = reduced.self_adjoint_eigen(Side::Lower).ok()?;
+    let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
+    let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| failed)?;
     let count = count.min(n);
     // faer's values rise, so the lowest frequencies stand last.
     let mut vectors = eigen.U().subcols(n - count, count).to_owned();
@@ -44,5 +53,5 @@ pub fn lowest(
     };
     let lambda = |j: usize| 1.0 / inverses[j] - shift;
     let wanted = || (n - count..n).rev();
-    Some((wanted().map(lambda).collect(), wanted().map(column).collect()))
+    Ok((wanted().map(lambda).collect(), wanted().map(column).collect()))
 }

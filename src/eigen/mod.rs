@@ -5,8 +5,8 @@
 
 pub mod tridiagonal;
 pub mod lanczos;
-pub mod dense;
 pub mod factor;
+pub mod dense;
 pub mod shift_invert;
 #[cfg(feature = "arpack")]
 #[allow(unsafe_code)] // It calls C; nothing else in this crate does.

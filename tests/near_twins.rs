@@ -1,0 +1,116 @@
+//! Near twins: motions of nearly one frequency that a mesh holds unequally well.
+//!
+//! The truth is a solve to 1e-12, which needs another mesh; `search/bats.py` has a reference that
+//! shares nothing with the program.
+
+mod common;
+
+use common::bat;
+use sweetspot::bat::Weighed;
+use sweetspot::error::Error;
+use sweetspot::fixtures::{Absorber, Fixtures};
+use sweetspot::profile::Interpolation;
+use sweetspot::{Bat, Request, Solution, Solver, Theory, solve};
+
+/// Two whips on a middle of that radius, the first with more stations on it, which change nothing.
+fn whips(middle: f64, stations: usize, unlike: f64) -> Bat {
+    let (long, short, thin) = (0.4, 0.1, 0.005);
+    let first = (0..=stations + 1).map(|k| long * k as f64 / (stations + 1) as f64);
+    let rest = [long, long + short, long + short, 2.0 * long + short];
+    let x: Vec<f64> = first.chain(rest).collect();
+    let other = thin * (1.0 + unlike);
+    let outer = [vec![thin; stations + 2], vec![middle, middle, other, other]].concat();
+    bat(&x, &outer, &vec![0.0; x.len()], Interpolation::Linear)
+}
+
+fn solved(bat: &Bat, modes: usize, tolerance: f64) -> Solution {
+    solve(bat, &Request { modes, tolerance, ..Request::default() }).unwrap()
+}
+
+/// Whether every frequency, modal mass and node is within three times its stated error.
+fn holds(bat: &Bat, modes: usize, tolerance: f64) {
+    let (found, truth) = (solved(bat, modes, tolerance), solved(bat, modes, 1e-12));
+    let told = format!("{:?} for {tolerance:.0e}", bat.profile.stations.outer);
+    for (mode, exact) in found.modes.iter().zip(&truth.modes) {
+        let off = (mode.omega / exact.omega - 1.0).abs();
+        let known = 3.0 * exact.error.total();
+        assert!(off <= 3.0 * mode.error.total() + known, "{}: {off:.1e} {told}", mode.order);
+        assert!(!found.met || off <= tolerance, "{}: met, {off:.1e} {told}", mode.order);
+        let off = (mode.modal_mass / exact.modal_mass - 1.0).abs();
+        let known = 3.0 * exact.error.modal_mass;
+        assert!(
+            off <= 3.0 * mode.error.modal_mass + known,
+            "{}: mass {off:.1e} {told}",
+            mode.order
+        );
+        assert_eq!(mode.nodes.len(), exact.nodes.len());
+        for (node, exact_node) in mode.nodes.iter().zip(&exact.nodes) {
+            let off = (node - exact_node).abs();
+            let known = 3.0 * exact.error.nodes;
+            assert!(off <= 3.0 * mode.error.nodes + known, "{}: node {off:.1e} {told}", mode.order);
+        }
+    }
+}
+
+#[test]
+fn near_twins_on_unequal_meshes_are_as_far_off_as_they_say() {
+    for (middle, stations, unlike, tolerance) in [
+        (1.3, 60, 0.0, 1.4e-3),
+        (1.6, 60, 0.0, 4.3e-2),
+        (2.2, 30, -7.6e-3, 5.4e-2),
+        (2.5, 60, -5.7e-5, 2.8e-2),
+        (3.7, 60, -1.5e-7, 3.2e-2),
+        (9.0, 60, 0.0, 2.3e-3),
+        (0.3, 10, 0.0, 1e-2),
+    ] {
+        for modes in 1..=8 {
+            holds(&whips(middle, stations, unlike), modes, tolerance);
+        }
+    }
+}
+
+#[test]
+fn a_near_twin_just_beyond_the_list_is_part_of_the_errors() {
+    for stations in [1, 3, 30] {
+        for modes in [1, 3, 5, 7] {
+            holds(&whips(9.5, stations, 0.0), modes, 1e-3);
+            holds(&whips(9.5, stations, 0.0), modes, 1e-5);
+        }
+    }
+}
+
+#[test]
+fn the_nodes_and_mass_of_a_mode_beside_a_tuned_absorber_are_as_far_off_as_they_say() {
+    let bare = bat(&[0.0, 0.5, 0.84], &[0.01, 0.015, 0.03], &[0.0; 3], Interpolation::Linear);
+    let tuned = solved(&bare, 1, 1e-12).modes[0].omega;
+    for mass in [1e-9, 1e-7, 1e-5, 1e-3] {
+        let absorber = Absorber { x: 0.6, mass, stiffness: mass * tuned * tuned, damping: 0.0 };
+        let fixtures = Fixtures { absorbers: vec![absorber], ..Fixtures::default() };
+        let (profile, material) = (bare.profile.clone(), bare.material().clone());
+        let bat = Bat::with_fixtures("tuned", profile, material, fixtures, Weighed::default());
+        let bat = bat.unwrap();
+        for tolerance in [1e-2, 1e-4, 1e-6] {
+            holds(&bat, 3, tolerance);
+        }
+    }
+}
+
+/// The theorem of oscillation has no rotary inertia in it: there a mode may have other nodes.
+#[test]
+fn a_rayleigh_bat_is_not_refused_for_the_number_of_its_nodes() {
+    let bat = whips(0.3, 3, 0.0);
+    let asked = Request { modes: 7, theory: Theory::Rayleigh, ..Request::default() };
+    let found = solve(&bat, &asked).unwrap();
+    assert!(found.met && found.complete(), "{:?}", found.stopped);
+    assert!(found.modes.iter().any(|mode| !mode.has_its_nodes()));
+}
+
+#[test]
+fn a_dense_solve_that_round_off_defeats_is_refused_with_the_reason() {
+    let x = [0.0, 0.4, 0.400_001, 0.84];
+    let bat = bat(&x, &[0.02, 0.02, 0.021, 0.02], &[0.0; 4], Interpolation::Linear);
+    for solver in [Solver::Dense, Solver::ShiftInvert] {
+        let asked = Request { modes: 1, tolerance: 1e-2, solver, ..Request::default() };
+        assert!(matches!(solve(&bat, &asked), Err(Error::Factorization { .. })), "{solver:?}");
+    }
+}
