@@ -106,12 +106,13 @@ impl Bat {
         fixtures: Fixtures,
         weighed: Weighed,
     ) -> Result<Self> {
-        let (name, source) = (name.into(), String::new());
+        let (name, source, mut fixtures) = (name.into(), String::new(), fixtures);
         let layups = vec![Layup::of(material)];
         let mut mistakes = Mistakes::default();
         mistakes.note(fixtures.check(profile.length()));
         mistakes.note(weighed.check(profile.length()));
         mistakes.end(())?;
+        fixtures.settle(&profile.borders());
         let factors = [1.0; 2];
         let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
         bat.lay_out();
@@ -133,7 +134,7 @@ impl Bat {
     pub(crate) fn lay_out(&mut self) {
         self.layups.truncate(1);
         self.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
-        self.fixtures.borders().into_iter().for_each(|x| self.profile.cut(x));
+        self.profile.cut(self.fixtures.borders());
         for region in &self.fixtures.regions {
             self.layups.push(region.layup.clone());
             for piece in &mut self.profile.pieces {

@@ -13,7 +13,7 @@ use crate::beam::mesh::Mesh;
 use crate::beam::motion::{Applied, Depth, Motion};
 use crate::beam::statics::{Statics, View};
 use crate::beam::sweep::{Loads, Rigid};
-use crate::eigen::lanczos::{Lanczos, Wanted};
+use crate::eigen::lanczos::{Lanczos, Space, Wanted};
 use crate::error::Result;
 use crate::lanes::{Lanes, WIDTH, arch};
 use crate::real::{Over, Real};
@@ -124,16 +124,6 @@ where
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
-        // What the contacts do not allow: a step divides by a small number, and would let it grow.
-        let mut all: Vec<R> = vec![];
-        let known = match &statics.fixed {
-            None => known,
-            Some(fixed) => {
-                fixed.conditions().for_each(|condition| all.extend_from_slice(condition));
-                all.extend_from_slice(known);
-                &all
-            }
-        };
         let arch = arch();
         arch.dispatch(Iteration {
             lanczos,
@@ -141,6 +131,9 @@ where
             wanted,
             known,
             start: &mut |next| start(statics, next),
+            // What the contacts do not allow: a step divides by a small number, and would let it
+            // grow.
+            allow: &mut |next| statics.fixed.iter().for_each(|fixed| fixed.project(next)),
             apply: &mut |q, y| arch.dispatch(Apply { statics, q, y, loads }),
         })
     }
@@ -266,6 +259,7 @@ struct Iteration<'a, R> {
     wanted: Wanted,
     known: &'a [R],
     start: &'a mut dyn FnMut(&mut [R]),
+    allow: &'a mut dyn FnMut(&mut [R]),
     apply: &'a mut dyn FnMut(&[R], &mut [R]),
 }
 
@@ -274,7 +268,8 @@ impl<R: Real> WithSimd for Iteration<'_, R> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Result<()> {
-        self.lanczos.largest(self.dimension, self.wanted, self.known, self.start, self.apply)
+        let Self { lanczos, dimension, wanted, known, start, allow, apply } = self;
+        lanczos.largest(dimension, wanted, Space { known, allow }, start, apply)
     }
 }
 

@@ -4,6 +4,7 @@
 //! [`crate::Bat::with_fixtures`].
 
 use crate::layup::Layup;
+use crate::profile::SAME_PLACE;
 
 /// Everything that a bat may have beside its shape and its material.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -194,14 +195,51 @@ impl Fixtures {
 
     /// Where elements must end (m), in no order.
     pub fn borders(&self) -> Vec<f64> {
-        let regions = self.regions.iter().flat_map(|region| [region.from, region.to]);
-        let tapes = self.tapes.iter().flat_map(|tape| [tape.from, tape.to]);
-        let grip = self.grip.iter().flat_map(|grip| [grip.from, grip.to]);
-        let points = self.attachments.iter().map(|a| a.x);
-        let points = points.chain(self.absorbers.iter().map(|a| a.x));
-        let points = points.chain(self.joints.iter().map(|joint| joint.x));
-        let points = points.chain(self.supports.iter().map(|support| support.x));
-        regions.chain(tapes).chain(grip).chain(points).collect()
+        self.clone().places().map(|x| *x).collect()
+    }
+
+    /// Every place that is given (m), in no order.
+    fn places(&mut self) -> impl Iterator<Item = &mut f64> {
+        let regions = self.regions.iter_mut().flat_map(|region| [&mut region.from, &mut region.to]);
+        let tapes = self.tapes.iter_mut().flat_map(|tape| [&mut tape.from, &mut tape.to]);
+        let grip = self.grip.iter_mut().flat_map(|grip| [&mut grip.from, &mut grip.to]);
+        let points = self.attachments.iter_mut().map(|a| &mut a.x);
+        let points = points.chain(self.absorbers.iter_mut().map(|a| &mut a.x));
+        let points = points.chain(self.joints.iter_mut().map(|joint| &mut joint.x));
+        let points = points.chain(self.supports.iter_mut().map(|support| &mut support.x));
+        regions.chain(tapes).chain(grip).chain(points)
+    }
+
+    /// Places that are one but for their last digits become one: the border that the profile has
+    /// there (`borders`, rising from 0 to the length of the bat, m), else the first of them; and
+    /// two supports in one place are one, clamped if either is.
+    pub(crate) fn settle(&mut self, borders: &[f64]) {
+        let same = SAME_PLACE * borders.last().copied().unwrap_or_default();
+        let near = |known: &[f64], x: f64| -> Option<f64> {
+            let above = known.partition_point(|y| *y < x);
+            let around = &known[above.saturating_sub(1)..known.len().min(above + 1)];
+            around.iter().copied().find(|y| (y - x).abs() <= same)
+        };
+        let mut given = self.borders();
+        given.sort_by(f64::total_cmp);
+        let mut own: Vec<f64> = vec![];
+        for x in given {
+            if near(borders, x).is_none() && own.last().is_none_or(|before| x - before > same) {
+                own.push(x);
+            }
+        }
+        for x in self.places() {
+            *x = near(borders, *x).or_else(|| near(&own, *x)).unwrap_or(*x);
+        }
+        let mut supports: Vec<Support> = vec![];
+        for support in &self.supports {
+            match supports.iter_mut().find(|known| known.x == support.x) {
+                Some(known) if support.kind == Held::Clamped => known.kind = Held::Clamped,
+                Some(_) => {}
+                None => supports.push(*support),
+            }
+        }
+        self.supports = supports;
     }
 
     /// Mass (kg) of everything that is attached or spread on the bat.

@@ -3,6 +3,7 @@
 use crate::error::{Complaint, Error, Result};
 use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Joint, Region, Support, Tape};
 use crate::mistakes::{self, Mistakes};
+use crate::profile::SAME_PLACE;
 
 /// Products of larger values are beyond the range of numbers.
 const MOST: f64 = 1e100;
@@ -32,8 +33,7 @@ impl Fixtures {
     /// What must not lie in the same place does not.
     fn check_apart(&self, length: f64) -> Result<()> {
         let mut mistakes = Mistakes::default();
-        // Ends that differ by their last digits only are the same place.
-        let same = 1e-12 * length;
+        let same = SAME_PLACE * length;
         for (k, region) in self.regions.iter().enumerate() {
             let overlap =
                 |before: &&Region| before.from < region.to - same && region.from < before.to - same;
@@ -120,7 +120,8 @@ impl Absorber {
 impl Joint {
     pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
         let mut mistakes = Mistakes::default();
-        if !(self.x > 0.0 && self.x < length) {
+        let same = SAME_PLACE * length;
+        if !(self.x > same && self.x < length - same) {
             let expected = format!("a place inside the bat, 0 to {length} m");
             mistakes.add(Error::value(format!("{path}.x"), shown(self.x, "m"), expected));
         }
@@ -160,7 +161,7 @@ fn stretch(path: &str, from: f64, to: f64, length: f64) -> Result<()> {
     mistakes.note(on_the_bat(name("from"), from, length));
     mistakes.note(on_the_bat(name("to"), to, length));
     mistakes.end(())?;
-    if to > from {
+    if to - from > SAME_PLACE * length {
         return Ok(());
     }
     Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))

@@ -107,7 +107,7 @@ impl Frf {
                 let expected = format!("a place on the bat, 0 to {} m", bat.length());
                 return Err(Error::value(name, format!("{x} m"), expected));
             }
-            bat.profile.cut(x);
+            bat.profile.cut([x]);
         }
         let request = Request { tolerance: request.tolerance.min(MESH), ..*request };
         let solution = solve(&bat, &request)?;

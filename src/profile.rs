@@ -7,6 +7,10 @@ use crate::formula::Formula;
 use crate::mistakes::{self, Mistakes};
 use crate::pchip::{bernstein, blossom, cubics};
 
+/// Places that are no farther apart, as a share of the bat's length, are one place given in other
+/// digits.
+pub const SAME_PLACE: f64 = 1e-12;
+
 /// How the radius runs between stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
@@ -217,22 +221,35 @@ impl Profile {
         &self.pieces[k]
     }
 
-    /// The same shape with a border between two pieces at `x`, if there is none yet.
-    pub fn cut(&mut self, x: f64) {
-        let k = self.pieces.partition_point(|piece| piece.start <= x).max(1) - 1;
-        let piece = &self.pieces[k];
-        let s = (x - piece.start) / piece.length;
-        // A place given in other digits than the station there is that station.
-        const SAME: f64 = 1e-12;
-        let near = SAME * self.length() / piece.length;
-        if !(s > near && s < 1.0 - near) {
-            return;
+    /// The shape with borders between two pieces at these places (m), where there are none yet.
+    pub fn cut(&mut self, places: impl IntoIterator<Item = f64>) {
+        let same = SAME_PLACE * self.length();
+        let mut places: Vec<f64> = places.into_iter().collect();
+        places.sort_by(f64::total_cmp);
+        let mut places = places.into_iter().peekable();
+        let mut pieces = Vec::with_capacity(self.pieces.len() + places.len());
+        for mut piece in std::mem::take(&mut self.pieces) {
+            let end = piece.start + piece.length;
+            while let Some(x) = places.next_if(|x| *x < end - same) {
+                if x <= piece.start + same {
+                    continue;
+                }
+                let s = (x - piece.start) / piece.length;
+                let [mut left, mut right] = [piece.part(0.0, s), piece.part(s, 1.0)];
+                // Exactly where asked and exactly as long as before.
+                (left.length, right.start) = (x - piece.start, x);
+                right.length = end - x;
+                pieces.push(left);
+                piece = right;
+            }
+            pieces.push(piece);
         }
-        let mut both = [piece.part(0.0, s), piece.part(s, 1.0)];
-        // Exactly where asked and exactly as long as before.
-        (both[0].length, both[1].start) = (x - piece.start, x);
-        both[1].length = piece.start + piece.length - x;
-        self.pieces.splice(k..=k, both);
+        self.pieces = pieces;
+    }
+
+    /// Where pieces begin and where the last one ends (m), rising.
+    pub fn borders(&self) -> Vec<f64> {
+        self.pieces.iter().map(|piece| piece.start).chain([self.length()]).collect()
     }
 }
 

@@ -16,7 +16,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::beam::fixed::{At, Fixed, What};
+use crate::beam::fixed::{Fixed, What, unit};
 use crate::beam::statics::Statics;
 
 /// A symmetric form in unknowns of which the last two are deflection and rotation.
@@ -177,14 +177,9 @@ impl Form {
         let cell = &statics.cells[k];
         let link = &cell.link;
         let (strains, carried) = (W - 2, self.size - 2);
-        let beds = statics.fixed.iter().flat_map(|fixed| &fixed.contacts).filter_map(|contact| {
-            let spring = contact.spring?;
-            match contact.at {
-                At::Bed { cell, point } if cell == k => Some((point, spring.softness)),
-                _ => None,
-            }
-        });
-        let beds: Vec<(usize, f64)> = beds.collect();
+        let beds = statics.fixed.iter().filter_map(|fixed| Some((fixed, fixed.bed(k, N)?)));
+        let beds = beds.flat_map(|(fixed, bed)| &fixed.contacts[bed]);
+        let beds: Vec<f64> = beds.filter_map(|contact| Some(contact.spring?.softness)).collect();
         let size = strains + carried + beds.len() + 2;
         let place = |i: usize| if i < strains { i } else { size - W + i };
         form.clear(size);
@@ -219,9 +214,9 @@ impl Form {
                 form[(strains + a, strains + b)] += self[(a, b)];
             }
         }
-        for (b, (point, softness)) in beds.into_iter().enumerate() {
+        for (b, softness) in beds.into_iter().enumerate() {
             let reaction = strains + carried + b;
-            let on = statics.body().point_load(k, statics.rule.at::<N>(point));
+            let on = statics.body().point_load(k, &unit(b));
             for (i, value) in on.into_iter().enumerate() {
                 form[(reaction, place(i))] += value;
                 form[(place(i), reaction)] += value;

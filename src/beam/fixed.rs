@@ -4,20 +4,18 @@
 //! the way inwards. A joint is a strain of its own: the angle between both sides.
 //!
 //! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or
-//! one point of an elastic bed. Its displacement `a·q + a_ρ·ρ` follows from the strains q and the
-//! rigid motion ρ, and it may give way by `√δ s`, `δ = U/k` in the unit of energy `U`, with a
-//! strain `s` of its own; a support has `δ = 0`. Nothing is ever multiplied by a stiffness, so no
-//! digits go with it, however stiff or soft it is. Two contacts tell the rigid motion (the
-//! statically determinate bat), every further one is a condition on the strains alone, and the
-//! compliance is followed by the orthogonal projection on the strains that meet the conditions: the
-//! force method. Where fewer than two hold, the rigid motions that stay free are taken out as they
-//! are of a free bat.
+//! one Legendre coefficient of the deflection over an elastic bed. Its displacement follows from the
+//! strains and the motion of the root, and it may give way by `√δ s`, `δ = U/k` in the unit of
+//! energy `U`, with a strain `s` of its own; a support has `δ = 0`. The strains that loads make of
+//! the bat clamped at its root are followed by the strains nearest to them that the contacts allow
+//! ([`Holds`]). Where contacts leave rigid motions free, these are taken out as they are of a free
+//! bat.
 
 use std::ops::Range;
 
 use crate::bat::Bat;
 use crate::beam::element::{Vector, on_strains};
-use crate::beam::holds::{Holds, inner};
+use crate::beam::holds::{Border, Build, Given, Holds, Span, Under};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
 use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
@@ -59,7 +57,14 @@ pub struct Fixed<S> {
     pub springs: usize,
     /// Where the bat is clamped (m).
     pub clamps: Vec<f64>,
-    holds: Holds<S>,
+    /// The rigid motions that stay free: push and turn about the balance point.
+    free: Vec<[S; 2]>,
+    /// How the contacts hold the bat, if there are any.
+    holds: Option<Holds<S>>,
+    /// The root from the balance point, towards the tip (m).
+    root: S,
+    /// The first contact of the bed under a cell; empty without a bed.
+    beds: Vec<Option<usize>>,
 }
 
 /// Something at the border of two cells.
@@ -117,8 +122,6 @@ pub struct Contact<S> {
     pub sign: S,
     /// How it gives way, if it does.
     pub spring: Option<Spring<S>>,
-    /// Its displacement by a rigid motion of push 1 and by one of turn 1.
-    pub rigid: [S; 2],
 }
 
 /// Where a contact is.
@@ -126,13 +129,8 @@ pub struct Contact<S> {
 pub enum At {
     /// At a stop.
     Border,
-    /// At a point of the rule on a cell, for a share of its length (m) and so many N/m².
-    Bed {
-        /// The cell, the knob side first.
-        cell: usize,
-        /// Its point.
-        point: usize,
-    },
+    /// A Legendre coefficient of the deflection of a cell on an elastic bed.
+    Bed,
 }
 
 impl<S: Real> Fixed<S> {
@@ -143,12 +141,10 @@ impl<S: Real> Fixed<S> {
         mesh: &Mesh,
     ) -> Self {
         let stops = [vec![], vec![]];
-        let springs = 0;
-        let holds = Holds::default();
         let clamped = bat.fixtures.supports.iter().filter(|s| s.kind == Held::Clamped);
         let clamps = clamped.map(|support| support.x).collect();
-        let (points, joints, contacts) = (vec![], vec![], vec![]);
-        let mut fixed = Self { points, joints, contacts, stops, springs, clamps, holds };
+        let root = body.cells[body.split].arm;
+        let mut fixed = Self { stops, clamps, root, ..Self::nothing() };
         fixed.add_points(body, bat, mesh);
         fixed.add_contacts(body, bat, mesh);
         // Outwards; at one place the knob's part comes first from the knob and last from the tip.
@@ -159,7 +155,7 @@ impl<S: Real> Fixed<S> {
         for (side, stops) in fixed.stops.iter_mut().enumerate() {
             stops.sort_by_key(|stop| (stop.after, order(side, stop.what)));
         }
-        fixed.holds = fixed.hold(body);
+        fixed.hold(body);
         fixed
     }
 
@@ -173,28 +169,32 @@ impl<S: Real> Fixed<S> {
             stops: [vec![], vec![]],
             springs: 0,
             clamps: vec![],
-            holds: Holds { free: vec![[one, zero], [zero, one]], ..Holds::default() },
+            free: vec![[one, zero], [zero, one]],
+            holds: None,
+            root: zero,
+            beds: vec![],
         }
     }
 
     /// How many conditions the strains must meet.
     pub fn redundant(&self) -> usize {
-        self.holds.redundant.len()
+        self.contacts.len() + self.free.len() - 2
     }
 
-    /// These conditions: orthonormal vectors of strains.
-    pub fn conditions(&self) -> impl Iterator<Item = &[S]> {
-        self.holds.basis.iter().map(Vec::as_slice)
+    /// The contacts of the bed under a cell, one for each of `terms` Legendre polynomials.
+    pub fn bed(&self, cell: usize, terms: usize) -> Option<Range<usize>> {
+        let first = self.beds.get(cell).copied().flatten()?;
+        Some(first..first + terms)
     }
 
     /// How many rigid motions are free.
     pub fn rigid_modes(&self) -> usize {
-        self.holds.free.len()
+        self.free.len()
     }
 
     /// The free rigid motions: push and turn about the balance point.
     pub fn free(&self) -> &[[S; 2]] {
-        &self.holds.free
+        &self.free
     }
 
     /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
@@ -260,10 +260,7 @@ impl<S: Real> Fixed<S> {
             let side = fixed.stop(body.split, node_at(bat, mesh, x), what);
             let spring = stiffness.map(|stiffness| fixed.spring(body, stiffness));
             let sign = S::splat(if turning && side == 0 { -1.0 } else { 1.0 });
-            let arm = S::splat(x) - body.balance;
-            let one = S::splat(1.0);
-            let rigid = if turning { [S::default(), one] } else { [one, arm] };
-            fixed.contacts.push(Contact { at: At::Border, turning, sign, spring, rigid });
+            fixed.contacts.push(Contact { at: At::Border, turning, sign, spring });
         };
         for support in &bat.fixtures.supports {
             add(self, support.x, false, None);
@@ -278,123 +275,73 @@ impl<S: Real> Fixed<S> {
             }
         }
         let Some(grip) = bat.fixtures.grip.filter(|grip| grip.stiffness > 0.0) else { return };
+        self.beds = vec![None; mesh.len()];
         for (cell, e) in in_grip(bat, mesh, body.split) {
-            let length = mesh.elements[e].length;
-            let outwards = if cell < body.split { -1.0 } else { 1.0 };
-            for (point, place) in body.rule.points.iter().enumerate() {
-                let spring = self.spring(body, grip.stiffness * length * place.weight);
-                let arm = body.cells[cell].arm + S::splat(place.s * length);
-                let rigid = [S::splat(1.0), S::splat(outwards) * arm];
-                let at = At::Bed { cell, point };
-                let sign = S::splat(1.0);
-                self.contacts.push(Contact {
-                    at,
-                    turning: false,
-                    sign,
-                    spring: Some(spring),
-                    rigid,
-                });
+            self.beds[cell] = Some(self.contacts.len());
+            for term in 0..N {
+                // ∫P_k² dx.
+                let share = mesh.elements[e].length / (2 * term + 1) as f64;
+                let spring = Some(self.spring(body, grip.stiffness * share));
+                let (at, turning, sign) = (At::Bed, false, S::splat(1.0));
+                self.contacts.push(Contact { at, turning, sign, spring });
             }
         }
     }
 
-    /// How the contacts hold the bat.
-    fn hold<const N: usize, const W: usize>(&self, body: &Body<S, N, W>) -> Holds<S> {
-        let one = S::splat(1.0);
-        let zero = S::default();
-        let mut holds = Holds { free: vec![[one, zero], [zero, one]], ..Holds::default() };
+    /// Finds how the contacts hold the bat, and what they leave free.
+    fn hold<const N: usize, const W: usize>(&mut self, body: &Body<S, N, W>) {
         if self.contacts.is_empty() {
-            return holds;
+            return;
         }
-        holds.primary = self.primary();
-        let a: Vec<[S; 2]> = holds.primary.iter().map(|k| self.contacts[*k].rigid).collect();
-        match a[..] {
-            [a, b] => {
-                let det = a[0] * b[1] - a[1] * b[0];
-                holds.inverse = vec![[b[1] / det, -b[0] / det], [-a[1] / det, a[0] / det]];
-                holds.free.clear();
-            }
-            _ if self.contacts[holds.primary[0]].turning => {
-                holds.inverse = vec![[zero, one]];
-                holds.free = vec![[one, zero]];
-            }
-            _ => {
-                holds.inverse = vec![[one, zero]];
-                holds.free = vec![[-a[0][1], one]];
-            }
-        }
-        let rows: Vec<Vec<S>> = (0..self.contacts.len()).map(|k| self.row(body, k)).collect();
-        holds.rows = holds.primary.iter().map(|k| rows[*k].clone()).collect();
-        for (k, mut row) in rows.into_iter().enumerate().filter(|(k, _)| !holds.primary.contains(k))
-        {
-            let rigid = self.contacts[k].rigid;
-            let mut shares = [zero; 2];
-            for (i, primary) in holds.rows.iter().enumerate() {
-                let inverse = holds.inverse[i];
-                shares[i] = rigid[0] * inverse[0] + rigid[1] * inverse[1];
-                row.iter_mut().zip(primary).for_each(|(r, p)| *r -= shares[i] * *p);
-            }
-            let mut lower = vec![zero; holds.basis.len() + 1];
-            for _ in 0..2 {
-                for (j, q) in holds.basis.iter().enumerate() {
-                    let part = inner(&row, q);
-                    lower[j] += part;
-                    row.iter_mut().zip(q).for_each(|(r, q)| *r -= part * *q);
-                }
-            }
-            let size = inner(&row, &row).sqrt();
-            row.iter_mut().for_each(|r| *r = *r / size);
-            lower[holds.basis.len()] = size;
-            holds.redundant.push(k);
-            holds.shares.push(shares);
-            holds.basis.push(row);
-            holds.lower.push(lower);
-        }
-        holds
+        let holds = Holds::of([0, 1].map(|side| self.side(body, side)));
+        let (one, zero) = (S::splat(1.0), S::default());
+        self.free = match holds.held.map(|stiffness| stiffness > 0.0) {
+            [true, true] => vec![],
+            [true, false] => vec![[-(self.root + S::splat(holds.center)), one]],
+            [false, _] => vec![[one, zero]],
+        };
+        self.holds = Some(holds);
     }
 
-    /// The two contacts that tell the rigid motion best, or the one if all tell the same: supports
-    /// before springs, then the stiffest and farthest apart.
-    fn primary(&self) -> Vec<usize> {
-        let softness = |k: usize| self.contacts[k].spring.map_or(0.0, |s| s.softness.lane(0));
-        let rigid = |k: usize| self.contacts[k].rigid.map(|r| r.lane(0));
-        let mut best: Option<((usize, f64), [usize; 2])> = None;
-        for i in 0..self.contacts.len() {
-            for j in i + 1..self.contacts.len() {
-                let (a, b) = (rigid(i), rigid(j));
-                let det = (a[0] * b[1] - a[1] * b[0]).abs();
-                let soft = [i, j].into_iter().map(softness).filter(|s| *s > 0.0);
-                let hard = 2 - soft.clone().count();
-                let key = (hard, soft.fold(det, |key, softness| key / softness));
-                if det > 0.0 && best.is_none_or(|(most, _)| key > most) {
-                    best = Some((key, [i, j]));
-                }
+    /// What is met on one side on the way inwards.
+    fn side<const N: usize, const W: usize>(&self, body: &Body<S, N, W>, side: usize) -> Build<S> {
+        let (mut build, cells) = (Build::default(), body.sides()[side].clone());
+        let mut stops = self.stops[side].iter().rev().peekable();
+        for k in cells.clone().rev() {
+            while let Some(stop) = stops.next_if(|stop| cells.start + stop.after == k + 1) {
+                self.meet(stop.what, &mut build);
             }
+            let link = &body.cells[k].link;
+            let adds = (0..W - 2).map(|i| [link.lift[i], link.turn[i]]).collect();
+            let span = Span { first: k * (W - 2), adds, length: link.length.lane(0) };
+            let Some(bed) = self.bed(k, N) else {
+                build.cross(span);
+                continue;
+            };
+            let springs = self.contacts[bed.clone()].iter().filter_map(|contact| contact.spring);
+            let (places, softness): (Vec<usize>, _) =
+                springs.map(|spring| (spring.place, spring.softness)).unzip();
+            let rows = (0..N).flat_map(|term| body.point_load(k, &unit(term))).collect();
+            build.cross_bed(span, Under { contact: bed.start, place: places[0], softness, rows });
         }
-        match best {
-            Some((_, pair)) => pair.to_vec(),
-            None => {
-                let all = 0..self.contacts.len();
-                let first = all.min_by(|a, b| softness(*a).total_cmp(&softness(*b)));
-                first.into_iter().collect()
-            }
-        }
+        stops.for_each(|stop| self.meet(stop.what, &mut build));
+        build
     }
 
-    /// The displacement of a contact by the strains: the strains that a unit load there makes.
-    fn row<const N: usize, const W: usize>(&self, body: &Body<S, N, W>, k: usize) -> Vec<S> {
-        let mut loads = self.no_loads::<S, N, W>(body);
-        let contact = &self.contacts[k];
-        loads.contacts[k] = S::splat(-1.0);
-        if let At::Bed { cell, point } = contact.at {
-            loads.cells[cell] = body.point_load(cell, body.rule.at::<N>(point));
+    fn meet(&self, what: What, build: &mut Build<S>) {
+        match what {
+            What::Point(_) => {}
+            What::Joint(k) => {
+                let Spring { place, softness } = self.joints[k];
+                let adds = vec![[S::default(), softness]];
+                build.cross(Span { first: place, adds, length: 0.0 });
+            }
+            What::Contact(k) => {
+                let Contact { turning, sign, spring, .. } = self.contacts[k];
+                let spring = spring.map(|spring| (spring.place, spring.softness));
+                build.meet(Border { contact: k, turning, sign, spring });
+            }
         }
-        let mut row = vec![S::default(); body.cells.len() * (W - 2) + self.springs];
-        self.inwards(body, &loads, &mut row);
-        if let Some(spring) = contact.spring {
-            row[spring.place] = -spring.softness;
-        }
-        row
     }
 
     fn no_loads<R: Real, const N: usize, const W: usize>(
@@ -421,24 +368,17 @@ impl<S: Real> Fixed<S> {
         loads.points.resize(self.points.len(), [R::default(); 2]);
         loads.contacts.clear();
         loads.contacts.resize(self.contacts.len(), R::default());
-        // The contacts' displacements wait in the place of their forces. They come from the sums
-        // themselves: as products with the rows they would keep ε of the slowest motion only.
         self.outwards(body, q, loads);
-        let held = |k: usize| match self.contacts[self.holds.primary[k]].at {
-            At::Border => loads.contacts[self.holds.primary[k]],
-            At::Bed { .. } => inner(q, &self.holds.rows[k]),
-        };
-        let mut rigid = self.holds.rigid_of(held);
-        loads.contacts.fill(R::default());
+        let mut rigid = self.rigid(Given::Strains(q));
         let mut total = self.take_out(body, rigid, loads);
         // Twice: where one mass is far above all others, the first time leaves its round-off.
         for _ in 0..2 {
-            let free = self.holds.free_part(body.mass, body.inertia, total);
+            let free = self.free_part(body.mass, body.inertia, total);
             rigid = Rigid { push: rigid.push + free.push, turn: rigid.turn + free.turn };
             total = self.take_out(body, free, loads);
         }
         self.inwards(body, loads, y);
-        self.holds.balance(total, y, &mut loads.contacts);
+        self.balance(total, y, &mut loads.contacts);
         rigid
     }
 
@@ -460,17 +400,16 @@ impl<S: Real> Fixed<S> {
         loads.cells[cell] = body.point_load(cell, values);
         let mut total = self.take_out(body, Rigid::default(), &mut loads);
         for _ in 0..2 {
-            let free = self.holds.free_part(body.mass, body.inertia, total);
+            let free = self.free_part(body.mass, body.inertia, total);
             total = self.take_out(body, free, &mut loads);
         }
         let mut strains = vec![S::default(); body.cells.len() * (W - 2) + self.springs];
         self.inwards(body, &loads, &mut strains);
-        self.holds.balance(total, &mut strains, &mut loads.contacts);
+        self.balance(total, &mut strains, &mut loads.contacts);
         strains
     }
 
-    /// Integrates strains from the root at rest and leaves the loads of their inertia and the
-    /// displacements of contacts at borders.
+    /// Integrates strains from the root at rest and leaves the loads of their inertia.
     fn outwards<R: Over<S>, const N: usize, const W: usize>(
         &self,
         body: &Body<S, N, W>,
@@ -495,15 +434,7 @@ impl<S: Real> Fixed<S> {
                     What::Joint(k) => {
                         way.theta.add(q[self.joints[k].place] * self.joints[k].softness);
                     }
-                    What::Contact(k) => {
-                        let contact = &self.contacts[k];
-                        let given = contact.spring.map(|s| q[s.place] * s.softness);
-                        let moved = match contact.turning {
-                            false => way.w.value(),
-                            true => way.theta.value() * contact.sign,
-                        };
-                        loads.contacts[k] = moved - given.unwrap_or_default();
-                    }
+                    What::Contact(_) => {}
                 }
             }
         }
@@ -546,7 +477,7 @@ impl<S: Real> Fixed<S> {
         total
     }
 
-    /// The strains under loads and the forces of contacts.
+    /// The strains under loads of the bat clamped at its root.
     fn inwards<R: Over<S>, const N: usize, const W: usize>(
         &self,
         body: &Body<S, N, W>,
@@ -577,11 +508,7 @@ impl<S: Real> Fixed<S> {
                         let spring = &self.joints[k];
                         y[spring.place] = way.bending.value() * spring.softness;
                     }
-                    What::Contact(k) => {
-                        let [force, couple] = self.contacts[k].on_the_bat(loads.contacts[k]);
-                        way.shear.add(force);
-                        way.bending.add(couple);
-                    }
+                    What::Contact(_) => {}
                 }
             }
         }
@@ -589,19 +516,36 @@ impl<S: Real> Fixed<S> {
 
     /// Takes out of the strains what the contacts do not allow.
     pub fn project<R: Over<S>>(&self, strains: &mut [R]) {
-        self.holds.project(strains);
+        let mut reactions = vec![R::default(); self.contacts.len()];
+        self.balance([R::default(); 2], strains, &mut reactions);
     }
 
-    /// The rigid motion that these displacements of the primary contacts call for; `of` gets a
-    /// contact's number.
-    pub fn rigid_of<R: Over<S>>(&self, of: impl Fn(usize) -> R) -> Rigid<R> {
-        self.holds.rigid_of(|k| of(self.holds.primary[k]))
+    /// Strains under loads of the bat clamped at its root, where force and moment about the balance
+    /// point `total` are left, become those of the held bat; leaves the contacts' reactions.
+    fn balance<R: Over<S>>(&self, total: [R; 2], strains: &mut [R], reactions: &mut [R]) {
+        let Some(holds) = &self.holds else { return };
+        holds.fit(strains, [total[0], total[1] - total[0] * self.root], reactions);
+    }
+
+    /// The rigid motion that the contacts take out of a motion with the root at rest.
+    pub fn rigid<R: Over<S>>(&self, given: Given<R>) -> Rigid<R> {
+        let Some(holds) = &self.holds else { return Rigid::default() };
+        let [w, theta] = holds.root(given);
+        Rigid { push: theta * self.root - w, turn: -theta }
     }
 
     /// The free rigid motion of a bat of that mass and inertia that carries force and moment
     /// `total`.
     pub fn free_part<R: Over<S>>(&self, mass: S, inertia: S, total: [R; 2]) -> Rigid<R> {
-        self.holds.free_part(mass, inertia, total)
+        let mut rigid = Rigid::<R>::default();
+        for free in &self.free {
+            let carried = total[0] * free[0] + total[1] * free[1];
+            let weight = free[0] * free[0] * mass + free[1] * free[1] * inertia;
+            let part = carried / R::of(weight);
+            rigid.push += part * free[0];
+            rigid.turn += part * free[1];
+        }
+        rigid
     }
 }
 
@@ -622,13 +566,13 @@ impl<S: Real> Point<S> {
 impl<S: Real> Contact<S> {
     /// Whether it is a point of an elastic bed.
     pub fn in_a_bed(&self) -> bool {
-        matches!(self.at, At::Bed { .. })
+        self.at == At::Bed
     }
 
     /// Force and couple, outwards, that its reaction is for the bat.
     pub fn on_the_bat<R: Over<S>>(&self, reaction: R) -> [R; 2] {
         match (self.at, self.turning) {
-            (At::Bed { .. }, _) => [R::default(); 2],
+            (At::Bed, _) => [R::default(); 2],
             (At::Border, false) => [-reaction, R::default()],
             (At::Border, true) => [R::default(), -(reaction * self.sign)],
         }
@@ -657,14 +601,17 @@ impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
     }
 }
 
+/// The coefficients of one Legendre polynomial.
+pub fn unit<const N: usize>(term: usize) -> [f64; N] {
+    std::array::from_fn(|k| f64::from(u8::from(k == term)))
+}
+
 /// The number of the mesh's node at `x`, or nearest to it: the bat's pieces end there.
 pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
     let pieces = &bat.profile.pieces;
-    let starts = pieces.iter().map(|piece| piece.start).chain([bat.length()]);
-    let (piece, _) = starts
-        .enumerate()
-        .min_by(|(_, a), (_, b)| (a - x).abs().total_cmp(&(b - x).abs()))
-        .expect("a bat has pieces");
+    let start = |k: usize| pieces.get(k).map_or(bat.length(), |piece| piece.start);
+    let above = pieces.partition_point(|piece| piece.start <= x).max(1);
+    let piece = if x - start(above - 1) <= start(above) - x { above - 1 } else { above };
     mesh.elements.partition_point(|e| e.piece < piece)
 }
 

@@ -26,7 +26,8 @@
 use std::ops::Range;
 
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
-use crate::beam::fixed::{At, Stop, What};
+use crate::beam::fixed::{Stop, What};
+use crate::beam::holds::Given;
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::{Statics, View};
 use crate::beam::sweep::{Loads, Rigid};
@@ -316,18 +317,16 @@ impl<R: Real> Motion<R> {
                 cell.strains(q, view.terms - 2, strains);
                 let samples = k * points..(k + 1) * points;
                 let stiffness = &view.bending_stiffness[samples.clone()];
-                if let Some(fixed) = view.fixed_for::<R>() {
-                    // An elastic bed: its points' reactions spread over their shares of the cell.
-                    for (contact, reaction) in fixed.contacts.iter().zip(&self.reactions) {
-                        if let At::Bed { cell, point } = contact.at
-                            && cell == k
-                        {
-                            let share = S::splat(rule.points[point].weight) * h;
-                            self.changes[samples.start + point] -= *reaction / R::of(share);
-                        }
-                    }
-                }
                 let values = &mut self.changes[samples.clone()];
+                if let Some(bed) = view.bed::<R>(k) {
+                    // Its reactions t are those of the line load `Σ (2k + 1) t_k P_k / h`.
+                    let mut load = [R::default(); MOST_TERMS];
+                    for (term, (load, t)) in load.iter_mut().zip(&self.reactions[bed]).enumerate() {
+                        *load = *t * (S::splat((2 * term + 1) as f64) / h);
+                    }
+                    rule.values(&load[..view.terms], &mut values_of);
+                    values.iter_mut().zip(&values_of).for_each(|(v, load)| *v -= *load);
+                }
                 let [force, turning] = rule.integrals(values);
                 rule.twice_from_right(values, &mut own);
                 let (v, m, square) = (shear.value() * h, moment.value(), h * h);
@@ -452,14 +451,8 @@ impl<R: Real> Motion<R> {
                         force += share;
                         moment += share * (cell.arm + y);
                     }
-                    if let Some(fixed) = view.fixed_for::<R>() {
-                        for (held, contact) in held.iter_mut().zip(&fixed.contacts) {
-                            if let At::Bed { cell, point } = contact.at
-                                && cell == k
-                            {
-                                *held = change[point];
-                            }
-                        }
+                    if let Some(bed) = view.bed::<R>(k) {
+                        view.rule.coefficients(change, &mut held[bed]);
                     }
                     w += theta * h + (turned - first) * (h * h) + slipped;
                     theta += turned * h;
@@ -494,11 +487,11 @@ impl<R: Real> Motion<R> {
                 Rigid { push: total[0] / R::of(view.mass), turn: total[1] / R::of(view.inertia) }
             }
             Some(fixed) => {
-                let gives = |k: usize| {
-                    let spring = fixed.contacts[k].spring;
-                    spring.map_or(R::default(), |s| self.image[s.place] * s.softness)
-                };
-                let first = fixed.rigid_of(|k| held[k] - gives(k));
+                for (held, contact) in held.iter_mut().zip(&fixed.contacts) {
+                    let given = contact.spring.map(|s| self.image[s.place] * s.softness);
+                    *held -= given.unwrap_or_default();
+                }
+                let first = fixed.rigid(Given::Displacements(&held));
                 let (mass, inertia) = (R::of(view.mass), R::of(view.inertia));
                 let left = [total[0] - first.push * mass, total[1] - first.turn * inertia];
                 let free = fixed.free_part(view.mass, view.inertia, left);

@@ -160,6 +160,17 @@ impl Rule {
         }
     }
 
+    /// The Legendre coefficients of a function given at the points, as many as there is room for.
+    pub fn coefficients<R: Real>(&self, values: &[R], coefficients: &mut [R]) {
+        let rows = self.by_term.chunks_exact(self.stride());
+        for (k, (coefficient, row)) in coefficients.iter_mut().zip(rows).enumerate() {
+            *coefficient = R::default();
+            for ((point, value), p) in self.points.iter().zip(values).zip(row) {
+                *coefficient += *value * R::splat((2 * k + 1) as f64 * point.weight * p);
+            }
+        }
+    }
+
     /// A function given at the points, twice integrated from the left end.
     #[inline(always)]
     pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {

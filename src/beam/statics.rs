@@ -496,6 +496,12 @@ impl<'a, S: Real> View<'a, S> {
         self.fixed.map_or(&[], |fixed| &fixed.stops[side])
     }
 
+    /// The contacts of the bed under a cell.
+    #[inline(always)]
+    pub fn bed<R: Real>(&self, cell: usize) -> Option<Range<usize>> {
+        self.fixed_for::<R>()?.bed(cell, self.terms)
+    }
+
     /// What is on the bat and what holds it; then motions are looked at one by one.
     #[inline(always)]
     pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {

@@ -45,9 +45,17 @@ pub struct Wanted {
     pub earliest: usize,
 }
 
+/// Where the eigenvectors are.
+pub struct Space<'a, R> {
+    /// Orthonormal vectors to which they are orthogonal, one after the other.
+    pub known: &'a [R],
+    /// Takes out of a vector whatever else the operator does not know.
+    pub allow: &'a mut dyn FnMut(&mut [R]),
+}
+
 impl<R: Real> Lanczos<R> {
     /// The largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`, from
-    /// the vector that `start` writes, orthogonal to the orthonormal vectors `known`.
+    /// the vector that `start` writes, in that space.
     ///
     /// Lanczos' three-term recurrence, each new vector orthogonalised against all before it, twice
     /// where cancellation calls for it (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30 (1976)
@@ -63,11 +71,11 @@ impl<R: Real> Lanczos<R> {
         &mut self,
         dimension: usize,
         wanted: Wanted,
-        known: &[R],
+        space: Space<R>,
         start: impl FnOnce(&mut [R]),
         mut apply: impl FnMut(&[R], &mut [R]),
     ) -> Result<()> {
-        let count = wanted.count;
+        let (count, Space { known, allow }) = (wanted.count, space);
         let before = known.len() / dimension;
         let most = (dimension - before).min(3 * count + 60);
         self.next.clear();
@@ -80,7 +88,7 @@ impl<R: Real> Lanczos<R> {
         start(&mut self.next);
         let size = match before {
             0 => dot(&self.next, &self.next).sqrt(),
-            _ => self.orthogonalise(),
+            _ => self.orthogonalise(allow),
         };
         self.take(size);
         loop {
@@ -96,7 +104,7 @@ impl<R: Real> Lanczos<R> {
                 let last_but_one = &self.basis[place..place + dimension];
                 subtract(*beta, last_but_one, &mut self.next);
             }
-            let rest = self.orthogonalise();
+            let rest = self.orthogonalise(allow);
             let spanned = steps == dimension - before
                 || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
             // The small eigenproblem costs steps³, so many modes are looked at less often.
@@ -147,7 +155,8 @@ impl<R: Real> Lanczos<R> {
 
     /// Takes everything of the basis out of `next`; the length that is left.
     #[inline(always)]
-    fn orthogonalise(&mut self) -> R {
+    fn orthogonalise(&mut self, allow: &mut dyn FnMut(&mut [R])) -> R {
+        allow(&mut self.next);
         let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
         let mut size = dot(next, next).sqrt();
         for _ in 0..3 {
@@ -207,7 +216,8 @@ pub fn largest(
     let mut lanczos = Lanczos::default();
     let wanted = Wanted { count, residual, earliest: 8 };
     let dimension = start.len();
-    lanczos.largest(dimension, wanted, &[], |next| next.copy_from_slice(&start), apply)?;
+    let space = Space { known: &[], allow: &mut |_| {} };
+    lanczos.largest(dimension, wanted, space, |next| next.copy_from_slice(&start), apply)?;
     let vectors = lanczos.vectors.chunks_exact(dimension).map(<[f64]>::to_vec).collect();
     Ok(Ritz { values: lanczos.values, vectors, steps: lanczos.steps })
 }
