@@ -29,8 +29,7 @@ const TOLERANCE: f64 = 1e-6;
 /// The bat with less wood between two places (m).
 fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
     let mut bat = bat.clone();
-    bat.profile.cut(from);
-    bat.profile.cut(to);
+    bat.profile.cut([from, to]);
     for piece in bat.profile.pieces.iter_mut().filter(|piece| piece.is_within(from, to)) {
         let Radii::Cubic(cubics) = &mut piece.radii else {
             return Err(Error::value("profile", "formulas", "stations: a bat to be turned"));

@@ -301,8 +301,9 @@ where
         for bat in 0..R::LANES {
             let own = bat * modes..(bat + 1) * modes;
             share(&self.omegas[own.clone()], &mut self.errors[own]);
-            let last = lanczos.values[modes - 1].lane(bat);
-            let twin = |beyond: &R| is_twin(beyond.lane(bat) / last, modes);
+            let last = modes.checked_sub(1).map(|last| lanczos.values[last].lane(bat));
+            let twin =
+                |beyond: &R| last.is_some_and(|last| is_twin(beyond.lane(bat) / last, modes));
             self.counted[bat] &= !lanczos.beyond.as_ref().is_some_and(twin);
         }
     }

@@ -1,7 +1,7 @@
 //! Which values can an expression take on an interval, or on a box of the complex plane?
 //!
 //! [`Interval`] and [`Rectangle`] hold every value that exact arithmetic could give: results are
-//! rounded outwards, by one place after `+ − × ÷ √` and by [`LIBRARY`] after other functions. A
+//! rounded outwards, by one place after `+ − × ÷ √` and by `LIBRARY` after other functions. A
 //! [`Jet`] carries the derivative along, so that a range can be had from its middle too:
 //! `f(x) ∈ f(m) + f′([a, b]) (x − m)`.
 //!
@@ -320,7 +320,7 @@ impl Rectangle {
         match n {
             0 => Self::point(1.0),
             1 => self,
-            _ if n % 2 == 0 => self.square().powi(n / 2),
+            _ if n.is_multiple_of(2) => self.square().powi(n / 2),
             _ => self * self.powi(n - 1),
         }
     }

@@ -76,8 +76,8 @@ fn all_succeed(folder: &Folder, commands: &[String]) {
         if !late && (output.status.code() != Some(0) || !told.is_empty()) {
             faults.push(format!("{command}: {:?} {told}", output.status.code()));
         }
-        let for_people =
-            !args.contains(&"-") && !["man", "completions", "schema"].contains(&args[0]);
+        let for_people = !args.contains(&"-")
+            && !["man", "completions", "schema", "licences"].contains(&args[0]);
         if for_people && !args.contains(&"--help") {
             let wide = wider(&String::from_utf8_lossy(&output.stdout), 80);
             faults.extend(wide.iter().map(|line| format!("{command}: {line}")));

@@ -71,11 +71,15 @@ fn the_order_on_a_cone_is_twice_the_degree_less_two() {
     }
 }
 
+/// The bat's formula is cut in quarters: multiples of 4 elements have all of one length. Between 1e-5
+/// and round-off there are fewer of these, so that faster modes are looked at.
 #[test]
 fn the_order_on_a_smooth_bat_is_twice_the_degree_less_two() {
+    let multiples: Vec<usize> = counts(60).iter().map(|n| 4 * n).collect();
     for degree in 3..=8 {
         let within = if degree < 8 { 0.05 } else { 0.08 };
-        assert_order("tanh_bat", degree, &modes(degree), &counts(120), within);
+        let modes = if degree < 5 { modes(degree) } else { modes(degree + 1) };
+        assert_order("tanh_bat", degree, &modes, &multiples, within);
     }
 }
 

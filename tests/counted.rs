@@ -84,7 +84,7 @@ fn a_bed_along_the_whole_dowel_raises_every_frequency_alike() {
 /// dowel with both at an end is clamped there, and keeps two rigid motions of no frequency.
 #[test]
 fn a_heavy_end_counts_as_a_clamp_and_two_rigid_motions() {
-    let heavy = Attachment { x: 0.0, mass: 1e9, rotary_inertia: 1e9, ..Attachment::default() };
+    let heavy = Attachment { x: 0.0, mass: 1e8, rotary_inertia: 1e8, ..Attachment::default() };
     let bat = with(Fixtures { attachments: vec![heavy], ..Fixtures::default() });
     assert_steps(&bat, 2, |n| omega(ClampedFree, n));
 }

@@ -151,9 +151,9 @@ fn of_minors(a: &[[c64; 4]; 4]) -> [[c64; 6]; 6] {
             let place = PAIRS.iter().position(|pair| *pair == [m.min(n), m.max(n)]);
             place.into_iter().for_each(|place| row[place] += value * sign);
         };
-        for k in 0..4 {
-            add(k, j, a[i][k]);
-            add(i, k, a[j][k]);
+        for (k, (of_i, of_j)) in a[i].iter().zip(&a[j]).enumerate() {
+            add(k, j, *of_i);
+            add(i, k, *of_j);
         }
     }
     minors

@@ -261,7 +261,7 @@ fn every_signal_that_ends_a_program_leaves_no_part_and_its_number() {
     {
         let number = if cfg!(target_os = "macos") && name == "USR1" { 30 } else { number };
         let mut child = folder
-            .command(&["modes", "bat.json", "--shape-points", "40000", "--json", "pipe"])
+            .attentive(&["modes", "bat.json", "--shape-points", "40000", "--json", "pipe"])
             .stdout(Stdio::null())
             .spawn()
             .unwrap();

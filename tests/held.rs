@@ -252,7 +252,7 @@ const FIFTEEN_CENTIMETRES: f64 = 0.1524;
 
 #[test]
 fn a_pin_and_a_spring_at_one_place_in_two_units_are_the_pin_and_its_turning_spring() {
-    assert!(SIX_INCHES != FIFTEEN_CENTIMETRES);
+    const { assert!(SIX_INCHES != FIFTEEN_CENTIMETRES) };
     for theory in Theory::ALL {
         let of = |x: f64, stiffness: f64, turning: f64| Fixtures {
             supports: pins(&[FIFTEEN_CENTIMETRES]),

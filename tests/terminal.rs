@@ -168,7 +168,7 @@ fn an_interrupt_leaves_no_half_file_and_the_old_one() {
 #[cfg(unix)]
 fn stopped(folder: &Folder, long: &[&str], signal: &str, ended: i32) -> bool {
     folder.write("out.json", "\"old\"");
-    let mut child = folder.command(long).stdout(Stdio::null()).spawn().unwrap();
+    let mut child = folder.attentive(long).stdout(Stdio::null()).spawn().unwrap();
     let being_written = || folder.names().iter().any(|name| name.ends_with(".part"));
     while !being_written() && child.try_wait().unwrap().is_none() {
         std::thread::yield_now();

@@ -613,6 +613,8 @@ mod tests {
 
     /// A displacement as the strains and the root's motion make it.
     type Row = (Vec<f64>, [f64; 2]);
+    /// What is met on the way outwards, to be built inwards.
+    type Met = Box<dyn FnOnce(&mut Build<f64>)>;
 
     fn plus((a, u): &Row, times: f64, (b, v): &Row) -> Row {
         let strains = a.iter().zip(b).map(|(a, b)| a + times * b).collect();
@@ -632,7 +634,7 @@ mod tests {
         let sides = [0, 1].map(|side| {
             let outwards = if side == 0 { -1.0 } else { 1.0 };
             let mut at = [(zero(), [1.0, 0.0]), (zero(), [0.0, outwards])];
-            let mut met: Vec<Box<dyn FnOnce(&mut Build<f64>)>> = vec![];
+            let mut met: Vec<Met> = vec![];
             for cell in 0..cells[side] {
                 let length = draw.next(0.01, 1.0);
                 let scale = length.sqrt();

@@ -1,5 +1,6 @@
 //! The options of a hit.
 
+use std::cell::OnceCell;
 use std::path::Path;
 
 use sweetspot::bat::Bat;
@@ -111,6 +112,10 @@ pub struct SceneArgs {
     #[arg(long, value_name = "KAPPA", allow_hyphen_values = true,
           value_parser = |s: &str| not_negative(s, "loss share"))]
     loss_share: Option<f64>,
+
+    /// The ball, once it is known.
+    #[arg(skip)]
+    read: OnceCell<Ball>,
 }
 
 impl SceneArgs {
@@ -120,9 +125,13 @@ impl SceneArgs {
         (!built_in).then(|| Path::new(&self.ball))
     }
 
-    /// The ball, with what the command line says of it.
+    /// The ball, with what the command line says of it; its file, which may be a pipe, is read once.
     fn ball(&self) -> Result<Ball> {
-        ball(&self.ball, self.ball_stiffness)
+        if let Some(known) = self.read.get() {
+            return Ok(known.clone());
+        }
+        let ball = ball(&self.ball, self.ball_stiffness)?;
+        Ok(self.read.get_or_init(|| ball).clone())
     }
 
     /// The scene on that bat, and where its swing is from.
@@ -247,8 +256,11 @@ impl SceneArgs {
     }
 }
 
+/// A ball's name and what makes it.
+type NamedBall = (&'static str, fn() -> Ball);
+
 /// The balls that are known by name.
-const BALLS: [(&str, fn() -> Ball); 3] = [
+const BALLS: [NamedBall; 3] = [
     ("baseball", Ball::baseball),
     ("humid-baseball", Ball::humid_baseball),
     ("softball", Ball::softball),

@@ -6,7 +6,7 @@ use sweetspot::schema::{self, File};
 use crate::cli::Done;
 use crate::cli::value::named;
 
-/// JSON Schema of the files: what a bat file may say, what modes, hit and bbcor write
+/// JSON Schema of a bat file, and of what modes, hit and bbcor write
 ///
 /// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
 /// of them, which tells them apart by their "format".

@@ -44,6 +44,17 @@ impl Folder {
         command
     }
 
+    /// The program with no signal ignored, wherever the test itself was started.
+    pub fn attentive(&self, args: &[&str]) -> Command {
+        if cfg!(not(target_os = "linux")) {
+            return self.command(args);
+        }
+        let mut command = Command::new("env");
+        command.args(["--default-signal", env!("CARGO_BIN_EXE_sweetspot")]);
+        command.args(args).current_dir(&self.0);
+        command
+    }
+
     pub fn run(&self, args: &[&str]) -> Output {
         self.command(args).output().unwrap()
     }
