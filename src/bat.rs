@@ -222,33 +222,35 @@ impl Bat {
     /// the integrands of degree 8 and 12, which five and seven Gauss points integrate exactly.
     /// Formulas take as many points as agree to 2e-14.
     pub fn inertia(&self) -> Inertia {
-        let rule = gauss(7);
-        let integral = |f: &dyn Fn(f64, Worth) -> f64| {
-            let mut total = RunningSum::<f64>::default();
-            for piece in &self.profile.pieces {
-                let layup = self.layup(piece);
-                let at = |s: f64| f(piece.start + s * piece.length, layup.worth(piece.at(s)));
-                match piece.radii {
-                    Radii::Cubic(_) => {
-                        rule.iter()
-                            .for_each(|(s, weight)| total.add(weight * piece.length * at(*s)));
-                    }
-                    Radii::Formula(_) => {
-                        total.add(piece.length * converged(|s| [at(s)]).values[0]);
-                    }
-                }
-            }
-            total.value()
-        };
         let attached = |f: &dyn Fn([f64; 3]) -> f64| self.fixtures.masses().map(f).sum::<f64>();
-        let mass = integral(&|_, worth| worth.mass) + attached(&|[mass, ..]| mass);
-        let first = integral(&|x, worth| x * worth.mass) + attached(&|[mass, x, _]| mass * x);
+        let [mass, first, own] =
+            self.integrals(|x, worth| [worth.mass, x * worth.mass, worth.turning]);
+        let mass = mass + attached(&|[mass, ..]| mass);
+        let first = first + attached(&|[mass, x, _]| mass * x);
         let balance_point = first / mass;
         let arm = |x: f64| (x - balance_point).powi(2);
-        let line = integral(&|x, worth| arm(x) * worth.mass)
-            + attached(&|[mass, x, own]| mass * arm(x) + own);
-        let own = integral(&|_, worth| worth.turning);
+        let [line] = self.integrals(|x, worth| [arm(x) * worth.mass]);
+        let line = line + attached(&|[mass, x, own]| mass * arm(x) + own);
         Inertia { mass, balance_point, about_balance: line + own, line_about_balance: line }
+    }
+
+    /// `∫ f dx` over the bat of what the section at `x` is worth.
+    fn integrals<const N: usize>(&self, f: impl Fn(f64, Worth) -> [f64; N]) -> [f64; N] {
+        let rule = gauss(7);
+        let mut totals = [RunningSum::<f64>::default(); N];
+        for piece in &self.profile.pieces {
+            let layup = self.layup(piece);
+            let at = |s: f64| f(piece.start + s * piece.length, layup.worth(piece.at(s)));
+            let mut add = |weight: f64, values: [f64; N]| {
+                let parts = totals.iter_mut().zip(values);
+                parts.for_each(|(total, value)| total.add(weight * piece.length * value));
+            };
+            match piece.radii {
+                Radii::Cubic(_) => rule.iter().for_each(|(s, weight)| add(*weight, at(*s))),
+                Radii::Formula(_) => add(1.0, converged(at).values),
+            }
+        }
+        totals.map(|total| total.value())
     }
 
     /// Possible but strange for a bat: one sentence each, to be shown and not to stop anybody.

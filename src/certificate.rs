@@ -59,7 +59,8 @@ const UNSURE: f64 = 2.0;
 /// Where that share of the energy may be another motion's nothing is known of the nodes.
 const UNKNOWN: f64 = 0.25;
 
-/// Beside a motion as near as that a mode's nodes may move far where its deflection is flat.
+/// Beside a motion as near as that, or the next one, a mode's nodes may move far where its deflection is
+/// flat.
 const NEAR: f64 = 0.1;
 
 /// Adds to relative errors of frequencies, of rising `omegas`, what near twins share.
@@ -173,9 +174,11 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let mixed = alone + parts.iter().map(|part| part.share).sum::<f64>();
         let lost = parts.iter().map(|part| part.turn.powi(2)).sum::<f64>().min(1.0);
         let beside = 1.0 / (1.0 - lost).max(f64::EPSILON).sqrt();
-        let near = parts.iter().filter(|part| part.gap < NEAR && part.other < modes.len());
-        let shift = |other: usize| modes[k].shape.shift(&modes[k].nodes, &modes[other].shape);
-        let moved: f64 = near.map(|part| part.share * shift(part.other)).sum();
+        let beside_or_near = |part: &&Part| part.other.abs_diff(k) == 1 || part.gap < NEAR;
+        let near = parts.iter().filter(beside_or_near).filter(|part| part.other < modes.len());
+        let nodes = modes[k].shape.slopes(&modes[k].nodes);
+        let shift = |part: &Part| part.share * modes[part.other].shape.shift(&nodes);
+        let moved: f64 = near.map(shift).sum();
         let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
         let mode = &mut modes[k];
         let length = mode.shape.length();

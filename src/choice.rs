@@ -24,38 +24,22 @@ pub struct Choice {
 ///
 /// Those of [`solve`].
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
-    /// The shifts are to be known to a part of themselves.
-    const ROUGH: f64 = 1e-2;
-    /// No shift below that can be told from round-off.
-    const FINEST: f64 = 1e-11;
     // What cannot be asked is refused before any work.
     request.check(1)?;
-    let tolerance = request.tolerance.max(ROUGH);
-    let plain = Request { modes: request.modes, tolerance, ..Request::default() };
-    let solution = solve(bat, &plain)?;
     let known = bat.knows_shear();
-    let shearing = with_typical_shear(bat);
-    let accuracy = (0.1 * request.tolerance).clamp(FINEST, ROUGH);
-    let mut found = shifts(&shearing, &solution.modes, accuracy);
-    let most = |found: &[Shift], rotary: bool, shear: bool| {
-        found.iter().map(|shift| shift.cost(rotary, shear).abs()).fold(0.0, f64::max)
-    };
-    // An estimate of the first order decides only where it is far from the tolerance.
-    let near = |cost: f64| cost > 0.5 * request.tolerance && cost < 2.0 * request.tolerance;
-    let costs = |found: &[Shift]| [most(found, true, known), most(found, false, true)];
-    if bat.fixtures.none_moving()
-        && costs(&found).into_iter().any(near)
-        && let Some(solved) = solved_shifts(&shearing, request.modes, accuracy)
-    {
-        found = solved;
+    // Shear and rotary inertia cost the fast modes most: where a few slow ones need both, all do.
+    if known && request.modes > FEW {
+        let few = Request { modes: FEW, ..*request };
+        if costs(bat, &few)?.far_above(request.tolerance) {
+            return Ok(Choice { theory: Theory::Timoshenko, warning: None });
+        }
     }
-    let [both, shear] = costs(&found);
+    let Costs { both, shear, first } = costs(bat, request)?;
     let theory = match (both > request.tolerance, shear > request.tolerance) {
         (true, true) if known => Theory::Timoshenko,
         (true, _) => Theory::Rayleigh,
         (false, _) => Theory::EulerBernoulli,
     };
-    let first = found.first().map_or(0.0, |shift| shift.cost(false, true));
     let warning = (!known && shear > request.tolerance).then(|| {
         format!(
             "shear is left out, because a material has no \"shear_modulus\"; with the G/E of its \
@@ -65,6 +49,62 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
         )
     });
     Ok(Choice { theory, warning })
+}
+
+/// So many modes may show that every effect is needed.
+const FEW: usize = 20;
+/// An estimate of the first order decides only where it is that many times the tolerance, or as
+/// many times below it.
+const FAR: f64 = 2.0;
+
+/// How much too high frequencies are without an effect, relative, the largest of the modes.
+struct Costs {
+    /// Without rotary inertia and, where it is known, shear.
+    both: f64,
+    /// Without shear; with a typical shear modulus where none is known.
+    shear: f64,
+    /// Mode 1 without shear.
+    first: f64,
+}
+
+impl Costs {
+    fn of(shifts: &[Shift], known: bool) -> Self {
+        let most = |rotary: bool, shear: bool| {
+            shifts.iter().map(|shift| shift.cost(rotary, shear).abs()).fold(0.0, f64::max)
+        };
+        let first = shifts.first().map_or(0.0, |shift| shift.cost(false, true));
+        Self { both: most(true, known), shear: most(false, true), first }
+    }
+
+    /// Whether one of them is so near to the tolerance that an estimate does not tell.
+    fn near(&self, tolerance: f64) -> bool {
+        let near = |cost: f64| FAR * cost > tolerance && cost < FAR * tolerance;
+        near(self.both) || near(self.shear)
+    }
+
+    fn far_above(&self, tolerance: f64) -> bool {
+        self.both > FAR * tolerance && self.shear > FAR * tolerance
+    }
+}
+
+/// The costs of the theories on that bat, by the plain beam's modes where these tell enough.
+fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
+    /// The shifts are to be known to a part of themselves.
+    const ROUGH: f64 = 1e-2;
+    /// No shift below that can be told from round-off.
+    const FINEST: f64 = 1e-11;
+    let Request { modes, tolerance, .. } = *request;
+    let plain = Request { modes, tolerance: tolerance.max(ROUGH), ..Request::default() };
+    let solution = solve(bat, &plain)?;
+    let known = bat.knows_shear();
+    let shearing = with_typical_shear(bat);
+    let accuracy = (0.1 * tolerance).clamp(FINEST, ROUGH);
+    let found = Costs::of(&shifts(&shearing, &solution.modes, accuracy), known);
+    if !bat.fixtures.none_moving() || !found.near(tolerance) {
+        return Ok(found);
+    }
+    let solved = solved_shifts(&shearing, modes, accuracy);
+    Ok(solved.map_or(found, |solved| Costs::of(&solved, known)))
 }
 
 /// A percentage in two digits.

@@ -65,7 +65,8 @@ where
     ///
     /// As [`Lanczos::largest`].
     pub fn solve(&mut self, count: usize, residual: f64) -> Result<()> {
-        self.iterate(Wanted { count, residual, earliest: self.steps_beyond(count, residual) })
+        let earliest = steps_beyond(self.statics.theory, count, residual);
+        self.iterate(self.wanted(count, residual, earliest))
     }
 
     /// The same from a start of one's own: bending moments as [`Statics::strains_of_moments`] asks
@@ -80,7 +81,7 @@ where
         residual: f64,
         moments: impl FnMut(&mut [R]),
     ) -> Result<()> {
-        let wanted = Wanted { count, residual, earliest: 0 };
+        let wanted = self.wanted(count, residual, 0);
         let mut start = vec![R::default(); self.statics.dimension()];
         self.statics.strains_of_moments(&mut start, moments);
         self.run(wanted, &[], &mut |_, next| next.copy_from_slice(&start))
@@ -93,7 +94,13 @@ where
     /// As [`Lanczos::largest`].
     pub fn solve_in(&mut self, count: usize, steps: usize) -> Result<()> {
         let earliest = steps.saturating_sub(count);
-        self.iterate(Wanted { count, residual: f64::INFINITY, earliest })
+        self.iterate(self.wanted(count, f64::INFINITY, earliest))
+    }
+
+    /// What is asked of the iteration: every absorber may ring at nearly one frequency with others.
+    fn wanted(&self, count: usize, residual: f64, earliest: usize) -> Wanted {
+        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.hung());
+        Wanted { count, residual, earliest, clustered }
     }
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
@@ -101,20 +108,6 @@ where
             arch().dispatch(Start { statics, count: wanted.count, next });
         };
         self.run(wanted, &[], start)
-    }
-
-    /// After how many steps beyond `count = n` convergence is likely: looking for it costs as much
-    /// as some steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 +
-    /// 0.65 n + 0.41 √n (d − 4)` where shear brings the frequencies nearer to each other: fitted to
-    /// a dowel, a cone and two bats, 1 to 60 modes, right to one step.
-    fn steps_beyond(&self, count: usize, residual: f64) -> usize {
-        let (n, digits) = (count as f64, -residual.log10());
-        let steps = if self.statics.theory.shears() {
-            2.0 + 0.65 * n + 0.41 * n.sqrt() * (digits - 4.0)
-        } else {
-            2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)
-        };
-        steps.ceil().max(2.0) as usize
     }
 
     fn run(
@@ -184,6 +177,20 @@ where
     }
 }
 
+/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as some
+/// steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 + 0.65 n + 0.41
+/// √n (d − 4)` where shear brings the frequencies nearer to each other: fitted to a dowel, a cone and
+/// two bats, 1 to 60 modes, right to one step.
+pub fn steps_beyond(theory: Theory, count: usize, residual: f64) -> usize {
+    let (n, digits) = (count as f64, -residual.log10());
+    let steps = if theory.shears() {
+        2.0 + 0.65 * n + 0.41 * n.sqrt() * (digits - 4.0)
+    } else {
+        2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)
+    };
+    steps.ceil().max(2.0) as usize
+}
+
 impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat
     /// on soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
@@ -204,8 +211,8 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         let mut residuals = self.lanczos.residuals[..apart].to_vec();
         let mut vectors = self.lanczos.vectors[..apart * size].to_vec();
         let steps = self.lanczos.steps;
-        let earliest = self.steps_beyond(count, residual);
-        self.run(Wanted { count, residual, earliest }, &vectors, &mut |statics, next| {
+        let earliest = steps_beyond(self.statics.theory, count, residual);
+        self.run(self.wanted(count, residual, earliest), &vectors, &mut |statics, next| {
             statics.start(count, next);
         })?;
         values.append(&mut self.lanczos.values);

@@ -1,12 +1,16 @@
 //! Whether what is on a bat can be there.
 
 use crate::error::{Complaint, Error, Result};
-use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Joint, Region, Support, Tape};
+use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape};
 use crate::mistakes::{self, Mistakes};
 use crate::profile::SAME_PLACE;
 
 /// Products of larger values are beyond the range of numbers.
 const MOST: f64 = 1e100;
+/// A softer spring (N/m or N m/rad) holds nothing.
+const SOFTEST: f64 = 1e-12;
+/// Frequencies nearer to each other, relative, are not counted apart.
+const LEAST_GAP: f64 = 1e-9;
 
 impl Fixtures {
     /// Every value in its possible range, on a bat of that length (m).
@@ -53,7 +57,58 @@ impl Fixtures {
                 mistakes.add(Error::value(format!("{list}[{k}].x"), found, expected));
             }
         }
+        mistakes.note(self.check_absorbers(same));
+        mistakes.note(self.check_turning(same));
         mistakes.end(())
+    }
+
+    /// Absorbers at one place ring at frequencies that can be told from each other: equal ones ring
+    /// against each other while the bat is at rest, which is no mode of it.
+    fn check_absorbers(&self, same: f64) -> Result<()> {
+        let mut sorted: Vec<usize> = (0..self.absorbers.len()).collect();
+        let tuning = |k: &usize| self.absorbers[*k].stiffness / self.absorbers[*k].mass;
+        sorted.sort_by(|a, b| tuning(a).total_cmp(&tuning(b)));
+        let alike = |a: &usize, b: &usize| {
+            tuning(b) - tuning(a) <= 2.0 * LEAST_GAP * tuning(b)
+                && (self.absorbers[*a].x - self.absorbers[*b].x).abs() <= same
+        };
+        let mut mistakes = Mistakes::default();
+        for (i, k) in sorted.iter().enumerate() {
+            let Some(other) = sorted[..i].iter().rev().find(|other| alike(other, k)) else {
+                continue;
+            };
+            let [first, second] = [*k.min(other), *k.max(other)];
+            let found = format!("the place and the frequency of absorbers[{first}]");
+            let expected = "absorbers of other frequencies, or one with the masses, the springs and \
+                            the dashpots added: alike they ring against each other, the bat at rest";
+            mistakes.add(Error::value(format!("absorbers[{second}]"), found, expected));
+        }
+        mistakes.end(())
+    }
+
+    /// Where nothing but the distance of springs holds the bat against turning, it is stiff enough
+    /// for a motion that can be told from a rigid one.
+    fn check_turning(&self, same: f64) -> Result<()> {
+        let clamped = self.supports.iter().any(|support| support.kind == Held::Clamped)
+            || self.attachments.iter().any(|a| a.rotational_stiffness > 0.0);
+        let bed = self.grip.is_some_and(|grip| grip.stiffness > 0.0);
+        let springs = || self.attachments.iter().filter(|a| a.stiffness > 0.0);
+        let pin = self.supports.first().map(|support| support.x);
+        if clamped || bed || self.supports.iter().any(|s| (s.x - pin.unwrap_or(s.x)).abs() > same) {
+            return Ok(());
+        }
+        let whole: f64 = springs().map(|a| a.stiffness).sum();
+        let middle = springs().map(|a| a.stiffness / whole * a.x).sum();
+        let about = pin.unwrap_or(middle);
+        let apart = |a: &&Attachment| (a.x - about).abs() > same;
+        let turning: f64 =
+            springs().filter(apart).map(|a| a.stiffness * (a.x - about).powi(2)).sum();
+        let far = self.attachments.iter().position(|a| a.stiffness > 0.0 && apart(&a));
+        let Some(k) = far.filter(|_| turning < SOFTEST) else { return Ok(()) };
+        let found = format!("springs that hold the bat against turning by {turning:e} N m/rad");
+        let expected =
+            format!("{SOFTEST:e} N m/rad and more: springs farther apart, or all at one place");
+        Err(Error::value(format!("attachments[{k}].x"), found, expected))
     }
 }
 
@@ -190,7 +245,6 @@ fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
 
 /// No spring, or one whose motion can be told from a rigid one.
 fn soft(field: String, value: f64, unit: &str) -> Result<()> {
-    const SOFTEST: f64 = 1e-12;
     not_negative(field.clone(), value, unit)?;
     if value == 0.0 || value >= SOFTEST {
         return Ok(());

@@ -35,6 +35,9 @@ const DEEPEST: usize = 100;
 const SAMPLES: usize = 1000;
 /// More corners than this in one formula are a mistake.
 const MOST_CORNERS: usize = 1000;
+/// Most `abs`, `min` and `max` in one formula: each is asked on every stretch between the corners of
+/// all of them.
+const MOST_BRANCHES: usize = 100;
 
 /// A formula of `x`, such as `0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))`.
 ///
@@ -118,6 +121,11 @@ impl Formula {
         }
         let mut input = Input { input: LocatingSlice::new(text), state: 0 };
         match whole(&mut input) {
+            Ok(root) if root.branches() > MOST_BRANCHES => {
+                let found = format!("{} abs, min and max in one formula", root.branches());
+                let expected = format!("{MOST_BRANCHES} at most; stations hold more corners");
+                Err((Complaint::new("", found, expected), 0..text.len()))
+            }
             Ok(root) => Ok(Self(Arc::new(Parsed { text: text.to_owned(), root }))),
             Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => {
                 let part = fault.offset..fault.offset + word(&text[fault.offset..]).len();
@@ -197,6 +205,23 @@ impl Formula {
 }
 
 impl Node {
+    /// How many functions in it choose a branch.
+    fn branches(&self) -> usize {
+        let all = |nodes: &[Self]| nodes.iter().map(Self::branches).sum::<usize>();
+        match self {
+            Self::Number(_) | Self::X => 0,
+            Self::Sum(parts) | Self::Product(parts) => {
+                parts.iter().map(|(_, node)| node.branches()).sum()
+            }
+            Self::Negative(node) => node.branches(),
+            Self::Power(nodes) => all(&nodes[..]),
+            Self::Call(Function::Abs | Function::Min | Function::Max, arguments) => {
+                1 + all(arguments)
+            }
+            Self::Call(_, arguments) => all(arguments),
+        }
+    }
+
     /// The value at `x`; `switch` is told every number whose sign chooses a branch.
     fn value(&self, x: f64, switch: &mut impl FnMut(f64)) -> f64 {
         match self {

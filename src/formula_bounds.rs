@@ -11,6 +11,7 @@
 
 use crate::formula_range::On;
 use crate::interval::{Interval, Rectangle};
+use crate::material::Material;
 use crate::profile::Curves;
 
 /// ϱ of the ellipses that are tried: the smallest holds the longest stretches, the largest the most
@@ -41,6 +42,13 @@ impl Squares {
     fn bending(&self, core: f64) -> f64 {
         self.wall * (self.outer + self.inner) + core * self.inner * self.inner
     }
+}
+
+/// The least of the bounds `2 M ϱ⁻ⁿ/(ϱ − 1)`, with the `M` that is found for each ellipse.
+fn by_ellipses(most: impl Fn(f64) -> Option<f64>) -> f64 {
+    let bound = |ellipse: &f64| Some(2.0 * most(*ellipse)? * ellipse.powi(-HELD) / (ellipse - 1.0));
+    let bounds = ELLIPSES.iter().filter_map(bound);
+    bounds.filter(|bound| !bound.is_nan()).fold(f64::INFINITY, f64::min)
 }
 
 impl Curves {
@@ -112,18 +120,33 @@ impl Bounds<'_> {
     /// modulus; infinite where that is not known.
     pub(crate) fn missed(&self, core: f64) -> f64 {
         let [least, _] = self.sizes();
-        let bound = |ellipse: &f64| -> Option<f64> {
-            let most = self.around(*ellipse)?;
+        by_ellipses(|ellipse| {
+            let [outer, inner, wall] = self.around(ellipse)?.map(|f| f.modulus().high);
+            let most = Squares { outer, inner, wall };
             let bending = most.bending(core) / least.bending(core);
-            let ratio = bending.max(most.wall / least.wall);
-            Some(2.0 * ratio * ellipse.powi(-HELD) / (ellipse - 1.0))
-        };
-        let bounds = ELLIPSES.iter().filter_map(bound);
-        bounds.filter(|bound| !bound.is_nan()).fold(f64::INFINITY, f64::min)
+            Some(bending.max(most.wall / least.wall))
+        })
     }
 
-    /// The most that the sections can be inside an ellipse, by the box around it.
-    fn around(&self, ellipse: f64) -> Option<Squares> {
+    /// How far polynomials are from κGA, relative; infinite where that is not known. The bore has
+    /// that emptiness, and per area a core of it resists shear by `core` times what the tube's modulus
+    /// alone would.
+    ///
+    /// With `a = r²`, `b = e r_i²`, e how empty the bore is, Cowper's κ is `c₁ (a + b)²/(c₂ (a + b)² +
+    /// c₃ a b)` ([`Material::kappa`]), and falls as the bore grows.
+    pub(crate) fn missed_shear(&self, tube: &Material, empty: f64, core: f64) -> f64 {
+        let [least, most] = self.sizes();
+        let hole = empty * (most.inner / least.outer).min(1.0);
+        let smallest = tube.kappa(hole) * least.wall + core * least.inner;
+        by_ellipses(|ellipse| {
+            let [outer, inner, wall] = self.around(ellipse)?;
+            let kappa = tube.kappa_around(outer, Rectangle::point(empty) * inner)?;
+            Some((kappa * wall.modulus().high + core * inner.modulus().high) / smallest)
+        })
+    }
+
+    /// `r²`, `r_i²` and `r² − r_i²` inside an ellipse, by the box around it.
+    fn around(&self, ellipse: f64) -> Option<[Rectangle; 3]> {
         let axis = |sign: f64| 0.5 * (ellipse + sign / ellipse) * self.half;
         let (re, im) = (Interval::within(axis(1.0)), Interval::within(axis(-1.0)));
         let around = Rectangle { re: Interval::point(self.middle) + re, im };
@@ -132,8 +155,7 @@ impl Bounds<'_> {
             (Some(formula), Some(on)) => formula.square_around(on, around)?,
             _ => Rectangle::point(0.0),
         };
-        let [outer, inner, wall] = [outer, inner, outer - inner].map(|f| f.modulus().high);
-        Some(Squares { outer, inner, wall })
+        Some([outer, inner, outer - inner])
     }
 
     /// By how much EI or ρA may vary on the stretch, relative.
@@ -156,5 +178,57 @@ impl Bounds<'_> {
         let value = middle.value.re;
         let place = f64::EPSILON * self.middle.abs() * middle.slope.re.largest();
         (value.high - value.low + place) / value.smallest().max(f64::MIN_POSITIVE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Formula;
+    use crate::quadrature::{gauss, legendre};
+
+    /// Terms of the Legendre series of κGA beyond degree 31, relative to its least value, by
+    /// quadrature with as many points as no bound asks for.
+    fn tail(curves: &Curves, tube: &Material) -> f64 {
+        const POINTS: usize = 80;
+        let points = gauss(POINTS);
+        let shear = |s: f64| {
+            let section = curves.at(s);
+            tube.kappa((section.inner / section.outer).powi(2)) * section.area()
+        };
+        let values: Vec<f64> = points.iter().map(|(s, _)| shear(*s)).collect();
+        let least = values.iter().fold(f64::INFINITY, |least, value| least.min(*value));
+        let polynomials: Vec<_> = points.iter().map(|(s, _)| legendre(50, 2.0 * s - 1.0)).collect();
+        let part = |k: usize| -> f64 {
+            let terms = points.iter().zip(&values).zip(&polynomials);
+            let sum: f64 = terms.map(|(((_, weight), v), p)| weight * v * p[k]).sum();
+            sum * sum * (2 * k + 1) as f64
+        };
+        (HELD as usize + 1..48).map(part).sum::<f64>().sqrt() / least
+    }
+
+    #[test]
+    fn no_bore_has_more_in_its_shear_stiffness_than_the_bound() {
+        let mut tube = Material::new(700.0, 14e9).unwrap();
+        tube.shear_modulus = Some(1e9);
+        let mut shown = 0;
+        for (outer, inner) in [
+            ("0.02 + 0.01*x", "0.015 + 0.012*x"),
+            ("0.03", "0.01 + 0.01*exp(-((x - 0.4)/0.05)^2)"),
+            ("0.03 + 0.002*sin(30*x)", "0.02 + 0.003*cos(40*x)"),
+            ("0.03", "0.029*sqrt(0.1 + x)"),
+        ] {
+            let [outer, inner] = [outer, inner].map(|text| Formula::parse(text).unwrap());
+            for halvings in 0..8 {
+                let (from, to) = (0.3, 0.3 + 0.5f64.powi(halvings));
+                let (outer, inner) = (outer.clone(), Some(inner.clone()));
+                let curves = Curves { outer, inner, from, to, floor: 0.0 };
+                let Some(bounds) = curves.bounds(0.0, 1.0) else { continue };
+                let (bound, tail) = (bounds.missed_shear(&tube, 1.0, 0.0), tail(&curves, &tube));
+                assert!(tail < bound + 1e-13, "{from} {to} {tail:e} {bound:e}");
+                shown += usize::from(bound < 1e-6);
+            }
+        }
+        assert!(shown > 10, "{shown}");
     }
 }

@@ -6,6 +6,7 @@ use crate::formula_bounds::Bounds;
 use crate::profile::{
     Curves, FormulaPiece, Formulas, Interpolation, Piece, Profile, Radii, Section, Stations,
 };
+use crate::tip::{NEVER_BACK, sends_back};
 
 /// Samples of one written piece, at which its radii are checked.
 const SAMPLES: f64 = 1000.0;
@@ -57,6 +58,7 @@ impl Profile {
                 let curves = Curves { outer, inner, from, to, floor };
                 let mut samples = named.samples(&curves);
                 named.check(&curves, &samples)?;
+                named.check_tips(&curves)?;
                 let mut stretches = Vec::new();
                 named.halve(&curves, MOST_HALVINGS, &mut stretches)?;
                 for stretch in stretches {
@@ -211,6 +213,14 @@ impl Named<'_> {
             self.check_section(curves.x(s), section)?;
         }
         Ok(())
+    }
+
+    /// An end of the bat must send waves back.
+    fn check_tips(&self, curves: &Curves) -> Result<()> {
+        let knob = curves.from != 0.0 || sends_back(|t| curves.at(t).outer);
+        let tip = curves.to != self.length || sends_back(|t| curves.at(1.0 - t).outer);
+        let [found, expected] = NEVER_BACK;
+        if knob && tip { Ok(()) } else { Err(self.error("formula", found, expected)) }
     }
 
     /// Cuts a stretch at corners and in the middle until all parts are possible and smooth.

@@ -78,18 +78,27 @@ impl Layup {
             Some(modulus) => material.kappa(hole) * modulus * area,
             None => f64::INFINITY,
         };
-        let mut empty = hole;
-        let mut inside = 0.0;
-        if let Some(core) = &self.core {
-            let bore = section.bore();
-            if bore.outer > 0.0 {
-                inside = shear(core, bore.area(), 0.0);
-            }
-            if let (Some(of_core), Some(of_tube)) = (core.shear_modulus, self.outer.shear_modulus) {
-                empty *= (1.0 - of_core / of_tube).max(0.0);
-            }
+        let bore = section.bore();
+        let core = self.core.as_ref().filter(|_| bore.outer > 0.0);
+        let inside = core.map_or(0.0, |core| shear(core, bore.area(), 0.0));
+        [shear(&self.outer, section.area(), hole * self.emptiness()), inside]
+    }
+
+    /// `κG` of the core, as a share of the tube's G.
+    pub(crate) fn core_in_shear(&self) -> f64 {
+        let of = |core: &Material| {
+            Some(core.kappa(0.0) * core.shear_modulus? / self.outer.shear_modulus?)
+        };
+        self.core.as_ref().and_then(of).unwrap_or(0.0)
+    }
+
+    /// How empty the bore is of what bears shear: 1 without a core, 0 with one as stiff as the tube.
+    pub(crate) fn emptiness(&self) -> f64 {
+        let of_core = self.core.as_ref().and_then(|core| core.shear_modulus);
+        match (of_core, self.outer.shear_modulus) {
+            (Some(of_core), Some(of_tube)) => (1.0 - of_core / of_tube).max(0.0),
+            _ => 1.0,
         }
-        [shear(&self.outer, section.area(), empty), inside]
     }
 
     /// The loss factors of the section in bending and in shear: those of the layers, each weighted

@@ -4,6 +4,7 @@
 //! `shear_modulus` to let it shear.
 
 use crate::error::{Error, Result};
+use crate::interval::Rectangle;
 use crate::mistakes::Mistakes;
 
 /// A material, along the bat's axis where it is wood.
@@ -98,6 +99,19 @@ impl Material {
             let square = (1.0 + hole).powi(2);
             6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * hole)
         })
+    }
+
+    /// The largest |κ| where `r²` and `r_i²` are in these boxes; `None` where it has a pole there.
+    pub(crate) fn kappa_around(&self, outer: Rectangle, inner: Rectangle) -> Option<f64> {
+        if let Some(kappa) = self.shear_coefficient {
+            return Some(kappa);
+        }
+        let nu = self.poisson_ratio.unwrap_or(0.3);
+        let square = (outer + inner).square();
+        let number = Rectangle::point;
+        let below = number(7.0 + 6.0 * nu) * square + number(20.0 + 12.0 * nu) * outer * inner;
+        let least = below.modulus().low;
+        (least > 0.0).then(|| 6.0 * (1.0 + nu) * square.modulus().high / least)
     }
 
     /// The built-in material of that name.

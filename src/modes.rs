@@ -227,15 +227,31 @@ impl Shape {
         }
     }
 
-    /// How far these nodes move (m), the farthest of them, for each part of another shape that is
-    /// added: its deflection over the slope of this one.
-    pub fn shift(&self, nodes: &[f64], other: &Self) -> f64 {
-        let of = |x: &f64| {
+    /// Where these places (m) are: element, ξ, and the slope of the deflection there (1/m).
+    pub fn slopes(&self, places: &[f64]) -> Vec<(usize, f64, f64)> {
+        let slope = |x: &f64| {
             let (k, xi) = self.locate(*x);
-            let slope = self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1;
-            (other.deflection(*x) / slope).abs()
+            (k, xi, self.derivatives(k, xi)[1] * 2.0 / self.stretches[k].1)
         };
+        places.iter().map(slope).collect()
+    }
+
+    /// How far nodes that are known by their [`Self::slopes`] in another shape on the mesh move (m),
+    /// the farthest of them, for each part of this shape that is added there.
+    pub fn shift(&self, nodes: &[(usize, f64, f64)]) -> f64 {
+        let of = |(k, xi, slope): &(usize, f64, f64)| (self.value(*k, *xi) / slope).abs();
         nodes.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Deflection on element `k`.
+    fn value(&self, k: usize, xi: f64) -> f64 {
+        let w = &self.coefficients[k * self.terms..(k + 1) * self.terms];
+        let (mut before, mut now, mut sum) = (1.0, xi, w[0] + w[1] * xi);
+        for (w, [_, value, last]) in w[2..].iter().zip(RECURRENCE) {
+            (before, now) = (now, value * xi * now - last * before);
+            sum += w * now;
+        }
+        sum
     }
 
     /// Curvature `dθ/dx` at `x` (1/m² of largest deflection).

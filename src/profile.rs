@@ -6,6 +6,7 @@ use crate::error::{Complaint, Error, Result};
 use crate::formula::Formula;
 use crate::mistakes::{self, Mistakes};
 use crate::pchip::{bernstein, blossom, cubics};
+use crate::tip::{NEVER_BACK, sends_back};
 
 /// Places that are no farther apart, as a share of the bat's length, are one place given in other
 /// digits.
@@ -184,6 +185,7 @@ impl Profile {
         };
         let pieces = pieces(&stations)?;
         pieces.iter().try_for_each(|piece| check_wall(piece, &stations))?;
+        check_tips(&pieces, stations.x.len() - 1)?;
         Ok(Self { pieces, stations, formulas: None })
     }
 
@@ -492,6 +494,15 @@ fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Both ends of the bat, the latter at that station, must send waves back.
+fn check_tips(pieces: &[Piece], last_station: usize) -> Result<()> {
+    let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
+    let back = [sends_back(|t| first.at(t).outer), sends_back(|t| last.at(1.0 - t).outer)];
+    let Some(end) = back.into_iter().position(|back| !back) else { return Ok(()) };
+    let [found, expected] = NEVER_BACK;
+    Err(Error::value(format!("outer[{}]", end * last_station), found, expected))
 }
 
 /// Bernstein coefficients of the same cubic between `s0` and `s1`.

@@ -12,7 +12,7 @@ use crate::beam::count;
 use crate::beam::element;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::{Depth, Motion};
-use crate::beam::rule::DEGREES;
+use crate::beam::rule::{DEGREES, Rule};
 use crate::beam::statics::Statics;
 use crate::certificate::{account, add_neighbours, add_sections, is_twin};
 use crate::damping::{Damping, damping};
@@ -21,6 +21,7 @@ use crate::eigenpairs::Eigenpairs;
 use crate::error::{Error, Result};
 use crate::factored::{self, Found};
 use crate::lanes::WIDTH;
+use crate::memory::Work;
 use crate::modes::{Mode, Shape};
 use crate::plan::{Plan, Reason, Wanted};
 use crate::theory::Theory;
@@ -79,21 +80,39 @@ impl Request {
         if elements == 0 {
             return Err(Error::value("elements", 0, "1 or more"));
         }
-        // A link, its factor and samples for each element, a vector for each step and shape.
-        let terms = self.degree.unwrap_or(3) as f64 + 1.0;
-        let numbers = 2.0 * terms * terms + 12.0 * terms + 40.0;
-        let vectors = 3.0 * terms * (self.modes as f64 + 10.0);
-        // Stiffness and mass as triplets and as columns.
-        let factored = self.solver != Solver::Statics;
-        let matrices = if factored { 10.0 * terms * terms } else { 0.0 };
-        let all = bats as f64 * (numbers + matrices + vectors);
-        let gigabytes = 8e-9 * elements as f64 * all;
-        if gigabytes > MOST_GIGABYTES {
-            let found = format!("{elements} with {} modes, {gigabytes:.0} GB", self.modes);
-            let expected = format!("what fits into {MOST_GIGABYTES} GB: fewer elements or modes");
-            return Err(Error::value("elements", found, expected));
+        let degree = self.degree.unwrap_or(3);
+        // Cubic radii; a formula takes more points, which is looked at when the bat is known.
+        let work = self.work(elements, degree, degree + 5);
+        self.check_memory(bats as f64 * work.gigabytes(), elements)
+    }
+
+    /// Elements of that degree, sampled at so many points, as work.
+    fn work(&self, elements: usize, degree: usize, points: usize) -> Work {
+        let Self { modes, theory, solver, .. } = *self;
+        let strains = (degree - 1) * if theory.shears() { 2 } else { 1 };
+        let together = if elements > LARGE / strains { 1 } else { WIDTH };
+        let residual = stop_at(self);
+        Work { elements, degree, points, modes, together, residual, theory, solver }
+    }
+
+    /// The memory (GB) that a plan for the bat takes.
+    fn memory(&self, bat: &Bat, plan: &Plan) -> f64 {
+        let points = Rule::of(bat, plan.degree).count();
+        self.work(plan.mesh.len(), plan.degree, points).gigabytes()
+    }
+
+    /// Whether so many elements fit into memory.
+    fn check_memory(&self, gigabytes: f64, elements: usize) -> Result<()> {
+        if gigabytes <= MOST_GIGABYTES {
+            return Ok(());
         }
-        Ok(())
+        let field = if self.elements.is_some() { "elements" } else { "modes" };
+        let found = match self.elements {
+            Some(_) => format!("{elements} with {} modes, {gigabytes:.0} GB", self.modes),
+            None => format!("{} on {elements} elements, {gigabytes:.0} GB", self.modes),
+        };
+        let expected = format!("what fits into {MOST_GIGABYTES} GB: fewer elements or modes");
+        Err(Error::value(field, found, expected))
     }
 }
 
@@ -215,6 +234,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
         let found = plan.mesh.len();
         return Err(Error::TooFewElements { wanted: request.modes, least, found });
     }
+    request.check_memory(request.memory(bat, &plan), plan.mesh.len())?;
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
     if !bat.fixtures.none_moving() {
@@ -254,9 +274,18 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
             best = Some(solution);
         }
         match next {
-            Some(next) if unknowns(&next) <= request.solver.most_unknowns() => plan = next,
+            Some(next)
+                if unknowns(&next) <= request.solver.most_unknowns()
+                    && request.memory(bat, &next) <= MOST_GIGABYTES =>
+            {
+                plan = next;
+            }
             Some(next) => {
-                let too_many = format!("a refinement would take {} unknowns", unknowns(&next));
+                let too_many = format!(
+                    "a refinement would take {} unknowns and {:.1} GB",
+                    unknowns(&next),
+                    request.memory(bat, &next)
+                );
                 best.iter_mut().for_each(|best| best.stopped = Some(too_many.clone()));
                 break;
             }

@@ -361,6 +361,7 @@ fn very_much_of_one_thing_is_read_or_refused() {
             2,
         ),
         ("nested", formula(&nested), String::new(), 2),
+        ("branches", formula(&format!("0.02{}", "+0*abs(x)".repeat(101))), String::new(), 2),
         ("columns", csv.clone(), (0..n).map(|k| format!("c{k},")).collect(), 2),
         ("repeated", csv.clone(), list("x"), 2),
         ("cells", csv.clone(), format!("x_m,radius_m\n{}", list("1")), 2),

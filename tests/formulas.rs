@@ -240,3 +240,31 @@ fn a_weighed_mass_sets_the_density_of_a_formula() {
     let weighed = Bat::new("weighed", shape, material, Some(0.9)).unwrap();
     assert!((weighed.inertia().mass / 0.9 - 1.0).abs() < 1e-13);
 }
+
+/// A wave needs for ever to the point of a tip that thins as the square of the distance: no mode.
+#[test]
+fn a_tip_from_which_no_wave_comes_back_is_refused() {
+    let said = |profile: Value| {
+        let file = json!({
+            "format": "sweetspot-bat/1",
+            "material": { "density": DENSITY, "youngs_modulus": MODULUS },
+            "profile": profile,
+        });
+        let read = Bat::from_text("bat.json", &file.to_string(), Path::new(""));
+        read.map_or_else(|why| why.to_string(), |_| String::new())
+    };
+    let formula = |text: &str| said(json!({ "pieces": [piece(0.0, 0.84, text)] }));
+    for text in ["0.03*(x/0.84)^2", "0.03*(1 - x/0.84)^3", "0.01*(1 - cos(2*x))", "0.03*x^2.01"] {
+        assert!(formula(text).contains("no wave ever arrives"), "{text} {}", formula(text));
+    }
+    for text in ["0.03*(x/0.84)^1.5", "0.03*x/0.84", "0.03*sqrt(1 - x/0.84)", "1e-5 + 0.03*x^2"] {
+        assert_eq!(formula(text), "", "{text}");
+    }
+    let stations = |interpolation: &str| {
+        let x = [0.0, 0.1, 0.2, 0.84];
+        let radius = [0.0, 0.001, 0.02, 0.03];
+        said(json!({ "interpolation": interpolation, "x": x, "radius": radius }))
+    };
+    assert!(stations("pchip").contains("no wave ever arrives"), "{}", stations("pchip"));
+    assert_eq!(stations("linear"), "");
+}

@@ -9,16 +9,22 @@ use sweetspot::fixtures::{
 };
 use sweetspot::layup::Layup;
 use sweetspot::material::Material;
+use sweetspot::modes::Mode;
 use sweetspot::profile::{Interpolation, Stations};
 use sweetspot::theory::Theory;
 use sweetspot::{Bat, Profile, Request, solve};
 
 /// A cone with that on it.
 fn with(fixtures: Fixtures) -> Bat {
+    asked_with(fixtures).unwrap()
+}
+
+/// A cone with that on it, or why it cannot be.
+fn asked_with(fixtures: Fixtures) -> sweetspot::Result<Bat> {
     let cone = cone(0.0125, 0.033);
     let mut material = cone.material().clone();
     material.shear_modulus = Some(1e9);
-    Bat::with_fixtures("test", cone.profile, material, fixtures, Weighed::default()).unwrap()
+    Bat::with_fixtures("test", cone.profile, material, fixtures, Weighed::default())
 }
 
 fn springs(list: &[(f64, f64, f64)]) -> Vec<Attachment> {
@@ -52,7 +58,7 @@ fn spectrum(fixtures: Fixtures, theory: Theory) -> Vec<f64> {
 /// The same, or why they are not known to the tolerance.
 fn known_spectrum(fixtures: Fixtures, theory: Theory) -> Result<Vec<f64>, String> {
     let request = Request { modes: 12, tolerance: TOLERANCE, theory, ..Request::default() };
-    let bat = with(fixtures);
+    let bat = asked_with(fixtures).map_err(|why| why.to_string())?;
     let solution = solve(&bat, &request).unwrap();
     if !(solution.met && solution.complete()) {
         return Err(format!("{} {:?}", solution.shortfall(TOLERANCE), bat.fixtures));
@@ -380,5 +386,100 @@ fn a_grip_does_not_see_the_stations_of_a_profile() {
         for (mode, few) in solution.modes.iter().zip(&few) {
             assert!((mode.frequency() / few - 1.0).abs() < 2.0 * TOLERANCE, "{}", mode.order);
         }
+    }
+}
+
+fn absorbers(count: usize, place: impl Fn(usize) -> f64, step: f64) -> Vec<Absorber> {
+    let of = |k: usize| {
+        let stiffness = 1e4 * (1.0 + step * k as f64);
+        Absorber { x: place(k), mass: 1e-3, stiffness, damping: 0.0 }
+    };
+    (0..count).map(of).collect()
+}
+
+/// What absorbers at one place push back with goes from −∞ to ∞ between two of their frequencies, so
+/// that there is a motion between each two.
+#[test]
+fn a_hundred_absorbers_at_one_place_have_a_motion_between_each_two() {
+    for step in [1e-2, 1e-4, 1e-6] {
+        let hung = absorbers(100, |_| 0.5, step);
+        let own = |a: &Absorber| (a.stiffness / a.mass).sqrt();
+        let tuned: Vec<f64> = hung.iter().map(own).collect();
+        let bat = with(Fixtures { absorbers: hung, ..Fixtures::default() });
+        for (theory, modes) in [(Theory::EulerBernoulli, 101), (Theory::Timoshenko, 10)] {
+            let asked = Request { modes, theory, ..Request::default() };
+            let found = solve(&bat, &asked).unwrap();
+            assert!(found.met && found.complete(), "{step:e} {:?}", found.stopped);
+            let last = found.modes[modes - 1].omega;
+            for pair in tuned.windows(2).filter(|pair| pair[1] < last) {
+                let between = |mode: &&Mode| mode.omega > pair[0] && mode.omega < pair[1];
+                assert!(found.modes.iter().any(|mode| between(&mode)), "{step:e} {pair:?}");
+            }
+        }
+    }
+}
+
+/// By Rayleigh's theorem `n` absorbers more raise the number of motions below a frequency by `n` at
+/// most, and those far below all other motions each add one.
+#[test]
+fn hundreds_of_absorbers_along_the_bat_are_all_found() {
+    for count in [100, 300] {
+        let place = |k: usize| 0.01 + 0.8 * k as f64 / count as f64;
+        let soft = |a: Absorber| Absorber { mass: 1e-4, stiffness: 0.1, ..a };
+        let hung = absorbers(count, place, 0.0).into_iter().map(soft).collect();
+        let bat = with(Fixtures { absorbers: hung, ..Fixtures::default() });
+        for modes in [10, 50, count + 3] {
+            let asked = Request { modes, ..Request::default() };
+            let found = solve(&bat, &asked).unwrap();
+            assert!(found.met && found.complete(), "{count} {modes} {:?}", found.stopped);
+            // √(k/m) is 31.6 rad/s; the bat's own motions begin above 500.
+            let slow = found.modes.iter().filter(|mode| mode.omega < 100.0).count();
+            assert_eq!(slow, modes.min(count), "{count} {modes}");
+        }
+    }
+}
+
+fn refusal(fixtures: Fixtures) -> String {
+    asked_with(fixtures).map_or_else(|why| why.to_string(), |_| String::new())
+}
+
+/// Alike they ring against each other with the bat at rest: no node, no modal mass.
+#[test]
+fn absorbers_alike_at_one_place_are_refused_and_elsewhere_or_otherwise_tuned_are_not() {
+    for step in [0.0, 1e-12, 1e-10] {
+        let said =
+            refusal(Fixtures { absorbers: absorbers(2, |_| 0.5, step), ..Fixtures::default() });
+        assert!(said.contains("absorbers[1]") && said.contains("the bat at rest"), "{step} {said}");
+    }
+    for (apart, step) in [(0.0, 1e-8), (1e-6, 0.0)] {
+        let hung = absorbers(2, |k| 0.5 + apart * k as f64, step);
+        assert_eq!(refusal(Fixtures { absorbers: hung, ..Fixtures::default() }), "");
+    }
+}
+
+/// Springs `k` at a distance `d` turn a bat back with `k d²/2`, with a pin beside one with `k d²`.
+#[test]
+fn springs_too_near_each_other_to_hold_the_bat_against_turning_are_refused() {
+    let two = |apart: f64| Fixtures {
+        attachments: springs(&[(0.3, 1e4, 0.0), (0.3 + apart, 1e4, 0.0)]),
+        ..Fixtures::default()
+    };
+    for apart in [3e-12, 3e-10, 1e-8] {
+        let said = refusal(two(apart));
+        assert!(said.contains("against turning by") && said.contains("1e-12 N m/rad"), "{said}");
+        let beside = Fixtures {
+            supports: pins(&[0.3]),
+            attachments: springs(&[(0.3 + apart / 2.0, 1e4, 0.0)]),
+            ..Fixtures::default()
+        };
+        assert!(refusal(beside).contains("against turning by"));
+        let turned = Fixtures {
+            attachments: springs(&[(0.3, 1e4, 1.0), (0.3 + apart, 1e4, 0.0)]),
+            ..Fixtures::default()
+        };
+        assert_eq!(refusal(turned), "");
+    }
+    for apart in [0.0, 1e-14, 1e-7] {
+        assert_eq!(refusal(two(apart)), "");
     }
 }

@@ -8,9 +8,10 @@ mod common;
 use common::bat;
 use sweetspot::bat::Weighed;
 use sweetspot::error::Error;
-use sweetspot::fixtures::{Absorber, Fixtures};
-use sweetspot::profile::Interpolation;
-use sweetspot::{Bat, Request, Solution, Solver, Theory, solve};
+use sweetspot::fixtures::{Absorber, Attachment, Fixtures, Joint};
+use sweetspot::material::Material;
+use sweetspot::profile::{Interpolation, Stations};
+use sweetspot::{Bat, Profile, Request, Solution, Solver, Theory, solve};
 
 /// Two whips on a middle of that radius, the first with more stations on it, which change nothing.
 fn whips(middle: f64, stations: usize, unlike: f64) -> Bat {
@@ -112,5 +113,46 @@ fn a_dense_solve_that_round_off_defeats_is_refused_with_the_reason() {
     for solver in [Solver::Dense, Solver::ShiftInvert] {
         let asked = Request { modes: 1, tolerance: 1e-2, solver, ..Request::default() };
         assert!(matches!(solve(&bat, &asked), Err(Error::Factorization { .. })), "{solver:?}");
+    }
+}
+
+/// A heavy absorber whose mode hardly bends the bat, where a share of 1e-6 of the next mode moves a
+/// node by 80 µm, although the next mode is not near.
+#[test]
+fn nodes_of_a_bat_that_hardly_moves_are_as_far_off_as_they_say() {
+    let x = [0.0, 0.2, 0.5, 0.84];
+    let outer = [0.011_167_395, 0.010_416_992, 0.026_027_376, 0.028_187_727];
+    let profile = Profile::new(Stations {
+        x: x.to_vec(),
+        outer: outer.to_vec(),
+        inner: vec![0.0; 4],
+        interpolation: Interpolation::Pchip,
+    });
+    let fixtures = Fixtures {
+        joints: vec![Joint { x: 0.839, rotational_stiffness: 0.010_046_478_8 }],
+        absorbers: vec![Absorber {
+            x: 0.208_019_8,
+            mass: 0.905_867_9,
+            stiffness: 12_403.414,
+            damping: 0.0,
+        }],
+        attachments: vec![Attachment { mass: 0.275_679_8, ..Attachment::default() }],
+        ..Fixtures::default()
+    };
+    let material = Material::new(650.0, 15e9).unwrap();
+    let bat = Bat::with_fixtures("soft", profile.unwrap(), material, fixtures, Weighed::default());
+    let (bat, modes, theory) = (bat.unwrap(), 4, Theory::Rayleigh);
+    let exact = solve(&bat, &Request { modes, theory, tolerance: 1e-12, ..Request::default() });
+    let exact = exact.unwrap();
+    for (elements, degree) in [(12, 4), (12, 3), (7, 5), (20, 3)] {
+        let (elements, degree) = (Some(elements), Some(degree));
+        let asked = Request { modes, theory, elements, degree, ..Request::default() };
+        let found = solve(&bat, &asked).unwrap();
+        for (mode, exact) in found.modes.iter().zip(&exact.modes) {
+            let off = mode.nodes.iter().zip(&exact.nodes).map(|(a, b)| (a - b).abs());
+            let off = off.fold(0.0, f64::max);
+            assert_eq!(mode.nodes.len(), exact.nodes.len());
+            assert!(off <= 3.0 * mode.error.nodes, "{degree:?} {}: {off:e}", mode.order);
+        }
     }
 }

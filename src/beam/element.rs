@@ -417,13 +417,15 @@ const SHORT: f64 = 1e-8;
 ///
 /// Stations are polynomials that the rule holds exactly, but for the κGA of a bore that tapers: the
 /// last terms of its Legendre series through the points count. Of formulas it is what bounds from
-/// the parse tree leave, and on an element so short that nothing on it matters its variation times
+/// the parse tree leave of EI, ρA and κGA, and on an element so short that nothing on it matters its variation times
 /// its share of the bat.
 pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule, theory: Theory) -> f64 {
     let piece = &bat.profile.pieces[e.piece];
     let layup = bat.layup(piece);
-    let (bored, missed) = match &piece.radii {
-        Radii::Cubic(cubics) => (cubics.inner != [0.0; 4] && cubics.degree > 0, 0.0),
+    let missed = match &piece.radii {
+        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] || cubics.degree == 0 => 0.0,
+        Radii::Cubic(_) if theory.shears() => shear_tail(bat, e, rule),
+        Radii::Cubic(_) => 0.0,
         Radii::Formula(curves) => {
             let core = layup.core.as_ref().map_or(0.0, |core| {
                 let of = [
@@ -435,12 +437,16 @@ pub fn missed(bat: &Bat, e: &mesh::Element, rule: &Rule, theory: Theory) -> f64 
             let bounds = curves.bounds(e.from, e.to);
             let share = e.length / bat.length();
             let missed = bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.missed(core));
+            let of_shear = bounds.as_ref().filter(|_| theory.shears() && curves.inner.is_some());
+            let missed = of_shear.map_or(missed, |bounds| {
+                let (empty, core) = (layup.emptiness(), layup.core_in_shear());
+                missed.max(bounds.missed_shear(&layup.outer, empty, core))
+            });
             let rough = || share * bounds.map_or(1.0, |bounds| bounds.variation(core));
-            (true, if share < SHORT { missed.min(rough()) } else { missed.min(1.0) })
+            if share < SHORT { missed.min(rough()) } else { missed.min(1.0) }
         }
     };
-    let tail = if bored && theory.shears() { shear_tail(bat, e, rule) } else { 0.0 };
-    if missed.max(tail) > RESOLVED { missed.max(tail) } else { 0.0 }
+    if missed > RESOLVED { missed } else { 0.0 }
 }
 
 /// The last terms of the Legendre series of κGA through the points, relative; 0 where that is the

@@ -187,6 +187,11 @@ impl<S: Real> Fixed<S> {
         Some(first..first + terms)
     }
 
+    /// How many masses hang on springs.
+    pub fn hung(&self) -> usize {
+        self.points.iter().filter(|point| point.spring.is_some()).count()
+    }
+
     /// How many rigid motions are free.
     pub fn rigid_modes(&self) -> usize {
         self.free.len()
