@@ -27,10 +27,10 @@ pub const DIGITS: std::ops::RangeInclusive<i32> = 2..=12;
 /// How many times the stated error a true one may be.
 pub const ALWAYS: f64 = 3.0;
 /// How many times the true error a stated one may be in nine cases of ten.
-const MOSTLY: f64 = 30.0;
+pub const MOSTLY: f64 = 30.0;
 /// True errors below this are luck or round-off: whether they are near the stated ones says
 /// nothing.
-const VISIBLE: f64 = 1e-13;
+pub const VISIBLE: f64 = 1e-13;
 /// The known frequencies and masses are doubles: right to half a unit in the last place (relative).
 pub const KNOWN_TO: f64 = 1.2e-16;
 /// A node is a zero of a sum of as many terms as the degree has: its own round-off (m).

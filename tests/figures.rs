@@ -82,7 +82,8 @@ fn swing_laws_keep_what_they_say() {
         assert!((energy(inertia, same.swing) / energy(reference, 50.0) - 1.0).abs() < 1e-12);
         assert!((between.swing / (50.0 * same.swing).sqrt() - 1.0).abs() < 1e-12);
         let best = |swung: &sweetspot::collision::figures::Swung| swung.best.unwrap().value;
-        assert_eq!(best(between), figures.spot.exit_speed_max.unwrap().value);
+        let searched = figures.spot.exit_speed_max.unwrap().value;
+        assert!((best(between) / searched - 1.0).abs() < 1e-10);
         assert_eq!(best(same) > best(still), reference > inertia);
     }
 }

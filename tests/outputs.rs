@@ -486,11 +486,12 @@ fn the_hit_document_has_the_keys_of_the_contract_and_its_energies_sum() {
         assert_eq!(impacts.len(), 11);
         for impact in impacts {
             let own = "x_m from_tip_m cor bat_speed_m_s exit_speed_m_s rigid_exit_speed_m_s \
-                       impulse_n_s contact_time_s peak_force_n peak_compression_m \
-                       collision_efficiency bbcor bbcor_pivoted modes_used flags energy_j error";
+                       impulse_n_s contact_time_s first_separation peak_force_n \
+                       peak_compression_m collision_efficiency bbcor bbcor_pivoted modes_used flags energy_j error";
             assert_eq!(keys(impact), set(own));
             assert_eq!(keys(&impact["error"]), set("exit_speed"));
-            for key in ["contact_time_s", "peak_force_n", "peak_compression_m"] {
+            for key in ["contact_time_s", "first_separation", "peak_force_n", "peak_compression_m"]
+            {
                 assert_eq!(impact[key].is_null(), model != "contact");
             }
             let energy = &impact["energy_j"];

@@ -213,3 +213,29 @@ fn a_stiff_bat_in_soft_hands_is_free() {
         assert!(outcome.energy.imbalance().abs() < 1e-9 * outcome.energy.initial);
     }
 }
+
+/// A wall so light that its own swing is far faster than the hit is a spring, and makes no energy.
+#[test]
+fn a_light_wall_makes_no_energy() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let solution = solved(&bat);
+    for mass in [1e-3, 1e-5, 1e-7, 1e-9, 1e-12] {
+        for (cor, speed) in [(0.1, 1.0), (0.5, 1.0), (0.1, 60.0), (0.5, 60.0), (1.0, 60.0)] {
+            let wall = Some(Wall { stiffness: 4e6, mass });
+            let scene = Scene { wall, cor, swing: 0.0, ball_speed: speed, ..Scene::default() };
+            let effort = Effort::default();
+            let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+            for x in [0.45, 0.6, 0.7, 0.8] {
+                let impact = hitter.strike(x);
+                // A hit whose energies do not close is refused.
+                let Some(outcome) = impact.outcome else {
+                    assert_eq!(impact.flags, ["unresolved"]);
+                    continue;
+                };
+                let energy = &outcome.energy;
+                assert!(energy.imbalance().abs() < 1e-9 * energy.initial, "{mass:e} {cor} {x}");
+                assert!(energy.vibration() <= energy.initial && outcome.error.is_finite());
+            }
+        }
+    }
+}

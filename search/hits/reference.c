@@ -131,6 +131,16 @@ static Real reach(Real fastest) {
     }
     /* A power is not one beyond the zero of its base. */
     if (x[1] != 0) h = fminl(h, 0.5L * x[0] / fabsl(x[1]));
+    /* The last terms of a steep force that is next to nothing do not show yet how it goes on. */
+    for (int k = 0; k < 60; k++) {
+        Real off = 0;
+        for (int part = 1; part <= 2; part++) {
+            Real t = h * part / 2, at = sum(x, ORDER, t);
+            if (at > 0) off = fmaxl(off, fabsl(sum(force, ORDER, t) - push(at, &(Real){0})));
+        }
+        if (off <= 1e-14L * most) break;
+        h /= 2;
+    }
     return h;
 }
 

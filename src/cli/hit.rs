@@ -9,7 +9,7 @@ use sweetspot::error::{Error, Result};
 use sweetspot::plot::profile;
 use sweetspot::plot::sets::Hits;
 use sweetspot::report::{hit_json, hit_text, sketch};
-use sweetspot::units::Quantity;
+use sweetspot::units::{Quantity, inches};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;
@@ -166,8 +166,20 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     }
     let modes = sweep.solution.shortfall(solve.tol);
     let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
+    let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
+        let limit = match sweep.settles {
+            true => "",
+            false => {
+                ": ball and bat meet there in a way that magnifies what is small, and neither more \
+                      modes nor finer steps settle it"
+            }
+        };
+        let place = format!("{:.1} cm ({:.1} in)", 100.0 * impact.x, inches(impact.x));
+        format!("; the worst is known to {:.1e}, at {place} from the knob{limit}", outcome.error)
+    });
     output.warn(&format!(
-        "accuracy of the exit speeds not reached{reason}: see error.exit_speed of every impact"
+        "accuracy of the exit speeds not reached{reason}{worst}; error.exit_speed of every impact says \
+         how far it is known"
     ));
     NOT_REACHED
 }

@@ -22,6 +22,7 @@ mod pictures;
 mod new;
 mod progress;
 mod promise_table;
+mod hit_promise_table;
 mod ring;
 mod scene;
 mod schema;

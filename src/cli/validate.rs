@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use sweetspot::error::{Complaint, Error, Result};
 use sweetspot::file;
 use sweetspot::hit_figure;
+use sweetspot::hit_promise;
 use sweetspot::promise::{self, Summary};
 use sweetspot::published::Answer;
 use sweetspot::report::text::wrapped;
@@ -14,7 +15,7 @@ use sweetspot::validation::{CASES, Row, run as run_case};
 use sweetspot::validation_page;
 
 use crate::cli::progress::Progress;
-use crate::cli::{Done, FAILED, extremes_table, promise_table};
+use crate::cli::{Done, FAILED, extremes_table, hit_promise_table, promise_table};
 
 /// Every known answer beside ours
 ///
@@ -80,12 +81,16 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     if args.cases.is_empty() {
         let rows = promise::rows(&tell)?;
+        let hits = hit_promise::rows(&tell)?;
         out += if args.promise { "" } else { "\n" };
         if args.promise {
             out += &promise_table::table(&rows);
+            out += &hit_promise_table::table(&hits);
         }
         out += &promise_table::summary(&rows);
-        good &= Summary::of(&rows).holds();
+        out.push('\n');
+        out += &hit_promise_table::summary(&hits);
+        good &= Summary::of(&rows).holds() && hit_promise::Summary::of(&hits).holds();
     }
     Ok(Done::new(out, if good { 0 } else { FAILED }))
 }

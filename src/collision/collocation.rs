@@ -11,8 +11,9 @@ pub struct Lobatto {
     pub at: [f64; POINTS],
     /// `[j][k]`: the coefficient of `s^k` in the polynomial of point j.
     pub powers: [[f64; POINTS]; POINTS],
-    /// Parts of the values in the coefficient of the last shifted Legendre polynomial.
-    pub last: [f64; POINTS],
+    /// Parts of the values in the coefficients of the last three shifted Legendre polynomials, of
+    /// degree 2, 3 and 4.
+    pub last: [[f64; POINTS]; 3],
     /// `∫₀¹` of the polynomials.
     pub weights: [f64; POINTS],
     /// `[i][j]`: `∫₀^{s_i} (s_i − s) L_j ds`.
@@ -36,8 +37,13 @@ impl Default for Lobatto {
                 }
             }
         }
-        // The shifted Legendre polynomial of degree 4 begins with 70 s⁴.
-        let last = powers.map(|p| p[POINTS - 1] / 70.0);
+        // 6 s² − 6 s + 1, 20 s³ − 30 s² + 12 s − 1 and 70 s⁴ − 140 s³ + 90 s² − 20 s + 1, the last first.
+        let fourth = powers.map(|p| p[4] / 70.0);
+        let third: [f64; POINTS] =
+            std::array::from_fn(|j| (powers[j][3] + 140.0 * fourth[j]) / 20.0);
+        let second =
+            std::array::from_fn(|j| (powers[j][2] - 90.0 * fourth[j] + 30.0 * third[j]) / 6.0);
+        let last = [second, third, fourth];
         let over = |p: [f64; POINTS], f: &dyn Fn(f64) -> f64| -> f64 {
             p.iter().enumerate().map(|(k, c)| c * f(k as f64)).sum()
         };
@@ -170,9 +176,14 @@ mod tests {
         for s in [0.0, 0.3, 0.77, 1.0] {
             assert!((polynomial(&through, s) - f(s)).abs() < 1e-14);
         }
-        // s⁴ is 1/70 of the last Legendre polynomial and some lower ones.
-        let last: f64 = rule.at.map(f).iter().zip(&rule.last).map(|(f, l)| f * l).sum();
-        assert!((last + 1.0 / 70.0).abs() < 1e-15);
+        // s³ = P₃/20 + P₂/4 + …, s⁴ = P₄/70 + P₃/10 + 2 P₂/7 + …
+        let part = |last: &[f64; POINTS]| -> f64 {
+            rule.at.map(f).iter().zip(last).map(|(f, l)| f * l).sum()
+        };
+        let exact = [3.0 / 4.0 - 2.0 / 7.0, 3.0 / 20.0 - 1.0 / 10.0, -1.0 / 70.0];
+        for (last, exact) in rule.last.iter().zip(exact) {
+            assert!((part(last) - exact).abs() < 1e-14);
+        }
         // ∫ (s − t) t³ dt = s⁵/20.
         for (i, s) in rule.at.into_iter().enumerate() {
             let sum: f64 = (0..POINTS).map(|j| rule.twice[i][j] * rule.at[j].powi(3)).sum();

@@ -1,6 +1,6 @@
 //! Where a step ends early: the largest compression, the return to it, the end of the contact.
 
-use crate::collision::collocation::{POINTS, Pair, lanes, moments, times, total};
+use crate::collision::collocation::{POINTS, lanes, moments, times, total};
 use crate::collision::force_law::Top;
 use crate::collision::step::{Course, Step, Table};
 use crate::collision::touch::{State, Touch};
@@ -25,8 +25,12 @@ pub struct Stop {
     pub top: Option<Top>,
     /// The step's largest force (N).
     pub most: f64,
+    /// Share of the impulse that a bump may change.
+    pub slight: f64,
 }
 
+/// Share of a step by which a state may be moved along it by a series.
+const NUDGED: f64 = 1e-4;
 /// Share of the energy that a contact may leave unaccounted for.
 pub const CLOSED: f64 = 1e-11;
 
@@ -38,7 +42,7 @@ impl Touch<'_> {
             None => (self.rate(next) < 0.0).then_some(Event::Turned),
             Some(_) if step.compression[1..].iter().any(|x| *x <= 0.0) => Some(Event::Gone),
             Some(top) => {
-                let beyond = step.compression[1..].iter().any(|x| *x > top.compression);
+                let beyond = step.force[1..].iter().any(|force| *force > top.force);
                 beyond.then_some(Event::Again)
             }
         }
@@ -75,14 +79,18 @@ impl Touch<'_> {
             }
             return [self.rate(state), rate];
         }
-        let x = self.reach(state) - self.felt.rest * state.force;
-        let goal = top.filter(|_| event == Event::Again).map_or(0.0, |top| top.compression);
-        [x - goal, self.rate(state)]
+        let rate = self.rate(state);
+        match top.filter(|_| event == Event::Again) {
+            // There the force is known, whatever the step's is.
+            Some(top) => [self.reach(state) - top.compression - self.felt.rest * top.force, rate],
+            None => [self.reach(state) - self.felt.rest * state.force, rate],
+        }
     }
 
-    /// The state at the event; the energy it was off by, relative.
+    /// The state at the event; the energy it was off by, relative, or None where that cannot be put
+    /// right.
     #[inline(always)]
-    pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> f64 {
+    pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> Option<f64> {
         let Stop { event, top, .. } = stop;
         // The end of the step, or the first point beyond the event.
         let goal = |x: f64| match (event, top) {
@@ -98,8 +106,12 @@ impl Touch<'_> {
         let (from, to) = (self.distance(event, now, top), self.distance(event, next, top));
         let mut time = end * crossing(from[0], from[1] * end, to[0], to[1] * end);
         self.within(now, step, time, next);
+        let guess = time;
         self.approach(event, step, top, &mut time, next);
-        let mut corrected = self.round_off(stop, now, step, &mut time, next);
+        if (time - guess).abs() > NUDGED * step.length {
+            self.within(now, step, time, next);
+        }
+        let mut corrected = self.round_off(stop, now, step, &mut time, next)?;
         self.settle(next, top);
         if event == Event::Gone && self.open(next, top) > CLOSED {
             // The force's last bit ends within the step: a step of that length has it whole.
@@ -117,11 +129,11 @@ impl Touch<'_> {
                 end += by;
             }
             // What the shorter step replaces was off in vain.
-            corrected = self.round_off(stop, now, &last, &mut end, next);
+            corrected = self.round_off(stop, now, &last, &mut end, next)?;
             *step = last;
         }
         self.settle(next, top);
-        corrected
+        Some(corrected)
     }
 
     /// The share of the energy that is not accounted for.
@@ -134,12 +146,12 @@ impl Touch<'_> {
     #[inline(always)]
     pub fn round_off(
         &self,
-        Stop { event, top, most }: Stop,
+        Stop { event, top, most, slight }: Stop,
         now: &State,
         step: &Step,
         time: &mut f64,
         next: &mut State,
-    ) -> f64 {
+    ) -> Option<f64> {
         let mut corrected = 0.0;
         if self.damped {
             next.lost = now.lost + self.loss(now, step, *time);
@@ -157,18 +169,18 @@ impl Touch<'_> {
                     bump[1][n] = length * (all[1][1] - all[2][1]);
                 }
             }
-            let (bump, free) = ([&bump[0][..], &bump[1][..]], [most, f64::INFINITY]);
-            corrected += self.correct(next, length, bump, free, top).unwrap_or(0.0);
+            let bump = [&bump[0][..], &bump[1][..]];
+            corrected += self.correct(next, length, bump, [most, slight], top)?;
             let [x, rate] = self.distance(event, next, top);
             let by = -x / rate;
             let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;
-            if event != Event::Gone || there || !by.is_finite() {
+            if event == Event::Turned || there || !by.is_finite() {
                 break;
             }
             *time += by;
             self.nudge(next, step, *time, by);
         }
-        corrected
+        Some(corrected)
     }
 
     /// Newton's method from a state near the event.
@@ -193,49 +205,6 @@ impl Touch<'_> {
                 break;
             }
         }
-    }
-
-    /// Whether the ringing surface reaches the ball after it left.
-    #[inline(always)]
-    pub fn caught_again(&self, end: &State) -> bool {
-        let count = self.felt.gains.len();
-        let amplitude = |n: usize| {
-            let square = end.real[n] * end.real[n] + end.imaginary[n] * end.imaginary[n];
-            self.weights[n] * square.sqrt()
-        };
-        // A surface that is never faster than the ball leaves it alone.
-        let fastest: f64 = (0..count).map(|n| amplitude(n) * self.square[n].sqrt()).sum();
-        if fastest < -end.speed {
-            return false;
-        }
-        let farthest: f64 = (0..count).map(amplitude).sum();
-        // Beyond that the ball is out of reach.
-        let last = (farthest - end.closing) / -end.speed;
-        let fastest = self.poles.iter().map(|s| s[1]).fold(0.0, f64::max);
-        if !(last > 0.0 && end.speed < 0.0) || count == 0 {
-            return end.speed >= 0.0;
-        }
-        // The fast modes' own motion is small: eight looks in a turn of the middle ones.
-        let looks = (0.5 * last * fastest).clamp(16.0, 4000.0).ceil();
-        let step = last / looks;
-        let turn = |s: &Pair| {
-            let (sin, cos) = (s[1] * step).sin_cos();
-            let size = if s[0] == 0.0 { 1.0 } else { (s[0] * step).exp() };
-            [size * cos, size * sin]
-        };
-        let turns: Vec<Pair> = self.poles.iter().map(turn).collect();
-        let mut memories: Vec<Pair> =
-            end.real.iter().zip(&end.imaginary).map(|(re, im)| [*re, *im]).collect();
-        // It begins at zero, going down.
-        let slack = 1e-9 * self.deepest;
-        (1..=looks as usize).any(|k| {
-            let mut reach = end.closing + end.speed * step * k as f64;
-            for ((memory, turn), weight) in memories.iter_mut().zip(&turns).zip(&self.weights) {
-                *memory = times(*memory, *turn);
-                reach -= weight * memory[1];
-            }
-            reach > slack
-        })
     }
 }
 

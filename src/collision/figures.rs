@@ -76,14 +76,16 @@ impl Figures {
         (scene, law): (&Scene, Option<SwingLaw>),
         solution: &Solution,
     ) -> Result<Self> {
-        let find = |scene: &Scene| -> Result<SweetSpot> {
-            let hitter = Hitter::new(model, scene, bat, solution, effort)?;
-            Ok(SweetSpot::find(bat, scene, solution, &hitter))
-        };
+        /// Steps along the outer half where a scene differs in one thing.
+        const FEW: usize = 32;
         let outer = [0.5 * bat.length(), bat.length()];
+        let hitter = Hitter::new(model, scene, bat, solution, effort)?;
+        let find = |scene: &Scene| -> Result<SweetSpot> {
+            let hitter = hitter.in_scene(scene, bat)?;
+            Ok(SweetSpot::within(&Looked::by(outer, FEW, &hitter), bat, scene, solution))
+        };
         let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
         let rigid_best = Looked::new(outer, &rigid).greatest(|seen| Some(seen.exit_speed));
-        let hitter = Hitter::new(model, scene, bat, solution, effort)?;
         let looked = Looked::new(outer, &hitter);
         let bbcor = |k: usize| match hitter.modes_used() {
             // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
@@ -101,7 +103,7 @@ impl Figures {
                 swings.push(Swung { exponent, swing, best });
             }
         }
-        let spot = SweetSpot::find(bat, scene, solution, &hitter);
+        let spot = SweetSpot::within(&looked, bat, scene, solution);
         let moves = changes(scene).into_iter().map(|(what, scene)| Ok((what, find(&scene)?)));
         Ok(Self {
             best: spot.exit_speed_max.map(|peak| hitter.strike(peak.x)),

@@ -20,7 +20,7 @@ pub struct ForceLaw {
     pub stiffness: f64,
     /// `α`.
     pub exponent: f64,
-    /// `β`; infinite for a ball that returns nothing.
+    /// `β`.
     pub unloading: f64,
 }
 
@@ -33,9 +33,14 @@ pub struct Top {
     pub force: f64,
 }
 
+/// A ball that returns less is computed as one with this `e₀`: its force falls as steeply as can be
+/// told in floating point, and what it returns is 1e-10 of the energy.
+pub const LEAST_RESTITUTION: f64 = 1e-5;
+
 impl ForceLaw {
     /// `k` (N/m^α), `α` and `e₀`.
     pub fn new(stiffness: f64, exponent: f64, restitution: f64) -> Self {
+        let restitution = restitution.max(LEAST_RESTITUTION);
         let unloading = (1.0 + exponent) / (restitution * restitution) - 1.0;
         Self { stiffness, exponent, unloading }
     }
@@ -57,9 +62,19 @@ impl ForceLaw {
     /// The derivative (N/m) at a compression with that force (N).
     #[inline(always)]
     pub fn slope(&self, x: f64, force: f64, top: Option<Top>) -> f64 {
-        let exponent = top.map_or(self.exponent, |_| self.unloading);
-        // An infinite exponent has no force and no slope below the top.
-        if force > 0.0 { exponent * force / x } else { 0.0 }
+        if force > 0.0 { self.power(top) * force / x } else { 0.0 }
+    }
+
+    /// The exponent of the branch.
+    #[inline(always)]
+    fn power(&self, top: Option<Top>) -> f64 {
+        top.map_or(self.exponent, |_| self.unloading)
+    }
+
+    /// How small a share of a compression is, on a branch that may be steep: `10/β`, 1 at most.
+    #[inline(always)]
+    pub fn fine(&self, top: Option<Top>) -> f64 {
+        (10.0 / self.power(top)).min(1.0)
     }
 
     /// The forces (N) a little way from compressions x > 0 where they are known: `F (1 + δ)^β` by its
@@ -75,7 +90,7 @@ impl ForceLaw {
         /// `βδ` whose powers beyond the terms are below ε.
         const NEAR: f64 = 0.05;
         const TERMS: [f64; 8] = [8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
-        let exponent = top.map_or(self.exponent, |_| self.unloading);
+        let exponent = self.power(top);
         let most = NEAR / exponent.max(1.0);
         let (mut share, mut near) = ([0.0; N], true);
         for i in 0..N {
@@ -130,21 +145,22 @@ impl ForceLaw {
     /// force (N), from a guess of x; anything that is no guess is none.
     #[inline(always)]
     pub fn share(&self, whole: f64, flexibility: f64, top: Option<Top>, guess: f64) -> [f64; 2] {
-        if flexibility == 0.0 || whole <= 0.0 || self.unloading.is_infinite() && top.is_some() {
+        if flexibility == 0.0 || whole <= 0.0 {
             return [whole, self.force(whole, top)[0]];
         }
         // The function is convex: from here, above, Newton's method comes down.
         let above = || whole.min(self.at(whole / flexibility, top));
         let mut x = if guess > 0.0 && guess < whole { guess } else { above() };
-        for _ in 0..30 {
+        let fine = self.fine(top);
+        for _ in 0..60 {
             let [force, slope] = self.force(x, top);
             let by = (whole - x - flexibility * force) / (1.0 + flexibility * slope);
             // What is left is the square of this.
-            if by.abs() <= 1e-10 * x {
+            if by.abs() <= (1e-10 * fine).max(f64::EPSILON) * x {
                 return [x + by, force + slope * by];
             }
-            // Up a long way is a guess that was none.
-            x = if by > 0.1 * x { above() } else { x + by };
+            // A guess so far below is of no use.
+            x = if by > 0.1 * fine * x { above() } else { x + by };
         }
         [x, self.force(x, top)[0]]
     }

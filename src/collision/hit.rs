@@ -137,7 +137,7 @@ pub struct Impact {
 /// What the hit left behind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Speed of the ball off the bat (m/s).
+    /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed: f64,
     /// e₀ of this hit.
     pub cor: f64,
@@ -145,8 +145,10 @@ pub struct Outcome {
     pub impulse: f64,
     /// `e_A = (v_out − V)/(v_in + V)`.
     pub collision_efficiency: f64,
-    /// From the first touch to the last (s), where the model has one.
+    /// Time in touch (s), all touches together, where the model has one.
     pub contact_time: Option<f64>,
+    /// The ball's first departure, where the model has times.
+    pub first_separation: Option<Separation>,
     /// Largest force (N), where the model has one.
     pub peak_force: Option<f64>,
     /// Largest compression of the ball (m), where the model has one.
@@ -164,6 +166,15 @@ pub struct Outcome {
     pub truncation: f64,
     /// The part of it that shorter steps would mend.
     pub steps: f64,
+}
+
+/// The moment at which the ball leaves the bat for the first time. It may be caught again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Separation {
+    /// Since the first touch (s).
+    pub time: f64,
+    /// Speed of the ball then (m/s).
+    pub exit_speed: f64,
 }
 
 /// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.
@@ -197,4 +208,9 @@ impl Energy {
         let dissipated = self.dissipated_ball + self.dissipated_damping;
         self.initial - self.ball - self.bat_rigid - self.vibration() - self.wall - dissipated
     }
+}
+
+/// The greater of two errors; one that is not a number is greater than all, where `f64::max` drops it.
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }

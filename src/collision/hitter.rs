@@ -4,14 +4,17 @@
 //! rig's pin, hands) is told as its hands see it: the bat at rest, the ball at the closing speed. The
 //! impulse is the same for both.
 
+use std::sync::Arc;
+
 use crate::bat::{Bat, STANDARD_PIVOT};
 use crate::collision::contact::{Collider, Encounter};
 use crate::collision::energy_loss::EnergyLoss;
-use crate::collision::force_law::ForceLaw;
+use crate::collision::force_law::{ForceLaw, LEAST_RESTITUTION};
 use crate::collision::history::{Moment, history};
-use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene};
+use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene, Separation, Wall};
 use crate::collision::pulse::Pulse;
 use crate::collision::rigid::{Motion, RigidBat};
+use crate::collision::stated::Answered;
 use crate::collision::step::Piece;
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::collision::touch::Felt;
@@ -35,11 +38,16 @@ pub struct Hitter<'a> {
     stiff: Vec<RigidMotion>,
     /// The body's inertia about the standard pivot, for the pivoted BBCOR (kg m²).
     pivot_inertia: f64,
-    struck: Struck<'a>,
+    struck: Arc<Struck<'a>>,
     effort: Effort,
     /// ω (rad/s) and damping ratio of every mode.
     modes: Vec<[f64; 2]>,
+    /// How long a ball is pressed by a stiff bat, more or less (s); not a number without a force law.
+    pressed: f64,
     collider: Option<Collider>,
+    /// The wall as the ball feels it, and what that leaves out, relative to the closing speed.
+    wall: Option<Wall>,
+    wall_error: f64,
 }
 
 /// What a model says.
@@ -52,6 +60,7 @@ struct Answer {
     lost_in_bat: f64,
     in_wall: f64,
     contact_time: Option<f64>,
+    first_separation: Option<Separation>,
     peak_force: Option<f64>,
     peak_compression: Option<f64>,
     flags: Vec<&'static str>,
@@ -73,6 +82,7 @@ impl Answer {
             lost_in_bat: 0.0,
             in_wall: 0.0,
             contact_time: None,
+            first_separation: None,
             peak_force: None,
             peak_compression: None,
             flags: vec![],
@@ -115,6 +125,27 @@ impl<'a> Hitter<'a> {
         solution: &'a Solution,
         effort: Effort,
     ) -> Result<Self> {
+        let struck = Arc::new(Struck::new(bat, solution));
+        Self::of((model, effort), scene, bat, solution, struck)
+    }
+
+    /// The bat in another scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn in_scene(&self, scene: &'a Scene, bat: &'a Bat) -> Result<Self> {
+        let struck = Arc::clone(&self.struck);
+        Self::of((self.model, self.effort), scene, bat, self.solution, struck)
+    }
+
+    fn of(
+        (model, effort): (Model, Effort),
+        scene: &'a Scene,
+        bat: &'a Bat,
+        solution: &'a Solution,
+        struck: Arc<Struck<'a>>,
+    ) -> Result<Self> {
         let held = bat.fixtures.holding();
         if held && matches!(model, Model::EnergyLoss(_)) {
             let expected = "a free bat, which the report's fit is for, or another model";
@@ -128,11 +159,18 @@ impl<'a> Hitter<'a> {
             inertia: line.about_balance,
         };
         let motion = rigid.swung(scene.swing, scene.pivot);
-        let struck = Struck::new(bat, solution);
         let modes = struck.modes();
+        let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
+        let mass = 1.0 / (1.0 / scene.ball.mass + 1.0 / rigid.mass);
+        let law = scene.force_law(scene.cor);
+        // How long the ball is pressed, more or less; not a number without a law or a speed.
+        let pressed = law
+            .as_ref()
+            .map_or(f64::NAN, |law| law.compression(0.5 * mass * speed * speed) / speed);
+        let (wall, wall_error) = felt_wall(scene.wall, pressed, effort.accuracy);
         let collider = match model {
             Model::Contact => {
-                let law = scene.force_law(scene.cor)?;
+                law?;
                 if let Some(k) = modes.iter().position(|[_, ratio]| *ratio >= 1.0) {
                     let found =
                         format!("mode {} with a damping ratio of {:.2}", k + 1, modes[k][1]);
@@ -140,13 +178,10 @@ impl<'a> Hitter<'a> {
                                     a hit is over before the hands have felt it";
                     return Err(Error::value("hit", found, expected));
                 }
-                let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
-                let mass = 1.0 / (1.0 / scene.ball.mass + 1.0 / rigid.mass);
-                let touching = law.compression(0.5 * mass * speed * speed) / speed;
-                // A quarter of the way to the deepest compression, more or less.
-                let longest = if touching.is_finite() { 0.28 * touching } else { 1.0 };
+                // A quarter of the way to the deepest compression.
+                let longest = if pressed.is_finite() { 0.28 * pressed } else { 1.0 };
                 let all: Vec<[f64; 2]> =
-                    wall(scene).into_iter().chain(modes.iter().copied()).collect();
+                    swinging(wall).into_iter().chain(modes.iter().copied()).collect();
                 Some(Collider::new(&all, longest))
             }
             _ => None,
@@ -164,7 +199,10 @@ impl<'a> Hitter<'a> {
             struck,
             effort,
             modes,
+            pressed,
             collider,
+            wall,
+            wall_error,
         })
     }
 
@@ -176,10 +214,8 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The hit at `x` as a search for places sees it. None where there is none, and None too where
-    /// ball and bat meet again late without having parted: far from a sweet spot a slow ball may
-    /// hover there until the ringing bat comes back. Nor is there one where the bat ends in a
-    /// point: there a ball is met by ever less of it.
+    /// The hit at `x` as a search for places sees it. None where there is none, and None too where the
+    /// bat ends in a point: there a ball is met by ever less of it.
     pub fn glance(&self, x: f64) -> Option<Glance> {
         /// Of the largest radius.
         const POINTED: f64 = 0.25;
@@ -192,10 +228,7 @@ impl<'a> Hitter<'a> {
         let (impulse, in_modes) = match self.model {
             Model::Contact => {
                 let closing = self.closing(x)?;
-                let met = self.meet(&self.felt(x), closing, SMOOTH)?;
-                if met.late {
-                    return None;
-                }
+                let (met, _) = self.meet(x, &self.felt(x), closing, SMOOTH)?;
                 (met.impulse, met.in_modes)
             }
             _ => {
@@ -237,14 +270,16 @@ impl<'a> Hitter<'a> {
         self.strike_knowing(x, None)
     }
 
-    /// The same where the truncation's error is known, of a contact: it is not looked for.
-    pub fn strike_knowing(&self, x: f64, truncation: Option<f64>) -> Impact {
+    /// The same where the errors by truncation and by steps are known, of a contact: they are not
+    /// looked for.
+    pub fn strike_knowing(&self, x: f64, known: Option<[f64; 2]>) -> Impact {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let rigid_exit_speed = self.rigid_exit(x);
-        let answer = self.answer(x, truncation);
+        let answer = self.answer(x, known);
         let flags = match (rigid_exit_speed, &answer) {
             (None, _) => vec!["no_contact"],
             _ if !self.has_section(x) => vec!["no_section"],
+            (_, None) if self.model == Model::Contact => vec![UNRESOLVED],
             (_, None) => vec!["no_real_solution"],
             (_, Some(answer)) => answer.flags.clone(),
         };
@@ -255,16 +290,17 @@ impl<'a> Hitter<'a> {
     /// The force at `x` (m) in time, of a contact; None where there is none.
     pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
-        self.meet(&felt, closing, SMOOTH)?;
-        let law = self.law_at(&felt, closing)?;
-        Some(self.collider.as_ref()?.meet_recorded(&felt, &law, closing, SMOOTH).1)
+        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
+        let meet = |accuracy| collider.meet_recorded(&felt, &law, closing, accuracy);
+        resolved(SMOOTH, meet, |(met, _)| met.is_sound(&felt, closing)).map(|(_, pieces)| pieces)
     }
 
     /// Force and compression of the ball at `x` (m) in time, of a contact, so many instants in every
     /// piece of the force; None where there is none.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
-        let modes: Vec<[f64; 2]> = wall(self.scene).into_iter().chain(self.modes.clone()).collect();
+        let modes: Vec<[f64; 2]> =
+            swinging(self.wall).into_iter().chain(self.modes.clone()).collect();
         Some(history(&pieces, &felt, &modes, speed, parts))
     }
 
@@ -313,7 +349,7 @@ impl<'a> Hitter<'a> {
     }
 
     /// What the model says of a hit at `x`, if it says anything.
-    fn answer(&self, x: f64, truncation: Option<f64>) -> Option<Answer> {
+    fn answer(&self, x: f64, known: Option<[f64; 2]>) -> Option<Answer> {
         let closing = self.closing(x).filter(|_| self.has_section(x))?;
         let [mass, cor] = self.blow(x, closing);
         let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
@@ -322,7 +358,7 @@ impl<'a> Hitter<'a> {
             Model::Rigid => Some(rigid),
             Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
             Model::Pulse(pulse) => self.pulsed(pulse, x, closing, cor),
-            Model::Contact => self.touched(x, closing, cor, truncation),
+            Model::Contact => self.touched(x, closing, cor, known),
         }
     }
 
@@ -370,46 +406,55 @@ impl<'a> Hitter<'a> {
         Some(answer)
     }
 
-    fn touched(&self, x: f64, closing: f64, cor: f64, truncation: Option<f64>) -> Option<Answer> {
+    fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 2]>) -> Option<Answer> {
         let (ball, count) = (self.scene.ball.mass, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
         let felt = self.felt_with(x, count, beyond);
-        let met = self.meet(&felt, closing, accuracy)?;
-        // The same with fewer modes and rougher steps is farther from the truth; one such answer may
-        // agree by chance.
-        let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
-        let rough = match (truncation, completed) {
-            (Some(known), _) => {
-                answer.truncation = known;
-                vec![]
-            }
-            (None, true) => fewer(count).to_vec(),
-            (None, false) => vec![count],
-        };
-        for fewer in rough {
-            let felt = self.felt_with(x, fewer, beyond);
-            let other = self.meet(&felt, closing, ROUGHER * accuracy);
+        let (met, accuracy) = self.meet(x, &felt, closing, accuracy)?;
+        let apart = |count: usize, accuracy: f64, faster: f64| {
+            let felt = self.felt_with(x, count, beyond);
+            let other = self.meet(x, &felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
-            let apart =
-                other.map_or(1.0, |other| (other.impulse - met.impulse).abs() / (ball * closing));
-            answer.truncation += apart;
-        }
-        if met.reloaded || met.late {
-            answer.truncation *= DELICATE;
-        }
-        answer.steps = met.corrected;
-        answer.error += answer.truncation + answer.steps;
+            other.map_or(1.0, |(other, _)| {
+                (other.impulse / faster - met.impulse).abs() / (ball * closing)
+            })
+        };
+        let answered = Answered { met: &met, count, accuracy };
+        let shears = self.solution.theory.shears();
+        let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
+        [answer.truncation, answer.steps] =
+            known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
+                answered.errors(shears, |few, accuracy| match completed || few == count {
+                    true => apart(few, accuracy, 1.0),
+                    false => 0.0,
+                })
+            });
+        let [magnified, round_off] = answered.magnified(|by| apart(count, accuracy, 1.0 + by));
+        answer.steps += round_off;
         let mass = 1.0 / felt.inverse_mass;
+        // What touches beyond those that were followed could give, and a ball deader than any law.
+        answer.error +=
+            met.open / (ball * closing) + (LEAST_RESTITUTION - cor).max(0.0) * mass / ball;
+        answer.error += self.wall_error + answer.truncation + answer.steps;
+        // How long one push of the force lasts (s): a half sine's time on a stiff bat at most.
+        let push = met.time / (met.touches + met.reloads) as f64;
+        let push = push.min(std::f64::consts::PI * self.pressed);
         for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
             // A mode takes the force's changes that are slower than itself hardly at all.
-            let turns = omega * met.time / std::f64::consts::PI;
-            answer.error += doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
+            let turns = omega * push / std::f64::consts::PI;
+            let change = doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
+            answer.error += magnified * change;
         }
-        let flags =
-            [(met.reloaded, "reload"), (met.late, "late_contact"), (met.second, "second_contact")];
+        let flags = [
+            (met.reloads > 0, "reload"),
+            (met.late, "late_contact"),
+            (met.again(), "second_contact"),
+        ];
         answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         answer.contact_time = Some(met.time);
+        let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
+        answer.first_separation = Some(Separation { time: met.first_end, exit_speed });
         answer.peak_force = Some(met.peak_force);
         answer.peak_compression = Some(met.compression);
         let walls = met.in_modes.len() - count;
@@ -444,6 +489,7 @@ impl<'a> Hitter<'a> {
             impulse,
             collision_efficiency,
             contact_time: answer.contact_time,
+            first_separation: answer.first_separation,
             peak_force: answer.peak_force,
             peak_compression: answer.peak_compression,
             bbcor,
@@ -476,7 +522,7 @@ impl<'a> Hitter<'a> {
             None => modes,
             Some(beyond) => self.struck.completed(x, modes, beyond),
         };
-        match self.scene.wall {
+        match self.wall {
             Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
             Some(wall) => felt.rest += 1.0 / wall.stiffness,
             None => {}
@@ -484,40 +530,48 @@ impl<'a> Hitter<'a> {
         felt
     }
 
-    fn law_at(&self, felt: &Felt, closing: f64) -> Option<ForceLaw> {
-        let cor = self.scene.restitution(0.5 * closing * closing / felt.inverse_mass);
+    /// The force law with the e₀ of the hit, which later touches of the same hit keep.
+    fn law_at(&self, x: f64, closing: f64) -> Option<ForceLaw> {
+        let [_, cor] = self.blow(x, closing);
         self.scene.force_law(cor).ok()
     }
 
-    fn meet(&self, felt: &Felt, closing: f64, accuracy: f64) -> Option<Encounter> {
-        let law = self.law_at(felt, closing)?;
-        let collider = self.collider.as_ref()?;
-        // Where rough steps come to no end, better ones may.
-        [1.0, 1e-2, 1e-4].into_iter().find_map(|finer| {
-            let met = collider.meet(felt, &law, closing, finer * accuracy);
-            (met.impulse.is_finite() && !met.endless).then_some(met)
-        })
+    /// The meeting and the accuracy of its steps, which may have to be better than asked.
+    fn meet(&self, x: f64, felt: &Felt, closing: f64, accuracy: f64) -> Option<(Encounter, f64)> {
+        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
+        let meet = |accuracy| (collider.meet(felt, &law, closing, accuracy), accuracy);
+        resolved(accuracy, meet, |(met, _)| met.is_sound(felt, closing))
     }
 }
 
+/// The flag of a contact whose steps come to no end, or whose energies do not close.
+pub const UNRESOLVED: &str = "unresolved";
+
+/// The meeting by steps of that accuracy, or by better ones where these do not hold.
+fn resolved<T>(accuracy: f64, meet: impl Fn(f64) -> T, is_sound: impl Fn(&T) -> bool) -> Option<T> {
+    const TRIES: i32 = 12;
+    const FINER: f64 = 0.2;
+    (0..TRIES).map(|k| meet(FINER.powi(k) * accuracy)).find(is_sound)
+}
+
 /// ω (rad/s) and damping ratio of a wall that has a mass.
-fn wall(scene: &Scene) -> Option<[f64; 2]> {
-    let wall = scene.wall.filter(|wall| wall.mass > 0.0)?;
+fn swinging(wall: Option<Wall>) -> Option<[f64; 2]> {
+    let wall = wall.filter(|wall| wall.mass > 0.0)?;
     Some([(wall.stiffness / wall.mass).sqrt(), 0.0])
 }
 
-/// How much farther from the truth than those with fewer modes an answer may be where a second
-/// touch magnifies what is small.
-const DELICATE: f64 = 3.0;
-
-/// How much rougher the steps are of the answer that another is compared with.
-const ROUGHER: f64 = 10.0;
-
-/// Numbers of modes that are few beside `count`: two, three and a quarter less. The sum of the
-/// differences to their answers was never below 0.7 times the true error in 1300 random hits on two
-/// dowels and two bats, and eight times it or more in half of them.
-fn fewer(count: usize) -> [usize; 3] {
-    [2, 3, count / 4].map(|less| count - less.max(2).min(count))
+/// The wall as a ball feels it that is pressed for about that time τ (s), and the error of that,
+/// relative to the closing speed: one so light that it swings many times meanwhile follows the force
+/// as a spring does, but for about `1/(ωτ)²`.
+fn felt_wall(wall: Option<Wall>, time: f64, accuracy: f64) -> (Option<Wall>, f64) {
+    /// Of the steps' accuracy.
+    const SHARE: f64 = 0.05;
+    let Some([omega, _]) = swinging(wall) else { return (wall, 0.0) };
+    let error = (omega * time).powi(-2);
+    match error <= SHARE * accuracy {
+        true => (wall.map(|wall| Wall { mass: 0.0, ..wall }), error),
+        false => (wall, 0.0),
+    }
 }
 
 /// Deflections at `x` in the WPI report's scaling, `(1/M) ∫ρA W_n² dx = α_n²`, which on its dowel

@@ -9,10 +9,12 @@
 //! |---|---|
 //! | [`ball`], [`force_law`] | what ball, how hard does it push back |
 //! | [`contact`], with [`collocation`], [`touch`], [`step`], [`events`] | what happens while they touch |
+//! | [`flight`] | when do they touch again |
 //! | [`struck`] | how does the bat give way to a ball, anywhere |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`hit`], [`hitter`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
+//! | [`stated`] | how far may an exit speed be off |
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
@@ -22,6 +24,7 @@ pub mod collocation;
 pub mod touch;
 pub mod step;
 pub mod events;
+pub mod flight;
 pub mod contact;
 pub mod struck;
 pub mod rigid;
@@ -30,6 +33,7 @@ pub mod pulse;
 pub mod aftermath;
 pub mod history;
 pub mod hit;
+pub mod stated;
 pub mod hitter;
 pub mod strength;
 pub mod sweet_spot;

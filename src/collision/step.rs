@@ -181,10 +181,16 @@ impl Touch<'_> {
         top: Option<Top>,
         last: Option<&Course>,
     ) -> (Step, bool) {
-        const ROUNDS: usize = 8;
+        const ROUNDS: usize = 16;
+        /// Share of the compression, times the branch's `fine`, by which a round raises it at most:
+        /// the force grows by `e²` then.
+        const RISE: f64 = 0.2;
         let (length, rest) = (table.length, self.felt.rest);
         let [w, a, b] = [&self.weights, &now.real, &now.imaginary].map(|v| lanes(v));
         let [mut free, mut x, mut f, mut slope] = [[0.0; AHEAD]; 4];
+        let fine = self.law.fine(top);
+        // Where on its way back the force is a thousandth, below which it is next to none.
+        let knee = top.map_or(0.0, |top| top.compression * (1.0 - 0.7 * fine));
         for i in 0..AHEAD {
             let (re, im) = (table.turn(i + 1, 0), table.turn(i + 1, 1));
             let part = |k: usize, l: usize| w[k][l] * (re[k][l] * b[k][l] + im[k][l] * a[k][l]);
@@ -195,7 +201,11 @@ impl Touch<'_> {
             x[i] = match last {
                 Some(last) => {
                     let at = last.from + length / last.length * self.rule.at[i + 1];
-                    polynomial(&last.powers, at).min(free[i])
+                    let most = match top {
+                        Some(_) => now.compression * (1.0 + RISE * fine),
+                        None => f64::INFINITY,
+                    };
+                    polynomial(&last.powers, at).min(free[i]).min(most)
                 }
                 None => self.law.share(free[i], rest, top, 0.0)[0],
             };
@@ -234,9 +244,13 @@ impl Touch<'_> {
             }
             by = eliminate(&mut matrix, left);
             // What is left is the square of this.
-            let enough = 1e-2 * self.accuracy.sqrt() * self.deepest;
+            let enough =
+                (1e-2 * self.accuracy.sqrt() * fine).max(4.0 * f64::EPSILON) * self.deepest;
             converged = true;
             for i in 0..AHEAD {
+                if top.is_some() && x[i] > 0.0 {
+                    by[i] = by[i].min((RISE * fine * x[i]).max(knee - x[i]));
+                }
                 x[i] += by[i];
                 converged &= by[i].abs() <= enough;
             }
@@ -254,11 +268,16 @@ impl Touch<'_> {
         Course { length: step.length, from: 1.0, powers: self.rule.through(&step.compression) }
     }
 
-    /// How far the force is from a polynomial: the impulse of its last term, relative.
+    /// How far the force is from a polynomial: the impulse of its last term, relative, or of what the
+    /// two before it lead one to expect, since one term alone may be small by chance.
     #[inline(always)]
     pub fn error_of(&self, step: &Step) -> f64 {
-        let last: f64 = step.force.iter().zip(&self.rule.last).map(|(f, l)| f * l).sum();
-        last.abs() * step.length * self.felt.inverse_mass / self.speed
+        /// Of what a geometric series would go on with.
+        const EXPECTED: f64 = 0.1;
+        let [before, next, last] = self.rule.last.map(|part| dot(&part, &step.force).abs());
+        let expected = EXPECTED * next * (next / before).min(1.0);
+        // A ratio that is not a number is one of two zeros.
+        last.max(expected) * step.length * self.felt.inverse_mass / self.speed
     }
 
     /// The state at the end of a step, but for compression and force.
@@ -273,7 +292,7 @@ impl Touch<'_> {
         next.closing = now.closing + h * now.speed - back;
         self.memories(table, now, step, end, next);
         (next.compression, next.force) = (step.compression[end], step.force[end]);
-        next.lost = now.lost;
+        (next.lost, next.spent) = (now.lost, now.spent);
         if self.damped {
             next.lost += self.loss(now, step, h);
         }
@@ -321,7 +340,7 @@ impl Touch<'_> {
         (next.impulse, next.speed) = (now.impulse, now.speed);
         (next.closing, next.force) = (now.closing + time * now.speed, 0.0);
         next.compression = f64::NAN;
-        next.lost = now.lost;
+        (next.lost, next.spent) = (now.lost, now.spent);
         for (k, part) in part.iter().enumerate() {
             let k = k as f64;
             let (once, twice) =
@@ -370,7 +389,7 @@ impl Touch<'_> {
     /// returns by how much it was not, relative. Where the compression is about to turn or hardly a
     /// force is left none does work: None, for a shorter step, if the bump would be more than twice
     /// the `most` force or change the impulse by more than the `slight` share and by more than the
-    /// energy was off by. An infinite share wants no shorter step.
+    /// energy was off by.
     #[inline(always)]
     pub fn correct(
         &self,
@@ -414,7 +433,7 @@ impl Touch<'_> {
             let kick = (size * speed / self.speed).abs();
             let ill = kick > slight.max(ILL * defect.abs() / self.energy);
             if size.is_nan() || size.abs() > 2.0 * most || ill {
-                if off > ROUND_OFF && slight.is_finite() {
+                if off > ROUND_OFF {
                     return None;
                 }
                 break;

@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::bat::Bat;
-use crate::collision::hit::{Effort, Impact, Model, Scene};
-use crate::collision::hitter::Hitter;
+use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
+use crate::collision::hitter::{Hitter, UNRESOLVED};
 use crate::error::Result;
 use crate::solve::{Request, Solution, solve};
 use crate::telling::{Tell, nobody};
@@ -22,8 +22,20 @@ pub struct Sweep {
     /// How much the modes left out change an exit speed at most, by estimate, relative to the
     /// closing speed; None where none are left out by the model.
     pub truncation: Option<f64>,
-    /// Whether every exit speed is within the tolerance by its own estimate.
+    /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
     pub met: bool,
+    /// Whether more modes and finer steps made the answers better; where they do not, the hit magnifies
+    /// what is small, and its exit speed is not defined better than stated.
+    pub settles: bool,
+}
+
+impl Sweep {
+    /// The impact whose exit speed is known worst.
+    pub fn worst(&self) -> Option<(&Impact, &Outcome)> {
+        let of = |impact: &Impact| impact.outcome.as_ref().map_or(f64::NEG_INFINITY, |o| o.error);
+        let worst = self.impacts.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
+        Some((worst, worst.outcome.as_ref()?))
+    }
 }
 
 /// Strikes the bat at all places (m); the request's tolerance is the allowed error of the exit
@@ -60,36 +72,67 @@ pub fn sweep_telling(
     const MOST: usize = 120;
     /// Steps are not made better than this.
     const FINEST: f64 = 1e-12;
+    /// Two rounds that leave more than this share of the error show that the answer is not defined
+    /// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it.
+    const IDLE: f64 = 0.8;
+    const IDLE_DEAD: f64 = 0.3;
+    const DEAD: f64 = 0.05;
+    /// Of the tolerance, the modes' own.
+    const MODES: f64 = 3e-4;
+    /// Share of a change by fewer modes that steps may make of it.
+    const BLURRED: f64 = 0.003;
     let touching = matches!(model, Model::Pulse(_) | Model::Contact);
     let planned = touching && !exactly;
     let mut asked = *request;
     let mut effort = Effort { accuracy: 10.0 * request.tolerance, completed: planned };
     effort.accuracy = effort.accuracy.clamp(1e-11, 1e-3);
     if planned {
-        asked.modes = enough(model, request, bat);
+        asked.modes = enough((model, scene), request, bat);
     }
     if touching {
-        asked.tolerance = (1e-2 * request.tolerance).clamp(1e-13, 1e-5);
+        // What a mode's own error does to a hit is bounded from far above: it is to be no part.
+        asked.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
     }
     tell(0.0, "modes");
     let mut solution = solve(bat, &asked)?;
+    let mut impacts: Vec<Impact> = vec![];
+    let mut before = [f64::INFINITY; 2];
     loop {
         let hitter = Hitter::new(model, scene, bat, &solution, effort)?;
-        let impacts = strikes(&hitter, bat.length(), places, tell);
-        let outcomes = || impacts.iter().filter_map(|i| i.outcome.as_ref());
-        // An error that is not a number is none to pass over.
-        let greater = |worst: f64, e: f64| if e <= worst { worst } else { e };
-        let worst = outcomes().map(|o| o.error).fold(0.0, greater);
-        let truncation = outcomes().map(|o| o.truncation).fold(0.0, greater);
-        let steps = outcomes().map(|o| o.steps).fold(0.0, greater);
-        let met = worst <= request.tolerance;
+        // What is known well enough stays, and so does what is known better than now.
+        let open: Vec<usize> = match impacts.len() {
+            0 => (0..places.len()).collect(),
+            _ => (0..places.len()).filter(|k| doubt(&impacts[*k]) > request.tolerance).collect(),
+        };
+        let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
+        let struck = strikes(&hitter, bat.length(), &struck, tell);
+        if impacts.is_empty() {
+            impacts = struck;
+        } else {
+            for (k, impact) in open.iter().zip(struck) {
+                if doubt(&impact) < doubt(&impacts[*k]) {
+                    impacts[*k] = impact;
+                }
+            }
+        }
+        let outcomes = || open.iter().filter_map(|k| impacts[*k].outcome.as_ref());
+        let most = |of: fn(&Outcome) -> f64| outcomes().map(of).fold(0.0, greater);
+        let [worst, truncation, steps] =
+            [most(|o| o.error), most(|o| o.truncation), most(|o| o.steps)];
+        let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
+        let settles = match scene.cor < DEAD {
+            true => worst <= IDLE_DEAD * before[1],
+            false => worst <= IDLE * before[0],
+        };
+        before = [before[1], worst];
         let (mut finer, mut again) = (asked, false);
-        if !met && request.elements.is_none() {
+        if !met && settles && request.elements.is_none() {
             if planned && truncation > 0.3 * request.tolerance {
                 finer.modes = (finer.modes + finer.modes / 2).min(MOST);
             }
-            // What is compared differs by its steps too, and better ones cost little.
-            let open = truncation.max(steps) > 0.3 * request.tolerance;
+            // What is compared differs by its steps too.
+            let blurred = truncation > 0.3 * request.tolerance && steps > BLURRED * truncation;
+            let open = blurred || steps > 0.3 * request.tolerance;
             if open && effort.accuracy > FINEST {
                 effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
                 again = true;
@@ -114,8 +157,18 @@ pub fn sweep_telling(
             }
         }
         drop(hitter);
-        let truncation = planned.then_some(truncation);
-        return Ok(Sweep { solution, effort, impacts, truncation, met });
+        let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
+        let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
+        return Ok(Sweep { solution, effort, impacts, truncation, met, settles });
+    }
+}
+
+/// The stated error of an exit speed, infinite where the hit is unresolved.
+fn doubt(impact: &Impact) -> f64 {
+    match &impact.outcome {
+        _ if impact.flags.contains(&UNRESOLVED) => f64::INFINITY,
+        Some(outcome) => outcome.error,
+        None => 0.0,
     }
 }
 
@@ -154,8 +207,9 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
             return compared[after].clone();
         }
         let [a, b] = [after - 1, after].map(|i| compared[i].outcome.as_ref());
-        let error = a.zip(b).map(|(a, b)| a.truncation.max(b.truncation));
-        told(hitter.strike_knowing(places[k], error))
+        let errors =
+            a.zip(b).map(|(a, b)| [greater(a.truncation, b.truncation), greater(a.steps, b.steps)]);
+        told(hitter.strike_knowing(places[k], errors))
     };
     threads::map(places.len(), strike)
 }
@@ -163,7 +217,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
 /// How many modes a touch needs for that tolerance, measured on a dowel, a cone and an R161: the
 /// error falls as `n^−6.5` where frequencies rise as `n²`, and as `n^−3.2` where shear lets them
 /// rise as `n`. Never more than a mesh of one element per piece can have.
-fn enough(model: Model, request: &Request, bat: &Bat) -> usize {
+fn enough((model, scene): (Model, &Scene), request: &Request, bat: &Bat) -> usize {
     let digits = -request.tolerance.log10();
     let rate = match (model, request.theory.shears()) {
         (Model::Pulse(_), false) => 8.0,
@@ -171,12 +225,14 @@ fn enough(model: Model, request: &Request, bat: &Bat) -> usize {
         (_, false) => 6.5,
         (_, true) => 3.2,
     };
-    let count = 10.0 * 10.0_f64.powf((digits - 4.0) / rate);
+    // A ball that returns little lets go at once, which stirs twice as many.
+    let few = if scene.cor < 0.2 { 20.0 } else { 10.0 };
+    let count = few * 10.0_f64.powf((digits - 4.0) / rate);
     let most = match request.elements {
         Some(elements) => {
             (request.degree.unwrap_or(3) - 1) * elements.max(bat.profile.pieces.len())
         }
         None => usize::MAX,
     };
-    (count.ceil() as usize).clamp(4, 80).min(most)
+    (count.ceil() as usize).clamp(10, 80).min(most)
 }

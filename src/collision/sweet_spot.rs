@@ -48,7 +48,11 @@ impl SweetSpot {
     /// Searched from the middle of the bat to its tip.
     pub fn find(bat: &Bat, scene: &Scene, solution: &Solution, hitter: &Hitter) -> Self {
         let outer = [0.5 * bat.length(), bat.length()];
-        let looked = Looked::new(outer, hitter);
+        Self::within(&Looked::new(outer, hitter), bat, scene, solution)
+    }
+
+    /// Searched on a stretch that was looked along.
+    pub fn within(looked: &Looked, bat: &Bat, scene: &Scene, solution: &Solution) -> Self {
         let exit_speed_max = looked.greatest(|glance| Some(glance.exit_speed));
         let least = |of: fn(&Glance) -> Option<f64>| {
             let greatest = looked.greatest(|glance| of(glance).map(|value| -value))?;
@@ -57,7 +61,9 @@ impl SweetSpot {
         let last_node = |k: usize| solution.modes.get(k).and_then(|m| m.nodes.last().copied());
         let off = |peak: Peak, by: f64| {
             let x = peak.x + by;
-            (x <= bat.length()).then(|| hitter.glance(x).map(|glance| glance.exit_speed)).flatten()
+            (x <= bat.length())
+                .then(|| looked.hitter.glance(x).map(|glance| glance.exit_speed))
+                .flatten()
         };
         // Hands on a pin feel nothing, and without modes nothing shakes them.
         let feels = |k: usize| {
@@ -91,76 +97,196 @@ pub struct Looked<'a> {
 impl<'a> Looked<'a> {
     /// Looks along that stretch (m).
     pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
-        let seen = threads::map(GRID + 1, |k| hitter.glance(place(ends, k)));
-        Self { ends, hitter, seen }
+        Self::by(ends, GRID, hitter)
     }
 
-    /// The place of the greatest value: the best of the first look, then golden-section search.
+    /// Looks along it in so many steps: fewer do where the best places are known to be near others.
+    pub fn by(ends: [f64; 2], steps: usize, hitter: &'a Hitter<'a>) -> Self {
+        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / steps as f64;
+        Self { ends, hitter, seen: threads::map(steps + 1, |k| hitter.glance(place(k))) }
+    }
+
+    /// The last place's number.
+    fn last(&self) -> usize {
+        self.seen.len() - 1
+    }
+
+    /// The k-th place.
+    fn place(&self, k: usize) -> f64 {
+        let [from, to] = self.ends;
+        from + (to - from) * k as f64 / self.last() as f64
+    }
+
+    /// The place of the greatest value: the best of the first look, then Brent's search.
     pub fn greatest(&self, value: impl Fn(&Glance) -> Option<f64>) -> Option<Peak> {
         let of =
             |glance: &Option<Glance>| glance.as_ref().and_then(&value).unwrap_or(f64::NEG_INFINITY);
-        let best = (0..=GRID).max_by(|&a, &b| of(&self.seen[a]).total_cmp(&of(&self.seen[b])))?;
+        let best =
+            (0..=self.last()).max_by(|&a, &b| of(&self.seen[a]).total_cmp(&of(&self.seen[b])))?;
         let seen = of(&self.seen[best]);
         if seen == f64::NEG_INFINITY {
             return None;
         }
         let at = |x: f64| of(&self.hitter.glance(x));
-        let low = place(self.ends, best.saturating_sub(1));
-        let high = place(self.ends, (best + 1).min(GRID));
+        let low = self.place(best.saturating_sub(1));
+        let high = self.place((best + 1).min(self.last()));
         let width = WIDTH * (self.ends[1] - self.ends[0]);
-        let found = golden([low, high], width, at);
+        let here = Peak { x: self.place(best), value: seen };
+        let found = brent([low, high], here, width, at);
         // The ends of the interval may be the best, where the search only comes near.
-        let here = Peak { x: place(self.ends, best), value: seen };
         Some(if found.value > here.value { found } else { here })
     }
 
-    /// How far from the peak the exit speed stays within 1 %, bisected on both sides.
+    /// How far from the peak the exit speed stays within 1 %, by the Illinois method on both sides.
     fn zone(&self, peak: Peak) -> [f64; 2] {
         let floor = peak.value - 0.01 * peak.value.abs();
-        let enough = |glance: &Option<Glance>| glance.is_some_and(|g| g.exit_speed >= floor);
+        let above = |glance: &Option<Glance>| glance.map_or(f64::NAN, |g| g.exit_speed - floor);
         let [from, to] = self.ends;
         let edge = |end: f64, bad: Option<usize>| {
-            let Some(bad) = bad else { return end };
-            let mut bad = place(self.ends, bad);
-            let mut inside = peak.x;
-            while (bad - inside).abs() > WIDTH * (to - from) {
-                let middle = 0.5 * (bad + inside);
-                if enough(&self.hitter.glance(middle)) { inside = middle } else { bad = middle }
-            }
-            inside
+            let Some(k) = bad else { return end };
+            let bad = [self.place(k), above(&self.seen[k])];
+            let at = |x: f64| above(&self.hitter.glance(x));
+            boundary([peak.x, peak.value - floor], bad, WIDTH * (to - from), at)
         };
-        let poor = |k: &usize| !enough(&self.seen[*k]);
-        let below = (0..=GRID).rev().filter(|k| place(self.ends, *k) < peak.x).find(poor);
-        let above = (0..=GRID).filter(|k| place(self.ends, *k) > peak.x).find(poor);
-        [edge(from, below), edge(to, above)]
+        // What is not a number is not enough.
+        let poor = |k: &usize| above(&self.seen[*k]).is_nan() || above(&self.seen[*k]) < 0.0;
+        let below = (0..=self.last()).rev().filter(|k| self.place(*k) < peak.x).find(poor);
+        let beyond = (0..=self.last()).filter(|k| self.place(*k) > peak.x).find(poor);
+        [edge(from, below), edge(to, beyond)]
     }
 }
 
-/// The k-th place of a first look.
-fn place([from, to]: [f64; 2], k: usize) -> f64 {
-    from + (to - from) * k as f64 / GRID as f64
-}
-
-/// The greatest value on an interval that has one maximum, located to that width.
-fn golden([mut low, mut high]: [f64; 2], width: f64, value: impl Fn(f64) -> f64) -> Peak {
-    let shrink = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut left = high - shrink * (high - low);
-    let mut right = low + shrink * (high - low);
-    let (mut at_left, mut at_right) = (value(left), value(right));
-    while high - low > width {
-        if at_left > at_right {
-            (high, right, at_right) = (right, left, at_left);
-            left = high - shrink * (high - low);
-            at_left = value(left);
+/// The greatest value on an interval that has one maximum, located to that width: parabolas through
+/// the best three places, golden sections where these do not close in.
+///
+/// # Source
+///
+/// R. P. Brent, Algorithms for Minimization without Derivatives (1973), chapter 5.
+fn brent(
+    [mut low, mut high]: [f64; 2],
+    start: Peak,
+    width: f64,
+    value: impl Fn(f64) -> f64,
+) -> Peak {
+    const MOST: usize = 60;
+    let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
+    let (mut best, mut second, mut third) = (start, start, start);
+    let (mut step, mut before): (f64, f64) = (0.0, 0.0);
+    for _ in 0..MOST {
+        let middle = 0.5 * (low + high);
+        if (best.x - middle).abs() + 0.5 * (high - low) <= 2.0 * width {
+            break;
+        }
+        let (r, q) = (
+            (best.x - second.x) * (best.value - third.value),
+            (best.x - third.x) * (best.value - second.value),
+        );
+        let over = 2.0 * (q - r);
+        let by = ((best.x - second.x) * r - (best.x - third.x) * q) / over;
+        let inside = best.x + by > low + width && best.x + by < high - width;
+        // A parabola that is not a number is none.
+        if inside && by.abs() < 0.5 * before.abs() {
+            (before, step) = (step, by);
         } else {
-            (low, left, at_left) = (left, right, at_right);
-            right = low + shrink * (high - low);
-            at_right = value(right);
+            before = if best.x < middle { high - best.x } else { low - best.x };
+            step = golden * before;
+        }
+        let x = best.x + if step.abs() < width { width.copysign(step) } else { step };
+        let found = Peak { x, value: value(x) };
+        if found.value >= best.value {
+            if x > best.x {
+                low = best.x
+            } else {
+                high = best.x
+            }
+            (third, second, best) = (second, best, found);
+        } else {
+            if x > best.x {
+                high = x
+            } else {
+                low = x
+            }
+            if found.value >= second.value || second.x == best.x {
+                (third, second) = (second, found);
+            } else if found.value >= third.value || third.x == best.x || third.x == second.x {
+                third = found;
+            }
         }
     }
-    if at_left > at_right {
-        Peak { x: left, value: at_left }
-    } else {
-        Peak { x: right, value: at_right }
+    best
+}
+
+/// The last place that is not below zero, between one that is not (place and value) and one that is
+/// or has no value, located to that width.
+///
+/// # Source
+///
+/// The Illinois variant of false position: M. Dowell, P. Jarratt, BIT 11, 168 (1971).
+fn boundary(
+    [mut good, mut over]: [f64; 2],
+    [mut bad, mut under]: [f64; 2],
+    width: f64,
+    value: impl Fn(f64) -> f64,
+) -> f64 {
+    const MOST: usize = 60;
+    let mut side = 0;
+    for _ in 0..MOST {
+        if (bad - good).abs() <= width {
+            break;
+        }
+        let share = over / (over - under);
+        // Without a value there are halves.
+        let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };
+        // Beyond the edge by less than the width, so that the interval closes from both sides.
+        let aimed = good + share * (bad - good);
+        let least = 0.5 * width / (bad - good).abs();
+        let x = match aimed {
+            _ if share < least => good + least * (bad - good),
+            _ if share > 1.0 - least => bad - least * (bad - good),
+            aimed => aimed,
+        };
+        let found = value(x);
+        if found >= 0.0 {
+            (good, over) = (x, found);
+            under *= if side == 1 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            (bad, under) = (x, found);
+            over *= if side == -1 { 0.5 } else { 1.0 };
+            side = -1;
+        }
+    }
+    good
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `1 − |x − a|^p` has its greatest value at a, smooth or a kink; a search that starts beside it
+    /// finds it, and no value beyond the interval is asked for.
+    #[test]
+    fn the_greatest_value_is_found_to_the_width() {
+        for (power, a) in [(2.0, 0.61), (1.0, 0.61), (4.0, 0.61), (2.0, 0.5), (1.0, 0.7)] {
+            let value = |x: f64| {
+                assert!((0.5..=0.7).contains(&x));
+                1.0 - (x - a).abs().powf(power)
+            };
+            let start = Peak { x: 0.6, value: value(0.6) };
+            let found = brent([0.5, 0.7], start, 1e-6, value);
+            let flat = f64::EPSILON.powf(1.0 / power);
+            assert!((found.x - a).abs() < 3e-6 + 2.0 * flat, "{power} {a} {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_boundary_is_found_to_the_width_where_one_side_has_no_value_too() {
+        let value = |x: f64| 0.3 - x * x;
+        let exact = 0.3_f64.sqrt();
+        let found = boundary([0.0, 0.3], [1.0, -0.7], 1e-9, value);
+        assert!(found <= exact && exact - found < 1e-9);
+        let none_beyond = |x: f64| if x < 0.4 { 1.0 } else { f64::NAN };
+        let found = boundary([0.0, 1.0], [1.0, f64::NAN], 1e-9, none_beyond);
+        assert!(found < 0.4 && 0.4 - found < 1e-9);
     }
 }

@@ -40,6 +40,8 @@ pub struct State {
     pub impulse: f64,
     /// Energy the bat's damping has taken (J).
     pub lost: f64,
+    /// Energy lost in the ball by touches that are over (J).
+    pub spent: f64,
 }
 
 impl State {
@@ -136,7 +138,7 @@ impl Touch<'_> {
             }
         }
         let rest = 0.5 * self.felt.rest * state.force * state.force;
-        rigid + 0.5 * sum(modes) + stored + lost + state.lost + rest
+        rigid + 0.5 * sum(modes) + stored + lost + state.lost + state.spent + rest
     }
 
     /// Compression and force from the motions: `x + C F(x) = z + Σ y`.
@@ -152,7 +154,7 @@ impl Touch<'_> {
                 break;
             };
             (x, force) = (x + by, near);
-            if by.abs() <= 1e-8 * x || rest == 0.0 {
+            if by.abs() <= 1e-8 * self.law.fine(top) * x || rest == 0.0 {
                 [state.compression, state.force] = [x, force];
                 return;
             }

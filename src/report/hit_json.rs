@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::bat::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::figures::{Figures, Swung};
-use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Wall};
+use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Separation, Wall};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::ignored;
 use crate::schema;
@@ -134,6 +134,7 @@ fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
         cor: number(&|o| o.cor),
         impulse_n_s: number(&|o| o.impulse),
         contact_time_s: outcome.and_then(|o| o.contact_time),
+        first_separation: outcome.and_then(|o| o.first_separation).map(separation),
         peak_force_n: outcome.and_then(|o| o.peak_force),
         peak_compression_m: outcome.and_then(|o| o.peak_compression),
         collision_efficiency: number(&|o| o.collision_efficiency),
@@ -144,6 +145,10 @@ fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
         energy_j: outcome.map(|o| energy_out(&o.energy)),
         error: file::HitError { exit_speed: number(&|o| o.error) },
     }
+}
+
+fn separation(first: Separation) -> file::FirstSeparation {
+    file::FirstSeparation { time_s: first.time, exit_speed_m_s: first.exit_speed }
 }
 
 fn energy_out(energy: &Energy) -> file::Energy {

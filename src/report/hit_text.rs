@@ -12,7 +12,28 @@ use crate::report::curve;
 use crate::report::text::{Units, rounded, wrapped};
 use crate::units::{inches, miles_per_hour};
 
-/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration.
+/// What the flags of hits mean, and the letters that stand for them in the table.
+const FLAGS: [(&str, char, &str); 7] = [
+    ("reload", 'r', "pressed again while it was springing back"),
+    ("late_contact", 'l', "the bat caught up when the force had almost gone"),
+    ("second_contact", 's', "hit again after it left; the speed is that in the end"),
+    ("no_contact", 'n', "the bat runs away from the ball"),
+    ("no_section", 'p', "the bat ends in a point"),
+    ("no_real_solution", 'i', "the model has no real solution"),
+    ("unresolved", 'u', "not resolved: the energies do not close"),
+];
+
+/// A line for every flag that hits have.
+fn legend(impacts: &[Impact]) -> String {
+    let has = |flag: &&(&str, char, &str)| impacts.iter().any(|i| i.flags.contains(&flag.0));
+    let line = |(name, letter, words): &(&str, char, &str)| {
+        format!("  {letter}  {}: {words}\n", name.replace('_', " "))
+    };
+    FLAGS.iter().filter(has).map(line).collect()
+}
+
+/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration, and what
+/// is unusual.
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     let mut out =
         row(["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-"].map(str::to_owned));
@@ -47,9 +68,12 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         } else {
             cells[3] = "no value".to_owned();
         }
-        out += &row(cells);
+        let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
+        let marks: String = letters.collect();
+        let gap = if marks.is_empty() { "" } else { " " };
+        let _ = writeln!(out, "{}{gap}{marks}", row(cells).trim_end_matches('\n'));
     }
-    out
+    out + &legend(impacts)
 }
 
 /// Eight right-aligned cells, 76 columns.

@@ -105,7 +105,7 @@ pub struct Impact {
     pub from_tip_m: f64,
     /// Speed of the bat there before the hit (m/s).
     pub bat_speed_m_s: f64,
-    /// Speed of the ball off the bat (m/s).
+    /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed_m_s: Option<f64>,
     /// The same if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Option<f64>,
@@ -113,8 +113,11 @@ pub struct Impact {
     pub cor: Option<f64>,
     /// Impulse (N s).
     pub impulse_n_s: Option<f64>,
-    /// From the first touch to the last (s), where the model has it.
+    /// Time in touch (s), all touches together, where the model has it.
     pub contact_time_s: Option<f64>,
+    /// The ball's first departure, where the model has times; the ball may be caught again.
+    #[serde(default)]
+    pub first_separation: Option<FirstSeparation>,
     /// Largest force (N), where the model has it.
     pub peak_force_n: Option<f64>,
     /// Largest compression of the ball (m), where the model has it.
@@ -129,15 +132,25 @@ pub struct Impact {
     pub bbcor_pivoted: Option<f64>,
     /// How many bending modes took part.
     pub modes_used: Option<usize>,
-    /// Why there is no outcome: no_contact, no_section, no_real_solution. Or what makes it delicate:
-    /// reload (the ball was pressed further after it had begun to spring back), late_contact (the
-    /// bat caught up when the force had almost gone), second_contact (the bat would have caught the
-    /// ball again after it left). There may come others.
+    /// Why there is no outcome: no_contact, no_section, no_real_solution, unresolved (the steps came
+    /// to no end, or the energies do not close). Or what makes it delicate: reload (the ball was
+    /// pressed further after it had begun to spring back), late_contact (the bat caught up when the
+    /// force had almost gone), second_contact (the bat caught the ball again after it left; it is
+    /// followed). There may come others.
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
     pub energy_j: Option<Energy>,
     /// How far the numbers above may be off.
     pub error: HitError,
+}
+
+/// The moment at which the ball leaves the bat for the first time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FirstSeparation {
+    /// Since the first touch (s).
+    pub time_s: f64,
+    /// Speed of the ball then (m/s).
+    pub exit_speed_m_s: f64,
 }
 
 /// Energies (J): the initial one is the sum of all others, each computed on its own.

@@ -57,7 +57,11 @@ fn asked() -> Result<Asked> {
 }
 
 fn main() -> Result<()> {
-    let asked = asked()?;
+    let mut asked = asked()?;
+    // The tests run in the copy: a relative path would mean another place there.
+    std::fs::create_dir_all(&asked.copy)?;
+    asked.root = asked.root.canonicalize()?;
+    asked.copy = asked.copy.canonicalize()?;
     let all = sites::of_folders(&asked.root, &["src/beam", "src/eigen", "src/collision"])?;
     println!("{} places for an error", all.len());
     let drawn = sites::drawn(all, asked.seed, asked.count);
