@@ -6,17 +6,17 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use sweetspot::base::telling::nobody;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
-use sweetspot::collision::contact::Collider;
-use sweetspot::collision::force_law::{ForceLaw, Top};
+use sweetspot::collision::contact::encounter::Collider;
+use sweetspot::collision::contact::force_law::{ForceLaw, Top};
+use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::strikes;
-use sweetspot::collision::touch::Felt;
-use sweetspot::telling::nobody;
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// Impact points of a barrel sweep, over the length.

@@ -6,8 +6,8 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::bat::theory::Theory;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, Solver, solve};
 
 /// Assembly, eigenpairs, shapes, nodes, modal masses and error estimates.

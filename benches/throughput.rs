@@ -6,9 +6,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use sweetspot::batch::{Way, all, each};
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::modes::batch::{Way, all, each};
 use sweetspot::{Bat, Request};
 
 const BATS: usize = 10_000;

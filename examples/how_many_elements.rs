@@ -6,7 +6,8 @@
 //! bat solved as accurately as can be, and what it says of its own error against what its error is.
 
 use std::env;
-use sweetspot::{Bat, Request, Result, Solution, choice, solve};
+use sweetspot::study::theory_choice;
+use sweetspot::{Bat, Request, Result, Solution, solve};
 
 /// Five modes, as a maker of bats would ask for.
 const MODES: usize = 5;
@@ -23,7 +24,7 @@ fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
     let bat = Bat::from_file(path)?;
     let mut request = Request { modes: MODES, tolerance: 1e-4, ..Request::default() };
-    request.theory = choice::theory(&bat, &request)?.theory;
+    request.theory = theory_choice::theory(&bat, &request)?.theory;
     let reference = solve(&bat, &Request { tolerance: 1e-13, ..request })?;
     let certain = reference.worst();
 

@@ -7,14 +7,14 @@
 //! the rotation about the point 6 in from the knob (`Ω = Ω₀ √(I₀/I)`).
 
 use std::env;
-use sweetspot::bat::{STANDARD_PIVOT, Weighed};
-use sweetspot::choice;
+use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches};
+use sweetspot::bat::body::{STANDARD_PIVOT, Weighed};
+use sweetspot::bat::fixtures::Attachment;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::Looked;
 use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::fixtures::Attachment;
-use sweetspot::units::{inches, miles_per_hour, ounce_square_inches};
+use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Request, Result};
 
 const OUNCE: f64 = 0.028_349_523_125;
@@ -49,7 +49,7 @@ fn main() -> Result<()> {
     let reference = bare.inertia().about(STANDARD_PIVOT);
     let batter = SwingLaw { exponent: 0.5, reference, of_reference: SWING };
     let mut request = Request { tolerance: 1e-5, ..Request::default() };
-    request.theory = choice::theory(&bare, &request)?.theory;
+    request.theory = theory_choice::theory(&bare, &request)?.theory;
 
     println!("{}, with a weight {:.2} in from the knob end", bare.name, inches(KNOB));
     println!("                                                      sweet     fastest ball, mph,");

@@ -14,7 +14,7 @@
 //! checks itself against it.
 
 use std::f64::consts::PI;
-use sweetspot::response::{Oscillator, partial_sums, struck};
+use sweetspot::motion::oscillator::{Oscillator, partial_sums, struck};
 
 /// A string between two fixed ends; SI units.
 pub struct DampedString {

@@ -9,14 +9,14 @@
 //! take away, which the stated errors show.
 
 use std::env;
-use sweetspot::bat::STANDARD_PIVOT;
-use sweetspot::choice;
+use sweetspot::base::units::{miles_per_hour, ounce_square_inches};
+use sweetspot::bat::body::STANDARD_PIVOT;
+use sweetspot::bat::profile::Radii;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::collision::sweet_spot::Looked;
 use sweetspot::collision::{Effort, Hitter, Model, Scene};
-use sweetspot::profile::Radii;
-use sweetspot::units::{miles_per_hour, ounce_square_inches};
+use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Error, Request, Result, Solution, solve};
 
 const INCH: f64 = 0.0254;
@@ -60,7 +60,7 @@ fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
     let bat = Bat::from_file(path)?;
     let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
-    request.theory = choice::theory(&bat, &request)?.theory;
+    request.theory = theory_choice::theory(&bat, &request)?.theory;
     let scene = Scene { swing: SWING, ..Scene::default() };
     let sweep = sweep(&bat, Model::Contact, &scene, &request, false, &[0.8 * bat.length()])?;
     request = Request { modes: sweep.solution.modes.len(), tolerance: 1e-9, ..request };

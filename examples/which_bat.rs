@@ -6,12 +6,12 @@
 //! the point 6 in from the knob is the same (`Ω = Ω₀ √(I₀/I)`, bat A at 50 rad/s).
 
 use std::env;
-use sweetspot::bat::STANDARD_PIVOT;
-use sweetspot::choice;
+use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::sweep::sweep;
 use sweetspot::collision::{Model, Scene};
-use sweetspot::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Request, Result};
 
 /// Allowed error of an exit speed over the closing speed.
@@ -27,7 +27,7 @@ fn from_tip(k: usize) -> f64 {
 fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let scene = Scene { swing: batter.swing(bat), ..Scene::default() };
     let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
-    request.theory = choice::theory(bat, &request)?.theory;
+    request.theory = theory_choice::theory(bat, &request)?.theory;
     let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
     let sweep = sweep(bat, Model::Contact, &scene, &request, false, &places)?;
 

@@ -6,10 +6,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use sweetspot::bat::formula::Formula;
 use sweetspot::collision::ball::Ball;
-use sweetspot::exchange::modes_file;
-use sweetspot::formula::Formula;
-use sweetspot::{Bat, Error, Request, Result, force_file, measured_file, shape_file, solve};
+use sweetspot::files::force_file;
+use sweetspot::files::measured;
+use sweetspot::files::shape_file;
+use sweetspot::show::exchange::modes_file;
+use sweetspot::{Bat, Error, Request, Result, solve};
 
 /// A reader: whether it took the bytes.
 pub type Reader = fn(&[u8]) -> bool;
@@ -76,7 +79,7 @@ pub fn shape(bytes: &[u8]) -> bool {
 /// Measured modes, in a universal file or a table.
 pub fn measured(bytes: &[u8]) -> bool {
     let universal = bytes.starts_with(b"    -1");
-    in_file(bytes, if universal { "input.uff" } else { "input.csv" }, measured_file::read)
+    in_file(bytes, if universal { "input.uff" } else { "input.csv" }, measured::read)
 }
 
 fn text(bytes: &[u8]) -> String {

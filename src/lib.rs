@@ -18,7 +18,7 @@
 //!
 //! ```
 //! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot, sweep::sweep};
-//! use sweetspot::profile::{Interpolation, Stations};
+//! use sweetspot::bat::profile::{Interpolation, Stations};
 //! use sweetspot::{Bat, Material, Profile, Request, Theory, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
@@ -71,47 +71,29 @@
 //! where the three balance. `examples/` answers longer questions, `docs/theory.md` has the equations
 //! in one piece, and the `sweetspot` program does all of this from a bat file.
 //!
-//! # The modules, in the order of the flow
+//! # The chapters, in the order of the flow
 //!
-//! A module uses only those above it, so that `src/` can be read from top to bottom.
+//! A chapter uses only those above it, and a file in it only the files declared above it, so that
+//! `src/` can be read from top to bottom.
 //!
-//! | module | question it answers |
+//! | chapter | question it answers |
 //! |---|---|
-//! | [`error`], [`telling`], [`units`] | what did the caller get wrong; how far is long work; what is a number with a unit in SI |
-//! | [`real`], [`lanes`], [`quadrature`] | what do we count with, how do we integrate |
-//! | [`interval`] | which values can an expression take on an interval |
-//! | [`material`], [`theory`] | how stiff, how heavy; which beam |
-//! | [`formula`], [`profile`], [`layup`] | what is the section at `x`, and what is it worth |
-//! | [`fixtures`] | what is on the bat, what holds it |
-//! | [`bat`] | what bat is this: mass, balance point, swing weight; is it possible |
-//! | [`shape_file`], [`force_file`] | how did somebody write down a shape, a force in time |
+//! | [`base`] | what do we count with, and how do we fail |
+//! | [`bat`] | what bat is this |
 //! | [`eigen`] | what are the extreme eigenvalues of an operator or of two matrices |
-//! | [`beam`] | what does one element store, what does a load do to the bat |
-//! | [`eigenpairs`], [`modes`] | how does the bat ring: frequencies, shapes, nodes, modal masses |
-//! | [`flexible`], [`reduced`], [`damping`] | how does it give way, how do its motions die out |
-//! | [`certificate`], [`factored`] | how far may a mode be trusted; what do other solvers say |
-//! | [`survey`], [`plan`], [`solve`](mod@solve), [`batch`] | which elements does an accuracy need: plan, solve, refine |
-//! | [`up_to`] | how many modes are there up to a frequency |
-//! | [`trade`] | what does a digit cost on this bat |
-//! | [`ignored`], [`choice`], [`weighed`], [`advise`] | what was left out and what does it cost; which theory; how stiff by a tap; which physics |
-//! | [`dowel`] | what does a uniform beam do, in closed form |
-//! | [`response`], [`ringing`], [`frf`] | how does the bat move after a blow, under a force, at a frequency |
+//! | [`beam`] | what does one element store; what does a load do to the bat |
+//! | [`modes`] | how does the bat ring, as accurately as asked |
+//! | [`motion`] | how does it move after a blow, under a force, at a frequency |
 //! | [`collision`] | what do ball and bat do when they meet; where is the sweet spot |
-//! | [`schema`] | what stands in a file, and what does its JSON Schema say |
-//! | [`known_hits`], [`validation`] | are known answers reproduced |
-//! | [`comparison`] | which of several bats hits harder, where, and is the difference more than the errors |
-//! | [`analysis`] | what is there to say of one bat and its hits, all at once |
-//! | [`measured`] | which measured mode is which computed one, and is the measurement sound |
-//! | [`report`] | how is all of it printed and written |
-//! | [`exchange`], [`measured_file`] | how do other programs read it; how did a laboratory write down its modes |
-//! | [`plot`], [`page`] | what does it look like; what does all of it say on one page |
-//! | [`published`], [`hit_figure`], [`validation_page`] | are published figures reproduced; what does the page of proofs show |
-//! | [`promise`], [`hit_promise`], [`extremes`] | do stated errors hold; does what no bat is stay right |
+//! | [`study`] | what follows for a person who asks |
+//! | [`files`] | how do people and programs write it down |
+//! | [`proof`] | is it true |
+//! | [`show`] | how is it said, drawn and exchanged |
 //!
 //! # What is promised
 //!
 //! True errors of frequencies, nodes, modal masses and exit speeds are within three times the stated ones,
-//! always; the stated are within thirty times the true in nine cases of ten, and [`promise`] checks
+//! always; the stated are within thirty times the true in nine cases of ten, and [`proof::promise`] checks
 //! both. Where an accuracy cannot be reached the best answer comes with [`Solution::met`] false.
 //!
 //! # Conventions
@@ -125,7 +107,7 @@
 //! - A swing goes in +: the bat moves in +, the ball comes in − and leaves in +. Speeds of balls
 //!   that are asked for are positive towards the bat. A pivot beyond the knob is positive.
 //! - Inertias are the body's, sections' own `∫ρI dx` included; a theory without rotary inertia
-//!   recoils as a line of mass, and says so ([`ignored`]).
+//!   recoils as a line of mass, and says so ([`study::ignored`]).
 //! - What does not exist is `None`, and null in a file; no NaN and no infinity is given out.
 //!
 //! # Symbols
@@ -153,7 +135,7 @@
 //! | `θ = 1/λ` in [`eigen`] | eigenvalue of the compliance, Ritz value | s² |
 //! | `σ` | shift of the eigenvalues for solvers that factor | 1/s² |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |
-//! | `η` | twice the relative error of a frequency, its defect; in [`damping`] the loss factor | 1 |
+//! | `η` | twice the relative error of a frequency, its defect; in [`modes::damping`] the loss factor | 1 |
 //! | `ζ`, `s = −ζω + iω_d` | damping ratio; how a damped motion goes, as `e^{st}` | 1, 1/s |
 //! | `ε` | 2⁻⁵², the spacing of numbers at 1 (in [`collision::aftermath`] a strain) | 1 |
 //!
@@ -173,7 +155,7 @@
 //!
 //! Sections stay round and plane: hoop modes of hollow barrels, and wood that differs across the
 //! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
-//! solution ([`ignored`]), and [`advise`] measures what each part of a model does. A barrel's wall
+//! solution ([`study::ignored`]), and [`study::advise`] measures what each part of a model does. A barrel's wall
 //! under the ball is one spring-mass of the caller's own figures, and a hit counts dashpots mode by
 //! mode ([`collision`]). The ball meets the bat head on, without spin and friction.
 //!
@@ -189,86 +171,22 @@
 // Matrices are written with the indices of their formulas.
 #![allow(clippy::needless_range_loop)]
 
-pub mod error;
-pub mod file;
-mod mistakes;
-pub mod telling;
-mod threads;
-pub mod units;
-pub mod real;
-pub mod lanes;
-pub mod quadrature;
-pub mod interval;
-pub mod material;
-pub mod theory;
-mod pchip;
-pub mod formula;
-mod formula_range;
-mod tip;
-pub mod profile;
-mod formula_bounds;
-mod formula_profile;
-pub mod layup;
-pub mod fixtures;
-mod fixtures_check;
+pub mod base;
 pub mod bat;
-mod document;
-mod broken_json;
-mod json_node;
-mod csv_file;
-mod station_table;
-mod material_file;
-mod fixtures_file;
-pub mod bat_file;
-pub mod shape_file;
-pub mod force_file;
 pub mod eigen;
 pub mod beam;
-pub mod eigenpairs;
 pub mod modes;
-pub mod flexible;
-pub mod reduced;
-pub mod damping;
-pub mod certificate;
-pub mod factored;
-pub mod survey;
-pub mod plan;
-mod memory;
-pub mod solve;
-pub mod up_to;
-pub mod batch;
-pub mod trade;
-pub mod ignored;
-pub mod choice;
-pub mod weighed;
-pub mod advise;
-pub mod dowel;
-pub mod response;
-pub mod ringing;
-pub mod frf;
+pub mod motion;
 pub mod collision;
-pub mod schema;
-pub mod known_hits;
-pub mod validation;
-pub mod comparison;
-pub mod analysis;
-pub mod measured;
-pub mod report;
-pub mod exchange;
-pub mod measured_file;
-pub mod plot;
-pub mod page;
-pub mod published;
-pub mod hit_figure;
-pub mod validation_page;
-pub mod promise;
-pub mod hit_promise;
-pub mod extremes;
+pub mod study;
+pub mod files;
+pub mod proof;
+pub mod show;
 
-pub use bat::Bat;
-pub use error::{Error, Result};
-pub use material::Material;
-pub use modes::Mode;
-pub use profile::Profile;
-pub use solve::{Request, Solution, Solver, solve};
-pub use theory::Theory;
+pub use base::error::{Error, Result};
+pub use bat::body::Bat;
+pub use bat::material::Material;
+pub use bat::profile::Profile;
+pub use bat::theory::Theory;
+pub use modes::mode::Mode;
+pub use modes::solve::{Request, Solution, Solver, solve};

@@ -5,8 +5,8 @@ mod common;
 use std::time::Duration;
 
 use common::{LENGTH, beta, cone, dowel, dowel_frequency};
-use sweetspot::solve::solve_within;
-use sweetspot::validation::{CASES, Truth, bundled_bat};
+use sweetspot::modes::solve::solve_within;
+use sweetspot::proof::validation::{CASES, Truth, bundled_bat};
 use sweetspot::{Bat, Request, Solver, solve};
 
 fn on(elements: usize, modes: usize) -> Request {

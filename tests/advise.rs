@@ -6,12 +6,12 @@ use std::path::Path;
 
 use common::folder::Folder;
 use serde_json::{Value, json};
-use sweetspot::advise::advice::{Advice, advise};
-use sweetspot::advise::effect::{Effect, Switch};
-use sweetspot::advise::part::Part;
-use sweetspot::dowel::{Ends, beta_l};
-use sweetspot::theory::Theory;
-use sweetspot::validation::{CASES, bundled_bat};
+use sweetspot::bat::theory::Theory;
+use sweetspot::beam::dowel::{Ends, beta_l};
+use sweetspot::proof::validation::{CASES, bundled_bat};
+use sweetspot::study::advise::advice::{Advice, advise};
+use sweetspot::study::advise::effect::{Effect, Switch};
+use sweetspot::study::advise::part::Part;
 use sweetspot::{Bat, Request, solve};
 
 fn read(document: &Value) -> Bat {
@@ -343,7 +343,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
     let folder = Folder::new("advice");
     let everything = json!({ "grip": { "from": 0, "to": 0.15, "stiffness": 4e5, "damping": 300 },
         "absorbers": [{ "x": 0.1, "mass": 0.03, "frequency": 170, "damping": 2 }] });
-    let resolved = sweetspot::report::resolved::resolved(&dowel("timo_dowel", everything));
+    let resolved = sweetspot::show::report::resolved::resolved(&dowel("timo_dowel", everything));
     folder.write("held.json", resolved.to_string());
     let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let bats = ["dowel", "r161", "corked", "two_piece"]

@@ -1,10 +1,10 @@
 //! What comes of a hit: identities and closed forms.
 
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const EXACTLY: Effort = Effort { accuracy: 1e-3, completed: false };
@@ -94,7 +94,7 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
 /// moment under a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
-    use sweetspot::collision::step::Piece;
+    use sweetspot::collision::contact::step::Piece;
     let bat = bundled_bat("meshes/dowel.json").unwrap();
     let request = Request { modes: 60, tolerance: 1e-6, ..Request::default() };
     let solution = solve(&bat, &request).unwrap();
@@ -125,7 +125,7 @@ fn a_slow_push_strains_as_statics_says() {
 /// What was found in a short look is found in a long one.
 #[test]
 fn a_longer_look_finds_no_less() {
-    use sweetspot::report::aftermath::AfterHit;
+    use sweetspot::show::report::aftermath::AfterHit;
     let (bat, solution) = r161();
     let scene = Scene::default();
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();

@@ -3,7 +3,7 @@
 mod common;
 
 use common::cone;
-use sweetspot::batch::{Way, each};
+use sweetspot::modes::batch::{Way, each};
 use sweetspot::{Bat, Request};
 
 #[test]

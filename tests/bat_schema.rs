@@ -10,7 +10,7 @@ use common::folder::Folder;
 use jsonschema::Validator;
 use serde_json::{Value, json};
 use sweetspot::Bat;
-use sweetspot::schema::File;
+use sweetspot::files::schema::File;
 
 /// A bat with everything on it and under it.
 const FULL: &str = r#"{

@@ -7,7 +7,7 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 fn solved(path: &str) -> (Bat, Solution) {
@@ -98,7 +98,7 @@ fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
     for fraction in [0.55, 0.7, 0.95] {
         let outcome = hitter.strike(fraction * bat.length()).outcome.unwrap();
         for (n, energy) in (1..).zip(&outcome.energy.vibration_by_mode) {
-            let shape = sweetspot::dowel::wpi_shape(n, fraction);
+            let shape = sweetspot::collision::energy_loss::wpi_shape(n, fraction);
             let share = 0.2 * shape * shape / ((2 * n + 1) as f64).powi(2);
             let expected = share * outcome.impulse.powi(2) / scene.ball.mass;
             assert!((energy - expected).abs() < 1e-6 * outcome.energy.initial, "{fraction} {n}");

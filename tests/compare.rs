@@ -6,15 +6,15 @@ use common::folder::Folder;
 use common::{bat, cone};
 use serde_json::Value;
 use sweetspot::Bat;
+use sweetspot::bat::profile::Interpolation;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::pulse::Pulse;
-use sweetspot::comparison::contender::Terms;
-use sweetspot::comparison::rows::{Row, Unit};
-use sweetspot::comparison::table::{Comparison, Entry};
-use sweetspot::profile::Interpolation;
-use sweetspot::solve::Request;
-use sweetspot::theory::Theory;
+use sweetspot::modes::solve::Request;
+use sweetspot::study::comparison::contender::Terms;
+use sweetspot::study::comparison::rows::{Row, Unit};
+use sweetspot::study::comparison::table::{Comparison, Entry};
 
 const INCH: f64 = 0.0254;
 

@@ -6,16 +6,16 @@ mod common;
 use common::folder::Folder;
 use common::pictures::{check, number, scale, texts, ticks};
 use resvg::usvg::roxmltree::Document;
+use sweetspot::bat::profile::Interpolation;
 use sweetspot::collision::hit::{Impact, Model, Scene};
-use sweetspot::comparison::contender::{Contender, Terms};
-use sweetspot::comparison::table::{Comparison, Entry};
-use sweetspot::measured::place::{End, Told};
-use sweetspot::measured::study::Study;
-use sweetspot::measured_file;
-use sweetspot::plot::picture::Picture;
-use sweetspot::plot::{self, compared};
-use sweetspot::profile::Interpolation;
-use sweetspot::validation::bundled_bat;
+use sweetspot::files::measured;
+use sweetspot::proof::validation::bundled_bat;
+use sweetspot::show::plot::picture::Picture;
+use sweetspot::show::plot::{self, compared};
+use sweetspot::study::comparison::contender::{Contender, Terms};
+use sweetspot::study::comparison::table::{Comparison, Entry};
+use sweetspot::study::measured::place::{End, Told};
+use sweetspot::study::measured::study::Study;
 use sweetspot::{Bat, Request, solve};
 
 fn bat(name: &str) -> Bat {
@@ -125,7 +125,7 @@ fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> 
     places.enumerate().for_each(|(i, x)| row(&x.to_string(), &|k| shapes[k][i].to_string()));
     let folder = Folder::new("plots-measured");
     folder.write("measured.csv", text);
-    let measured = measured_file::read(&folder.0.join("measured.csv")).unwrap();
+    let measured = measured::read(&folder.0.join("measured.csv")).unwrap();
     let told = Told { first: Some(End::Knob), origin: None };
     let study = Study::new(bat, measured, &Request::default(), false, told).unwrap();
     plot::measured::pictures(&bat.name, &study)

@@ -3,6 +3,9 @@
 
 mod common;
 
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hit::{Effort, Impact, Model, Outcome, Scene};
 use sweetspot::collision::hitter::Hitter;
@@ -10,10 +13,7 @@ use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// Swing and pitch of the WPI report, a ball of 5 oz with k = 1e7 N/m^1.5.
@@ -226,7 +226,7 @@ fn a_mode_at_its_node_adds_nothing() {
 /// How large a mode is drawn is nobody's business.
 #[test]
 fn a_mode_s_scale_changes_nothing() {
-    use sweetspot::modes::Shape;
+    use sweetspot::modes::mode::Shape;
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let solution = solved(&bat, 8, Theory::Timoshenko);
     let mut scaled = solution.clone();

@@ -1,6 +1,6 @@
 //! Elements of degree p gain `2(p − 1)` powers of their number, station or not.
 
-use sweetspot::validation::Truth;
+use sweetspot::proof::validation::Truth;
 use sweetspot::{Request, solve};
 
 /// Errors above are before the asymptote; within 30 times the round-off they are not the mesh's.

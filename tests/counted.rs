@@ -4,14 +4,14 @@ mod common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel};
 use sweetspot::Bat;
-use sweetspot::bat::Weighed;
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{Attachment, Fixtures, Grip, Held, Joint, Support};
+use sweetspot::bat::theory::Theory;
 use sweetspot::beam::count::slower;
+use sweetspot::beam::dowel::Ends::{self, *};
+use sweetspot::beam::dowel::beta_l;
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::beam::statics::Statics;
-use sweetspot::dowel::Ends::{self, *};
-use sweetspot::dowel::beta_l;
-use sweetspot::fixtures::{Attachment, Fixtures, Grip, Held, Joint, Support};
-use sweetspot::theory::Theory;
 
 /// Frequencies of 24 elements of degree 5 are within 1e-6 of the beam's; this is far above that.
 const BESIDE: f64 = 1e-3;

@@ -19,14 +19,16 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sweetspot::bat::Weighed;
-use sweetspot::damping::Kind;
-use sweetspot::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support};
-use sweetspot::frf::Frf;
-use sweetspot::layup::Layup;
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
-use sweetspot::theory::Theory;
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{
+    Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support,
+};
+use sweetspot::bat::layup::Layup;
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::damping::Kind;
+use sweetspot::motion::frf::Frf;
 use sweetspot::{Bat, Request, solve};
 
 const LENGTH: f64 = 0.8382;
@@ -530,7 +532,8 @@ fn damped_motions_are_as_accurate_as_they_say() {
                 assert_eq!(coarse.met, met, "{damping} {theory:?} {tolerance}");
                 assert!(met || damping > 1e5, "{damping} {theory:?} {:?}", coarse.stopped);
                 for (a, b) in coarse.damping.modes.iter().zip(&fine.damping.modes) {
-                    let s = |d: &sweetspot::damping::Damped| c64::new(-d.decay, d.swinging());
+                    let s =
+                        |d: &sweetspot::modes::damping::Damped| c64::new(-d.decay, d.swinging());
                     let missed = (s(a) - s(b)).norm() / b.natural;
                     // Of two real ones the slower is compared, whose part in |s| is small.
                     let stated = 3.0 * (a.error + b.error);

@@ -7,7 +7,7 @@ use std::path::Path;
 use common::diagnostic::diagnostics;
 use common::folder::Folder;
 use sweetspot::Bat;
-use sweetspot::error::Error;
+use sweetspot::base::error::Error;
 
 /// Standard error of a run that must fail on its input.
 fn told(folder: &Folder, args: &[&str]) -> String {

@@ -1,7 +1,7 @@
 //! The closed forms of a uniform beam, held to the beam equation and to each other.
 
-use sweetspot::dowel::Ends::{self, *};
-use sweetspot::dowel::UniformMode;
+use sweetspot::beam::dowel::Ends::{self, *};
+use sweetspot::beam::dowel::UniformMode;
 
 const ALL: [Ends; 6] =
     [FreeFree, ClampedFree, ClampedClamped, PinnedPinned, ClampedPinned, FreePinned];

@@ -13,10 +13,10 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use serde_json::{Value, json};
 use sweetspot::Bat;
-use sweetspot::error::Error;
-use sweetspot::exchange::modes_file;
-use sweetspot::exchange::uff::{self, Abscissa, Analysis, Dataset, Values, six_digits};
-use sweetspot::exchange::vtu;
+use sweetspot::base::error::Error;
+use sweetspot::files::uff::{self, Abscissa, Analysis, Dataset, Values, six_digits};
+use sweetspot::show::exchange::modes_file;
+use sweetspot::show::exchange::vtu;
 
 fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))

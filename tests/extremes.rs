@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use sweetspot::extremes::{EXTREMES, Verdict};
+use sweetspot::proof::extremes::{EXTREMES, Verdict};
 
 /// All but the slow rows, which `sweetspot validate --extremes` runs.
 #[test]

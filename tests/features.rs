@@ -9,9 +9,9 @@ use std::path::Path;
 
 use common::{DENSITY, MODULUS};
 use serde_json::json;
-use sweetspot::plan::Plan;
-use sweetspot::profile::{Interpolation, Profile, Stations};
-use sweetspot::solve::wanted;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::modes::plan::Plan;
+use sweetspot::modes::solve::wanted;
 use sweetspot::{Bat, Error, Material, Request, Theory, solve};
 
 const LENGTH: f64 = 0.84;

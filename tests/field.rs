@@ -4,7 +4,10 @@ mod common;
 
 use common::folder::Folder;
 use serde_json::Value;
-use sweetspot::bat::STANDARD_PIVOT;
+use sweetspot::base::telling::nobody;
+use sweetspot::base::units::miles_per_hour;
+use sweetspot::bat::body::STANDARD_PIVOT;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::bbcor::{Protocol, Tested};
 use sweetspot::collision::hit::{Effort, Model, Scene};
@@ -12,10 +15,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::{Ball, SweetSpot};
-use sweetspot::telling::nobody;
-use sweetspot::theory::Theory;
-use sweetspot::units::miles_per_hour;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
 fn asked() -> Request {

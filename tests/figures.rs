@@ -1,11 +1,11 @@
 //! Sweet spots and standard figures: identities.
 
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const STANDARD_PIVOT: f64 = 0.1524;

@@ -1,12 +1,12 @@
 //! The moment of the hit as the report shows it: ball and bat move as the contact says.
 
-use sweetspot::analysis::{Analysis, Task};
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::page::content::Report;
-use sweetspot::page::html::page;
-use sweetspot::page::moment::Moment;
-use sweetspot::theory::Theory;
+use sweetspot::show::analysis::{Analysis, Task};
+use sweetspot::show::page::content::Report;
+use sweetspot::show::page::html::page;
+use sweetspot::show::page::moment::Moment;
 use sweetspot::{Bat, Request, solve};
 
 fn mesh(name: &str) -> String {

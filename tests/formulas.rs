@@ -5,10 +5,10 @@ mod common;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, bat, cone, dowel, dowel_frequency};
 use serde_json::{Value, json};
 use std::path::Path;
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
-use sweetspot::report::json::{ShapePoints, modes};
-use sweetspot::validation::bundled_bat;
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::proof::validation::bundled_bat;
+use sweetspot::show::report::json::{ShapePoints, modes};
 use sweetspot::{Bat, Request, solve};
 
 const REQUEST: Request = Request {
@@ -17,7 +17,7 @@ const REQUEST: Request = Request {
     elements: Some(64),
     degree: None,
     solver: sweetspot::Solver::Statics,
-    theory: sweetspot::theory::Theory::EulerBernoulli,
+    theory: sweetspot::bat::theory::Theory::EulerBernoulli,
 };
 
 /// A bat of the common material with that `profile`.

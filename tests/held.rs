@@ -3,15 +3,15 @@
 mod common;
 
 use common::{LENGTH, cone};
-use sweetspot::bat::Weighed;
-use sweetspot::fixtures::{
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{
     Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
 };
-use sweetspot::layup::Layup;
-use sweetspot::material::Material;
-use sweetspot::modes::Mode;
-use sweetspot::profile::{Interpolation, Stations};
-use sweetspot::theory::Theory;
+use sweetspot::bat::layup::Layup;
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Stations};
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::mode::Mode;
 use sweetspot::{Bat, Profile, Request, solve};
 
 /// A cone with that on it.

@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use sweetspot::hit_promise::{Course, Row, Summary, rows};
-use sweetspot::telling::nobody;
+use sweetspot::base::telling::nobody;
+use sweetspot::proof::hit_promise::{Course, Row, Summary, rows};
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(&nobody).unwrap());
 

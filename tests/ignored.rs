@@ -2,10 +2,10 @@
 
 mod common;
 
-use sweetspot::choice;
-use sweetspot::ignored::shift;
-use sweetspot::material::Material;
-use sweetspot::theory::Theory;
+use sweetspot::bat::material::Material;
+use sweetspot::bat::theory::Theory;
+use sweetspot::study::ignored::shift;
+use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Request, solve};
 
 /// The integrals in both shifts of a free uniform dowel in closed form, with the shape `φ = cosh βξ +
@@ -16,7 +16,7 @@ use sweetspot::{Bat, Request, solve};
 /// ```
 #[test]
 fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
-    let dowel = sweetspot::validation::bundled_bat("meshes/dowel.json").unwrap();
+    let dowel = sweetspot::proof::validation::bundled_bat("meshes/dowel.json").unwrap();
     let (length, radius) = (dowel.length(), dowel.profile.at(0.0).outer);
     // I/A over L².
     let slenderness = (radius / (2.0 * length)).powi(2);
@@ -48,7 +48,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
 #[test]
 fn the_chosen_theory_is_as_accurate_as_asked() {
     for file in ["meshes/r161.json", "meshes/torpedo.json", "meshes/house.json"] {
-        let bat = sweetspot::validation::bundled_bat(file).unwrap();
+        let bat = sweetspot::proof::validation::bundled_bat(file).unwrap();
         for modes in [1, 3] {
             let solved = |theory| {
                 let request = Request { modes, tolerance: 1e-9, theory, ..Request::default() };
@@ -62,7 +62,7 @@ fn the_chosen_theory_is_as_accurate_as_asked() {
             };
             for tolerance in [0.3, 0.15, 0.1, 0.05, 0.02, 0.0137, 0.013, 0.01, 0.006, 1e-3] {
                 let request = Request { modes, tolerance, ..Request::default() };
-                let chosen = choice::theory(&bat, &request).unwrap().theory;
+                let chosen = theory_choice::theory(&bat, &request).unwrap().theory;
                 let k = ladder.iter().position(|theory| *theory == chosen).unwrap();
                 let told = format!("{file} {modes} {tolerance}: {chosen:?}");
                 assert!(missed(k) <= tolerance, "{told} {}", missed(k));

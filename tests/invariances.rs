@@ -4,12 +4,12 @@
 mod common;
 
 use common::{LENGTH, bat, cone, dowel};
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile};
+use sweetspot::bat::theory::Theory;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::beam::mesh::Mesh;
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile};
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
 fn frequencies(bat: &Bat) -> Vec<f64> {

@@ -1,14 +1,15 @@
 //! A ball that is caught again, against small steps of a Runge-Kutta method that shares nothing with
 //! the contact: neither its steps nor its events nor how it finds the next touch.
 
+use sweetspot::beam::dowel::{Ends, beta_l};
 use sweetspot::collision::ball::Ball;
-use sweetspot::collision::contact::{Collider, Encounter};
-use sweetspot::collision::force_law::ForceLaw;
+use sweetspot::collision::contact::encounter::{Collider, Encounter};
+use sweetspot::collision::contact::force_law::ForceLaw;
+use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::energy_loss::{wpi_alpha, wpi_shape};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::touch::Felt;
-use sweetspot::dowel::{Ends, beta_l, wpi_alpha, wpi_shape};
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Request, solve};
 
 /// ω of a free uniform dowel with that first frequency (Hz) and how a ball (kg) feels it at a

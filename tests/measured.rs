@@ -11,19 +11,19 @@ use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
 use faer::c64;
 use serde_json::Value;
 use sweetspot::Bat;
-use sweetspot::bat::Weighed;
-use sweetspot::dowel::{Dowel, Ends, UniformMode};
-use sweetspot::exchange::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
-use sweetspot::fixtures::{Fixtures, Held, Support};
-use sweetspot::material::Material;
-use sweetspot::measured::data::{Measured, MeasuredMode};
-use sweetspot::measured::place::{End, Told};
-use sweetspot::measured::study::Study;
-use sweetspot::measured::words::words;
-use sweetspot::measured_file::{table, universal};
-use sweetspot::report::measured;
-use sweetspot::report::text::Units;
-use sweetspot::solve::Request;
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{Fixtures, Held, Support};
+use sweetspot::bat::material::Material;
+use sweetspot::beam::dowel::{Dowel, Ends, UniformMode};
+use sweetspot::files::measured::{table, universal};
+use sweetspot::files::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
+use sweetspot::modes::solve::Request;
+use sweetspot::show::report::measured;
+use sweetspot::show::report::text::Units;
+use sweetspot::study::measured::data::{Measured, MeasuredMode};
+use sweetspot::study::measured::place::{End, Told};
+use sweetspot::study::measured::study::Study;
+use sweetspot::study::measured::words::words;
 
 /// Even points from end to end.
 fn points(count: usize) -> Vec<f64> {

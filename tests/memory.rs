@@ -4,7 +4,7 @@
 mod common;
 
 use common::cone;
-use sweetspot::theory::Theory;
+use sweetspot::bat::theory::Theory;
 use sweetspot::{Bat, Error, Request, Solver, solve};
 
 fn bat() -> Bat {

@@ -6,16 +6,16 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use sweetspot::bat::Bat;
+use sweetspot::base::error::Error;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::error::Error;
-use sweetspot::report::hit_json;
-use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::solve::{self, Request, Solution};
-use sweetspot::theory::Theory;
+use sweetspot::modes::solve::{self, Request, Solution};
+use sweetspot::show::report::hit_json;
+use sweetspot::show::report::json::{self, ShapePoints};
 
 /// A bat with everything on it and under it.
 const HELD: &str = r#"{

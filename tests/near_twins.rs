@@ -6,11 +6,11 @@
 mod common;
 
 use common::bat;
-use sweetspot::bat::Weighed;
-use sweetspot::error::Error;
-use sweetspot::fixtures::{Absorber, Attachment, Fixtures, Joint};
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Stations};
+use sweetspot::base::error::Error;
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::{Bat, Profile, Request, Solution, Solver, Theory, solve};
 
 /// Two whips on a middle of that radius, the first with more stations on it, which change nothing.

@@ -11,8 +11,8 @@ use std::process::{Output, Stdio};
 use common::diagnostic::diagnostics;
 use common::folder::Folder;
 use serde_json::Value;
-use sweetspot::report::resolved::resolved;
-use sweetspot::validation::Truth;
+use sweetspot::proof::validation::Truth;
+use sweetspot::show::report::resolved::resolved;
 use sweetspot::{Bat, Request, solve};
 
 fn mesh(name: &str) -> String {

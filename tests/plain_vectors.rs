@@ -2,12 +2,13 @@
 
 mod common;
 
-use sweetspot::batch::{self, Way};
+use sweetspot::base::lanes;
+use sweetspot::bat::profile::Interpolation;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::profile::Interpolation;
-use sweetspot::theory::Theory;
-use sweetspot::{Bat, Request, lanes, solve};
+use sweetspot::modes::batch::{self, Way};
+use sweetspot::{Bat, Request, solve};
 
 /// Every bit of modes and hits of several bats, one by one and side by side.
 fn bits() -> Vec<u64> {

@@ -7,20 +7,20 @@ use common::folder::Folder;
 use common::pictures::{check, number, scale, texts, ticks};
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::roxmltree::Document;
+use sweetspot::base::xml::escaped;
 use sweetspot::collision::history::loop_area;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::plot::matrix::{FULL, Matrix};
-use sweetspot::plot::picture::Picture;
-use sweetspot::plot::sets::{self, Hits};
-use sweetspot::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
-use sweetspot::plot::{exit_speed, front, ledger, matrix, png, profile, shapes};
-use sweetspot::report::xml::escaped;
-use sweetspot::trade::measure::measure;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
+use sweetspot::show::plot::matrix::{FULL, Matrix};
+use sweetspot::show::plot::picture::Picture;
+use sweetspot::show::plot::sets::{self, Hits};
+use sweetspot::show::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
+use sweetspot::show::plot::{exit_speed, front, ledger, matrix, png, profile, shapes};
+use sweetspot::study::trade::measure::measure;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const BATS: [&str; 10] = [
@@ -102,13 +102,13 @@ fn every_model_and_strange_bats_have_pictures() {
         &[0.0, 1e-3],
         &[2e-5, 4e-5],
         &[0.0; 2],
-        sweetspot::profile::Interpolation::Linear,
+        sweetspot::bat::profile::Interpolation::Linear,
     );
     let thick = common::bat(
         &[0.0, 0.1],
         &[0.05, 0.2],
         &[0.0; 2],
-        sweetspot::profile::Interpolation::Linear,
+        sweetspot::bat::profile::Interpolation::Linear,
     );
     let mut named = common::dowel();
     named.name = "<&\"> \u{7} バット ".repeat(30);
@@ -153,7 +153,7 @@ fn several_bats_fit_into_one_picture() {
 
 #[test]
 fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
-    let ends = sweetspot::profile::Interpolation::Linear;
+    let ends = sweetspot::bat::profile::Interpolation::Linear;
     for (length, rows) in [(0.14, 1), (0.16, 3)] {
         let bat = common::bat(&[0.0, length], &[0.01, 0.02], &[0.0; 2], ends);
         let picture =
@@ -370,9 +370,9 @@ fn a_matrix_has_its_numbers_in_it() {
 #[test]
 fn the_front_shows_the_solvers_and_the_planners_choices() {
     let bat = bat("cone");
-    let theory = sweetspot::theory::Theory::EulerBernoulli;
+    let theory = sweetspot::bat::theory::Theory::EulerBernoulli;
     let budget = std::time::Duration::from_millis(600);
-    let trade = measure(&bat, 3, theory, budget, &sweetspot::telling::nobody).unwrap();
+    let trade = measure(&bat, 3, theory, budget, &sweetspot::base::telling::nobody).unwrap();
     let picture = front::picture(&bat.name, &trade).unwrap();
     assert!(Document::parse(&picture.svg).is_ok() && !picture.svg.contains("NaN"));
     for words in ["statics", "shift-invert", "front", "planner"] {

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use sweetspot::promise::{BATS, DIGITS, Row, Summary, rows};
-use sweetspot::telling::nobody;
+use sweetspot::base::telling::nobody;
+use sweetspot::proof::promise::{BATS, DIGITS, Row, Summary, rows};
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(&nobody).unwrap());
 

@@ -1,13 +1,13 @@
 //! Ten thousand random impacts keep what must be kept: energy, and the ball never gets more of it than
 //! there was. Their exit speeds have a truth of their own in `tests/hit_promise.rs`.
 
-use sweetspot::collision::contact::Collider;
-use sweetspot::collision::force_law::ForceLaw;
+use sweetspot::bat::theory::Theory;
+use sweetspot::beam::dowel::{Ends, beta_l};
+use sweetspot::collision::contact::encounter::Collider;
+use sweetspot::collision::contact::force_law::ForceLaw;
+use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::struck::Struck;
-use sweetspot::collision::touch::Felt;
-use sweetspot::dowel::{Ends, beta_l};
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Request, solve};
 
 /// Numbers that look random, the same in every run.
@@ -84,7 +84,10 @@ fn dowel(random: &mut Random, count: usize, ball: f64) -> Place {
     let first = random.scaled(60.0, 400.0);
     let beta = |n: usize| beta_l(Ends::FreeFree, n);
     let omega = |n: usize| std::f64::consts::TAU * first * (beta(n) / beta(1)).powi(2);
-    let shape = |n: usize| sweetspot::dowel::wpi_shape(n, at) / sweetspot::dowel::wpi_alpha(n);
+    let shape = |n: usize| {
+        sweetspot::collision::energy_loss::wpi_shape(n, at)
+            / sweetspot::collision::energy_loss::wpi_alpha(n)
+    };
     let modes: Vec<[f64; 2]> = (1..=count).map(|n| [omega(n), 0.0]).collect();
     let gain = |n: usize| shape(n).powi(2) / mass;
     let gains = (1..=count).map(gain).collect();

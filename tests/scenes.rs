@@ -1,11 +1,11 @@
 //! Hits of held bats, of balls whose bounce depends on the speed, of barrels that give way.
 
+use sweetspot::bat::fixtures::{Fixtures, Grip, Held, Support};
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hit::{Effort, Model, Outcome, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::fixtures::{Fixtures, Grip, Held, Support};
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const FINE: Effort = Effort { accuracy: 1e-8, completed: true };
@@ -24,7 +24,7 @@ fn hit(bat: &Bat, model: Model, scene: &Scene, x: f64) -> Outcome {
 
 fn held(fixtures: Fixtures) -> Bat {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let weighed = sweetspot::bat::Weighed::default();
+    let weighed = sweetspot::bat::body::Weighed::default();
     Bat::with_fixtures("held", bat.profile.clone(), bat.material().clone(), fixtures, weighed)
         .unwrap()
 }

@@ -10,19 +10,19 @@ use jsonschema::Validator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene, Wall};
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::sweep;
-use sweetspot::report::hit_json;
-use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::schema::hit::HitFile;
-use sweetspot::schema::modes::ModesFile;
-use sweetspot::schema::{self, File};
-use sweetspot::solve::Solver;
-use sweetspot::theory::Theory;
+use sweetspot::files::schema::hit::HitFile;
+use sweetspot::files::schema::modes::ModesFile;
+use sweetspot::files::schema::{self, File};
+use sweetspot::modes::solve::Solver;
+use sweetspot::show::report::hit_json;
+use sweetspot::show::report::json::{self, ShapePoints};
 use sweetspot::{Bat, Request, solve};
 
 /// A bat with everything on it and under it, damped by all that damps.

@@ -8,9 +8,9 @@ use std::path::Path;
 use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel_frequency};
 use serde_json::{Value, json};
-use sweetspot::theory::Theory;
-use sweetspot::validation::CASES;
-use sweetspot::weighed::tuned;
+use sweetspot::bat::theory::Theory;
+use sweetspot::proof::validation::CASES;
+use sweetspot::study::tuned::tuned;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const BOTH: [Theory; 2] = [Theory::EulerBernoulli, Theory::Timoshenko];
@@ -434,7 +434,7 @@ fn the_disagreement_of_a_weighed_balance_point_is_a_number_in_table_and_json() {
         json!({ "interpolation": "linear", "x": [0, LENGTH], "radius": [RADIUS, RADIUS] }),
         json!({ "weighed": { "mass": 0.9, "balance_point": balance } }),
     );
-    folder.write("bat.json", sweetspot::report::resolved::resolved(&bat).to_string());
+    folder.write("bat.json", sweetspot::show::report::resolved::resolved(&bat).to_string());
     let document = folder.json(&["modes", "bat.json", "--json", "-"]);
     let weighed = &document["summary"]["weighed"];
     let difference = weighed["balance_point_difference_m"].as_f64().unwrap();

@@ -4,13 +4,13 @@ mod common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel};
 use nalgebra_sparse::{CooMatrix, CscMatrix};
+use sweetspot::bat::theory::Theory;
 use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
 use sweetspot::eigen::lanczos::dot;
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
-use sweetspot::solve::own_and_recomputed;
-use sweetspot::theory::Theory;
-use sweetspot::validation::bundled_bat;
+use sweetspot::modes::solve::own_and_recomputed;
+use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Error, Request, Result, Solver, solve};
 
 type Solve = fn(&CscMatrix<f64>, &CscMatrix<f64>, f64, usize, f64) -> Result<Pairs>;

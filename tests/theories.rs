@@ -6,10 +6,10 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use common::{LENGTH, MODULUS, bat};
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
-use sweetspot::theory::Theory;
-use sweetspot::validation::{Truth, bundled_bat};
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::theory::Theory;
+use sweetspot::proof::validation::{Truth, bundled_bat};
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// A bat with the shear modulus of wood.
@@ -149,7 +149,8 @@ fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     material.shear_coefficient = Some(0.7);
     let profile = Profile::new(stations).unwrap();
     let mut bat = Bat::new("shaft", profile, material, None).unwrap();
-    let pin = |x| sweetspot::fixtures::Support { x, kind: sweetspot::fixtures::Held::Pinned };
+    let pin =
+        |x| sweetspot::bat::fixtures::Support { x, kind: sweetspot::bat::fixtures::Held::Pinned };
     bat.fixtures.supports = vec![pin(0.0), pin(LENGTH)];
     let worth = bat.worth_at(0.1);
     for (k, mode) in solved(&bat, Theory::Timoshenko, 6, 1e-12).modes.iter().enumerate() {

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use sweetspot::error::Error;
-use sweetspot::exchange::uff::{
+use sweetspot::base::error::Error;
+use sweetspot::files::uff::{
     Abscissa, Analysis, Axis, Complex, Dataset, Dof, Function, Header, NodalData, Node, Nodes,
     Stamp, TraceLine, Units, Universal, Values, parse, read, six_digits, write,
 };

@@ -8,10 +8,10 @@ use std::path::Path;
 
 use common::folder::{Folder, but_shear};
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
-use sweetspot::bat::Weighed;
-use sweetspot::fixtures::{Attachment, Fixtures, Held, Support};
-use sweetspot::theory::Theory;
-use sweetspot::up_to::modes_up_to;
+use sweetspot::bat::body::Weighed;
+use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support};
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::up_to::modes_up_to;
 use sweetspot::{Bat, Request, solve};
 
 fn held(fixtures: Fixtures) -> Bat {

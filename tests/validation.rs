@@ -4,10 +4,10 @@
 use std::fs;
 use std::path::Path;
 
-use sweetspot::hit_figure;
-use sweetspot::published::Answer;
-use sweetspot::telling::nobody;
-use sweetspot::validation_page;
+use sweetspot::base::telling::nobody;
+use sweetspot::proof::published::Answer;
+use sweetspot::show::hit_figure;
+use sweetspot::show::proof_page;
 
 #[test]
 fn every_known_answer_is_reproduced_and_the_page_says_so() {
@@ -27,7 +27,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
 
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/validation.md");
     let committed = fs::read_to_string(path).unwrap().replace("\r\n", "\n");
-    let stale = first_difference(&committed, &validation_page::text(&answers).unwrap());
+    let stale = first_difference(&committed, &proof_page::text(&answers).unwrap());
     let again = "run: sweetspot validate --page docs/validation.md";
     assert_eq!(stale, None, "docs/validation.md is stale; {again}");
 }

@@ -199,7 +199,7 @@ fn the_claims_stand_or_fall_as_told() {
     near(claims::unconverged(4), 0.085, 5e-4);
     near(claims::as_printed(50.0, 1.0), 1.545, 5e-4);
     near(claims::gaining_share(), 0.42, 5e-3);
-    near(claims::dowel().frequency(sweetspot::dowel::Ends::FreeFree, 1), 238.907, 5e-4);
+    near(claims::dowel().frequency(sweetspot::beam::dowel::Ends::FreeFree, 1), 238.907, 5e-4);
     assert!(claims::claims(&summary).iter().chain(&claims::corrections(&summary)).all(told));
 }
 

@@ -3,7 +3,7 @@
 use crate::hit::INCOMING;
 use crate::table::{Table, grid};
 use crate::vibration::{self, sampled};
-use sweetspot::dowel::{Dowel, Ends, UniformMode};
+use sweetspot::beam::dowel::{Dowel, Ends, UniformMode};
 
 /// One line of the table.
 pub struct Claim {

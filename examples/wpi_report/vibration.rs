@@ -5,8 +5,9 @@
 
 use crate::table::{Table, grid, numbered};
 use std::f64::consts::PI;
-use sweetspot::dowel::{Ends, UniformMode, beta_l, wpi_alpha};
-use sweetspot::response::{
+use sweetspot::beam::dowel::{Ends, UniformMode, beta_l};
+use sweetspot::collision::energy_loss::wpi_alpha;
+use sweetspot::motion::oscillator::{
     Oscillator, expansion, largest_steps, orthogonality, partial_sums, struck, trapezoid_masses,
 };
 

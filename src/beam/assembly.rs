@@ -4,10 +4,10 @@ use std::io::{self, Write};
 
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-use crate::bat::Bat;
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
 use crate::beam::element::{Element, Matrix, elements};
 use crate::beam::mesh::Mesh;
-use crate::theory::Theory;
 
 /// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and
 /// slope of every node and, after those of its left node, the bubbles of an element of degree

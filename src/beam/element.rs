@@ -18,13 +18,13 @@
 //! coefficients of a strain, `W` the number of all strains of an element plus 2: `N` without shear,
 //! `2N − 2` with it.
 
-use crate::bat::Bat;
+use crate::base::real::{Over, Real};
+use crate::bat::body::Bat;
+use crate::bat::layup::Worth;
+use crate::bat::profile::{Radii, Section};
+use crate::bat::theory::Theory;
 use crate::beam::mesh::{self, Mesh};
 use crate::beam::rule::{MOST_POINTS, Rule};
-use crate::layup::Worth;
-use crate::profile::{Radii, Section};
-use crate::real::{Over, Real};
-use crate::theory::Theory;
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
 pub type Vector<R, const N: usize> = [R; N];

@@ -13,15 +13,15 @@
 
 use std::ops::Range;
 
-use crate::bat::Bat;
+use crate::base::quadrature::{RunningSum, legendre};
+use crate::base::real::{Over, Real};
+use crate::bat::body::Bat;
+use crate::bat::fixtures::Held;
 use crate::beam::element::{Vector, on_strains};
 use crate::beam::holds::{Border, Build, Given, Holds, Span, Under};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
 use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
-use crate::fixtures::Held;
-use crate::quadrature::{RunningSum, legendre};
-use crate::real::{Over, Real};
 
 /// A bare bat as the running sums see it.
 #[derive(Debug, Clone, Copy)]

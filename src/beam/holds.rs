@@ -23,8 +23,8 @@
 //! Worked out here: a Riccati recursion along the bat, as the sweep method of A. E. Bryson, Y.-C. Ho,
 //! Applied Optimal Control (1975), chapter 5, has it for problems along time.
 
-use crate::quadrature::RunningSum;
-use crate::real::{Over, Real};
+use crate::base::quadrature::RunningSum;
+use crate::base::real::{Over, Real};
 
 /// A support is a spring that gives way by nothing that a number shows: 2²⁶⁶, a power of two so that
 /// scaling a bat by powers of two changes no digit.

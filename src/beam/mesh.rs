@@ -1,6 +1,6 @@
 //! Where are the elements: stretches of the bat, none across a station or a step.
 
-use crate::bat::Bat;
+use crate::bat::body::Bat;
 
 /// One element: a part of one piece of the profile.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,3 +16,4 @@ pub mod count;
 pub mod motion;
 
 pub mod assembly;
+pub mod dowel;

@@ -25,6 +25,8 @@
 
 use std::ops::Range;
 
+use crate::base::quadrature::RunningSum;
+use crate::base::real::{Over, Real};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
 use crate::beam::fixed::{Stop, What};
 use crate::beam::holds::Given;
@@ -32,8 +34,6 @@ use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::{Statics, View};
 use crate::beam::sweep::{Loads, Rigid};
 use crate::eigen::lanczos::dot;
-use crate::quadrature::RunningSum;
-use crate::real::{Over, Real};
 
 /// A bending motion with the memory it was computed in.
 #[derive(Debug, Clone, Default)]

@@ -2,10 +2,10 @@
 
 use std::sync::OnceLock;
 
-use crate::bat::Bat;
-use crate::profile::Radii;
-use crate::quadrature::{gauss, legendre};
-use crate::real::Real;
+use crate::base::quadrature::{gauss, legendre};
+use crate::base::real::Real;
+use crate::bat::body::Bat;
+use crate::bat::profile::Radii;
 
 /// Lowest and highest degree of the elements' deflection.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;

@@ -23,15 +23,15 @@
 
 use std::ops::Range;
 
-use crate::bat::Bat;
+use crate::base::quadrature::RunningSum;
+use crate::base::real::{Over, Real};
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
 use crate::beam::element::{self, Element, Samples};
 use crate::beam::fixed::{Body, Fixed, Stop};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::beam::sweep::{Cell, CellView, Inwards, Loads, Outwards, Rigid};
-use crate::quadrature::RunningSum;
-use crate::real::{Over, Real};
-use crate::theory::Theory;
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
@@ -523,13 +523,13 @@ fn power_of_two_below(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bat::Weighed;
+    use crate::bat::body::Weighed;
+    use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
+    use crate::bat::material::Material;
+    use crate::bat::profile::{Interpolation, Profile, Stations};
     use crate::beam::element::elements;
     use crate::beam::motion::{Depth, Motion};
     use crate::eigen::lanczos::dot;
-    use crate::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
-    use crate::material::Material;
-    use crate::profile::{Interpolation, Profile, Stations};
 
     fn bat(outer: [f64; 2]) -> Bat {
         let stations = Stations {

@@ -1,8 +1,8 @@
 //! The two ways over the elements: strains integrated outwards, loads summed up inwards.
 
+use crate::base::quadrature::RunningSum;
+use crate::base::real::{Over, Real};
 use crate::beam::element::{Link, Matrix, Vector, over_strains};
-use crate::quadrature::RunningSum;
-use crate::real::{Over, Real};
 
 /// An element on one side of the root, seen in that direction.
 #[derive(Debug, Clone, Copy)]

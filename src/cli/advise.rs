@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use sweetspot::advise::advice::{Advice, MOST_MODES, advise_telling};
-use sweetspot::error::Result;
-use sweetspot::report::advice;
+use sweetspot::base::error::Result;
+use sweetspot::show::report::advice;
+use sweetspot::study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::cli::common::{OutputArgs, examples, read};
 use crate::cli::value::tolerance;

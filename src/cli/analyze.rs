@@ -3,18 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sweetspot::analysis::{Analysis, Proof, Task};
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::page;
-use sweetspot::page::content::Report;
-use sweetspot::page::inputs::Input;
-use sweetspot::plot::sets;
-use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::sketch::{self, Row};
-use sweetspot::report::text::{self, Units};
-use sweetspot::report::{advice, aftermath, hit_json, hit_text};
-use sweetspot::solve::Request;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::modes::solve::Request;
+use sweetspot::show::analysis::{Analysis, Proof, Task};
+use sweetspot::show::page;
+use sweetspot::show::page::content::Report;
+use sweetspot::show::page::inputs::Input;
+use sweetspot::show::plot::sets;
+use sweetspot::show::report::json::{self, ShapePoints};
+use sweetspot::show::report::sketch::{self, Row};
+use sweetspot::show::report::text::{self, Units};
+use sweetspot::show::report::{advice, aftermath, hit_json, hit_text};
 
 use crate::cli::common::{
     BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::report::text::rounded;
+use sweetspot::show::report::text::rounded;
 
 /// What a bat maker measures; lengths in `unit`.
 #[derive(Debug, Clone, PartialEq)]

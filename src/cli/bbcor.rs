@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::bat::Bat;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::Quantity;
+use sweetspot::bat::body::Bat;
 use sweetspot::collision::bbcor::{Protocol, TEST_SPEED};
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::plot::bbcor as plot;
-use sweetspot::report::bbcor as report;
-use sweetspot::units::Quantity;
+use sweetspot::show::plot::bbcor as plot;
+use sweetspot::show::report::bbcor as report;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::hit::verdict;

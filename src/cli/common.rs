@@ -5,19 +5,19 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
-use sweetspot::bat::Bat;
-use sweetspot::bat_file::Named;
-use sweetspot::choice;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::Quantity;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::Impact;
-use sweetspot::error::{Complaint, Error, Result};
-use sweetspot::file;
-use sweetspot::report::sketch::{self, Glyphs, Row};
-use sweetspot::report::text::Units;
-use sweetspot::solve::{self, Request, Solution, Solver};
-use sweetspot::theory::Theory;
-use sweetspot::units::Quantity;
-use sweetspot::up_to::modes_up_to;
-use sweetspot::weighed;
+use sweetspot::files::bat_file::Named;
+use sweetspot::modes::solve::{self, Request, Solution, Solver};
+use sweetspot::modes::up_to::modes_up_to;
+use sweetspot::show::report::sketch::{self, Glyphs, Row};
+use sweetspot::show::report::text::Units;
+use sweetspot::study::theory_choice;
+use sweetspot::study::tuned;
 
 use crate::cli::progress::{self, Progress};
 use crate::cli::value::{TheoryChoice, budget, quantity, solver, theory, tolerance, unit_system};
@@ -339,11 +339,11 @@ pub fn prepare(
 ) -> Result<Prepared> {
     let mut warning = None;
     if asked.0.is_none() {
-        let choice = choice::theory(&bat, &request)?;
+        let choice = theory_choice::theory(&bat, &request)?;
         warning = choice.warning.filter(|_| !quiet);
         request.theory = choice.theory;
     }
-    let bat = weighed::tuned(bat, request.theory, request.tolerance)?;
+    let bat = tuned::tuned(bat, request.theory, request.tolerance)?;
     Ok(Prepared { bat, request, warning })
 }
 

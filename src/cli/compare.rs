@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::comparison::contender::Terms;
-use sweetspot::comparison::table::{Comparison, Entry};
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::measured::place::{End, Told};
-use sweetspot::measured::study::Study;
-use sweetspot::measured_file;
-use sweetspot::plot;
-use sweetspot::report::{self, comparison, comparison_data};
-use sweetspot::units::Quantity;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::Quantity;
+use sweetspot::files::measured;
+use sweetspot::show::plot;
+use sweetspot::show::report::{self, comparison, comparison_data};
+use sweetspot::study::comparison::contender::Terms;
+use sweetspot::study::comparison::table::{Comparison, Entry};
+use sweetspot::study::measured::place::{End, Told};
+use sweetspot::study::measured::study::Study;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
 use crate::cli::scene::SceneArgs;
@@ -127,7 +127,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         let found = format!("{} bats beside measured modes", args.bats.len());
         return Err(Error::value("compare", found, "one bat file"));
     };
-    let measured = measured_file::read(file)?;
+    let measured = measured::read(file)?;
     let bat = read(path, args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;

@@ -2,7 +2,7 @@
 
 use clap::Command;
 use clap_complete::{Shell, generate};
-use sweetspot::error::Result;
+use sweetspot::base::error::Result;
 
 use crate::cli::Done;
 

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::error::{Error, Result};
-use sweetspot::exchange::modes_file::{self, ModeTable};
-use sweetspot::exchange::uff::{self, Stamp};
-use sweetspot::exchange::{csv, modes_uff, npz, vtu};
-use sweetspot::file;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::files::uff::{self, Stamp};
+use sweetspot::show::exchange::modes_file::{self, ModeTable};
+use sweetspot::show::exchange::{csv, modes_uff, npz, vtu};
 
 use crate::cli::progress::Progress;
 use crate::cli::{Done, printable};

@@ -1,7 +1,7 @@
 //! Errors as a person at a terminal sees them: the line of the file, a caret, what to do.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use sweetspot::error::{Complaint, Error, Excerpt, Place};
+use sweetspot::base::error::{Complaint, Error, Excerpt, Place};
 
 use crate::cli::printable;
 

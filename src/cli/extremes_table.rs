@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use sweetspot::extremes::{EXTREMES, Outcome, Verdict};
-use sweetspot::telling::Tell;
+use sweetspot::base::telling::Tell;
+use sweetspot::proof::extremes::{EXTREMES, Outcome, Verdict};
 
 /// Every row, and whether all are right or refused with a reason.
 pub fn table(tell: Tell) -> (String, bool) {

@@ -4,16 +4,16 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use sweetspot::bat::Bat;
-use sweetspot::error::{Error, Result};
-use sweetspot::exchange::frf_uff::{self, Measured};
-use sweetspot::exchange::uff::{self, Stamp, six_digits};
-use sweetspot::file;
-use sweetspot::frf::{Frf, Kind, Sample};
-use sweetspot::report::json;
-use sweetspot::report::text::wrapped;
-use sweetspot::solve::{self, Request};
-use sweetspot::units::{Quantity, inches};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::{Quantity, inches};
+use sweetspot::bat::body::Bat;
+use sweetspot::files::uff::{self, Stamp, six_digits};
+use sweetspot::modes::solve::{self, Request};
+use sweetspot::motion::frf::{Frf, Kind, Sample};
+use sweetspot::show::exchange::frf_uff::{self, Measured};
+use sweetspot::show::report::json;
+use sweetspot::show::report::text::wrapped;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use sweetspot::bat::Bat;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::units::{Quantity, inches};
+use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Sweep, sweep_telling};
-use sweetspot::error::{Error, Result};
-use sweetspot::plot::profile;
-use sweetspot::plot::sets::Hits;
-use sweetspot::report::{hit_json, hit_text, sketch};
-use sweetspot::units::{Quantity, inches};
+use sweetspot::show::plot::profile;
+use sweetspot::show::plot::sets::Hits;
+use sweetspot::show::report::{hit_json, hit_text, sketch};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::hit_promise::{Course, Row, Summary};
+use sweetspot::proof::hit_promise::{Course, Row, Summary};
 
 const TITLE: &str = "The same of exit speeds, relative to the closing speed, on random hits:
 

@@ -1,6 +1,6 @@
 //! `sweetspot licences`: whose work is in the program, and on what terms.
 
-use sweetspot::error::Result;
+use sweetspot::base::error::Result;
 
 use crate::cli::Done;
 

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Command;
 use clap_mangen::Man;
-use sweetspot::error::{Error, Result, nearest};
-use sweetspot::file;
+use sweetspot::base::error::{Error, Result, nearest};
+use sweetspot::base::file;
 
 use crate::cli::Done;
 

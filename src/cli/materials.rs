@@ -4,11 +4,11 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use sweetspot::error::Result;
-use sweetspot::file;
-use sweetspot::material::{BUILT_IN, BuiltIn};
-use sweetspot::report::json;
-use sweetspot::report::text::{Units, wrapped};
+use sweetspot::base::error::Result;
+use sweetspot::base::file;
+use sweetspot::bat::material::{BUILT_IN, BuiltIn};
+use sweetspot::show::report::json;
+use sweetspot::show::report::text::{Units, wrapped};
 
 use crate::cli::value::unit_system;
 use crate::cli::{Done, style};

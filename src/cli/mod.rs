@@ -38,9 +38,9 @@ use std::io::IsTerminal;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::report::xml::is_bidi;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::xml::is_bidi;
 
 /// What is left to do when a verb is done.
 pub struct Done {

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::bat::Bat;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::bat::body::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
-use sweetspot::error::{Error, Result};
-use sweetspot::exchange::npz;
-use sweetspot::file;
-use sweetspot::plot::sets;
-use sweetspot::report::json::{self, ShapePoints};
-use sweetspot::report::{sketch, text};
-use sweetspot::solve::Solution;
+use sweetspot::modes::solve::Solution;
+use sweetspot::show::exchange::npz;
+use sweetspot::show::plot::sets;
+use sweetspot::show::report::json::{self, ShapePoints};
+use sweetspot::show::report::{sketch, text};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 use crate::cli::{Done, pictures};

@@ -3,14 +3,14 @@
 use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
-use sweetspot::bat::Bat;
-use sweetspot::error::{Complaint, Error, Result};
-use sweetspot::file;
-use sweetspot::report::sketch::{self, Places, Row};
-use sweetspot::report::text;
-use sweetspot::report::text::{Units, wrapped};
-use sweetspot::units::inches;
-use sweetspot::validation::bundled_bat;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::inches;
+use sweetspot::bat::body::Bat;
+use sweetspot::proof::validation::bundled_bat;
+use sweetspot::show::report::sketch::{self, Places, Row};
+use sweetspot::show::report::text;
+use sweetspot::show::report::text::{Units, wrapped};
 
 use crate::cli::Done;
 use crate::cli::ask::{self, Dialogue};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use sweetspot::error::Result;
-use sweetspot::plot::picture::{self, Picture};
+use sweetspot::base::error::Result;
+use sweetspot::show::plot::picture::{self, Picture};
 
 use crate::cli::common::{printed, warn};
 

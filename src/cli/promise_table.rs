@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::promise::{BATS, DIGITS, Row, Summary};
+use sweetspot::proof::promise::{BATS, DIGITS, Row, Summary};
 
 const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
 30 times the true ones in nine of ten above 1e-13. Worst true/stated error:

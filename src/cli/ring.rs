@@ -3,21 +3,23 @@
 use std::path::PathBuf;
 
 use serde_json::json;
-use sweetspot::bat::Bat;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::Quantity;
+use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::hit::{Effort, Model};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::breaking_swing;
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::force_file::{self, ForceHistory};
-use sweetspot::ignored;
-use sweetspot::report::aftermath::{self, AfterHit};
-use sweetspot::report::{hit_json, hit_text, json};
-use sweetspot::ringing::Ringing;
-use sweetspot::shape_file::{self, InitialShape};
-use sweetspot::solve::{Solution, solve};
-use sweetspot::units::Quantity;
+use sweetspot::files::force_file;
+use sweetspot::files::shape_file;
+use sweetspot::modes::solve::{Solution, solve};
+use sweetspot::motion::force::ForceHistory;
+use sweetspot::motion::ringing::Ringing;
+use sweetspot::motion::shape::InitialShape;
+use sweetspot::show::report::aftermath::{self, AfterHit};
+use sweetspot::show::report::{hit_json, hit_text, json};
+use sweetspot::study::ignored;
 
 use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};

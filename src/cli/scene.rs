@@ -3,14 +3,14 @@
 use std::cell::OnceCell;
 use std::path::Path;
 
-use sweetspot::bat::Bat;
+use sweetspot::base::error::{Complaint, Error, Result, nearest};
+use sweetspot::base::units::Quantity;
+use sweetspot::bat::body::Bat;
 use sweetspot::collision::ball::{Ball, restitution};
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::pulse::Pulse;
-use sweetspot::error::{Complaint, Error, Result, nearest};
-use sweetspot::units::Quantity;
 
 use crate::cli::common::OutputArgs;
 use crate::cli::value::{quantity, shown_length};

@@ -1,7 +1,7 @@
 //! `sweetspot schema [bat|modes|hit|bbcor]`: what the files look like.
 
-use sweetspot::error::Result;
-use sweetspot::schema::{self, File};
+use sweetspot::base::error::Result;
+use sweetspot::files::schema::{self, File};
 
 use crate::cli::Done;
 use crate::cli::value::named;

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::Value;
-use sweetspot::error::{Error, Result};
-use sweetspot::file;
-use sweetspot::plot::{front, sets};
-use sweetspot::report::{trade, u_curve};
-use sweetspot::solve::Request;
-use sweetspot::trade::measure::measure;
-use sweetspot::trade::reference::Reference;
-use sweetspot::trade::u_curve as curve;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::modes::solve::Request;
+use sweetspot::show::plot::{front, sets};
+use sweetspot::show::report::{trade, u_curve};
+use sweetspot::study::trade::measure::measure;
+use sweetspot::study::trade::reference::Reference;
+use sweetspot::study::trade::u_curve as curve;
 
 use crate::cli::common::{Prepared, examples, prepare, read};
 use crate::cli::progress::Progress;

@@ -3,16 +3,16 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use sweetspot::error::{Complaint, Error, Result};
-use sweetspot::file;
-use sweetspot::hit_figure;
-use sweetspot::hit_promise;
-use sweetspot::promise::{self, Summary};
-use sweetspot::published::Answer;
-use sweetspot::report::text::wrapped;
-use sweetspot::telling::Tell;
-use sweetspot::validation::{CASES, Row, run as run_case};
-use sweetspot::validation_page;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::telling::Tell;
+use sweetspot::proof::hit_promise;
+use sweetspot::proof::promise::{self, Summary};
+use sweetspot::proof::published::Answer;
+use sweetspot::proof::validation::{CASES, Row, run as run_case};
+use sweetspot::show::hit_figure;
+use sweetspot::show::proof_page;
+use sweetspot::show::report::text::wrapped;
 
 use crate::cli::progress::Progress;
 use crate::cli::{Done, FAILED, extremes_table, hit_promise_table, promise_table};
@@ -108,14 +108,14 @@ fn case(name: &str) -> std::result::Result<String, Error> {
 /// Writes the page; what is left for standard output.
 fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
     let answers = Answer::all(tell)?;
-    let text = validation_page::text(&answers)?;
+    let text = proof_page::text(&answers)?;
     let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
     if path.as_os_str() == "-" {
         return Ok(Done::new(text, code));
     }
     file::write(path, text.as_bytes())?;
     file::write(&path.with_file_name(hit_figure::FILE), hit_figure::svg()?.as_bytes())?;
-    Ok(Done::new(wrapped(&validation_page::verdict(&answers), 0), code))
+    Ok(Done::new(wrapped(&proof_page::verdict(&answers), 0), code))
 }
 
 /// Every known answer beside ours; whether none is missed.

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use sweetspot::report::text::Units;
-use sweetspot::solve::Solver;
-use sweetspot::theory::Theory;
-use sweetspot::units::{self, Quantity};
+use sweetspot::base::units::{self, Quantity};
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::solve::Solver;
+use sweetspot::show::report::text::Units;
 
 /// A number as JSON writes it: the shortest that reads back to the same bits.
 pub fn number(value: f64) -> String {

@@ -11,13 +11,13 @@
 //!
 //! Dashpots are counted mode by mode; the hands' own mass is not in the bat.
 
-use crate::bat::Bat;
-use crate::collision::collocation::{POINTS, Pair, moments, times};
-use crate::collision::step::Piece;
+use crate::bat::body::Bat;
+use crate::collision::contact::collocation::{POINTS, Pair, moments, times};
+use crate::collision::contact::step::Piece;
 use crate::collision::struck::Struck;
-use crate::flexible::RigidMotion;
-use crate::modes::Mode;
-use crate::solve::Solution;
+use crate::modes::compliance::RigidMotion;
+use crate::modes::mode::Mode;
+use crate::modes::solve::Solution;
 
 /// A bat driven by a recorded force.
 pub struct Aftermath<'a> {

@@ -1,12 +1,6 @@
 //! What ball: mass, size, bounce and stiffness.
 
-use std::path::Path;
-
-use crate::document::Document;
-use crate::error::{Error, Result};
-use crate::json_node::{Node, Object};
-use crate::mistakes::{self, Mistakes};
-use crate::units::Quantity;
+use crate::base::error::{Error, Result};
 
 /// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
 #[derive(Debug, Clone, PartialEq)]
@@ -28,19 +22,6 @@ pub struct Ball {
     /// The same at rising speeds (m/s), in place of it where there are any.
     pub cor_by_speed: Vec<[f64; 2]>,
 }
-
-const KEYS: &[&str] = &[
-    "format",
-    "name",
-    "source",
-    "mass",
-    "radius",
-    "stiffness",
-    "exponent",
-    "cor",
-    "cor_by_speed",
-    "damping_ratio",
-];
 
 impl Ball {
     /// A baseball: 5 to 5¼ oz and 9 to 9¼ in around by the rules, the middle of both.
@@ -125,138 +106,6 @@ impl Ball {
             }
         })
     }
-
-    /// Reads a `sweetspot-ball/1` file.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
-        let document = Document::read(path.as_ref())?;
-        let root = Node::root(&document)?.members()?;
-        root.check_format("sweetspot-ball/1")?;
-        let mut mistakes = Mistakes::default();
-        let root = root.only(KEYS, &mut mistakes);
-        mistakes.note(root.require("format", "\"format\": \"sweetspot-ball/1\"").map(|_| ()));
-        let needed = |key: &str, quantity| -> Result<f64> {
-            let node = root.require(key, &format!("\"{key}\" of the ball"))?;
-            positive(node, quantity)
-        };
-        let optional = |key: &str| root.get(key).map(|node| positive(node, None)).transpose();
-        let name = mistakes.note(root.string("name"));
-        let source = mistakes.note(root.string("source"));
-        let mass = mistakes.note(needed("mass", Some(Quantity::Mass)));
-        let radius = mistakes.note(needed("radius", Some(Quantity::Length)));
-        let stiffness = mistakes.note(optional("stiffness"));
-        let exponent = mistakes.note(optional("exponent"));
-        let bounce = mistakes.and(bounce(&root, exponent))?;
-        Ok(Self {
-            name: name.unwrap_or_else(|| "unnamed ball".to_owned()),
-            source: source.unwrap_or_default(),
-            mass,
-            radius,
-            stiffness,
-            exponent: if bounce.linear { Some(1.0) } else { exponent },
-            cor: bounce.cor,
-            cor_by_speed: bounce.by_speed,
-        })
-    }
-}
-
-/// How a ball comes back, in one of the ways in which it may be written.
-struct Bounce {
-    cor: f64,
-    by_speed: Vec<[f64; 2]>,
-    /// Whether it was written as the damping of a linear ball.
-    linear: bool,
-}
-
-fn bounce(root: &Object, exponent: Option<f64>) -> Result<Bounce> {
-    let mut mistakes = Mistakes::default();
-    let by_speed = mistakes.some(root.get("cor_by_speed").map(by_speed).transpose());
-    let known = by_speed.as_ref().and_then(|table| table.as_ref()?.last().map(|[_, cor]| *cor));
-    let damped = root.get("damping_ratio").map(|node| linear(node, exponent));
-    let linear = damped.is_some();
-    mistakes.note(root.one_of(&["cor", "damping_ratio"]).map(|_| ()));
-    let cor = match (damped, root.get("cor"), known) {
-        (Some(cor), ..) => cor,
-        (None, Some(node), _) => e0(node),
-        (None, None, Some(cor)) => Ok(cor),
-        // A table that could not be read is told already.
-        (None, None, None) if by_speed.is_none() => Ok(0.0),
-        (None, None, None) => root.require("cor", "\"cor\" on a rigid wall").map(|_| 0.0),
-    };
-    let cor = mistakes.note(cor);
-    mistakes.end(Bounce { cor, by_speed: by_speed.flatten().unwrap_or_default(), linear })
-}
-
-/// A number, or a quantity, of a ball's size.
-fn positive(node: &Node, quantity: Option<Quantity>) -> Result<f64> {
-    let value = match quantity {
-        Some(quantity) => node.quantity(quantity)?,
-        None => node.number()?,
-    };
-    // Small enough and large enough for its square to be a number.
-    if value > 1e-100 && value < 1e100 {
-        Ok(value)
-    } else {
-        Err(node.error(node.shown(), "a value above 0, of a ball's size"))
-    }
-}
-
-/// A coefficient of restitution in a file.
-fn e0(node: &Node) -> Result<f64> {
-    restitution(node.number()?).map_err(|_| node.error(node.shown(), "0 to 1"))
-}
-
-/// `[[speed, e₀], …]`, the speeds rising.
-fn by_speed(node: &Node) -> Result<Vec<[f64; 2]>> {
-    let pairs = node.items()?;
-    if pairs.is_empty() {
-        return Err(node.error(node.shown(), "one pair at least"));
-    }
-    let all = mistakes::all(pairs.iter().map(pair))?;
-    mistakes::all((1..all.len()).filter(|k| all[*k][0] <= all[k - 1][0]).map(|k| {
-        let speed = pairs[k].item(0);
-        Err::<(), _>(speed.error(speed.shown(), "speeds of 0 or more, each above the last"))
-    }))?;
-    Ok(all)
-}
-
-/// A speed and the restitution at it.
-fn pair(node: &Node) -> Result<[f64; 2]> {
-    let [speed, cor] = &node.items()?[..] else {
-        let expected = "a speed and the restitution at it, such as [\"58 mph\", 0.546]";
-        return Err(node.error(node.shown(), expected));
-    };
-    let mut mistakes = Mistakes::default();
-    let at = mistakes.note(speed.quantity(Quantity::Speed));
-    if at < 0.0 {
-        mistakes.add(speed.error(speed.shown(), "speeds of 0 or more, each above the last"));
-    }
-    mistakes.and(e0(cor).map(|cor| [at, cor]))
-}
-
-/// e₀ of a linear ball, `m x″ + 2ζ√(km) x′ + k x = 0` until its force is zero:
-/// `exp(−2ζ arccos ζ/√(1 − ζ²))`.
-///
-/// It then is struck as a spring with exponent 1 that returns as much: a dashpot would push at once
-/// where a ball is hardly touched, which no ball does.
-///
-/// # Source
-///
-/// T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465, for the end of the contact where the
-/// force ends.
-fn linear(node: &Node, exponent: Option<f64>) -> Result<f64> {
-    if exponent.is_some_and(|exponent| exponent != 1.0) {
-        let expected = "an exponent of 1, or none: a damping ratio is that of a linear ball";
-        return Err(node.error(node.shown(), expected));
-    }
-    let ratio = node.number()?;
-    if !(0.0..1.0).contains(&ratio) {
-        return Err(node.error(node.shown(), "0 to below 1"));
-    }
-    Ok((-2.0 * ratio * ratio.acos() / ((1.0 - ratio) * (1.0 + ratio)).sqrt()).exp())
 }
 
 /// A coefficient of restitution, from 0 to 1.

@@ -10,14 +10,14 @@
 //! with Q from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit
 //! speed relative to the closing speed, so that BBCOR may be off by `1 + r` times as much.
 
-use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::base::error::{Error, Result};
+use crate::base::telling::Tell;
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::fixtures::{Fixtures, Held, Support};
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::{Sweep, sweep_telling};
-use crate::error::{Error, Result};
-use crate::fixtures::{Fixtures, Held, Support};
-use crate::solve::Request;
-use crate::telling::Tell;
+use crate::modes::solve::Request;
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;

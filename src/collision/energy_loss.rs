@@ -23,6 +23,8 @@
 //! Project, Worcester Polytechnic Institute, Eqs 4-6 to 4-15. Eq. 4-15 prints `W_n(a)` where the
 //! script squares it; with the printed form the ball would gain from many vibrations.
 
+use crate::beam::dowel::{Ends, UniformMode, beta_l};
+
 /// The two constants of the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyLoss {
@@ -41,7 +43,7 @@ impl Default for EnergyLoss {
 impl EnergyLoss {
     /// `E_v(a)` (dimensionless), for the deflections `W_1(a), W_2(a), …` of the bending modes.
     ///
-    /// The report's shapes are not normalised: on its dowel they are [`crate::dowel::wpi_shape`],
+    /// The report's shapes are not normalised: on its dowel they are [`crate::collision::energy_loss::wpi_shape`],
     /// so
     /// `(1/M) ∫ρA W_n² dx = α_n²`. Scale another bat's modes the same way to compare like with
     /// like.
@@ -70,10 +72,32 @@ impl EnergyLoss {
     }
 }
 
+/// `α_n` of the WPI report, whose free–free shapes are `sinh bX + sin bX + α_n (cosh bX + cos bX)`.
+///
+/// `α_n = (sinh b − sin b)/(cos b − cosh b)`, here in the equal form `−(1 + sq)/(1 − sq)`,
+/// `q = e^(−b)`, `s = ±1` for odd and even `n`. It goes to −1, and `∫₀¹ W_n² dX = α_n²` exactly.
+///
+/// # Source
+///
+/// Boucher, Mannke, McClune, *Vibrational Analysis of a Bat-Ball Collision*, Major Qualifying
+/// Project, Worcester Polytechnic Institute, chapter 2 (whose Eq. 2-28 has a sign misprinted).
+pub fn wpi_alpha(n: usize) -> f64 {
+    let sign = if n.is_multiple_of(2) { -1.0 } else { 1.0 };
+    let tail = sign * (-beta_l(Ends::FreeFree, n)).exp();
+    -(1.0 + tail) / (1.0 - tail)
+}
+
+/// The WPI report's free–free shape `W_n(X)`, left un-normalised as there, without cancellation.
+///
+/// `W_n(0) = 2 α_n`, `W_n′(0) = 2 βL`.
+pub fn wpi_shape(n: usize, x: f64) -> f64 {
+    wpi_alpha(n) * UniformMode::new(Ends::FreeFree, n).deflection(x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dowel::{wpi_alpha, wpi_shape};
+    use crate::beam::dowel::Ends::FreeFree;
 
     /// `E_v` of the report's dowel, struck at the fraction `x` of its length, with ten modes.
     fn dowel_vibration(x: f64) -> f64 {
@@ -139,5 +163,22 @@ mod tests {
             let exit = EnergyLoss::exit_velocity(v, v + gain, vibration).unwrap();
             assert!((exit - v - known).abs() < 0.05, "{shift}: {}", exit - v);
         }
+    }
+
+    #[test]
+    fn the_report_s_shape_is_the_hyperbolic_one_where_that_still_has_digits() {
+        for n in 1..=3 {
+            let (b, alpha) = (beta_l(FreeFree, n), wpi_alpha(n));
+            let raw = (b.sinh() - b.sin()) / (b.cos() - b.cosh());
+            assert!((alpha - raw).abs() < 1e-15 * b.exp(), "{n}");
+            for x in [0.0, 0.2, 0.5, 0.7, 1.0] {
+                let y: f64 = b * x;
+                let hyperbolic = y.sinh() + y.sin() + alpha * (y.cosh() + y.cos());
+                assert!((wpi_shape(n, x) - hyperbolic).abs() < 1e-15 * b.exp(), "{n} {x}");
+            }
+        }
+        // α₁² = 1.0359360, α₂² = 0.9984472
+        assert!((wpi_alpha(1).powi(2) - 1.035_935_996_45).abs() < 1e-11);
+        assert!((wpi_alpha(2).powi(2) - 0.998_447_186_95).abs() < 1e-11);
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! They are computed, from this project's models; nothing here is a certificate of any standard.
 
-use crate::bat::{Bat, STANDARD_PIVOT};
+use crate::base::error::Result;
+use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Effort, Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
-use crate::error::Result;
-use crate::solve::Solution;
+use crate::modes::solve::Solution;
 
 /// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
 /// (I_ref/I)^n`, I about the standard pivot.

@@ -1,13 +1,13 @@
 //! The ball's force and compression in time, from the recorded force.
 //!
 //! The compression is what ball and bat have come nearer: every motion is exact under a force that is
-//! a polynomial in time ([`crate::collision::contact`] has the equations). The ball's law is not
+//! a polynomial in time ([`crate::collision::contact::encounter`] has the equations). The ball's law is not
 //! asked, whose force near the end is too small to tell a compression from.
 
 use crate::collision::aftermath::{driven, pushes};
-use crate::collision::collocation::{Pair, polynomial};
-use crate::collision::step::Piece;
-use crate::collision::touch::Felt;
+use crate::collision::contact::collocation::{Pair, polynomial};
+use crate::collision::contact::step::Piece;
+use crate::collision::contact::touch::Felt;
 
 /// The ball at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]

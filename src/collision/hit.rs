@@ -1,11 +1,11 @@
 //! What a hit is: model, swing, pitch and ball; exit speed, impulse and where the energy went.
 
-use crate::bat::STANDARD_PIVOT;
+use crate::base::error::{Error, Result};
+use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
+use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::energy_loss::EnergyLoss;
-use crate::collision::force_law::ForceLaw;
 use crate::collision::pulse::Pulse;
-use crate::error::{Error, Result};
 
 /// How the bat's bending is counted; each model is a limit of the last.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,24 +6,24 @@
 
 use std::sync::Arc;
 
-use crate::bat::{Bat, STANDARD_PIVOT};
-use crate::collision::contact::{Collider, Encounter};
+use crate::base::error::{Error, Result};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::profile::Profile;
+use crate::collision::contact::encounter::{Collider, Encounter};
+use crate::collision::contact::force_law::{ForceLaw, LEAST_RESTITUTION};
+use crate::collision::contact::step::Piece;
+use crate::collision::contact::touch::Felt;
 use crate::collision::energy_loss::EnergyLoss;
-use crate::collision::force_law::{ForceLaw, LEAST_RESTITUTION};
+use crate::collision::energy_loss::wpi_alpha;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene, Separation, Wall};
 use crate::collision::pulse::Pulse;
 use crate::collision::rigid::{Motion, RigidBat};
 use crate::collision::stated::Answered;
-use crate::collision::step::Piece;
 use crate::collision::struck::{Struck, recoil_between, without_springs};
-use crate::collision::touch::Felt;
-use crate::dowel::wpi_alpha;
-use crate::error::{Error, Result};
-use crate::flexible::RigidMotion;
-use crate::modes::Mode;
-use crate::profile::Profile;
-use crate::solve::Solution;
+use crate::modes::compliance::RigidMotion;
+use crate::modes::mode::Mode;
+use crate::modes::solve::Solution;
 
 /// A bat about to be hit: all that is the same for every impact point.
 pub struct Hitter<'a> {

@@ -7,9 +7,8 @@
 //!
 //! | module | question |
 //! |---|---|
-//! | [`ball`], [`force_law`] | what ball, how hard does it push back |
-//! | [`contact`], with [`collocation`], [`touch`], [`step`], [`events`] | what happens while they touch |
-//! | [`flight`] | when do they touch again |
+//! | [`ball`] | what ball |
+//! | [`contact`] | how hard does it push back; what happens while they touch, and when do they touch again |
 //! | [`struck`] | how does the bat give way to a ball, anywhere |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`hit`], [`hitter`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
@@ -19,12 +18,6 @@
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
 pub mod ball;
-pub mod force_law;
-pub mod collocation;
-pub mod touch;
-pub mod step;
-pub mod events;
-pub mod flight;
 pub mod contact;
 pub mod struck;
 pub mod rigid;

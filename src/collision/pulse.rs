@@ -16,7 +16,7 @@
 //! series' fault.
 //!
 //! τ and κ are no constants of nature: 0.75 ms and 0.6 make this model follow
-//! [`crate::collision::contact`] within 1 m/s on the WPI report's dowel and on a cone, at one speed.
+//! [`crate::collision::contact::encounter`] within 1 m/s on the WPI report's dowel and on a cone, at one speed.
 //!
 //! # Source
 //!
@@ -80,7 +80,7 @@ impl Pulse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quadrature::gauss;
+    use crate::base::quadrature::gauss;
 
     #[test]
     fn the_spectrum_is_the_pulse_s() {

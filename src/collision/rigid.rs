@@ -90,7 +90,7 @@ impl RigidBat {
     /// # Source
     ///
     /// Newton's impact law with both momenta kept. It is Eq. 1-7 of the WPI report (named in
-    /// [`crate::dowel::wpi_alpha`]), `v′ = v + k (1 + e) u/(1 + k + (M/I) y²)` with `k = M/m`,
+    /// [`crate::collision::energy_loss::wpi_alpha`]), `v′ = v + k (1 + e) u/(1 + k + (M/I) y²)` with `k = M/m`,
     /// where the report's text misprints the ball's mass for the bat's in `M/I`.
     pub fn strike(&self, motion: Motion, ball: Incoming, x: f64) -> Rebound {
         let closing = self.speed_at(x, motion) - ball.velocity;

@@ -5,7 +5,7 @@
 //! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of
 //! `validation/hits` are others, at which `validate --promise` looks.
 
-use crate::collision::contact::Encounter;
+use crate::collision::contact::encounter::Encounter;
 use crate::collision::hit::greater;
 
 /// How much finer the steps are of the answer that shows what the steps are off by, and the finest;

@@ -5,12 +5,12 @@
 //! grain, knots, dents and earlier hits are not known here, nor how much more than in a slow test the
 //! wood bears for a millisecond.
 
-use crate::bat::Bat;
+use crate::bat::body::Bat;
+use crate::bat::material::Material;
 use crate::collision::aftermath::{Aftermath, Strained};
 use crate::collision::hit::{Effort, Model, Scene};
 use crate::collision::hitter::Hitter;
-use crate::material::Material;
-use crate::solve::Solution;
+use crate::modes::solve::Solution;
 
 /// What a strength is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

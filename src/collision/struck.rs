@@ -1,11 +1,11 @@
 //! A bat as a ball feels it, anywhere along its length.
 
-use crate::bat::Bat;
-use crate::collision::touch::Felt;
+use crate::bat::body::Bat;
+use crate::collision::contact::touch::Felt;
 use crate::eigen::lanczos::dot;
-use crate::flexible::{Flexible, RigidMotion};
-use crate::modes::Mode;
-use crate::solve::Solution;
+use crate::modes::compliance::{Flexible, RigidMotion};
+use crate::modes::mode::Mode;
+use crate::modes::solve::Solution;
 
 /// A bat's rigid motions, its modes and the flexibility of all others.
 pub struct Struck<'a> {

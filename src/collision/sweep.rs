@@ -2,13 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::bat::Bat;
+use crate::base::error::Result;
+use crate::base::telling::{Tell, nobody};
+use crate::base::threads;
+use crate::bat::body::Bat;
 use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
 use crate::collision::hitter::{Hitter, UNRESOLVED};
-use crate::error::Result;
-use crate::solve::{Request, Solution, solve};
-use crate::telling::{Tell, nobody};
-use crate::threads;
+use crate::modes::solve::{Request, Solution, solve};
 
 /// The impacts along a bat.
 #[derive(Debug, Clone)]

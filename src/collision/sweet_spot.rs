@@ -1,10 +1,10 @@
 //! Where is the sweet spot, by each of its definitions.
 
-use crate::bat::Bat;
+use crate::base::threads;
+use crate::bat::body::Bat;
 use crate::collision::hit::Scene;
 use crate::collision::hitter::{Glance, Hitter};
-use crate::solve::Solution;
-use crate::threads;
+use crate::modes::solve::Solution;
 
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,10 +12,10 @@ use std::sync::{Mutex, PoisonError};
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::base::error::{Error, Result};
 use crate::eigen::factor::Factor;
 use crate::eigen::lanczos::{self, Ritz};
 use crate::eigen::shift_invert::{self, Noise, Pairs, multiply};
-use crate::error::{Error, Result};
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, the rigid ones included.
 ///

@@ -6,8 +6,8 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par, Side};
 use nalgebra_sparse::CscMatrix;
 
+use crate::base::error::{Error, Result};
 use crate::eigen::factor::INDEFINITE;
-use crate::error::{Error, Result};
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`.
 ///

@@ -4,9 +4,9 @@
 //! the largest (an R161's first 5 in 10 to 12 steps, its first 10 in 17 to 19); keeping every basis
 //! vector costs nothing then, and none of Lanczos' ghosts appear.
 
+use crate::base::error::{Error, Result};
+use crate::base::real::Real;
 use crate::eigen::tridiagonal::Tridiagonal;
-use crate::error::{Error, Result};
-use crate::real::Real;
 
 /// The iteration with its memory, which the next run uses again.
 #[derive(Debug, Clone, Default)]

@@ -2,9 +2,9 @@
 
 use nalgebra_sparse::CscMatrix;
 
+use crate::base::error::{Error, Result};
 use crate::eigen::factor::{Factor, INDEFINITE};
 use crate::eigen::lanczos::{self, Ritz};
-use crate::error::{Error, Result};
 
 /// Eigenpairs of `K x = λ M x` and how the iteration went.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Eigenpairs of a small symmetric tridiagonal matrix.
 
-use crate::real::Real;
+use crate::base::real::Real;
 
 /// The eigenpairs with their memory, which the next problem uses again.
 #[derive(Debug, Clone, Default)]

@@ -10,8 +10,8 @@ pub mod pictures;
 use std::f64::consts::{PI, TAU};
 
 use sweetspot::Bat;
-use sweetspot::material::Material;
-use sweetspot::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::material::Material;
+use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 
 pub const LENGTH: f64 = 0.8382;
 pub const RADIUS: f64 = 0.0213;

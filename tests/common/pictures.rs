@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use resvg::usvg::roxmltree::{Document, Node};
-use sweetspot::plot::picture::Picture;
-use sweetspot::plot::words::{LABEL, Type};
-use sweetspot::plot::{theme, words};
+use sweetspot::show::plot::picture::Picture;
+use sweetspot::show::plot::words::{LABEL, Type};
+use sweetspot::show::plot::{theme, words};
 
 /// A rectangle that holds a text: left, top, right, bottom.
 pub type Box = [f64; 4];

@@ -1,0 +1,409 @@
+//! How do files stay whole? They are written beside and renamed, and never over what was read.
+//!
+//! [`write()`] looks where a name leads: an open descriptor, a device or a pipe is written through; a
+//! file is replaced by a whole one with its owner and permissions; where it cannot be replaced (other
+//! names for it, a folder without write permission) it is overwritten, and put back if that fails.
+
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::hash::{BuildHasher, RandomState};
+use std::io::{self, Error as Fault, ErrorKind, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::base::error::{Error, Result};
+
+/// The largest file that is read (bytes): some ten million stations.
+pub const MOST: u64 = 256 << 20;
+
+/// What was read and written since [`keep`]; None before it.
+static KEPT: Mutex<Option<Vec<Identity>>> = Mutex::new(None);
+
+/// What tells a file from others: its path without links, and its number on its disk, which all of
+/// its names share.
+#[derive(Debug)]
+struct Identity {
+    path: PathBuf,
+    number: Option<(u64, u64)>,
+}
+
+impl Identity {
+    fn of(path: &Path) -> Option<Self> {
+        let path = fs::canonicalize(path).ok()?;
+        let number = number(&fs::metadata(&path).ok().filter(Metadata::is_file)?);
+        Some(Self { path, number })
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        self.path == other.path || (self.number.is_some() && self.number == other.number)
+    }
+}
+
+/// From now on [`write()`] replaces no file that was read or written, nor the one that standard
+/// output goes to: for a program, whose user may give the same name to two files by mistake.
+pub fn keep() {
+    locked(&KEPT).get_or_insert_default();
+    ["/dev/stdout", "/dev/stderr"].iter().for_each(|name| note(Path::new(name)));
+}
+
+/// Reads a whole file.
+///
+/// # Errors
+///
+/// [`Error::Read`], also for more than [`MOST`] bytes, as a device may have without end.
+pub fn read(path: &Path) -> Result<Vec<u8>> {
+    let failed = |source| Error::Read { path: path.to_owned(), source };
+    let bytes = up_to(path, MOST).map_err(failed)?;
+    note(path);
+    Ok(bytes)
+}
+
+fn up_to(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let size = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    if size <= most {
+        bytes.reserve(size as usize);
+        file.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    if size > most || bytes.len() as u64 > most {
+        let said = format!("it has more than {} MiB, the most that is read", most >> 20);
+        return Err(Fault::new(ErrorKind::FileTooLarge, said));
+    }
+    Ok(bytes)
+}
+
+/// A file, if it is one, is kept from now on.
+fn note(path: &Path) {
+    if let (Some(file), Some(kept)) = (Identity::of(path), locked(&KEPT).as_mut()) {
+        kept.push(file);
+    }
+}
+
+/// Writes a file so that whoever looks sees the old one or the new one, never half of one.
+///
+/// # Errors
+///
+/// [`Error::Write`], and [`Error::Value`] if the file is to be [kept](keep); what was there before
+/// is still there then.
+pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
+    let failed = |source| Error::Write { path: path.to_owned(), source };
+    let target = end_of_links(path).map_err(failed)?;
+    if let Some(descriptor) = Descriptor::at(&target) {
+        return unless_closed(descriptor.write(contents)).map_err(failed);
+    }
+    // By the name that was given: what the system forbids of links is forbidden here too.
+    let old = match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => None,
+        old => Some(old.map_err(failed)?),
+    };
+    let written = match old {
+        Some(old) if !old.is_file() && !old.is_dir() => {
+            let device = OpenOptions::new().append(true).open(path);
+            return unless_closed(device.and_then(|mut it| it.write_all(contents))).map_err(failed);
+        }
+        Some(old) => {
+            refuse_kept(path)?;
+            replace(path, &target, &old, contents)
+        }
+        None => write_beside(&target, None, contents),
+    };
+    written.map_err(failed).inspect(|()| note(path))
+}
+
+fn refuse_kept(path: &Path) -> Result<()> {
+    let Some(this) = Identity::of(path) else { return Ok(()) };
+    if locked(&KEPT).iter().flatten().any(|kept| kept.is(&this)) {
+        let (name, found) =
+            (path.display().to_string(), "a file that this run has read or written");
+        return Err(Error::value(&name, found, "another name for what is to be written"));
+    }
+    Ok(())
+}
+
+/// Whoever closed a pipe has read enough.
+fn unless_closed(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+/// Where a name leads when every link is followed, whether there is a file yet or not. The link of an
+/// open [descriptor](Descriptor) is an end: what it shows is not a way to what is open.
+fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    const MOST_LINKS: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Ok(path) };
+        let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+        let folder = fs::canonicalize(folder)?;
+        let here = folder.join(name);
+        path = match fs::read_link(&here) {
+            Ok(link) if Descriptor::at(&here).is_none() => folder.join(link),
+            _ => return Ok(here),
+        };
+    }
+    Err(Fault::other("too many links, one after the other"))
+}
+
+/// A descriptor that a process has open, by its place in the file system.
+#[derive(Debug, PartialEq)]
+struct Descriptor<'a> {
+    path: &'a Path,
+    /// Its number, where it is one of this process.
+    own: Option<i32>,
+}
+
+impl<'a> Descriptor<'a> {
+    /// The one at a path without links up to its folder.
+    fn at(path: &'a Path) -> Option<Self> {
+        let number = path.file_name()?.to_str()?.parse().ok()?;
+        let folder = path.parent()?;
+        if folder == Path::new("/dev/fd") {
+            return Some(Self { path, own: Some(number) });
+        }
+        let process = folder.strip_prefix("/proc").ok().filter(|rest| rest.ends_with("fd"))?;
+        let this = std::process::id().to_string();
+        let own = process.starts_with(this).then_some(number);
+        Some(Self { path, own })
+    }
+
+    /// Writes where the descriptor stands, or appends where it appends.
+    fn write(&self, contents: &[u8]) -> io::Result<()> {
+        match self.own {
+            Some(1) => {
+                let mut out = io::stdout().lock();
+                out.write_all(contents).and_then(|()| out.flush())
+            }
+            Some(2) => io::stderr().write_all(contents),
+            _ => self.open()?.write_all(contents),
+        }
+    }
+
+    /// Linux opens the file anew, at its beginning; only a duplicate goes on where it stands.
+    #[cfg(target_os = "linux")]
+    fn open(&self) -> io::Result<File> {
+        use rustix::process::{PidfdFlags, PidfdGetfdFlags, getpid, pidfd_getfd, pidfd_open};
+        let duplicate = |number| {
+            let this = pidfd_open(getpid(), PidfdFlags::empty())?;
+            pidfd_getfd(this, number, PidfdGetfdFlags::empty()).map(File::from)
+        };
+        match self.own.filter(|number| inherited(*number)).map(duplicate) {
+            Some(Ok(file)) => Ok(file),
+            // Not before Linux 5.6, and not of another process: nothing that is there is lost.
+            _ => OpenOptions::new().append(true).open(self.path),
+        }
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn open(&self) -> io::Result<File> {
+        OpenOptions::new().append(true).open(self.path)
+    }
+}
+
+/// Whether a descriptor was open when the program began: what it has opened since, under a number
+/// that was free, is closed on exec.
+#[cfg(target_os = "linux")]
+fn inherited(number: i32) -> bool {
+    const CLOSED_ON_EXEC: u32 = 0o2_000_000;
+    let told = fs::read_to_string(format!("/proc/self/fdinfo/{number}")).unwrap_or_default();
+    let flags = told.lines().find_map(|line| line.strip_prefix("flags:"));
+    let flags = flags.and_then(|flags| u32::from_str_radix(flags.trim(), 8).ok());
+    flags.is_some_and(|flags| flags & CLOSED_ON_EXEC == 0)
+}
+
+/// Replaces a file by a whole one, or overwrites it where that is not possible.
+fn replace(path: &Path, target: &Path, old: &Metadata, contents: &[u8]) -> io::Result<()> {
+    if old.permissions().readonly() {
+        // Whoever may do everything could, but somebody wanted it to stay.
+        return Err(Fault::new(ErrorKind::PermissionDenied, "it is a read-only file"));
+    }
+    // Whoever may not write to it must not replace it either.
+    OpenOptions::new().write(true).open(path)?;
+    if names(old) == 1 {
+        use ErrorKind::{CrossesDevices, PermissionDenied, ReadOnlyFilesystem, ResourceBusy};
+        match write_beside(target, Some(old), contents) {
+            // No file may be made there, or not with that owner, or nothing put in its place.
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    PermissionDenied | ReadOnlyFilesystem | ResourceBusy | CrossesDevices
+                ) => {}
+            done => return done,
+        }
+    }
+    overwrite(path, contents)
+}
+
+/// Overwrites a file, and puts back what it held if that fails.
+fn overwrite(path: &Path, contents: &[u8]) -> io::Result<()> {
+    // Under the list's lock, so that whoever stops the program waits for the end.
+    let _parts = parts();
+    let mut file = OpenOptions::new().read(true).write(true).open(path)?;
+    let mut held = Vec::new();
+    file.read_to_end(&mut held)?;
+    let mut put = |contents: &[u8]| {
+        file.rewind()?;
+        file.write_all(contents)?;
+        file.set_len(contents.len() as u64)?;
+        file.sync_all()
+    };
+    put(contents).inspect_err(|_| {
+        // The reason why the file could not be written is the one to tell.
+        let _ = put(&held);
+    })
+}
+
+/// Writes a part in the folder of the target, as `old` in owner and permissions, and renames it.
+fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::Result<()> {
+    let (part, mut file) = new_part(target)?;
+    let written = old
+        .map_or(Ok(()), |old| as_before(&file, old))
+        .and_then(|()| file.write_all(contents))
+        .and_then(|()| file.sync_all());
+    drop(file);
+    let written = written.and_then(|()| fs::rename(&part, target));
+    if written.is_err() {
+        // The part is of no use; that it may not be there is no further error.
+        let _ = fs::remove_file(&part);
+    }
+    parts().retain(|other| *other != part);
+    written
+}
+
+/// A new file in the folder of the target, under a name that nobody can foresee and that is short
+/// however long the target's is.
+fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
+    const TRIES: usize = 16;
+    for _ in 0..TRIES {
+        let number = RandomState::new().hash_one(target);
+        let part = target.with_file_name(format!(".sweetspot-{number:016x}.part"));
+        // Under the list's lock, so that whoever removes the parts finds this one or forbids it.
+        let mut parts = parts();
+        match OpenOptions::new().write(true).create_new(true).open(&part) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+            Ok(file) => {
+                parts.push(part.clone());
+                return Ok((part, file));
+            }
+        }
+    }
+    Err(Fault::from(ErrorKind::AlreadyExists))
+}
+
+/// Gives a new file the owner and the permissions of the one that it replaces.
+#[cfg(unix)]
+fn as_before(file: &File, old: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let new = file.metadata()?;
+    if (new.uid(), new.gid()) != (old.uid(), old.gid()) {
+        fchown(file, Some(old.uid()), Some(old.gid()))?;
+    }
+    file.set_permissions(old.permissions())
+}
+
+#[cfg(not(unix))]
+fn as_before(file: &File, old: &Metadata) -> io::Result<()> {
+    file.set_permissions(old.permissions())
+}
+
+/// How many names (hard links) a file has.
+#[cfg(unix)]
+fn names(file: &Metadata) -> u64 {
+    std::os::unix::fs::MetadataExt::nlink(file)
+}
+
+#[cfg(not(unix))]
+fn names(_: &Metadata) -> u64 {
+    1
+}
+
+/// Disk and number of a file.
+#[cfg(unix)]
+fn number(file: &Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((file.dev(), file.ino()))
+}
+
+#[cfg(not(unix))]
+fn number(_: &Metadata) -> Option<(u64, u64)> {
+    None
+}
+
+/// What is being written at this moment.
+static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
+    locked(&PARTS)
+}
+
+/// A list of names is whole whatever happened to the thread that held it.
+fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
+    list.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes every part that is being written, for a program that is told to stop. No further file is
+/// begun: whoever tries waits for the end of the program, which must follow.
+pub fn abandon() {
+    let parts = parts();
+    for part in parts.iter() {
+        // It may be whole and renamed by now.
+        let _ = fs::remove_file(part);
+    }
+    // The next file's thread must not pass.
+    std::mem::forget(parts);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_no_part() {
+        let folder = std::env::temp_dir().join(format!("sweetspot-file-{}", std::process::id()));
+        fs::create_dir_all(folder.join("taken")).unwrap();
+        fs::write(folder.join("taken/inside"), "old").unwrap();
+        write(&folder.join("new"), b"new").unwrap();
+        write(&folder.join("new"), b"newer").unwrap();
+        assert_eq!(fs::read_to_string(folder.join("new")).unwrap(), "newer");
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("new", folder.join("link")).unwrap();
+            write(&folder.join("link"), b"through").unwrap();
+            assert_eq!(fs::read_to_string(folder.join("new")).unwrap(), "through");
+            fs::remove_file(folder.join("link")).unwrap();
+        }
+        // A folder with something in it cannot be replaced by a file.
+        assert!(write(&folder.join("taken"), b"x").is_err());
+        assert!(write(&folder.join("missing/new"), b"x").is_err());
+        let mut names: Vec<_> =
+            fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["new", "taken"]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_stays_a_pipe_and_a_link_a_link() {
+        use std::os::unix::fs::{FileTypeExt, symlink};
+        let folder = std::env::temp_dir().join(format!("sweetspot-link-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("file"), "old").unwrap();
+        symlink(folder.join("file"), folder.join("link")).unwrap();
+        write(&folder.join("link"), b"new").unwrap();
+        assert!(fs::symlink_metadata(folder.join("link")).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(folder.join("file")).unwrap(), "new");
+        let pipe = folder.join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read_to_string(pipe).unwrap()
+        });
+        write(&pipe, b"through").unwrap();
+        assert_eq!(reader.join().unwrap(), "through");
+        assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

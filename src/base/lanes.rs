@@ -1,0 +1,193 @@
+//! How do several bats or modes go through the same arithmetic at once?
+//!
+//! [`Lanes`] holds as many numbers as a vector of the machine.
+//!
+//! Plain loops over arrays, which the compiler turns into vector instructions; pulp chooses the
+//! widest that the machine knows. The bits of an answer do not depend on that choice.
+
+use std::array::from_fn;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use pulp::Arch;
+
+use crate::base::real::{Over, Real};
+
+/// Bats or modes side by side: two vectors of AVX2, or four of the oldest machines.
+pub const WIDTH: usize = 8;
+
+/// Whether vectors beyond those of every machine are left unused.
+static PLAIN: AtomicBool = AtomicBool::new(false);
+
+/// Leaves vectors beyond those of every machine unused from now on, in the whole process: for a test
+/// that answers have equal bits on all machines.
+pub fn leave_wide_vectors_unused() {
+    PLAIN.store(true, Ordering::Relaxed);
+}
+
+/// The widest vectors to use on this machine.
+pub(crate) fn arch() -> Arch {
+    if PLAIN.load(Ordering::Relaxed) { Arch::Scalar } else { Arch::new() }
+}
+
+/// One number for each of several bats or modes.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(align(64))]
+pub struct Lanes([f64; WIDTH]);
+
+impl Lanes {
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self(from_fn(|k| f(self.0[k])))
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self(from_fn(|k| f(self.0[k], other.0[k])))
+    }
+}
+
+impl Add for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl Sub for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl Mul for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Mul<f64> for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self.map(|a| a * other)
+    }
+}
+
+impl Over<f64> for Lanes {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self::splat(value)
+    }
+}
+
+impl Div for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+}
+
+impl Neg for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|a| -a)
+    }
+}
+
+impl AddAssign for Lanes {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Lanes {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl Real for Lanes {
+    const LANES: usize = WIDTH;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; WIDTH])
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.zip(sign, f64::copysign)
+    }
+
+    #[inline(always)]
+    fn if_zero(self, then: Self, otherwise: Self) -> Self {
+        Self(from_fn(|k| if self.0[k] == 0.0 { then.0[k] } else { otherwise.0[k] }))
+    }
+
+    #[inline(always)]
+    fn within(self, other: Self) -> bool {
+        (0..WIDTH).fold(true, |all, k| all & (self.0[k] <= other.0[k]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_lane_counts_as_a_number_of_its_own() {
+        let numbers: [f64; WIDTH] = from_fn(|k| k as f64 - 3.0);
+        let a = Lanes(numbers);
+        let b = Lanes::splat(2.0);
+        for k in 0..WIDTH {
+            let x = numbers[k];
+            assert_eq!((a * b - a / b + -b).lane(k), x * 2.0 - x / 2.0 + -2.0);
+            assert_eq!(a.abs().sqrt().lane(k), x.abs().sqrt());
+            assert_eq!(a.max(b).lane(k), x.max(2.0));
+            assert_eq!(b.copysign(a).lane(k), 2.0_f64.copysign(x));
+            assert_eq!(a.if_zero(b, a).lane(k), if x == 0.0 { 2.0 } else { x });
+        }
+        assert!(a.within(Lanes::splat(4.0)) && !a.within(Lanes::splat(3.9)));
+    }
+}

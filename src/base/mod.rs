@@ -1,0 +1,26 @@
+//! What do we count with, and how do we fail?
+//!
+//! Read [`error`] and [`units`] first: what a caller got wrong is told with its place, and every number
+//! that comes in or goes out has its unit named.
+//!
+//! | file | question |
+//! |---|---|
+//! | [`error`], [`mistakes`] | what was wrong, where, what was expected; several mistakes at once |
+//! | [`telling`], [`threads`] | how far is a long computation; on how many threads |
+//! | [`file`](mod@file) | how is a file written so that nothing is lost |
+//! | [`units`] | what is a number with a unit in SI |
+//! | [`real`], [`lanes`] | one number or several side by side |
+//! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
+//! | [`xml`] | how is a text written into XML |
+
+pub mod error;
+pub(crate) mod mistakes;
+pub mod telling;
+pub(crate) mod threads;
+pub mod file;
+pub mod units;
+pub mod real;
+pub mod lanes;
+pub mod quadrature;
+pub mod interval;
+pub mod xml;

@@ -1,0 +1,596 @@
+//! What is a number with a unit in SI?
+//!
+//! [`parse`] for a string that must carry its unit, [`parse_or_si`] for one that may be bare.
+//!
+//! A bare number is SI. A string carries its unit: `"33 in"`, `"2.02e6 psi"`,
+//! `"0.0257 lb/in^3"`. A unit is a product of symbols with integer powers
+//! (`kg/m^3`, `oz in^2`, `N·s`, `m/s`); a division covers the one symbol after it. A number may be
+//! read off an inch rule: `"2 5/8 in"`.
+//! `oz` and `lb` are masses; forces are `lbf`, `ozf`, `N`. Mixing them up is the commonest
+//! silent error in this field (a factor √g in every frequency), so it is told, not guessed.
+//!
+//! # Source
+//!
+//! The inch, foot, mile, pound and standard gravity are exact by definition (yard and pound
+//! agreement of 1959; third CGPM 1901): in = 0.0254 m, lb = 0.453 592 37 kg,
+//! g₀ = 9.806 65 m/s². All other factors follow from these.
+
+use crate::base::error::{Complaint, nearest};
+
+const INCH: f64 = 0.0254;
+const FOOT: f64 = 0.3048;
+const MILE: f64 = 1609.344;
+const POUND: f64 = 0.453_592_37;
+const OUNCE: f64 = POUND / 16.0;
+/// 0.453 592 37 kg × 9.806 65 m/s², exactly.
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// One pound-force per foot per second squared.
+const SLUG: f64 = POUND_FORCE / FOOT;
+/// Pound-force per square inch, rounded once from the exact quotient.
+const PSI: f64 = 6_894.757_293_168_361;
+
+/// Powers of length, mass, time and angle.
+type Dimension = [i8; 4];
+
+/// A physical quantity: what a value is, its dimension, its SI unit and an example.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// m
+    Length,
+    /// kg
+    Mass,
+    /// kg/m³
+    Density,
+    /// Pa; of a modulus, too.
+    Pressure,
+    /// m/s
+    Speed,
+    /// rad/s
+    AngularSpeed,
+    /// rad
+    Angle,
+    /// s
+    Time,
+    /// Hz
+    Frequency,
+    /// N
+    Force,
+    /// N/m
+    Stiffness,
+    /// N m/rad
+    RotationalStiffness,
+    /// N/m²: per length of bat.
+    BedStiffness,
+    /// N s/m
+    Damping,
+    /// N s/m²: per length of bat.
+    BedDamping,
+    /// Of mass (kg m²).
+    Inertia,
+    /// N s
+    Impulse,
+}
+
+impl Quantity {
+    /// All of them, for tables and tests.
+    pub const ALL: [Self; 17] = [
+        Self::Length,
+        Self::Mass,
+        Self::Density,
+        Self::Pressure,
+        Self::Speed,
+        Self::AngularSpeed,
+        Self::Angle,
+        Self::Time,
+        Self::Frequency,
+        Self::Force,
+        Self::Stiffness,
+        Self::RotationalStiffness,
+        Self::BedStiffness,
+        Self::Damping,
+        Self::BedDamping,
+        Self::Inertia,
+        Self::Impulse,
+    ];
+
+    /// Name, dimension, SI unit, and an example in the units of the trade.
+    fn facts(self) -> (&'static str, Dimension, &'static str, &'static str) {
+        match self {
+            Self::Length => ("a length", [1, 0, 0, 0], "m", "33 in"),
+            Self::Mass => ("a mass", [0, 1, 0, 0], "kg", "31 oz"),
+            Self::Density => ("a density", [-3, 1, 0, 0], "kg/m^3", "0.0257 lb/in^3"),
+            Self::Pressure => ("a pressure", [-1, 1, -2, 0], "Pa", "18.1 GPa"),
+            Self::Speed => ("a speed", [1, 0, -1, 0], "m/s", "90 mph"),
+            Self::AngularSpeed => ("an angular speed", [0, 0, -1, 1], "rad/s", "50 rad/s"),
+            Self::Angle => ("an angle", [0, 0, 0, 1], "rad", "10 deg"),
+            Self::Time => ("a time", [0, 0, 1, 0], "s", "0.75 ms"),
+            Self::Frequency => ("a frequency", [0, 0, -1, 0], "Hz", "170 Hz"),
+            Self::Force => ("a force", [1, 1, -2, 0], "N", "20 lbf"),
+            Self::Stiffness => ("a stiffness", [0, 1, -2, 0], "N/m", "1000 N/m"),
+            Self::RotationalStiffness => {
+                ("a rotational stiffness", [2, 1, -2, -1], "N m/rad", "500 N m/rad")
+            }
+            Self::BedStiffness => ("a stiffness per length", [-1, 1, -2, 0], "N/m^2", "4e5 N/m^2"),
+            Self::Damping => ("a damping", [0, 1, -1, 0], "N s/m", "5 N s/m"),
+            Self::BedDamping => ("a damping per length", [-1, 1, -1, 0], "N s/m^2", "200 N s/m^2"),
+            Self::Inertia => ("a moment of inertia", [2, 1, 0, 0], "kg m^2", "10425 oz in^2"),
+            Self::Impulse => ("an impulse", [1, 1, -1, 0], "N s", "12 N s"),
+        }
+    }
+
+    /// Whether a unit of that dimension measures it. A stiffness against rotation may leave its
+    /// radian out: `N m`.
+    fn has(self, dimension: Dimension) -> bool {
+        let [length, mass, time, angle] = self.facts().1;
+        let without = self == Self::RotationalStiffness && dimension == [length, mass, time, 0];
+        dimension == [length, mass, time, angle] || without
+    }
+
+    /// Its SI unit, and the factor to it, 1.
+    pub(crate) fn si(self) -> (&'static str, f64) {
+        (self.facts().2, 1.0)
+    }
+
+    /// The quantity in words, with its article: "a length".
+    pub fn name(self) -> &'static str {
+        self.facts().0
+    }
+
+    /// A value of this quantity in units of the trade.
+    pub fn example(self) -> &'static str {
+        self.facts().3
+    }
+
+    /// What a value of this quantity may look like, for error messages.
+    pub fn expected(self) -> String {
+        self.expected_in(self.facts().2)
+    }
+
+    /// The same where bare numbers are in that unit.
+    pub fn expected_in(self, unit: &str) -> String {
+        let (name, _, _, example) = self.facts();
+        let bare = if unit == "in" { "inches" } else { unit };
+        format!("{name} such as \"{example}\" or a number in {bare}")
+    }
+
+    /// The units that would do, where symbols of their own measure it.
+    fn units(self) -> String {
+        let (name, dimension, si, _) = self.facts();
+        let others = SYMBOLS.iter().filter(|symbol| symbol.2 == dimension && symbol.0 != si);
+        let others: Vec<&str> = others.map(|symbol| symbol.0).collect();
+        match others[..] {
+            [] => String::new(),
+            [ref most @ .., last] => {
+                let most: Vec<&str> = [si].iter().chain(most).copied().collect();
+                format!("{name} is in {} or {last}", most.join(", "))
+            }
+        }
+    }
+}
+
+/// Symbols with their factor to SI and their dimension; the first of a family is its short form.
+const SYMBOLS: &[(&str, f64, Dimension)] = &[
+    ("m", 1.0, [1, 0, 0, 0]),
+    ("km", 1e3, [1, 0, 0, 0]),
+    ("cm", 1e-2, [1, 0, 0, 0]),
+    ("mm", 1e-3, [1, 0, 0, 0]),
+    ("um", 1e-6, [1, 0, 0, 0]),
+    ("in", INCH, [1, 0, 0, 0]),
+    ("inch", INCH, [1, 0, 0, 0]),
+    ("inches", INCH, [1, 0, 0, 0]),
+    ("ft", FOOT, [1, 0, 0, 0]),
+    ("foot", FOOT, [1, 0, 0, 0]),
+    ("feet", FOOT, [1, 0, 0, 0]),
+    ("kg", 1.0, [0, 1, 0, 0]),
+    ("g", 1e-3, [0, 1, 0, 0]),
+    ("oz", OUNCE, [0, 1, 0, 0]),
+    ("lb", POUND, [0, 1, 0, 0]),
+    ("lbm", POUND, [0, 1, 0, 0]),
+    ("slug", SLUG, [0, 1, 0, 0]),
+    ("s", 1.0, [0, 0, 1, 0]),
+    ("ms", 1e-3, [0, 0, 1, 0]),
+    ("us", 1e-6, [0, 0, 1, 0]),
+    ("min", 60.0, [0, 0, 1, 0]),
+    ("h", 3600.0, [0, 0, 1, 0]),
+    ("rad", 1.0, [0, 0, 0, 1]),
+    ("deg", std::f64::consts::PI / 180.0, [0, 0, 0, 1]),
+    ("rev", std::f64::consts::TAU, [0, 0, 0, 1]),
+    ("rpm", std::f64::consts::TAU / 60.0, [0, 0, -1, 1]),
+    ("Hz", 1.0, [0, 0, -1, 0]),
+    ("kHz", 1e3, [0, 0, -1, 0]),
+    ("N", 1.0, [1, 1, -2, 0]),
+    ("kN", 1e3, [1, 1, -2, 0]),
+    ("lbf", POUND_FORCE, [1, 1, -2, 0]),
+    ("ozf", POUND_FORCE / 16.0, [1, 1, -2, 0]),
+    ("kgf", 9.806_65, [1, 1, -2, 0]),
+    ("Pa", 1.0, [-1, 1, -2, 0]),
+    ("kPa", 1e3, [-1, 1, -2, 0]),
+    ("MPa", 1e6, [-1, 1, -2, 0]),
+    ("GPa", 1e9, [-1, 1, -2, 0]),
+    ("psi", PSI, [-1, 1, -2, 0]),
+    ("ksi", 1e3 * PSI, [-1, 1, -2, 0]),
+    ("mph", MILE / 3600.0, [1, 0, -1, 0]),
+    ("kph", 1.0 / 3.6, [1, 0, -1, 0]),
+    ("fps", FOOT, [1, 0, -1, 0]),
+];
+
+/// The value of `text`, such as `"33 in"`, in SI. A text must carry its unit.
+///
+/// # Errors
+///
+/// What was found and what was expected, with an empty field name for the caller to fill in.
+pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    parse_beside(text, quantity, quantity.facts().2)
+}
+
+/// The same where bare numbers, which a text is not, are in the unit `bare`.
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn parse_beside(text: &str, quantity: Quantity, bare: &str) -> Result<f64, Complaint> {
+    let text = text.trim();
+    let (number, unit) = split(text);
+    let wrong = |found: String| Complaint::new("", found, quantity.expected_in(bare));
+    if unit.starts_with(',') {
+        let hint = "decimals follow a point, not a comma";
+        return Err(wrong(format!("\"{text}\"")).hinted(hint));
+    }
+    if unit.starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(wrong(format!("\"{text}\"")));
+    }
+    let value = mixed(number).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+    if unit.is_empty() && value.is_finite() {
+        return Err(
+            wrong(format!("\"{text}\" without a unit")).hinted(with_unit(number, quantity, bare))
+        );
+    }
+    let of_unit = |unit| {
+        factor(unit, quantity)
+            .map_err(|complaint| Complaint { expected: quantity.expected_in(bare), ..complaint })
+    };
+    let value = if unit.is_empty() { value } else { value * of_unit(unit)? };
+    if value.is_finite() {
+        // So that −0 is 0.
+        Ok(value + 0.0)
+    } else {
+        Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
+    }
+}
+
+/// What a number without its unit may be meant for.
+fn with_unit(number: &str, quantity: Quantity, bare: &str) -> String {
+    let usual = split(quantity.example()).1;
+    match number.parse::<f64>() {
+        Ok(_) if usual == bare => format!("write \"{number} {bare}\", or {number} without quotes"),
+        Ok(_) => format!(
+            "write \"{number} {usual}\" or \"{number} {bare}\"; {number} without quotes is in {bare}"
+        ),
+        Err(_) => format!("write \"{number} {usual}\""),
+    }
+}
+
+/// As [`parse`], where a bare number is SI: on the command line everything is text.
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value + 0.0),
+        _ => parse(text, quantity),
+    }
+}
+
+/// The factor to SI of a unit on its own, such as `"in"` or `"lb/in^3"`.
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
+    let expected =
+        || format!("a unit of {}, such as \"{}\"", quantity.name(), split(quantity.example()).1);
+    let (factor, dimension) = product(unit).map_err(|(found, hint)| {
+        let hint = if hint.is_empty() { quantity.units() } else { hint };
+        Complaint::new("", found, expected()).hinted(hint)
+    })?;
+    if quantity.has(dimension) {
+        return Ok(factor);
+    }
+    let is = Quantity::ALL.iter().find(|q| q.facts().1 == dimension);
+    let found = match is {
+        Some(q) => format!("unit \"{unit}\", which measures {}", q.name()),
+        None => format!("unit \"{unit}\", which does not measure {}", quantity.name()),
+    };
+    let hint = match advice(quantity, is, unit) {
+        "" => quantity.units(),
+        advice => advice.to_owned(),
+    };
+    Err(Complaint::new("", found, expected()).hinted(hint))
+}
+
+/// What to do about a force for a mass or a mass for a force.
+fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static str {
+    let per_area = unit.contains("lb/in^2") || unit.contains("lb/in2");
+    let of_mass = unit.contains("lb") && !unit.contains("lbf");
+    match (wanted, found) {
+        (Quantity::Mass, Some(Quantity::Force)) => {
+            "mass is mass here: a bat that a scale shows as 2 lbf has a mass of 2 lb"
+        }
+        (Quantity::Force, Some(Quantity::Mass)) => "oz and lb are masses here: write ozf or lbf",
+        (Quantity::Density, _) if unit.contains("lbf") => "lb is the mass, lbf the force",
+        (Quantity::Pressure, _) if per_area => "lb is a mass here: write psi",
+        (
+            Quantity::Stiffness
+            | Quantity::RotationalStiffness
+            | Quantity::BedStiffness
+            | Quantity::Damping
+            | Quantity::BedDamping,
+            _,
+        ) if of_mass => "lb is a mass here: write lbf",
+        _ => "",
+    }
+}
+
+/// The value of a number that [`split`] has found: `2.5`, `5/8` or `2 5/8`.
+fn mixed(number: &str) -> Option<f64> {
+    let Some((above, below)) = number.split_once('/') else { return number.parse().ok() };
+    let (whole, above) = above.rsplit_once(' ').unwrap_or(("0", above));
+    let [whole, above, below] = [whole.trim_end(), above, below].map(|part| part.parse().ok());
+    let (whole, above, below): (f64, f64, f64) = (whole?, above?, below?);
+    // No rule shows "2.5 5/8", and what "-2 1/8" means is anybody's guess.
+    (whole.fract() == 0.0 && whole >= 0.0).then_some(whole + above / below)
+}
+
+/// Splits a number from the unit after it.
+fn split(text: &str) -> (&str, &str) {
+    let bytes = text.as_bytes();
+    let digits = |mut i: usize| {
+        while i < bytes.len() && (bytes[i].is_ascii_digit() || bytes[i] == b'.') {
+            i += 1;
+        }
+        i
+    };
+    let blanks = |i: usize| i + text[i..].bytes().take_while(|byte| *byte == b' ').count();
+    let sign = |i: usize| i + usize::from(matches!(bytes.get(i), Some(b'+' | b'-')));
+    let mut end = digits(sign(0));
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = digits(sign(end + 1));
+        if exponent > sign(end + 1) {
+            end = exponent;
+        }
+    }
+    // The fraction of an inch rule, after whole inches or on its own.
+    let above = if text[end..].starts_with('/') { end } else { digits(blanks(end)) };
+    if bytes.get(above) == Some(&b'/') && digits(above + 1) > above + 1 {
+        end = digits(above + 1);
+    }
+    (&text[..end], text[end..].trim())
+}
+
+/// What was found that is no unit, and what it may have been meant for.
+type Unknown = (String, String);
+
+/// The factor and the dimension of a product of powers of symbols.
+fn product(unit: &str) -> Result<(f64, Dimension), Unknown> {
+    let unit = unit.replace('²', "^2").replace('³', "^3").replace('µ', "u");
+    let (mut total, mut dimension): (f64, Dimension) = (1.0, [0; 4]);
+    let mut sign = 1;
+    for part in unit.split_inclusive(['*', '·', ' ', '/']) {
+        let symbol = part.trim_end_matches(['*', '·', ' ', '/']);
+        if !symbol.is_empty() {
+            let (base, power) = power(symbol)?;
+            let (_, factor, dims) =
+                SYMBOLS.iter().find(|(name, ..)| *name == base).ok_or_else(|| unknown(base))?;
+            total *= factor.powi(sign * i32::from(power));
+            for (sum, d) in dimension.iter_mut().zip(dims) {
+                *sum = sum.saturating_add((sign as i8 * power).saturating_mul(*d));
+            }
+            sign = 1;
+        }
+        if part.ends_with('/') {
+            sign = -1;
+        }
+    }
+    Ok((total, dimension))
+}
+
+/// `in^3` and `in3` as symbol and power.
+fn power(symbol: &str) -> Result<(&str, i8), Unknown> {
+    let base = symbol.trim_end_matches(|c: char| c.is_ascii_digit());
+    let exponent = &symbol[base.len()..];
+    if exponent.is_empty() {
+        return Ok((symbol, 1));
+    }
+    match exponent.parse() {
+        Ok(power @ 1..=9) => Ok((base.strip_suffix('^').unwrap_or(base), power)),
+        _ => Err((format!("unit \"{symbol}\""), String::new())),
+    }
+}
+
+fn unknown(symbol: &str) -> Unknown {
+    let names: Vec<&str> = SYMBOLS.iter().map(|s| s.0).collect();
+    let hint = nearest(symbol, &names).map(|name| format!("did you mean {name}?"));
+    (format!("unknown unit \"{symbol}\""), hint.unwrap_or_default())
+}
+
+/// kg m² to ounces (mass) times square inches, the unit of swing weight.
+pub fn ounce_square_inches(inertia: f64) -> f64 {
+    inertia / (OUNCE * INCH * INCH)
+}
+
+/// Metres to inches.
+pub fn inches(length: f64) -> f64 {
+    length / INCH
+}
+
+/// Kilograms to avoirdupois ounces.
+pub fn ounces(mass: f64) -> f64 {
+    mass / OUNCE
+}
+
+/// Metres per second to miles per hour.
+pub fn miles_per_hour(speed: f64) -> f64 {
+    speed / (MILE / 3600.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn si(text: &str, quantity: Quantity) -> f64 {
+        parse(text, quantity).unwrap()
+    }
+
+    /// Relative agreement to a few roundings.
+    fn same(a: f64, b: f64) -> bool {
+        (a - b).abs() <= 4.0 * f64::EPSILON * b.abs()
+    }
+
+    #[test]
+    fn fractions_of_an_inch_rule_are_exact_and_others_are_refused() {
+        for (text, inches) in [("2 5/8 in", 2.625), ("5/8in", 0.625), ("33  1/2 in", 33.5)] {
+            assert!(same(si(text, Quantity::Length), INCH * inches), "{text}");
+        }
+        assert!(same(si("31 1/2 oz", Quantity::Mass), 31.5 * OUNCE));
+        for text in
+            ["2.5 5/8 in", "-2 1/8 in", "2 5 /8 in", "2 5/ in", "5/0 in", "2 58 in", "/8 in"]
+        {
+            assert!(parse(text, Quantity::Length).is_err(), "{text}");
+        }
+        // A division by a unit is none.
+        assert!(
+            same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
+        );
+    }
+
+    #[test]
+    fn the_units_of_the_trade_have_their_exact_values() {
+        use Quantity::*;
+        for (text, quantity, expected) in [
+            ("33 in", Length, 0.8382),
+            ("2 ft", Length, 0.6096),
+            ("84 cm", Length, 0.84),
+            ("31 oz", Mass, 31.0 * 0.028_349_523_125),
+            ("2 lb", Mass, 0.907_184_74),
+            ("1 slug", Mass, 14.593_902_937_206_364),
+            ("0.0257 lb/in^3", Density, 711.373_551_052_220_2),
+            ("0.0257 lb/in3", Density, 711.373_551_052_220_2),
+            ("0.6 g/cm^3", Density, 600.0),
+            ("2.02e6 psi", Pressure, 13_927_409_732.200_09),
+            ("2020 ksi", Pressure, 13_927_409_732.200_09),
+            ("18.1 GPa", Pressure, 18.1e9),
+            ("1 lbf/in^2", Pressure, PSI),
+            ("90 mph", Speed, 40.2336),
+            ("100 ft/s", Speed, 30.48),
+            ("36 km/h", Speed, 10.0),
+            ("60 rpm", AngularSpeed, std::f64::consts::TAU),
+            ("180 deg", Angle, std::f64::consts::PI),
+            ("0.75 ms", Time, 0.75e-3),
+            ("1 lbf", Force, 4.448_221_615_260_5),
+            ("1 lbf/in", Stiffness, 4.448_221_615_260_5 / 0.0254),
+            ("500 N m/rad", RotationalStiffness, 500.0),
+            ("500 N·m/rad", RotationalStiffness, 500.0),
+            ("500 N m", RotationalStiffness, 500.0),
+            ("0.5 kN m / rad", RotationalStiffness, 500.0),
+            ("1 ft lbf/rad", RotationalStiffness, 0.3048 * 4.448_221_615_260_5),
+            ("1 lbf ft", RotationalStiffness, 0.3048 * 4.448_221_615_260_5),
+            (
+                "1 in lbf/deg",
+                RotationalStiffness,
+                0.0254 * 4.448_221_615_260_5 * 180.0 / std::f64::consts::PI,
+            ),
+            ("4e5 N/m^2", BedStiffness, 4e5),
+            ("0.4 N/mm²", BedStiffness, 4e5),
+            ("1 psi", BedStiffness, PSI),
+            ("1 lbf/in/in", BedStiffness, PSI),
+            ("5 N s/m", Damping, 5.0),
+            ("1 lbf s/in", Damping, 4.448_221_615_260_5 / 0.0254),
+            ("200 N s/m^2", BedDamping, 200.0),
+            ("1 kPa s", BedDamping, 1000.0),
+            ("1 oz in^2", Inertia, 0.028_349_523_125 * 0.0254 * 0.0254),
+            ("1 oz·in²", Inertia, 0.028_349_523_125 * 0.0254 * 0.0254),
+            ("2 N s", Impulse, 2.0),
+            ("2 kg m/s", Impulse, 2.0),
+            ("-0.09 m", Length, -0.09),
+        ] {
+            assert!(same(si(text, quantity), expected), "{text}: {:e}", si(text, quantity));
+        }
+    }
+
+    #[test]
+    fn a_force_where_a_mass_is_meant_is_explained() {
+        let said = parse("31 lbf", Quantity::Mass).unwrap_err().to_string();
+        assert!(said.contains("measures a force") && said.contains("mass is mass"), "{said}");
+        let said = parse("5 N", Quantity::Mass).unwrap_err().to_string();
+        assert!(said.contains("measures a force"), "{said}");
+        let said = parse("2e6 lb/in^2", Quantity::Pressure).unwrap_err().to_string();
+        assert!(said.contains("write psi"), "{said}");
+        let said = parse("0.0257 lbf/in^3", Quantity::Density).unwrap_err().to_string();
+        assert!(said.contains("lb is the mass"), "{said}");
+    }
+
+    #[test]
+    fn a_mass_or_an_angle_in_a_stiffness_is_explained() {
+        let said = parse("10 lb/in", Quantity::Stiffness).unwrap_err().to_string();
+        assert!(said.contains("does not measure a stiffness") && said.contains("lbf"), "{said}");
+        let said = parse("10 ft lb/rad", Quantity::RotationalStiffness).unwrap_err().to_string();
+        assert!(said.contains("write lbf"), "{said}");
+        let said = parse("10 N/m", Quantity::RotationalStiffness).unwrap_err().to_string();
+        assert!(said.contains("measures a stiffness,"), "{said}");
+        // Only a stiffness against rotation may leave the angle out.
+        assert!(parse("10 N/rad", Quantity::Stiffness).is_err());
+        assert!(parse("10 N m rad", Quantity::RotationalStiffness).is_err());
+        assert!(parse("10 1/s", Quantity::AngularSpeed).is_err());
+    }
+
+    #[test]
+    fn an_unknown_unit_names_its_neighbour() {
+        let said = parse("33 inc", Quantity::Length).unwrap_err().to_string();
+        assert!(said.contains("did you mean in"), "{said}");
+        assert!(parse("33", Quantity::Length).unwrap_err().to_string().contains("without a unit"));
+        assert_eq!(parse_or_si(" 33 ", Quantity::Length), Ok(33.0));
+        assert_eq!(parse_or_si("33 m", Quantity::Length), Ok(33.0));
+        assert!(parse_or_si("inf", Quantity::Length).is_err());
+        assert!(parse("33 in^0", Quantity::Length).is_err());
+        assert!(parse("in", Quantity::Length).is_err());
+        assert!(parse("", Quantity::Length).is_err());
+        assert!(parse("1e999 m", Quantity::Length).is_err());
+        assert!(parse("nan", Quantity::Length).is_err());
+        assert!(parse("inf m", Quantity::Length).is_err());
+        assert!(parse(&format!("1 {}", "m^9 ".repeat(100)), Quantity::Length).is_err());
+    }
+
+    proptest! {
+        /// Writing a value in any unit of its kind and reading it back returns it.
+        #[test]
+        fn a_value_survives_any_unit_of_its_kind(exponent in -12.0..12.0f64, pick in 0usize..1000) {
+            let (name, factor, dimension) = SYMBOLS[pick % SYMBOLS.len()];
+            let quantity = Quantity::ALL.into_iter().find(|q| q.facts().1 == dimension).unwrap();
+            let value = 10f64.powf(exponent);
+            let text = format!("{:e} {name}", value / factor);
+            prop_assert!(same(si(&text, quantity), value), "{}", text);
+            prop_assert!(same(si(&text.replace(' ', ""), quantity), value), "{}", text);
+        }
+
+        /// A quotient of units is the quotient of their factors.
+        #[test]
+        fn compound_units_multiply(a in 0usize..11, b in 11usize..17, power in 1i8..4) {
+            let ((length, l, _), (mass, m, _)) = (SYMBOLS[a], SYMBOLS[b]);
+            let (factor, dimension) = product(&format!("{mass}/{length}^{power}")).unwrap();
+            prop_assert!(same(factor, m / l.powi(power.into())));
+            prop_assert_eq!(dimension, [-power, 1, 0, 0]);
+        }
+
+        /// No text makes the parser panic or return something that is not a finite number.
+        #[test]
+        fn any_text_is_a_finite_number_or_an_error(text in "\\PC{0,12}") {
+            for quantity in Quantity::ALL {
+                if let Ok(value) = parse(&text, quantity) {
+                    prop_assert!(value.is_finite());
+                }
+            }
+        }
+    }
+}

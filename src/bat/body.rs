@@ -1,0 +1,421 @@
+//! What bat is this, is it possible, and what are its mass, balance point and swing weight?
+//!
+//! [`Bat::new`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
+//! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
+
+use crate::base::error::{Error, Result};
+use crate::base::mistakes::Mistakes;
+use crate::base::quadrature::{RunningSum, converged, gauss};
+use crate::bat::fixtures::Fixtures;
+use crate::bat::fixtures_check::{on_the_bat, positive};
+use crate::bat::layup::{Layup, Worth};
+use crate::bat::material::Material;
+use crate::bat::profile::{Piece, Profile, Radii, Section};
+
+/// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
+pub const STANDARD_PIVOT: f64 = 0.1524;
+
+/// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bat {
+    /// What people call it.
+    pub name: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// Its pieces end wherever a material or a fixture begins.
+    pub profile: Profile,
+    /// What the pieces of the profile are made of; the first is the bat's own material.
+    pub layups: Vec<Layup>,
+    /// What is on it and what holds it.
+    pub fixtures: Fixtures,
+    /// What a scale and a tap said of it.
+    pub weighed: Weighed,
+    /// By how much what was weighed and tapped made all densities and all moduli larger.
+    pub factors: [f64; 2],
+}
+
+/// What a scale and a tap said, where they were asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Weighed {
+    /// Mass with everything attached (kg).
+    pub mass: Option<f64>,
+    /// Balance point from the knob end (m): a check.
+    pub balance_point: Option<f64>,
+    /// The first bending frequency of the bat as described (Hz).
+    pub first_bending: Option<f64>,
+}
+
+impl Weighed {
+    /// Every value in its possible range, of a bat of that length (m).
+    pub(crate) fn check(&self, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        if let Some(mass) = self.mass.filter(|mass| *mass <= 0.0 || !mass.is_finite()) {
+            mistakes.add(Error::value("weighed.mass", format!("{mass} kg"), "a mass above 0"));
+        }
+        if let Some(x) = self.balance_point {
+            mistakes.note(on_the_bat("weighed.balance_point", x, length));
+        }
+        if let Some(frequency) = self.first_bending {
+            mistakes.note(positive("weighed.first_bending_hz", frequency, "Hz"));
+        }
+        mistakes.end(())
+    }
+}
+
+/// What a bat is as a rigid body; positions from the knob end, inertias transverse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// Mass M (kg).
+    pub mass: f64,
+    /// Centre of mass (m).
+    pub balance_point: f64,
+    /// The body's moment of inertia about the balance point (kg m²), as a pendulum measures it.
+    pub about_balance: f64,
+    /// The same of the bat as a line of mass, without the sections' own `∫ρI dx` (kg m²):
+    /// what an Euler–Bernoulli beam swings with.
+    pub line_about_balance: f64,
+}
+
+impl Bat {
+    /// A bat of a shape and a material; a weighed mass (kg) sets the density.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if the mass or the stiffness is beyond the range of numbers.
+    pub fn new(
+        name: impl Into<String>,
+        profile: Profile,
+        material: Material,
+        weighed_mass: Option<f64>,
+    ) -> Result<Self> {
+        let weighed = Weighed { mass: weighed_mass, ..Weighed::default() };
+        Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
+    }
+
+    /// The same with other materials along it, and with what is on it and holds it. The weighed
+    /// mass includes what is attached; it sets one factor on all densities. What was tapped is kept
+    /// for [`crate::study::tuned`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`], its field the path of a key in a bat file, or several of them.
+    pub fn with_fixtures(
+        name: impl Into<String>,
+        profile: Profile,
+        material: Material,
+        fixtures: Fixtures,
+        weighed: Weighed,
+    ) -> Result<Self> {
+        let (name, source, mut fixtures) = (name.into(), String::new(), fixtures);
+        let layups = vec![Layup::of(material)];
+        let mut mistakes = Mistakes::default();
+        mistakes.note(fixtures.check(profile.length()));
+        mistakes.note(weighed.check(profile.length()));
+        mistakes.end(())?;
+        fixtures.settle(&profile.borders());
+        let factors = [1.0; 2];
+        let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
+        bat.lay_out();
+        bat.check_range()?;
+        if let Some(mass) = weighed.mass {
+            let attached = bat.fixtures.attached_mass();
+            let own = mass - attached;
+            if own <= 0.0 {
+                let found = format!("{mass} kg, no more than the {attached} kg attached");
+                return Err(Error::value("weighed.mass", found, "the mass of bat and attachments"));
+            }
+            bat.scale(own / (bat.inertia().mass - attached), 1.0);
+            bat.check_range()?;
+        }
+        Ok(bat)
+    }
+
+    /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
+    pub(crate) fn lay_out(&mut self) {
+        self.layups.truncate(1);
+        self.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
+        self.profile.cut(self.fixtures.borders());
+        for region in &self.fixtures.regions {
+            self.layups.push(region.layup.clone());
+            for piece in &mut self.profile.pieces {
+                if piece.is_within(region.from, region.to) {
+                    piece.layup = self.layups.len() - 1;
+                }
+            }
+        }
+        for tape in &self.fixtures.tapes {
+            let per_length = tape.mass / (tape.to - tape.from);
+            // Each layup under it once more, with the tape.
+            let bare = self.layups.len();
+            let mut taped: Vec<Option<usize>> = vec![None; bare];
+            for piece in &mut self.profile.pieces {
+                if piece.is_within(tape.from, tape.to) {
+                    let layups = &mut self.layups;
+                    piece.layup = *taped[piece.layup].get_or_insert_with(|| {
+                        let mut layup = layups[piece.layup].clone();
+                        layup.tape += per_length;
+                        layups.push(layup);
+                        layups.len() - 1
+                    });
+                }
+            }
+        }
+    }
+
+    /// One factor on every density and one on every modulus of the bat.
+    pub fn scale(&mut self, density: f64, modulus: f64) {
+        self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
+        for region in &mut self.fixtures.regions {
+            region.layup.scaled(density, modulus);
+        }
+        self.factors[0] *= density;
+        self.factors[1] *= modulus;
+    }
+
+    /// The bat's own material; its density is the weighed one where a weighed mass was given.
+    pub fn material(&self) -> &Material {
+        &self.layups[0].outer
+    }
+
+    /// From the knob end to the tip (m).
+    pub fn length(&self) -> f64 {
+        self.profile.length()
+    }
+
+    /// What a piece of the profile is made of.
+    #[inline]
+    pub fn layup(&self, piece: &Piece) -> &Layup {
+        &self.layups[piece.layup]
+    }
+
+    /// What the section at `x` is worth, at a border the one to its right.
+    pub fn worth_at(&self, x: f64) -> Worth {
+        self.layup(self.profile.piece_at(x)).worth(self.profile.at(x))
+    }
+
+    /// Whether every stretch of the bat has a shear modulus.
+    pub fn knows_shear(&self) -> bool {
+        let known = |piece: &Piece| {
+            self.layup(piece).materials().all(|material| material.shear_modulus.is_some())
+        };
+        self.profile.pieces.iter().all(known)
+    }
+
+    /// The first material whose shear modulus is not known, as the bat file calls it.
+    pub fn without_shear(&self) -> String {
+        let regions = self.fixtures.regions.iter().enumerate();
+        let parts = regions.flat_map(|(k, region)| {
+            let names = ["material", "core"].map(|part| format!("regions[{k}].{part}"));
+            names.into_iter().zip(region.layup.materials())
+        });
+        let unknown = |material: &Material| material.shear_modulus.is_none();
+        let region = parts.filter(|(_, material)| unknown(material)).map(|(name, _)| name).next();
+        match region {
+            Some(name) if !unknown(self.material()) => name,
+            _ => "material".to_owned(),
+        }
+    }
+
+    /// Mass, balance point and moments of inertia with everything attached, exact by quadrature.
+    ///
+    /// `M = ∫ρA dx`, `x_b = ∫ρA x dx / M`, `I = ∫ρA (x − x_b)² dx + ∫ρI dx`; cubic radii make
+    /// the integrands of degree 8 and 12, which five and seven Gauss points integrate exactly.
+    /// Formulas take as many points as agree to 2e-14.
+    pub fn inertia(&self) -> Inertia {
+        let attached = |f: &dyn Fn([f64; 3]) -> f64| self.fixtures.masses().map(f).sum::<f64>();
+        let [mass, first, own] =
+            self.integrals(|x, worth| [worth.mass, x * worth.mass, worth.turning]);
+        let mass = mass + attached(&|[mass, ..]| mass);
+        let first = first + attached(&|[mass, x, _]| mass * x);
+        let balance_point = first / mass;
+        let arm = |x: f64| (x - balance_point).powi(2);
+        let [line] = self.integrals(|x, worth| [arm(x) * worth.mass]);
+        let line = line + attached(&|[mass, x, own]| mass * arm(x) + own);
+        Inertia { mass, balance_point, about_balance: line + own, line_about_balance: line }
+    }
+
+    /// `∫ f dx` over the bat of what the section at `x` is worth.
+    fn integrals<const N: usize>(&self, f: impl Fn(f64, Worth) -> [f64; N]) -> [f64; N] {
+        let rule = gauss(7);
+        let mut totals = [RunningSum::<f64>::default(); N];
+        for piece in &self.profile.pieces {
+            let layup = self.layup(piece);
+            let at = |s: f64| f(piece.start + s * piece.length, layup.worth(piece.at(s)));
+            let mut add = |weight: f64, values: [f64; N]| {
+                let parts = totals.iter_mut().zip(values);
+                parts.for_each(|(total, value)| total.add(weight * piece.length * value));
+            };
+            match piece.radii {
+                Radii::Cubic(_) => rule.iter().for_each(|(s, weight)| add(*weight, at(*s))),
+                Radii::Formula(_) => add(1.0, converged(at).values),
+            }
+        }
+        totals.map(|total| total.value())
+    }
+
+    /// Possible but strange for a bat: one sentence each, to be shown and not to stop anybody.
+    pub fn warnings(&self) -> Vec<String> {
+        let Inertia { mass, balance_point, .. } = self.inertia();
+        let length = self.length();
+        let widest = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let checks = [
+            ("length", length, "m", 0.3, 1.2, " (bare numbers are in m: \"unit\": \"in\"?)"),
+            ("largest radius", widest, "m", 0.01, 0.05, " (a diameter given as radius?)"),
+            ("mass", mass, "kg", 0.2, 2.0, " (bare numbers are in kg: \"31 oz\"?)"),
+            ("balance point", balance_point, "m", 0.0, length, ""),
+        ];
+        let checks = checks.into_iter();
+        let strange = checks.filter_map(|(what, value, unit, low, high, hint)| {
+            strange(what, value, unit, [low, high], hint)
+        });
+        let mut warnings: Vec<String> = strange.collect();
+        warnings.extend(strange_material("", self.material(), WALL));
+        self.warn_of_regions(&mut warnings);
+        let attached = self.fixtures.attached_mass();
+        if attached > mass - attached {
+            let [attached, own] = [attached, mass - attached].map(plain);
+            warnings.push(format!("{attached} kg are attached to a bat of {own} kg"));
+        }
+        for (k, a) in self.fixtures.attachments.iter().enumerate() {
+            let center = a.x + a.offset;
+            if a.mass > 0.0 && !(0.0..=length).contains(&center) {
+                let [center, length] = [center, length].map(plain);
+                let offset = format!("attachments[{k}].offset puts the mass at {center} m");
+                warnings.push(format!("{offset}, outside the bat, 0 to {length} m"));
+            }
+        }
+        warnings
+    }
+
+    fn warn_of_regions(&self, warnings: &mut Vec<String>) {
+        for (k, region) in self.fixtures.regions.iter().enumerate() {
+            let name = |key: &str| format!("regions[{k}].{key}.");
+            let Layup { outer, core, .. } = &region.layup;
+            if outer != self.material() {
+                warnings.extend(strange_material(&name("material"), outer, WALL));
+            }
+            let Some(core) = core else { continue };
+            warnings.extend(strange_material(&name("core"), core, CORE));
+            let solid = |piece: &Piece| [0.0, 0.5, 1.0].iter().all(|s| piece.at(*s).inner == 0.0);
+            let here = |piece: &&Piece| piece.is_within(region.from, region.to);
+            if self.profile.pieces.iter().filter(here).all(solid) {
+                warnings.push(format!("regions[{k}].core fills nothing: the bat is solid there"));
+            }
+        }
+    }
+
+    /// Mass, stiffness and the frequencies they make must be numbers a computer can hold.
+    fn check_range(&self) -> Result<()> {
+        let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
+        in_range("mass", mass, "kg")?;
+        // Masses beside the bat may put it anywhere.
+        in_range("balance point", balance_point.abs().max(1.0), "m")?;
+        in_range("moment of inertia", about_balance, "kg m²")?;
+        in_range("moment of inertia as a line", line_about_balance, "kg m²")?;
+        let outer = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let widest = Section { outer, inner: 0.0 };
+        for (k, layup) in self.layups.iter().enumerate() {
+            let name = |what: &str| match k {
+                k if (1..=self.fixtures.regions.len()).contains(&k) => {
+                    format!("regions[{}].{what}", k - 1)
+                }
+                _ => what.to_owned(),
+            };
+            for material in layup.materials() {
+                let stiffness = material.youngs_modulus * widest.second_moment();
+                let scale = stiffness / (material.density * widest.area()) / self.length().powi(4);
+                in_range(&name("bending stiffness"), stiffness, "N m²")?;
+                in_range(&name("frequency scale EI/(ρA L⁴)"), scale, "1/s²")?;
+                let softest = 1e-9 * material.youngs_modulus;
+                if let Some(shear) = material.shear_modulus.filter(|shear| *shear < softest) {
+                    let expected = format!("{softest:e} Pa and more, a billionth of E");
+                    return Err(Error::value(
+                        name("shear_modulus"),
+                        format!("{shear:e} Pa"),
+                        expected,
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Usual densities (kg/m³) and Young's moduli (Pa) of what bats are made of, and of what fills
+/// them.
+const WALL: [[f64; 2]; 2] = [[50.0, 20e3], [1e9, 1e12]];
+const CORE: [[f64; 2]; 2] = [[5.0, 20e3], [1e4, 1e12]];
+
+/// What is strange in a material; `of` is the path that leads to it.
+fn strange_material(
+    of: &str,
+    material: &Material,
+    usual: [[f64; 2]; 2],
+) -> impl Iterator<Item = String> {
+    let Material { density, youngs_modulus, .. } = *material;
+    let hint = " (wood is 400 to 900: g/cm³ or lb/in³?)";
+    let heavy = strange(&format!("{of}density"), density, "kg/m³", usual[0], hint);
+    let hint = " (wood is 8e9 to 20e9: GPa?)";
+    let stiff = strange(&format!("{of}youngs_modulus"), youngs_modulus, "Pa", usual[1], hint);
+    // Along the grain of wood 0.05 to 0.11, of metals 0.38.
+    let shear = material.shear_modulus.map(|shear| shear / youngs_modulus);
+    let shear = shear.and_then(|share| {
+        strange(&format!("{of}shear_modulus"), share, "times youngs_modulus", [0.01, 0.6], "")
+    });
+    let kappa = material
+        .shear_coefficient
+        .and_then(|kappa| strange(&format!("{of}shear_coefficient"), kappa, "", [0.3, 1.2], ""));
+    heavy.into_iter().chain(stiff).chain(shear).chain(kappa)
+}
+
+/// A sentence about a value that is outside the usual range.
+fn strange(what: &str, value: f64, unit: &str, usual: [f64; 2], hint: &str) -> Option<String> {
+    if value >= usual[0] && value <= usual[1] {
+        return None;
+    }
+    let [value, low, high] = [value, usual[0], usual[1]].map(plain);
+    let value = format!("{value} {unit}");
+    Some(format!("{what} is {}; a bat's is {low} to {high}{hint}", value.trim_end()))
+}
+
+/// Far enough inside the range of numbers for products of two such values.
+fn in_range(what: &str, value: f64, unit: &str) -> Result<()> {
+    if value > 1e-100 && value < 1e100 {
+        return Ok(());
+    }
+    let found = match value.is_finite() {
+        true => format!("{value:e} {unit}"),
+        false => "a value beyond the range of numbers".to_owned(),
+    };
+    Err(Error::value(what, found, "a value between 1e-100 and 1e100: check the units"))
+}
+
+/// Four digits, with a power of ten where the plain number would be a row of zeros.
+fn plain(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().expect("it was written as a number");
+    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+impl Inertia {
+    /// The body's moment of inertia about the point `x` (kg m²).
+    pub fn about(&self, x: f64) -> f64 {
+        self.about_balance + self.mass * (self.balance_point - x).powi(2)
+    }
+
+    /// The centre of percussion of a bat swung about the point `pivot`: `pivot + I/(M d)`,
+    /// `d` from the pivot to the balance point. None if the pivot is the balance point.
+    pub fn center_of_percussion(&self, pivot: f64) -> Option<f64> {
+        let arm = self.balance_point - pivot;
+        let center = pivot + self.about(pivot) / (self.mass * arm);
+        center.is_finite().then_some(center)
+    }
+
+    /// The bat as a line of mass: what an Euler–Bernoulli beam has for a rigid body.
+    pub fn as_line(self) -> Self {
+        Self { about_balance: self.line_about_balance, ..self }
+    }
+}

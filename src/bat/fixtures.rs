@@ -1,0 +1,257 @@
+//! What is on the bat, and what holds it: weights, tape, springs, supports, hands, joints?
+//!
+//! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
+//! [`crate::Bat::with_fixtures`].
+
+use crate::bat::layup::Layup;
+use crate::bat::profile::SAME_PLACE;
+
+/// Everything that a bat may have beside its shape and its material.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Fixtures {
+    /// Stretches of other materials.
+    pub regions: Vec<Region>,
+    /// Weights and springs to ground.
+    pub attachments: Vec<Attachment>,
+    /// Bat tape.
+    pub tapes: Vec<Tape>,
+    /// Tuned absorbers.
+    pub absorbers: Vec<Absorber>,
+    /// Places that give way to bending.
+    pub joints: Vec<Joint>,
+    /// Pins and clamps.
+    pub supports: Vec<Support>,
+    /// Hands.
+    pub grip: Option<Grip>,
+}
+
+/// A stretch of other materials.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// Where it begins (m).
+    pub from: f64,
+    /// Where it ends (m).
+    pub to: f64,
+    /// What it is made of.
+    pub layup: Layup,
+}
+
+/// A point mass and springs to ground.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Attachment {
+    /// Where it is fixed (m).
+    pub x: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// How far beyond `x`, towards the barrel, its centre is (m).
+    pub offset: f64,
+    /// Moment of inertia about its own centre (kg m²).
+    pub rotary_inertia: f64,
+    /// Spring from the bat at `x` to the ground, against deflection (N/m).
+    pub stiffness: f64,
+    /// The same against rotation (N m/rad).
+    pub rotational_stiffness: f64,
+}
+
+/// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tape {
+    /// Where it begins (m).
+    pub from: f64,
+    /// Where it ends (m).
+    pub to: f64,
+    /// Mass of the whole (kg).
+    pub mass: f64,
+}
+
+/// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Absorber {
+    /// Where it hangs (m).
+    pub x: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Spring constant (N/m).
+    pub stiffness: f64,
+    /// Damping constant of the dashpot (N s/m).
+    pub damping: f64,
+}
+
+/// Where two parts of a bat are joined by a spring that gives way to bending.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Where it is (m).
+    pub x: f64,
+    /// Bending moment per angle between both sides (N m/rad).
+    pub rotational_stiffness: f64,
+}
+
+/// A place that is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// Where (m).
+    pub x: f64,
+    /// What it holds.
+    pub kind: Held,
+}
+
+/// What a support holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held {
+    /// The deflection; the bat may turn.
+    Pinned,
+    /// Deflection and rotation.
+    Clamped,
+}
+
+/// Hands as an elastic bed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// Where they begin (m).
+    pub from: f64,
+    /// Where they end (m).
+    pub to: f64,
+    /// Force per deflection and per length (N/m²).
+    pub stiffness: f64,
+    /// Force per velocity and per length (N s/m²).
+    pub damping: f64,
+}
+
+impl Fixtures {
+    /// Whether nothing moves otherwise than a bare bat: regions of other materials and tape may be
+    /// there.
+    pub fn none_moving(&self) -> bool {
+        self.attachments.is_empty()
+            && self.absorbers.is_empty()
+            && self.joints.is_empty()
+            && !self.holding()
+    }
+
+    /// Whether anything holds the bat in place: a support, a spring to ground, a hand.
+    pub fn holding(&self) -> bool {
+        let spring = |a: &Attachment| a.stiffness > 0.0 || a.rotational_stiffness > 0.0;
+        !self.supports.is_empty()
+            || self.attachments.iter().any(spring)
+            || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
+    }
+
+    /// The same without what gives way: springs to ground and hands. A hit is over before they push.
+    pub fn without_springs(&self) -> Self {
+        let mut bare = self.clone();
+        for attachment in &mut bare.attachments {
+            (attachment.stiffness, attachment.rotational_stiffness) = (0.0, 0.0);
+        }
+        Self { grip: None, ..bare }
+    }
+
+    /// Whether anything but the materials takes energy out of the bat.
+    pub fn damping(&self) -> bool {
+        self.absorbers.iter().any(|absorber| absorber.damping > 0.0)
+            || self.grip.is_some_and(|grip| grip.damping > 0.0)
+    }
+
+    /// How many rigid motions are free: two of a bat that nothing holds, one of a bat that turns
+    /// about a pin or is held against turning alone.
+    pub fn rigid_modes(&self) -> usize {
+        let places = self.supports.iter().map(|support| support.x);
+        let springs = self.attachments.iter().filter(|a| a.stiffness > 0.0).map(|a| a.x);
+        let mut held: Vec<f64> = places.chain(springs).collect();
+        held.dedup();
+        let turning = self.supports.iter().any(|support| support.kind == Held::Clamped)
+            || self.attachments.iter().any(|a| a.rotational_stiffness > 0.0);
+        let elsewhere = held.iter().any(|x| *x != held[0]);
+        let bed = self.grip.is_some_and(|grip| grip.stiffness > 0.0);
+        let lines = usize::from(!held.is_empty() || bed);
+        let turns = usize::from(turning || elsewhere || bed);
+        2 - lines - turns
+    }
+
+    /// How many conditions the supports and the springs to ground put on the bat: the order of a
+    /// motion rises by no more. Hands, who hardly hold more than a rigid motion, count as two.
+    pub fn held(&self) -> usize {
+        let supports = self.supports.iter().map(|support| match support.kind {
+            Held::Pinned => 1,
+            Held::Clamped => 2,
+        });
+        let springs = self
+            .attachments
+            .iter()
+            .map(|a| usize::from(a.stiffness > 0.0) + usize::from(a.rotational_stiffness > 0.0));
+        let bed = self.grip.filter(|grip| grip.stiffness > 0.0).map_or(0, |_| 2);
+        supports.chain(springs).sum::<usize>() + bed
+    }
+
+    /// How free the bat is, in words.
+    pub fn freedom(&self) -> &'static str {
+        let pinned = self.supports.iter().any(|support| support.kind == Held::Pinned)
+            || self.attachments.iter().any(|a| a.stiffness > 0.0);
+        match self.rigid_modes() {
+            0 => "held: no rigid motion is free",
+            1 if pinned => "and one rigid motion at 0 Hz exactly: it turns about where it is held",
+            1 => "and one rigid motion at 0 Hz exactly: it moves sideways without turning",
+            _ => "and two rigid ones of the free bat, at 0 Hz exactly",
+        }
+    }
+
+    /// Where elements must end (m), in no order.
+    pub fn borders(&self) -> Vec<f64> {
+        self.clone().places().map(|x| *x).collect()
+    }
+
+    /// Every place that is given (m), in no order.
+    fn places(&mut self) -> impl Iterator<Item = &mut f64> {
+        let regions = self.regions.iter_mut().flat_map(|region| [&mut region.from, &mut region.to]);
+        let tapes = self.tapes.iter_mut().flat_map(|tape| [&mut tape.from, &mut tape.to]);
+        let grip = self.grip.iter_mut().flat_map(|grip| [&mut grip.from, &mut grip.to]);
+        let points = self.attachments.iter_mut().map(|a| &mut a.x);
+        let points = points.chain(self.absorbers.iter_mut().map(|a| &mut a.x));
+        let points = points.chain(self.joints.iter_mut().map(|joint| &mut joint.x));
+        let points = points.chain(self.supports.iter_mut().map(|support| &mut support.x));
+        regions.chain(tapes).chain(grip).chain(points)
+    }
+
+    /// Places that are one but for their last digits become one: the border that the profile has
+    /// there (`borders`, rising from 0 to the length of the bat, m), else the first of them; and
+    /// two supports in one place are one, clamped if either is.
+    pub(crate) fn settle(&mut self, borders: &[f64]) {
+        let same = SAME_PLACE * borders.last().copied().unwrap_or_default();
+        let near = |known: &[f64], x: f64| -> Option<f64> {
+            let above = known.partition_point(|y| *y < x);
+            let around = &known[above.saturating_sub(1)..known.len().min(above + 1)];
+            around.iter().copied().find(|y| (y - x).abs() <= same)
+        };
+        let mut given = self.borders();
+        given.sort_by(f64::total_cmp);
+        let mut own: Vec<f64> = vec![];
+        for x in given {
+            if near(borders, x).is_none() && own.last().is_none_or(|before| x - before > same) {
+                own.push(x);
+            }
+        }
+        for x in self.places() {
+            *x = near(borders, *x).or_else(|| near(&own, *x)).unwrap_or(*x);
+        }
+        let mut supports: Vec<Support> = vec![];
+        for support in &self.supports {
+            match supports.iter_mut().find(|known| known.x == support.x) {
+                Some(known) if support.kind == Held::Clamped => known.kind = Held::Clamped,
+                Some(_) => {}
+                None => supports.push(*support),
+            }
+        }
+        self.supports = supports;
+    }
+
+    /// Mass (kg) of everything that is attached or spread on the bat.
+    pub fn attached_mass(&self) -> f64 {
+        let spread = self.tapes.iter().map(|tape| tape.mass);
+        self.masses().map(|[mass, ..]| mass).chain(spread).sum()
+    }
+
+    /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of
+    /// everything that is attached at a point.
+    pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
+        let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
+        fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))
+    }
+}

@@ -1,0 +1,276 @@
+//! Whether what is on a bat can be there.
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::mistakes::{self, Mistakes};
+use crate::bat::fixtures::{
+    Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
+};
+use crate::bat::profile::SAME_PLACE;
+
+/// Products of larger values are beyond the range of numbers.
+const MOST: f64 = 1e100;
+/// A softer spring (N/m or N m/rad) holds nothing.
+const SOFTEST: f64 = 1e-12;
+/// Frequencies nearer to each other, relative, are not counted apart.
+const LEAST_GAP: f64 = 1e-9;
+
+impl Fixtures {
+    /// Every value in its possible range, on a bat of that length (m).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] with the path of the key in a bat file as its field, or several of them.
+    pub fn check(&self, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        let mut list = |read: Result<Vec<()>>| _ = mistakes.note(read);
+        list(each("regions", &self.regions, |path, region| region.check(path, length)));
+        list(each("attachments", &self.attachments, |path, a| a.check(path, length)));
+        list(each("tapes", &self.tapes, |path, tape| tape.check(path, length)));
+        list(each("absorbers", &self.absorbers, |path, a| a.check(path, length)));
+        list(each("joints", &self.joints, |path, joint| joint.check(path, length)));
+        list(each("supports", &self.supports, |path, support| support.check(path, length)));
+        if let Some(grip) = &self.grip {
+            mistakes.note(grip.check("grip", length));
+        }
+        mistakes.end(())?;
+        self.check_apart(length)
+    }
+
+    /// What must not lie in the same place does not.
+    fn check_apart(&self, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        let same = SAME_PLACE * length;
+        for (k, region) in self.regions.iter().enumerate() {
+            let overlap =
+                |before: &&Region| before.from < region.to - same && region.from < before.to - same;
+            if let Some(before) = self.regions[..k].iter().find(overlap) {
+                let found = format!("{} to {} m, an overlap", region.from, region.to);
+                let expected = format!("a stretch outside {} to {} m", before.from, before.to);
+                mistakes.add(Error::value(format!("regions[{k}].from"), found, expected));
+            }
+        }
+        let joints: Vec<f64> = self.joints.iter().map(|joint| joint.x).collect();
+        let supports: Vec<f64> = self.supports.iter().map(|support| support.x).collect();
+        for (list, name, places) in [("joints", "joint", joints), ("supports", "support", supports)]
+        {
+            for k in (1..places.len()).filter(|k| places[..*k].contains(&places[*k])) {
+                let found = format!("{} m again", places[k]);
+                let expected = format!("one {name} at one place");
+                mistakes.add(Error::value(format!("{list}[{k}].x"), found, expected));
+            }
+        }
+        mistakes.note(self.check_absorbers(same));
+        mistakes.note(self.check_turning(same));
+        mistakes.end(())
+    }
+
+    /// Absorbers at one place ring at frequencies that can be told from each other: equal ones ring
+    /// against each other while the bat is at rest, which is no mode of it.
+    fn check_absorbers(&self, same: f64) -> Result<()> {
+        let mut sorted: Vec<usize> = (0..self.absorbers.len()).collect();
+        let tuning = |k: &usize| self.absorbers[*k].stiffness / self.absorbers[*k].mass;
+        sorted.sort_by(|a, b| tuning(a).total_cmp(&tuning(b)));
+        let alike = |a: &usize, b: &usize| {
+            tuning(b) - tuning(a) <= 2.0 * LEAST_GAP * tuning(b)
+                && (self.absorbers[*a].x - self.absorbers[*b].x).abs() <= same
+        };
+        let mut mistakes = Mistakes::default();
+        for (i, k) in sorted.iter().enumerate() {
+            let Some(other) = sorted[..i].iter().rev().find(|other| alike(other, k)) else {
+                continue;
+            };
+            let [first, second] = [*k.min(other), *k.max(other)];
+            let found = format!("the place and the frequency of absorbers[{first}]");
+            let expected = "absorbers of other frequencies, or one with the masses, the springs and \
+                            the dashpots added: alike they ring against each other, the bat at rest";
+            mistakes.add(Error::value(format!("absorbers[{second}]"), found, expected));
+        }
+        mistakes.end(())
+    }
+
+    /// Where nothing but the distance of springs holds the bat against turning, it is stiff enough
+    /// for a motion that can be told from a rigid one.
+    fn check_turning(&self, same: f64) -> Result<()> {
+        let clamped = self.supports.iter().any(|support| support.kind == Held::Clamped)
+            || self.attachments.iter().any(|a| a.rotational_stiffness > 0.0);
+        let bed = self.grip.is_some_and(|grip| grip.stiffness > 0.0);
+        let springs = || self.attachments.iter().filter(|a| a.stiffness > 0.0);
+        let pin = self.supports.first().map(|support| support.x);
+        if clamped || bed || self.supports.iter().any(|s| (s.x - pin.unwrap_or(s.x)).abs() > same) {
+            return Ok(());
+        }
+        let whole: f64 = springs().map(|a| a.stiffness).sum();
+        let middle = springs().map(|a| a.stiffness / whole * a.x).sum();
+        let about = pin.unwrap_or(middle);
+        let apart = |a: &&Attachment| (a.x - about).abs() > same;
+        let turning: f64 =
+            springs().filter(apart).map(|a| a.stiffness * (a.x - about).powi(2)).sum();
+        let far = self.attachments.iter().position(|a| a.stiffness > 0.0 && apart(&a));
+        let Some(k) = far.filter(|_| turning < SOFTEST) else { return Ok(()) };
+        let found = format!("springs that hold the bat against turning by {turning:e} N m/rad");
+        let expected =
+            format!("{SOFTEST:e} N m/rad and more: springs farther apart, or all at one place");
+        Err(Error::value(format!("attachments[{k}].x"), found, expected))
+    }
+}
+
+/// What is wrong with the items of a list; each is told its path.
+fn each<T>(list: &str, items: &[T], check: impl Fn(&str, &T) -> Result<()>) -> Result<Vec<()>> {
+    let items = items.iter().enumerate();
+    mistakes::all(items.map(|(k, item)| check(&format!("{list}[{k}]"), item)))
+}
+
+// What is wrong with one part on a bat of that length (m), its path in a bat file before each field.
+
+impl Region {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        mistakes.note(stretch(path, self.from, self.to, length));
+        for (key, material) in ["material", "core"].iter().zip(self.layup.materials()) {
+            let checked = material.check();
+            mistakes.note(checked.map_err(|error| within(&format!("{path}.{key}"), error)));
+        }
+        mistakes.end(())
+    }
+}
+
+impl Attachment {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        let name = |key: &str| format!("{path}.{key}");
+        mistakes.note(on_the_bat(name("x"), self.x, length));
+        mistakes.note(heavy(name("mass"), self.mass, "kg"));
+        mistakes.note(heavy(name("rotary_inertia"), self.rotary_inertia, "kg m²"));
+        mistakes.note(soft(name("stiffness"), self.stiffness, "N/m"));
+        mistakes.note(soft(name("rotational_stiffness"), self.rotational_stiffness, "N m/rad"));
+        if !self.offset.is_finite() || self.offset.abs() > 10.0 * length {
+            let expected = "a distance of at most ten lengths of the bat";
+            mistakes.add(Error::value(name("offset"), shown(self.offset, "m"), expected));
+        }
+        mistakes.end(())
+    }
+}
+
+impl Tape {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        mistakes.note(stretch(path, self.from, self.to, length));
+        mistakes.note(heavy(format!("{path}.mass"), self.mass, "kg"));
+        mistakes.end(())
+    }
+}
+
+impl Absorber {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        let name = |key: &str| format!("{path}.{key}");
+        mistakes.note(on_the_bat(name("x"), self.x, length));
+        let mass = positive(name("mass"), self.mass, "kg");
+        mistakes.note(mass.and_then(|()| heavy(name("mass"), self.mass, "kg")));
+        let spring = positive(name("stiffness"), self.stiffness, "N/m");
+        mistakes.note(spring.and_then(|()| soft(name("stiffness"), self.stiffness, "N/m")));
+        mistakes.note(not_negative(name("damping"), self.damping, "N s/m"));
+        mistakes.end(())
+    }
+}
+
+impl Joint {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        let same = SAME_PLACE * length;
+        if !(self.x > same && self.x < length - same) {
+            let expected = format!("a place inside the bat, 0 to {length} m");
+            mistakes.add(Error::value(format!("{path}.x"), shown(self.x, "m"), expected));
+        }
+        let name = || format!("{path}.rotational_stiffness");
+        let spring = positive(name(), self.rotational_stiffness, "N m/rad");
+        mistakes.note(spring.and_then(|()| soft(name(), self.rotational_stiffness, "N m/rad")));
+        mistakes.end(())
+    }
+}
+
+impl Support {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        on_the_bat(format!("{path}.x"), self.x, length)
+    }
+}
+
+impl Grip {
+    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
+        let mut mistakes = Mistakes::default();
+        mistakes.note(stretch(path, self.from, self.to, length));
+        mistakes.note(soft(format!("{path}.stiffness"), self.stiffness, "N/m²"));
+        mistakes.note(not_negative(format!("{path}.damping"), self.damping, "N s/m²"));
+        mistakes.end(())
+    }
+}
+
+/// An error about a part, as one about the whole: its field is a path from there.
+fn within(path: &str, error: Error) -> Error {
+    error.placed(|complaint| {
+        Error::Value(Complaint { field: format!("{path}.{}", complaint.field), ..complaint })
+    })
+}
+
+fn stretch(path: &str, from: f64, to: f64, length: f64) -> Result<()> {
+    let name = |key: &str| format!("{path}.{key}");
+    let mut mistakes = Mistakes::default();
+    mistakes.note(on_the_bat(name("from"), from, length));
+    mistakes.note(on_the_bat(name("to"), to, length));
+    mistakes.end(())?;
+    if to - from > SAME_PLACE * length {
+        return Ok(());
+    }
+    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))
+}
+
+pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Result<()> {
+    if x >= 0.0 && x <= length {
+        return Ok(());
+    }
+    Err(Error::value(field, shown(x, "m"), format!("a place on the bat, 0 to {length} m")))
+}
+
+pub(crate) fn positive(field: impl Into<String>, value: f64, unit: &str) -> Result<()> {
+    if value > 0.0 && value < MOST {
+        return Ok(());
+    }
+    Err(Error::value(field, shown(value, unit), format!("a number above 0, below {MOST:e}")))
+}
+
+fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
+    if (0.0..MOST).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
+}
+
+/// No spring, or one whose motion can be told from a rigid one.
+fn soft(field: String, value: f64, unit: &str) -> Result<()> {
+    not_negative(field.clone(), value, unit)?;
+    if value == 0.0 || value >= SOFTEST {
+        return Ok(());
+    }
+    let expected = format!("0, or {SOFTEST:e} {unit} and more: a softer spring holds nothing");
+    Err(Error::value(field, shown(value, unit), expected))
+}
+
+/// A mass that a bat can be told from.
+fn heavy(field: String, value: f64, unit: &str) -> Result<()> {
+    const HEAVIEST: f64 = 1e8;
+    not_negative(field.clone(), value, unit)?;
+    if value <= HEAVIEST {
+        return Ok(());
+    }
+    let expected = format!("{HEAVIEST:e} {unit} at most: more is a support");
+    Err(Error::value(field, shown(value, unit), expected))
+}
+
+/// A value without a row of zeros.
+fn shown(value: f64, unit: &str) -> String {
+    match value.abs() {
+        size if !size.is_finite() => "a value beyond the range of numbers".to_owned(),
+        0.0 | 1e-4..1e6 => format!("{value} {unit}"),
+        _ => format!("{value:e} {unit}"),
+    }
+}

@@ -1,0 +1,745 @@
+//! What is the radius at `x`, where somebody wrote it as a formula?
+//!
+//! [`Formula::parse`] once, [`Formula::at`] many times.
+//!
+//! The grammar is Python's for arithmetic, with `^` another way to write `**`:
+//!
+//! ```text
+//! sum     = product (("+" | "-") product)*
+//! product = signed (("*" | "/") signed)*
+//! signed  = ("+" | "-")* power
+//! power   = atom [("**" | "^") signed]
+//! atom    = number | "x" | "pi" | function "(" sum ("," sum)* ")" | "(" sum ")"
+//! ```
+//!
+//! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. It is spelled out with the parser
+//! library winnow, because ready-made expression evaluators take `-2^2` for 4.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use winnow::ModalResult;
+use winnow::Parser;
+use winnow::combinator::{alt, cut_err, opt, preceded, repeat, separated, terminated};
+use winnow::error::{ErrMode, ParserError};
+use winnow::stream::{LocatingSlice, Location, Stateful, Stream};
+use winnow::token::{one_of, take_while};
+
+use crate::base::error::{Complaint, nearest, shortened};
+
+/// Longest formula that is read (characters).
+const LONGEST: usize = 10_000;
+/// Deepest nesting of brackets and powers that is read.
+const DEEPEST: usize = 100;
+/// Samples between which corners are looked for.
+const SAMPLES: usize = 1000;
+/// More corners than this in one formula are a mistake.
+const MOST_CORNERS: usize = 1000;
+/// Most `abs`, `min` and `max` in one formula: each is asked on every stretch between the corners of
+/// all of them.
+const MOST_BRANCHES: usize = 100;
+
+/// A formula of `x`, such as `0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))`.
+///
+/// Numbers, `x`, `pi`, `+ - * /`, `**` or `^`, and the functions `sin cos tan exp log sqrt tanh
+/// abs min max`: angles in radians, `log` natural, `min` and `max` of two arguments or more.
+/// Clones share what was parsed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formula(Arc<Parsed>);
+
+#[derive(Debug, PartialEq)]
+struct Parsed {
+    text: String,
+    root: Node,
+}
+
+/// A part of a formula with its own value. Sums and products are lists, so that a long one is
+/// no deep one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Node {
+    Number(f64),
+    X,
+    /// Terms, and whether each is subtracted.
+    Sum(Vec<(bool, Node)>),
+    /// Factors, and whether each divides.
+    Product(Vec<(bool, Node)>),
+    Negative(Box<Node>),
+    Power(Box<[Node; 2]>),
+    Call(Function, Vec<Node>),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Exp,
+    Log,
+    Sqrt,
+    Tanh,
+    Abs,
+    Min,
+    Max,
+}
+
+const FUNCTIONS: [(&str, Function); 10] = [
+    ("sin", Function::Sin),
+    ("cos", Function::Cos),
+    ("tan", Function::Tan),
+    ("exp", Function::Exp),
+    ("log", Function::Log),
+    ("sqrt", Function::Sqrt),
+    ("tanh", Function::Tanh),
+    ("abs", Function::Abs),
+    ("min", Function::Min),
+    ("max", Function::Max),
+];
+
+impl Formula {
+    /// Reads a formula.
+    ///
+    /// # Errors
+    ///
+    /// A [`Complaint`] without a field that names the character, counted from 1, what was found
+    /// there and what was expected. Also more than 10 000 characters or 100 levels of brackets
+    /// and powers.
+    pub fn parse(text: &str) -> Result<Self, Complaint> {
+        Self::parse_in_place(text).map_err(|(complaint, _)| complaint)
+    }
+
+    /// As [`Self::parse`], with the part of the text that is wrong, in bytes.
+    pub(crate) fn parse_in_place(text: &str) -> Result<Self, (Complaint, Range<usize>)> {
+        let length = text.chars().count();
+        if length > LONGEST {
+            let expected = format!("{LONGEST} at most");
+            let found = format!("a formula of {length} characters");
+            return Err((Complaint::new("", found, expected), 0..text.len()));
+        }
+        if text.trim().is_empty() {
+            let expected = "a formula of x, such as \"0.0125 + 0.02*x\"";
+            return Err((Complaint::new("", "an empty formula", expected), 0..text.len()));
+        }
+        let mut input = Input { input: LocatingSlice::new(text), state: 0 };
+        match whole(&mut input) {
+            Ok(root) if root.branches() > MOST_BRANCHES => {
+                let found = format!("{} abs, min and max in one formula", root.branches());
+                let expected = format!("{MOST_BRANCHES} at most; stations hold more corners");
+                Err((Complaint::new("", found, expected), 0..text.len()))
+            }
+            Ok(root) => Ok(Self(Arc::new(Parsed { text: text.to_owned(), root }))),
+            Err(ErrMode::Backtrack(fault) | ErrMode::Cut(fault)) => {
+                let part = fault.offset..fault.offset + word(&text[fault.offset..]).len();
+                Err((fault.complaint(text), part))
+            }
+            Err(ErrMode::Incomplete(_)) => unreachable!("the whole text is there"),
+        }
+    }
+
+    /// The formula as it was written.
+    pub fn text(&self) -> &str {
+        &self.0.text
+    }
+
+    /// The whole of it as a tree.
+    pub(crate) fn root(&self) -> &Node {
+        &self.0.root
+    }
+
+    /// Its value at `x`: not a number where it has none, such as `sqrt(-1)`.
+    pub fn at(&self, x: f64) -> f64 {
+        self.0.root.value(x, &mut |_| {})
+    }
+
+    /// Places inside `from < x < to` where the value may have a corner, rising: where the
+    /// argument of an `abs` changes sign or two arguments of `min` or `max` change their order.
+    ///
+    /// Sought between 1000 even samples, each found to the last bit.
+    ///
+    /// # Errors
+    ///
+    /// A [`Complaint`] without a field, if there are more than 1000.
+    pub fn corners(&self, from: f64, to: f64) -> Result<Vec<f64>, Complaint> {
+        let sample = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
+        // For each switch, where it was last not 0, and on which side.
+        let mut last: Vec<Option<(f64, f64)>> = vec![None; self.switches(from).len()];
+        let mut corners = Vec::new();
+        for k in 0..=SAMPLES {
+            let x = if k == SAMPLES { to } else { sample(k) };
+            for (i, v) in self.switches(x).into_iter().enumerate() {
+                if let Some((before, side)) = last[i]
+                    && v * side < 0.0
+                {
+                    corners.push(self.crossing(i, side, before, x));
+                }
+                if v != 0.0 {
+                    last[i] = Some((x, v.signum()));
+                }
+            }
+            if corners.len() > MOST_CORNERS {
+                let found = format!("more than {MOST_CORNERS} corners of abs, min and max");
+                return Err(Complaint::new("", found, "fewer, or more pieces"));
+            }
+        }
+        corners.retain(|x| *x > from && *x < to);
+        corners.sort_by(f64::total_cmp);
+        Ok(corners)
+    }
+
+    /// The first number after `low` where switch `i` has left its side, by bisection.
+    fn crossing(&self, i: usize, side: f64, mut low: f64, mut high: f64) -> f64 {
+        loop {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                return high;
+            }
+            if self.switches(middle)[i] * side > 0.0 { low = middle } else { high = middle }
+        }
+    }
+
+    /// The numbers whose signs choose a branch at `x`, always in the same order.
+    fn switches(&self, x: f64) -> Vec<f64> {
+        let mut switches = Vec::new();
+        self.0.root.value(x, &mut |switch| switches.push(switch));
+        switches
+    }
+}
+
+impl Node {
+    /// How many functions in it choose a branch.
+    fn branches(&self) -> usize {
+        let all = |nodes: &[Self]| nodes.iter().map(Self::branches).sum::<usize>();
+        match self {
+            Self::Number(_) | Self::X => 0,
+            Self::Sum(parts) | Self::Product(parts) => {
+                parts.iter().map(|(_, node)| node.branches()).sum()
+            }
+            Self::Negative(node) => node.branches(),
+            Self::Power(nodes) => all(&nodes[..]),
+            Self::Call(Function::Abs | Function::Min | Function::Max, arguments) => {
+                1 + all(arguments)
+            }
+            Self::Call(_, arguments) => all(arguments),
+        }
+    }
+
+    /// The value at `x`; `switch` is told every number whose sign chooses a branch.
+    fn value(&self, x: f64, switch: &mut impl FnMut(f64)) -> f64 {
+        match self {
+            Self::Number(value) => *value,
+            Self::X => x,
+            Self::Sum(terms) => terms.iter().fold(0.0, |sum, (minus, term)| {
+                let term = term.value(x, switch);
+                if *minus { sum - term } else { sum + term }
+            }),
+            Self::Product(factors) => factors.iter().fold(1.0, |product, (divides, factor)| {
+                let factor = factor.value(x, switch);
+                if *divides { product / factor } else { product * factor }
+            }),
+            Self::Negative(node) => -node.value(x, switch),
+            Self::Power(nodes) => nodes[0].value(x, switch).powf(nodes[1].value(x, switch)),
+            Self::Call(function, arguments) => function.value(arguments, x, switch),
+        }
+    }
+}
+
+impl Function {
+    fn value(self, arguments: &[Node], x: f64, switch: &mut impl FnMut(f64)) -> f64 {
+        let first = arguments[0].value(x, switch);
+        match self {
+            Self::Sin => first.sin(),
+            Self::Cos => first.cos(),
+            Self::Tan => first.tan(),
+            Self::Exp => first.exp(),
+            Self::Log => first.ln(),
+            Self::Sqrt => first.sqrt(),
+            Self::Tanh => first.tanh(),
+            Self::Abs => {
+                switch(first);
+                first.abs()
+            }
+            Self::Min | Self::Max => arguments[1..].iter().fold(first, |chosen, argument| {
+                let other = argument.value(x, switch);
+                let difference = other - chosen;
+                switch(difference);
+                // What is not a number stays one, so that it is not hidden by the other.
+                let takes = if self == Self::Min { difference < 0.0 } else { difference > 0.0 };
+                if takes || other.is_nan() { other } else { chosen }
+            }),
+        }
+    }
+
+    fn takes(self, count: usize) -> bool {
+        if matches!(self, Self::Min | Self::Max) { count >= 2 } else { count == 1 }
+    }
+}
+
+/// The text that is left, its place, and how deep in brackets and powers it stands.
+type Input<'a> = Stateful<LocatingSlice<&'a str>, usize>;
+
+/// What is wrong at a byte of the text.
+#[derive(Debug)]
+struct Fault {
+    offset: usize,
+    /// What was found, where it is not the word that stands there.
+    found: Option<String>,
+    expected: String,
+    hint: String,
+}
+
+impl ParserError<Input<'_>> for Fault {
+    type Inner = Self;
+
+    fn from_input(input: &Input<'_>) -> Self {
+        let offset = input.current_token_start();
+        Self { offset, found: None, expected: String::new(), hint: String::new() }
+    }
+
+    fn into_inner(self) -> Result<Self, Self> {
+        Ok(self)
+    }
+}
+
+impl Fault {
+    fn new(input: &Input, expected: impl Into<String>) -> ErrMode<Self> {
+        ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
+    }
+
+    /// In found and expected, with the place: `"tanhh" at character 10 of "0.0127 + tanhh(x)"`.
+    fn complaint(self, text: &str) -> Complaint {
+        let here = word(&text[self.offset..]);
+        let what = match self.found {
+            Some(found) => found,
+            None if here.is_empty() => "the end".to_owned(),
+            None => format!("{:?}", shortened(here, 40)),
+        };
+        let before = text[..self.offset].chars().count();
+        // A window of a long formula around the place.
+        let skipped = before.saturating_sub(60);
+        let window: String = text.chars().skip(skipped).collect();
+        let dots = if skipped > 0 { "…" } else { "" };
+        let window = format!("{dots}{}", shortened(&window, 100));
+        let found = format!("{what} at character {} of {window:?}", before + 1);
+        let hint = match here.chars().next() {
+            Some('\u{2212}' | '–' | '—') => "a minus is written -",
+            Some('×' | '·' | '⋅') => "times is written *",
+            Some('²' | '³') => "a square is written ^2",
+            Some(',') if self.expected.starts_with("an operator (") => {
+                "decimals follow a point: 0.5"
+            }
+            _ => &self.hint,
+        };
+        Complaint::new("", found, self.expected.clone()).hinted(hint)
+    }
+}
+
+/// The word, number or single character that the text begins with.
+fn word(text: &str) -> &str {
+    let end = text.find(|c| !in_name(c)).unwrap_or(text.len());
+    let first = text.chars().next().map_or(0, char::len_utf8);
+    &text[..end.max(first)]
+}
+
+/// Points too, for `math.tanh` and for numbers.
+fn in_name(c: char) -> bool {
+    c.is_alphabetic() || c.is_ascii_digit() || c == '_' || c == '.'
+}
+
+fn whole(input: &mut Input) -> ModalResult<Node, Fault> {
+    blanks(input)?;
+    let root = sum(input)?;
+    if input.eof_offset() == 0 {
+        return Ok(root);
+    }
+    Err(Fault::new(input, "an operator (+ - * / ^) or the end"))
+}
+
+fn blanks(input: &mut Input) -> ModalResult<(), Fault> {
+    take_while(0.., [' ', '\t', '\r', '\n']).void().parse_next(input)
+}
+
+/// One of these characters and the blanks behind it.
+fn symbol<'a, const N: usize>(symbols: [char; N]) -> impl Parser<Input<'a>, char, ErrMode<Fault>> {
+    terminated(one_of(symbols), blanks)
+}
+
+fn sum(input: &mut Input) -> ModalResult<Node, Fault> {
+    let first = product(input)?;
+    let more = (symbol(['+', '-']).map(|sign| sign == '-'), cut_err(product));
+    list(first, more, Node::Sum, input)
+}
+
+fn product(input: &mut Input) -> ModalResult<Node, Fault> {
+    let first = signed(input)?;
+    let more = (symbol(['*', '/']).map(|sign| sign == '/'), cut_err(signed));
+    list(first, more, Node::Product, input)
+}
+
+/// `first` alone, or all of them in a node of that kind.
+fn list<'a>(
+    first: Node,
+    more: impl Parser<Input<'a>, (bool, Node), ErrMode<Fault>>,
+    kind: fn(Vec<(bool, Node)>) -> Node,
+    input: &mut Input<'a>,
+) -> ModalResult<Node, Fault> {
+    let rest: Vec<(bool, Node)> = repeat(0.., more).parse_next(input)?;
+    if rest.is_empty() {
+        return Ok(first);
+    }
+    Ok(kind([(false, first)].into_iter().chain(rest).collect()))
+}
+
+fn signed(input: &mut Input) -> ModalResult<Node, Fault> {
+    let signs: Vec<char> = repeat(0.., symbol(['+', '-'])).parse_next(input)?;
+    let value = power(input)?;
+    let negative = signs.iter().filter(|sign| **sign == '-').count() % 2 == 1;
+    Ok(if negative { Node::Negative(Box::new(value)) } else { value })
+}
+
+fn power(input: &mut Input) -> ModalResult<Node, Fault> {
+    let base = atom(input)?;
+    let operator = terminated(alt(("**", "^")), blanks);
+    let exponent = opt(preceded(operator, cut_err(deeper(signed)))).parse_next(input)?;
+    Ok(match exponent {
+        Some(exponent) => Node::Power(Box::new([base, exponent])),
+        None => base,
+    })
+}
+
+/// The same one level deeper, where the levels are not too many.
+fn deeper<'a, T>(
+    mut inner: impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault>,
+) -> impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault> {
+    move |input| {
+        if input.state == DEEPEST {
+            let expected = format!("at most {DEEPEST} levels of brackets and powers");
+            return Err(Fault::new(input, expected));
+        }
+        input.state += 1;
+        let value = inner(input);
+        input.state -= 1;
+        value
+    }
+}
+
+fn atom(input: &mut Input) -> ModalResult<Node, Fault> {
+    const EXPECTED: &str = "a number, x, pi, a function or a bracket";
+    match input.peek_token() {
+        Some('(') => {
+            symbol(['(']).parse_next(input)?;
+            let inner = deeper(sum)(input)?;
+            closed(input, "an operator (+ - * / ^) or a closing bracket")?;
+            Ok(inner)
+        }
+        Some('0'..='9' | '.') => number(input),
+        Some(c) if c.is_alphabetic() || c == '_' => named(input),
+        _ => Err(Fault::new(input, EXPECTED)),
+    }
+}
+
+fn closed(input: &mut Input, expected: &str) -> ModalResult<(), Fault> {
+    match opt(symbol([')'])).parse_next(input)? {
+        Some(_) => Ok(()),
+        None => Err(Fault::new(input, expected)),
+    }
+}
+
+/// `12`, `1.`, `.5`, `2.5e-3`.
+fn number(input: &mut Input) -> ModalResult<Node, Fault> {
+    let start = input.checkpoint();
+    let digits = || take_while(0.., '0'..='9');
+    let sign = || opt(one_of(['+', '-']));
+    let exponent = (one_of(['e', 'E']), sign(), take_while(1.., '0'..='9'));
+    let written = (digits(), opt(('.', digits())), opt(exponent)).take().parse_next(input)?;
+    // A point alone is no number, and the largest ones are none that a computer can hold.
+    let value = written.parse().ok().filter(|value: &f64| value.is_finite());
+    match value {
+        Some(value) => {
+            blanks(input)?;
+            Ok(Node::Number(value))
+        }
+        None => {
+            input.reset(&start);
+            Err(Fault::new(input, "a number such as 0.0125 or 1e-3"))
+        }
+    }
+}
+
+/// `x`, `pi` or a function with its arguments.
+fn named(input: &mut Input) -> ModalResult<Node, Fault> {
+    let start = input.checkpoint();
+    let name = terminated(take_while(1.., in_name), blanks).parse_next(input)?;
+    let function = match name {
+        "x" => return Ok(Node::X),
+        "pi" => return Ok(Node::Number(std::f64::consts::PI)),
+        _ => FUNCTIONS.iter().find(|(known, _)| *known == name),
+    };
+    let Some((name, function)) = function else {
+        input.reset(&start);
+        return Err(unknown_name(input, name));
+    };
+    if opt(symbol(['('])).parse_next(input)?.is_none() {
+        return Err(Fault::new(input, format!("a bracket: {name}(…)")));
+    }
+    let arguments: Vec<Node> =
+        deeper(|input| separated(1.., cut_err(sum), symbol([','])).parse_next(input))(input)?;
+    closed(input, "an operator (+ - * / ^), a comma or a closing bracket")?;
+    if function.takes(arguments.len()) {
+        return Ok(Node::Call(*function, arguments));
+    }
+    input.reset(&start);
+    let plural = if arguments.len() == 1 { "" } else { "s" };
+    let found = format!("{name} of {} argument{plural}", arguments.len());
+    let expected = if function.takes(1) { "one" } else { "two or more" };
+    let fault = Fault::from_input(input);
+    Err(ErrMode::Cut(Fault { found: Some(found), expected: expected.into(), ..fault }))
+}
+
+/// A name that is none, and the nearest one that a formula may use.
+fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
+    let functions = FUNCTIONS.map(|(name, _)| name);
+    let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();
+    let expected = format!("x, pi or a function: {}", functions.join(", "));
+    // `math.tanh` and `np.tanh` mean what they end with.
+    let plain = unknown.rsplit('.').next().unwrap_or(unknown);
+    let meant = if plain == "ln" { Some("log") } else { nearest(plain, &names) };
+    let hint = meant.map(|name| format!("did you mean {name}?")).unwrap_or_default();
+    ErrMode::Cut(Fault { expected, hint, ..Fault::from_input(input) })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn value(text: &str, x: f64) -> f64 {
+        Formula::parse(text).unwrap().at(x)
+    }
+
+    fn complaint(text: &str) -> String {
+        Formula::parse(text).unwrap_err().to_string()
+    }
+
+    /// Formulas and their values at x = 0.7, printed by Python 3 (`math`'s functions) with `repr`.
+    #[rustfmt::skip]
+    const PYTHON: &[(&str, f64)] = &[
+        ("-2**2", -4.0),
+        ("2**-1", 0.5),
+        ("2**3**2", 512.0),
+        ("-x**2", -0.48999999999999994),
+        ("2*-3", -6.0),
+        ("+3", 3.0),
+        ("--3", 3.0),
+        ("-+-2", 2.0),
+        ("2**-3**2", 0.001953125),
+        ("2*3**2", 18.0),
+        ("-2**-2", -0.25),
+        ("2**-1*3", 1.5),
+        ("1-2-3", -4.0),
+        ("8/4/2", 1.0),
+        ("2/3*4", 2.6666666666666665),
+        ("1+2*3-4/5", 6.2),
+        ("1e-3+.5+2.", 2.501),
+        ("2E+2", 200.0),
+        ("x*(x+1)", 1.19),
+        ("(((x)))", 0.7),
+        ("-(x-1)**2", -0.09000000000000002),
+        ("3**0.5", 1.7320508075688772),
+        ("2**x**2", 1.404444875737997),
+        ("-x**2*3", -1.4699999999999998),
+        ("1 - -x", 1.7),
+        ("sin(x)+cos(x)*tan(x)", 1.288435374475382),
+        ("exp(-x)*log(x+1)", 0.2635021912540122),
+        ("sqrt(x)/tanh(x)", 1.3843557817144831),
+        ("abs(x-1)", 0.30000000000000004),
+        ("abs(1-x)", 0.30000000000000004),
+        ("min(x,0.5)", 0.5),
+        ("max(x,0.5,0.9)", 0.9),
+        ("min(3,2,1,x)", 0.7),
+        ("pi*x", 2.199114857512855),
+        ("3*pi", 9.42477796076938),
+        ("0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))", 0.03257629963846353),
+        ("log(exp(2))", 2.0),
+        ("\t1\n+ 2 ", 3.0),
+        ("max(min(x,1),-x)", 0.7),
+        ("sin(pi/2)**2", 1.0),
+        ("1e2*1e-2", 1.0),
+        ("3-2+1", 2.0),
+        ("2*x/0.5*x", 1.9599999999999997),
+        ("100/10*10", 100.0),
+        ("sqrt(1-(x-0.2)**2)", 0.8660254037844386),
+        ("-abs(-x)", -0.7),
+        ("0.5**-x**-2", 4.11478293390511),
+        ("x--x", 1.4),
+        ("x*-x**2", -0.3429999999999999),
+    ];
+
+    #[test]
+    fn values_are_those_of_python() {
+        for (text, expected) in PYTHON {
+            let got = value(text, 0.7);
+            assert!((got - expected).abs() <= 4e-16 * expected.abs(), "{text}: {got} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_hat_is_a_power() {
+        for (text, expected) in PYTHON.iter().filter(|(text, _)| text.contains("**")) {
+            let hat = text.replace("**", "^");
+            assert_eq!(value(&hat, 0.7), value(text, 0.7), "{hat}");
+            assert!((value(&hat, 0.7) - expected).abs() <= 4e-16 * expected.abs(), "{hat}");
+        }
+    }
+
+    #[test]
+    fn a_mistake_is_told_with_its_place() {
+        let rows = [
+            ("", "an empty formula"),
+            (" \t", "an empty formula"),
+            ("1 +", "found the end at character 4 of \"1 +\", expected a number, x"),
+            ("+", "the end at character 2"),
+            ("1 + * 2", "\"*\" at character 5"),
+            ("2x", "\"x\" at character 2 of \"2x\", expected an operator (+ - * / ^) or the end"),
+            ("2 ** ", "the end at character 6"),
+            ("2***3", "\"*\" at character 4"),
+            ("8 // 2", "\"/\" at character 4"),
+            (
+                "(1 + x",
+                "the end at character 7 of \"(1 + x\", expected an operator (+ - * / ^) or a closing",
+            ),
+            ("1 + x)", "\")\" at character 6"),
+            ("()", "\")\" at character 2"),
+            (
+                "0.01 + tanhh(x)",
+                "\"tanhh\" at character 8 of \"0.01 + tanhh(x)\", expected x, pi or a function: sin, cos",
+            ),
+            ("tanhh(x)", "; did you mean tanh?"),
+            ("X", "; did you mean x?"),
+            ("math.sqrt(x)", "\"math.sqrt\" at character 1"),
+            ("math.sqrt(x)", "; did you mean sqrt?"),
+            ("ln(x)", "; did you mean log?"),
+            ("é + 1", "\"é\" at character 1"),
+            ("sin x", "\"x\" at character 5 of \"sin x\", expected a bracket: sin(…)"),
+            ("sin", "the end at character 4"),
+            ("sin()", "\")\" at character 5"),
+            ("sin(1, 2)", "found sin of 2 arguments at character 1 of \"sin(1, 2)\", expected one"),
+            (
+                "1 + min(x)",
+                "found min of 1 argument at character 5 of \"1 + min(x)\", expected two or more",
+            ),
+            ("min(1, )", "\")\" at character 8"),
+            (
+                "min(1; 2)",
+                "\";\" at character 6 of \"min(1; 2)\", expected an operator (+ - * / ^), a comma or",
+            ),
+            (
+                "0,5",
+                "\",\" at character 2 of \"0,5\", expected an operator (+ - * / ^) or the end; decimals follow a point: 0.5",
+            ),
+            (".", "\".\" at character 1 of \".\", expected a number such as"),
+            ("1e999", "\"1e999\" at character 1 of \"1e999\", expected a number"),
+            ("1e", "\"e\" at character 2"),
+            ("0x10", "\"x10\" at character 2"),
+            ("1..2", "\".2\" at character 3"),
+            ("1 − x", "; a minus is written -"),
+            ("x²", "at character 2"),
+            ("x if x > 0 else 1", "\"if\" at character 3"),
+            ("x > 0", "\">\" at character 3"),
+            ("pi(2)", "\"(\" at character 3"),
+            ("x\u{1b}[2J", "at character 2 of \"x\\u{1b}[2J\""),
+        ];
+        for (text, words) in rows {
+            let said = complaint(text);
+            assert!(said.contains(words), "{text}: {said}");
+            assert!(!said.chars().any(char::is_control), "{said:?}");
+        }
+    }
+
+    #[test]
+    fn a_mistake_in_a_long_formula_is_shown_with_its_surroundings() {
+        let said = complaint(&format!("{}1 + foo + {}1", "x + ".repeat(100), "x + ".repeat(100)));
+        assert!(said.contains("\"foo\" at character 405 of \"…"), "{said}");
+        assert!(said.len() < 400, "{said}");
+    }
+
+    #[test]
+    fn neither_depth_nor_length_overflows_anything() {
+        let deep = |open: &str, close: &str, n: usize| {
+            Formula::parse(&format!("{}x{}", open.repeat(n), close.repeat(n)))
+        };
+        for (open, close) in [("(", ")"), ("sin(", ")"), ("-(", ")"), ("2**", ""), ("2^-", "")] {
+            assert!(deep(open, close, 100).is_ok(), "{open}");
+            let said = deep(open, close, 101).unwrap_err().to_string();
+            assert!(said.contains("at most 100 levels of brackets and powers"), "{said}");
+            assert!(deep(open, close, 1999).is_err(), "{open}");
+        }
+        assert_eq!(deep("-", "", 9999).unwrap().at(1.0), -1.0);
+        assert_eq!(deep("1+", "", 4999).unwrap().at(1.0), 5000.0);
+        assert_eq!(deep("1*", "", 4999).unwrap().at(3.0), 3.0);
+        let said = deep("-", "", 10_000).unwrap_err().to_string();
+        assert!(said.contains("a formula of 10001 characters, expected 10000 at most"), "{said}");
+    }
+
+    #[test]
+    fn corners_are_where_abs_turns_and_min_and_max_change() {
+        let corners = |text: &str| Formula::parse(text).unwrap().corners(0.0, 1.0).unwrap();
+        let quarter = 0.25_f64.next_down()..=0.25_f64.next_up();
+        assert_eq!(corners("abs(x - 0.4)"), [0.4]);
+        assert_eq!(corners("abs(x - 0.4004)"), [0.4004]);
+        assert_eq!(corners("abs(0.4 - x) + min(x, 0.7)"), [0.4, 0.7]);
+        assert!(quarter.contains(&corners("max(x, 0.5 - x)")[0]));
+        assert_eq!(corners("max(0.1, x - 0.5, 2*x - 1.25)").len(), 2);
+        assert_eq!(corners("abs(sin(10*pi*x + 0.1))").len(), 10);
+        for smooth in ["abs(x)", "abs(x - 1)", "max(x, x)", "abs(0*x)", "x*x", "abs((x - 0.4)^2)"] {
+            assert!(corners(smooth).is_empty(), "{smooth}");
+        }
+        let many = Formula::parse(&vec!["abs(sin(1000*x))"; 40].join(" + ")).unwrap();
+        assert!(many.corners(0.0, 1.0).unwrap_err().to_string().contains("more than 1000 corners"));
+    }
+
+    #[test]
+    fn what_has_no_value_is_no_number() {
+        for text in ["sqrt(-x)", "log(-x)", "(-x)**0.5", "0/(x - 1)", "min(1, sqrt(-x))"] {
+            assert!(value(text, 1.0).is_nan(), "{text}");
+        }
+        assert!(value("max(sqrt(-x), 1)", 1.0).is_nan());
+        assert!(value("1/(x - 1)", 1.0).is_infinite());
+    }
+
+    /// Random expressions with a bracket around every part, and what Rust makes of the parts.
+    fn bracketed() -> impl Strategy<Value = (String, f64)> {
+        let leaf = prop_oneof![
+            (0.1..10.0_f64).prop_map(|v| (v.to_string(), v)),
+            Just(("x".to_owned(), 0.7)),
+        ];
+        leaf.prop_recursive(6, 40, 2, |inner| {
+            (0..8, inner.clone(), inner).prop_map(|(kind, (a, u), (b, v))| match kind {
+                0 => (format!("({a} + {b})"), u + v),
+                1 => (format!("({a}-{b})"), u - v),
+                2 => (format!("({a} * {b})"), u * v),
+                3 => (format!("({a}/{b})"), u / v),
+                4 => (format!("({a})**({b})"), u.powf(v)),
+                5 => (format!("(-{a})"), -u),
+                6 => (format!("tanh({a})"), u.tanh()),
+                _ => (format!("min({a}, {b})"), if v < u { v } else { u }),
+            })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn bracketed_expressions_are_their_parts((text, expected) in bracketed()) {
+            let got = value(&text, 0.7);
+            let same = got == expected || got.is_nan() || expected.is_nan();
+            prop_assert!(same, "{text}: {got} {expected}");
+        }
+
+        #[test]
+        fn any_text_is_a_formula_or_told_why_not(text in "[x0-9.e+*/^(),a-z−²\\- ]{0,30}") {
+            match Formula::parse(&text) {
+                Ok(formula) => prop_assert_eq!(formula.text(), text),
+                Err(complaint) => prop_assert!(!complaint.expected.is_empty(), "{complaint}"),
+            }
+        }
+    }
+}

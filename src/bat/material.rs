@@ -1,0 +1,264 @@
+//! How stiff, how heavy is what the bat is made of?
+//!
+//! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
+//! `shear_modulus` to let it shear.
+
+use crate::base::error::{Error, Result};
+use crate::base::interval::Rectangle;
+use crate::base::mistakes::Mistakes;
+
+/// A material, along the bat's axis where it is wood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// The built-in name, if it has one.
+    pub name: Option<String>,
+    /// Density ρ (kg/m³).
+    pub density: f64,
+    /// Young's modulus E (Pa).
+    pub youngs_modulus: f64,
+    /// Shear modulus G (Pa), if known.
+    pub shear_modulus: Option<f64>,
+    /// Poisson's ratio ν, if it was given.
+    pub poisson_ratio: Option<f64>,
+    /// Timoshenko's shear coefficient κ, if it was given.
+    pub shear_coefficient: Option<f64>,
+    /// Loss factor η; a mode's damping ratio is ζ = η/2.
+    pub loss_factor: f64,
+    /// Stress at which it breaks in bending (Pa), if known; of wood the modulus of rupture.
+    pub strength: Option<f64>,
+    /// Strain at which it breaks, if known.
+    pub strain_to_failure: Option<f64>,
+}
+
+impl Material {
+    /// A material known by density (kg/m³) and Young's modulus (Pa) alone.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if one of them is not a positive number.
+    pub fn new(density: f64, youngs_modulus: f64) -> Result<Self> {
+        let material = Self {
+            name: None,
+            density,
+            youngs_modulus,
+            shear_modulus: None,
+            poisson_ratio: None,
+            shear_coefficient: None,
+            loss_factor: 0.0,
+            strength: None,
+            strain_to_failure: None,
+        };
+        material.check()?;
+        Ok(material)
+    }
+
+    /// Every value in its possible range: ρ, E, G, κ and the strength positive, η not negative,
+    /// −1 < ν ≤ ½, a strain to failure above 0 and below 1.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] with the key of the bat file as its field, or several of them.
+    pub fn check(&self) -> Result<()> {
+        let positive = |key: &str, value: Option<f64>, unit: &str| match value {
+            Some(v) if !(v > 0.0 && v.is_finite()) => {
+                Err(Error::value(key, format!("{v:?} {unit}").trim(), "a number above 0"))
+            }
+            _ => Ok(()),
+        };
+        let mut mistakes = Mistakes::default();
+        mistakes.note(positive("density", Some(self.density), "kg/m³"));
+        mistakes.note(positive("youngs_modulus", Some(self.youngs_modulus), "Pa"));
+        mistakes.note(positive("shear_coefficient", self.shear_coefficient, ""));
+        if !(self.loss_factor >= 0.0 && self.loss_factor < 2.0) {
+            let expected = "0 or more and below 2 (a damping ratio below 1)";
+            mistakes.add(Error::value("loss_factor", self.loss_factor, expected));
+        }
+        if let Some(nu) = self.poisson_ratio.filter(|nu| !(*nu > -1.0 && *nu <= 0.5)) {
+            mistakes.add(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
+        }
+        mistakes.note(positive("strength", self.strength, "Pa"));
+        if let Some(strain) = self.strain_to_failure.filter(|e| !(*e > 0.0 && *e < 1.0)) {
+            let expected = "a number above 0 and below 1, such as 0.02";
+            mistakes.add(Error::value("strain_to_failure", strain, expected));
+        }
+        mistakes.end(())?;
+        // After the modulus and the ratio, which it may have been made from.
+        positive("shear_modulus", self.shear_modulus, "Pa")
+    }
+
+    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own,
+    /// else Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means
+    /// nothing for wood): `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
+    ///
+    /// # Source
+    ///
+    /// G. R. Cowper, J. Appl. Mech. 33 (1966) 335.
+    pub fn kappa(&self, hole: f64) -> f64 {
+        self.shear_coefficient.unwrap_or_else(|| {
+            let nu = self.poisson_ratio.unwrap_or(0.3);
+            let square = (1.0 + hole).powi(2);
+            6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * hole)
+        })
+    }
+
+    /// The largest |κ| where `r²` and `r_i²` are in these boxes; `None` where it has a pole there.
+    pub(crate) fn kappa_around(&self, outer: Rectangle, inner: Rectangle) -> Option<f64> {
+        if let Some(kappa) = self.shear_coefficient {
+            return Some(kappa);
+        }
+        let nu = self.poisson_ratio.unwrap_or(0.3);
+        let square = (outer + inner).square();
+        let number = Rectangle::point;
+        let below = number(7.0 + 6.0 * nu) * square + number(20.0 + 12.0 * nu) * outer * inner;
+        let least = below.modulus().low;
+        (least > 0.0).then(|| 6.0 * (1.0 + nu) * square.modulus().high / least)
+    }
+
+    /// The built-in material of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        BUILT_IN.iter().find(|m| m.name == name).map(|m| Self {
+            name: Some(m.name.to_owned()),
+            density: m.density,
+            youngs_modulus: m.youngs_modulus,
+            shear_modulus: m.shear_modulus,
+            poisson_ratio: None,
+            shear_coefficient: None,
+            loss_factor: 0.0,
+            strength: m.strength,
+            strain_to_failure: m.strain_to_failure,
+        })
+    }
+}
+
+/// One entry of the built-in list: SI values and where they come from.
+#[derive(Debug, Clone, Copy)]
+pub struct BuiltIn {
+    /// What a bat file calls it.
+    pub name: &'static str,
+    /// ρ (kg/m³).
+    pub density: f64,
+    /// E (Pa).
+    pub youngs_modulus: f64,
+    /// G (Pa), if known.
+    pub shear_modulus: Option<f64>,
+    /// Stress at which it breaks in bending (Pa), if known.
+    pub strength: Option<f64>,
+    /// Strain at which it breaks in a blow, if known.
+    pub strain_to_failure: Option<f64>,
+    /// Where strength and strain to failure come from; empty where neither is known.
+    pub strength_source: &'static str,
+    /// Where the values come from.
+    pub source: &'static str,
+}
+
+/// A pound-force per square inch (Pa).
+const PSI: f64 = 6_894.757_293_168_361;
+
+/// The built-in materials.
+///
+/// Handbook values come from slow bending tests of small clear pieces at 12 % moisture:
+/// E at a span of 14 depths (so it contains some shear), G the mean of the two longitudinal
+/// planes, density 1.12 times the specific gravity. The `-dynamic` ones are what models of real
+/// bats are given to ring or break as measured, 20 to 50 % stiffer. The two kinds are kept
+/// apart, so that nobody mixes them unawares.
+///
+/// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until
+/// they break: the mean of a species. A strain to failure is of blows as fast as a hit.
+pub const BUILT_IN: &[BuiltIn] = &[
+    BuiltIn {
+        name: "white-ash",
+        density: 672.0,
+        youngs_modulus: 12.0e9,
+        shear_modulus: Some(1.116e9),
+        strength: Some(15_000.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.109, 0.077) and 5-3a, in transcription",
+    },
+    BuiltIn {
+        name: "white-ash-dynamic",
+        density: 649.0,
+        youngs_modulus: 18.14e9,
+        shear_modulus: Some(1.05e9),
+        strength: Some(15_000.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
+        source: "fit to the first frequency of an R161: A. M. Nathan, Am. J. Phys. 68, 979 (2000), table I",
+    },
+    BuiltIn {
+        name: "sugar-maple",
+        density: 705.6,
+        youngs_modulus: 12.6e9,
+        shear_modulus: Some(1.0962e9),
+        strength: Some(15_800.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.111, 0.063) and 5-3a, in transcription",
+    },
+    BuiltIn {
+        name: "sugar-maple-dynamic",
+        density: 673.0,
+        youngs_modulus: 15.52e9,
+        shear_modulus: Some(1.72e9),
+        strength: Some(15_800.0 * PSI),
+        strain_to_failure: Some(0.0234),
+        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties; strain to failure of profile A: Appl. Sci. 12 (2022) 3494, appendix A",
+        source: "bat-grade maple, profile A: Appl. Sci. 12 (2022) 3494, appendix A",
+    },
+    BuiltIn {
+        name: "yellow-birch",
+        density: 694.4,
+        youngs_modulus: 13.9e9,
+        shear_modulus: Some(0.9869e9),
+        strength: Some(16_600.0 * PSI),
+        strain_to_failure: None,
+        strength_source: "modulus of rupture of yellow birch, 16,600 psi: rexlumber.com, species data",
+        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.074, 0.068) and 5-3a, in transcription",
+    },
+    BuiltIn {
+        name: "shagbark-hickory",
+        density: 806.4,
+        youngs_modulus: 14.9e9,
+        shear_modulus: None,
+        strength: None,
+        strain_to_failure: None,
+        strength_source: "",
+        source: "handbook-like strength table, specific gravity 0.72, 2.16e6 psi (synthmind.com); no shear modulus found",
+    },
+    BuiltIn {
+        name: "aluminium-7075",
+        density: 2810.0,
+        youngs_modulus: 71.7e9,
+        shear_modulus: Some(71.7e9 / (2.0 * 1.33)),
+        strength: None,
+        strain_to_failure: None,
+        strength_source: "",
+        source: "typical of 7075 (2.81 g/cm³, 71.7 GPa, Poisson 0.33); other 7xxx bat alloys differ by 1 to 2 %",
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_material_is_possible_and_found_by_its_name() {
+        for built_in in BUILT_IN {
+            let material = Material::named(built_in.name).expect(built_in.name);
+            material.check().expect(built_in.name);
+            assert!(!built_in.source.is_empty());
+            let known = built_in.strength.is_some() || built_in.strain_to_failure.is_some();
+            assert_eq!(known, !built_in.strength_source.is_empty(), "{}", built_in.name);
+        }
+        assert_eq!(Material::named("cork"), None);
+    }
+
+    #[test]
+    fn impossible_values_are_named() {
+        for (density, modulus) in
+            [(0.0, 1e10), (-1.0, 1e10), (f64::NAN, 1e10), (600.0, f64::INFINITY)]
+        {
+            assert!(Material::new(density, modulus).is_err(), "{density} {modulus}");
+        }
+    }
+}

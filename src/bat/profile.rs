@@ -1,0 +1,531 @@
+//! What is the cross-section at `x`: outer and inner radius along the bat?
+//!
+//! [`Profile::new`] lays curves through [`Stations`]; [`Profile::at`] gives the [`Section`].
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::mistakes::{self, Mistakes};
+use crate::bat::formula::Formula;
+use crate::bat::pchip::{bernstein, blossom, cubics};
+use crate::bat::tip::{NEVER_BACK, sends_back};
+
+/// Places that are no farther apart, as a share of the bat's length, are one place given in other
+/// digits.
+pub const SAME_PLACE: f64 = 1e-12;
+
+/// How the radius runs between stations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Monotone cubic of Fritsch and Butland, split at steps.
+    Pchip,
+    /// Straight lines.
+    Linear,
+    /// The value of a station holds until the next; the last station only closes the bat.
+    Constant,
+}
+
+/// Stations along the axis, from the knob: position, outer and inner radius (m).
+///
+/// Two stations at the same `x` are a step: the first is the value to its left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    /// Positions from the knob end (m), the first 0.
+    pub x: Vec<f64>,
+    /// Outer radius at each station (m).
+    pub outer: Vec<f64>,
+    /// Inner radius at each station, 0 where the bat is solid.
+    pub inner: Vec<f64>,
+    /// What happens between them.
+    pub interpolation: Interpolation,
+}
+
+/// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormulaPiece {
+    /// Where it begins (m).
+    pub from: f64,
+    /// Where it ends (m).
+    pub to: f64,
+    /// The outer radius.
+    pub outer: Formula,
+    /// None where the bat is solid.
+    pub inner: Option<Formula>,
+}
+
+/// A whole profile in formulas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formulas {
+    /// Touching end to end, from 0.
+    pub pieces: Vec<FormulaPiece>,
+    /// Whether their `x` counts from the tip.
+    pub from_tip: bool,
+}
+
+/// A stretch of the bat where both radii are smooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// Where it begins (m).
+    pub start: f64,
+    /// How long it is (m).
+    pub length: f64,
+    /// Both radii along it.
+    pub radii: Radii,
+    /// Which of the bat's layups it is made of; 0 is the bat's own material.
+    pub layup: usize,
+}
+
+/// Both radii along a piece.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Radii {
+    /// Cubics through stations.
+    Cubic(Cubics),
+    /// Formulas.
+    Formula(Curves),
+}
+
+/// Both radii as one cubic each, in Bernstein form.
+///
+/// With `s` from 0 to 1 along the piece, `r(s) = Σ bᵢ Bᵢ(s)`, `Bᵢ` the cubic Bernstein
+/// polynomials. All `bᵢ` of a monotone cubic between radii are positive, so nothing cancels,
+/// not even at the thin end of a 1:10 000 cone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubics {
+    /// Coefficients `b₀ … b₃` of the outer radius (m).
+    pub outer: [f64; 4],
+    /// Those of the inner radius (m).
+    pub inner: [f64; 4],
+    /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
+    pub degree: usize,
+}
+
+/// Both radii as smooth formulas of `x = from + (to − from) s`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// The outer radius.
+    pub outer: Formula,
+    /// None where the bat is solid.
+    pub inner: Option<Formula>,
+    /// The formulas' `x` at the beginning of the piece (m); it falls along a piece that is
+    /// measured from the tip.
+    pub from: f64,
+    /// The formulas' `x` at the end (m).
+    pub to: f64,
+    /// Radii (m) up to this are the round-off of 0.
+    pub floor: f64,
+}
+
+/// The outer and inner radius (m) at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// r (m).
+    pub outer: f64,
+    /// r_i (m), 0 where the bat is solid.
+    pub inner: f64,
+}
+
+impl Section {
+    /// Area `π(r² − rᵢ²)` in m².
+    #[inline]
+    pub fn area(self) -> f64 {
+        let (r, ri) = (self.outer, self.inner);
+        std::f64::consts::PI * (r - ri) * (r + ri)
+    }
+
+    /// Second moment of area about a diameter, `π/4 (r⁴ − rᵢ⁴)`, in m⁴.
+    #[inline]
+    pub fn second_moment(self) -> f64 {
+        let (r, ri) = (self.outer, self.inner);
+        self.area() * (r * r + ri * ri) / 4.0
+    }
+
+    /// By how much rounding of the radii is larger in the wall, `r/(r − rᵢ)`.
+    pub fn thinness(self) -> f64 {
+        if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
+    }
+
+    /// What is inside the inner radius, as a section of its own.
+    #[inline]
+    pub fn bore(self) -> Self {
+        Self { outer: self.inner, inner: 0.0 }
+    }
+}
+
+/// The shape of a bat, checked: positive length, positive wall, radius 0 at most at an end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Knob first, each beginning where the last ends.
+    pub pieces: Vec<Piece>,
+    /// The stations it was made from, knob first. Where it was made from formulas: the ends and
+    /// the widest place of every piece.
+    pub stations: Stations,
+    /// The formulas it was made from, if it was.
+    pub formulas: Option<Formulas>,
+}
+
+impl Profile {
+    /// The profile through the stations.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station, or several
+    /// of them.
+    pub fn new(stations: Stations) -> Result<Self> {
+        for (role, column) in [("outer", &stations.outer), ("inner", &stations.inner)] {
+            if column.len() != stations.x.len() {
+                let expected = format!("{}, one for each x", stations.x.len());
+                return Err(Error::value(role, format!("{} values", column.len()), expected));
+            }
+        }
+        let mut mistakes = Mistakes::default();
+        mistakes.note(check_positions(&stations.x));
+        mistakes.note(check_radii(&stations));
+        mistakes.end(())?;
+        let stations = match stations.interpolation {
+            Interpolation::Constant => held(&stations)?,
+            _ => stations,
+        };
+        let pieces = pieces(&stations)?;
+        pieces.iter().try_for_each(|piece| check_wall(piece, &stations))?;
+        check_tips(&pieces, stations.x.len() - 1)?;
+        Ok(Self { pieces, stations, formulas: None })
+    }
+
+    /// From the knob end to the tip (m).
+    pub fn length(&self) -> f64 {
+        *self.stations.x.last().expect("a profile has stations")
+    }
+
+    /// The same shape turned end for end.
+    pub fn reversed(mut self) -> Self {
+        let length = self.length();
+        let Stations { x, outer, inner, .. } = &mut self.stations;
+        x.iter_mut().for_each(|x| *x = length - *x);
+        [x, outer, inner].into_iter().for_each(|column| column.reverse());
+        let mut end = length;
+        for piece in self.pieces.iter_mut().rev() {
+            let start = std::mem::replace(&mut piece.start, length - end);
+            end = start;
+            piece.radii.reverse();
+        }
+        self.pieces.reverse();
+        self.formulas.iter_mut().for_each(|formulas| formulas.from_tip ^= true);
+        self
+    }
+
+    /// The section at `x`; at a step, the one to its right. `x` outside is taken to the near end.
+    pub fn at(&self, x: f64) -> Section {
+        let piece = self.piece_at(x);
+        piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
+    }
+
+    /// The piece at `x`, at a border the one to its right.
+    pub fn piece_at(&self, x: f64) -> &Piece {
+        let k = self.pieces.partition_point(|piece| piece.start <= x).max(1) - 1;
+        &self.pieces[k]
+    }
+
+    /// The shape with borders between two pieces at these places (m), where there are none yet.
+    pub fn cut(&mut self, places: impl IntoIterator<Item = f64>) {
+        let same = SAME_PLACE * self.length();
+        let mut places: Vec<f64> = places.into_iter().collect();
+        places.sort_by(f64::total_cmp);
+        let mut places = places.into_iter().peekable();
+        let mut pieces = Vec::with_capacity(self.pieces.len() + places.len());
+        for mut piece in std::mem::take(&mut self.pieces) {
+            let end = piece.start + piece.length;
+            while let Some(x) = places.next_if(|x| *x < end - same) {
+                if x <= piece.start + same {
+                    continue;
+                }
+                let s = (x - piece.start) / piece.length;
+                let [mut left, mut right] = [piece.part(0.0, s), piece.part(s, 1.0)];
+                // Exactly where asked and exactly as long as before.
+                (left.length, right.start) = (x - piece.start, x);
+                right.length = end - x;
+                pieces.push(left);
+                piece = right;
+            }
+            pieces.push(piece);
+        }
+        self.pieces = pieces;
+    }
+
+    /// Where pieces begin and where the last one ends (m), rising.
+    pub fn borders(&self) -> Vec<f64> {
+        self.pieces.iter().map(|piece| piece.start).chain([self.length()]).collect()
+    }
+}
+
+impl Piece {
+    /// Whether it lies between these places (m); pieces end at both.
+    pub fn is_within(&self, from: f64, to: f64) -> bool {
+        let middle = self.start + 0.5 * self.length;
+        middle > from && middle < to
+    }
+
+    /// The section at `s` in [0, 1] along the piece.
+    pub fn at(&self, s: f64) -> Section {
+        match &self.radii {
+            Radii::Cubic(cubics) => cubics.at(s),
+            Radii::Formula(curves) => curves.at(s),
+        }
+    }
+
+    /// The part from `s0` to `s1` as a piece of its own.
+    pub fn part(&self, s0: f64, s1: f64) -> Self {
+        let radii = match &self.radii {
+            Radii::Cubic(cubics) => Radii::Cubic(cubics.part(s0, s1)),
+            Radii::Formula(curves) => Radii::Formula(curves.part(s0, s1)),
+        };
+        let (start, length) = (self.start + self.length * s0, self.length * (s1 - s0));
+        Self { start, length, radii, layup: self.layup }
+    }
+}
+
+impl Radii {
+    /// The same seen from the other end.
+    fn reverse(&mut self) {
+        match self {
+            Self::Cubic(cubics) => {
+                cubics.outer.reverse();
+                cubics.inner.reverse();
+            }
+            Self::Formula(curves) => std::mem::swap(&mut curves.from, &mut curves.to),
+        }
+    }
+}
+
+impl Cubics {
+    fn at(&self, s: f64) -> Section {
+        Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
+    }
+
+    /// The same cubics between `s0` and `s1`, by de Casteljau's subdivision.
+    #[inline]
+    pub fn part(&self, s0: f64, s1: f64) -> Self {
+        if self.degree == 0 {
+            return *self;
+        }
+        Self {
+            outer: subdivide(&self.outer, s0, s1),
+            inner: if self.inner[0] == 0.0 && self.inner == [0.0; 4] {
+                [0.0; 4]
+            } else {
+                subdivide(&self.inner, s0, s1)
+            },
+            degree: self.degree,
+        }
+    }
+}
+
+impl Curves {
+    /// The section at `s` in [0, 1] along the piece.
+    pub fn at(&self, s: f64) -> Section {
+        let x = self.x(s);
+        let radius = |formula: &Formula| {
+            let radius = formula.at(x);
+            if radius.abs() <= self.floor { 0.0 } else { radius }
+        };
+        Section { outer: radius(&self.outer), inner: self.inner.as_ref().map_or(0.0, radius) }
+    }
+
+    /// The formulas' `x` at `s` in [0, 1] along the piece; at both ends to the last bit.
+    pub fn x(&self, s: f64) -> f64 {
+        (1.0 - s) * self.from + s * self.to
+    }
+
+    fn part(&self, s0: f64, s1: f64) -> Self {
+        Self { from: self.x(s0), to: self.x(s1), ..self.clone() }
+    }
+}
+
+fn check_positions(x: &[f64]) -> Result<()> {
+    if x.len() < 2 {
+        return Err(Error::value("x", format!("{} station(s)", x.len()), "two stations at least"));
+    }
+    let mut mistakes = Mistakes::default();
+    if x[0] != 0.0 {
+        let expected = "0: positions count from the end named in \"measured_from\"";
+        mistakes.add(Error::value("x[0]", format!("{} m", x[0]), expected));
+    }
+    mistakes.note(mistakes::all((1..x.len()).map(|k| check_position(x, k))));
+    mistakes.end(())?;
+    let last = x.len() - 1;
+    if x[last] == 0.0 {
+        return Err(Error::value(format!("x[{last}]"), "a bat of no length", "a length above 0"));
+    }
+    if x[1] == 0.0 || x[last - 1] == x[last] {
+        let k = if x[1] == 0.0 { 1 } else { last };
+        let expected = "a step inside the bat: at an end only one value can hold";
+        return Err(Error::value(format!("x[{k}]"), "a step at an end of the bat", expected));
+    }
+    Ok(())
+}
+
+/// Whether station `k` lies beyond the one before.
+fn check_position(x: &[f64], k: usize) -> Result<()> {
+    if x[k] < x[k - 1] || !x[k].is_finite() {
+        let expected = format!("a position beyond x[{}]", k - 1);
+        return Err(Error::value(format!("x[{k}]"), format!("{} m", x[k]), expected));
+    }
+    if k > 1 && x[k] == x[k - 2] {
+        let expected = "two stations at most at one place (left and right of a step)";
+        return Err(Error::value(format!("x[{k}]"), "a third station at one place", expected));
+    }
+    Ok(())
+}
+
+fn check_radii(stations: &Stations) -> Result<()> {
+    mistakes::all((0..stations.x.len()).map(|k| check_radius(stations, k))).map(|_| ())
+}
+
+/// Whether the section at station `k` is one.
+fn check_radius(stations: &Stations, k: usize) -> Result<()> {
+    let (r, ri) = (stations.outer[k], stations.inner[k]);
+    let at_end = k == 0 || k == stations.x.len() - 1;
+    let wrong = |role: &str, value: f64, expected: &str| {
+        Err(Error::value(format!("{role}[{k}]"), format!("{value} m"), expected))
+    };
+    if !(r > 0.0 || r == 0.0 && at_end) || !r.is_finite() {
+        let pointed = "a radius above 0 (only an end of the bat may come to a point)";
+        return wrong("outer", r, if r == 0.0 { pointed } else { "a radius above 0" });
+    }
+    if !(ri >= 0.0 && ri.is_finite()) {
+        return wrong("inner", ri, "0 or more");
+    }
+    if ri >= r && !(r == 0.0 && ri == 0.0) {
+        return wrong("inner", ri, &format!("less than outer[{k}]"));
+    }
+    let stiffness = Section { outer: r, inner: ri }.second_moment();
+    let in_range = stiffness > f64::MIN_POSITIVE && stiffness < f64::MAX;
+    if !at_end && !in_range {
+        return wrong("outer", r, "a radius whose fourth power is within the range of numbers");
+    }
+    Ok(())
+}
+
+/// `constant` stations written out as steps, each value at both ends of its stretch.
+fn held(stations: &Stations) -> Result<Stations> {
+    let mut steps =
+        Stations { x: vec![], outer: vec![], inner: vec![], interpolation: Interpolation::Linear };
+    let (x, outer, inner) = (&stations.x, &stations.outer, &stations.inner);
+    for k in 0..x.len() - 1 {
+        if x[k] == x[k + 1] {
+            // A step written out by the user: its left value must be the one that holds there.
+            for (role, values) in [("outer", outer), ("inner", inner)] {
+                if values[k] != values[k - 1] {
+                    let expected = format!("{role}[{}], which holds up to here", k - 1);
+                    let found = format!("{} m", values[k]);
+                    return Err(Error::value(format!("{role}[{k}]"), found, expected));
+                }
+            }
+            continue;
+        }
+        if outer[k] == 0.0 {
+            let expected = "a radius above 0: it holds to the next station";
+            return Err(Error::value(format!("outer[{k}]"), "0 m", expected));
+        }
+        for at in [x[k], x[k + 1]] {
+            steps.x.push(at);
+            steps.outer.push(outer[k]);
+            steps.inner.push(inner[k]);
+        }
+    }
+    Ok(steps)
+}
+
+/// One piece per interval between stations, steps left out.
+fn pieces(stations: &Stations) -> Result<Vec<Piece>> {
+    let Stations { x, outer, inner, interpolation } = stations;
+    let mut pieces = Vec::with_capacity(x.len());
+    let mut first = 0;
+    while first < x.len() {
+        let steps = (first + 1..x.len()).find(|&k| x[k] == x[k - 1]);
+        let end = steps.unwrap_or(x.len());
+        if end - first < 2 {
+            let expected = "another station between two steps";
+            return Err(Error::value(format!("x[{first}]"), format!("{} m", x[first]), expected));
+        }
+        let run = first..end;
+        let bezier = |y: &[f64]| match interpolation {
+            Interpolation::Pchip => cubics(&x[run.clone()], &y[run.clone()]),
+            _ => lines(&y[run.clone()]),
+        };
+        for (k, (outer, inner)) in bezier(outer).into_iter().zip(bezier(inner)).enumerate() {
+            let k = first + k;
+            let flat = |b: &[f64; 4]| b.iter().all(|v| *v == b[0]);
+            let degree = match interpolation {
+                _ if flat(&outer) && flat(&inner) => 0,
+                Interpolation::Pchip => 3,
+                _ => 1,
+            };
+            let radii = Radii::Cubic(Cubics { outer, inner, degree });
+            pieces.push(Piece { start: x[k], length: x[k + 1] - x[k], radii, layup: 0 });
+        }
+        first = end;
+    }
+    Ok(pieces)
+}
+
+fn lines(y: &[f64]) -> Vec<[f64; 4]> {
+    let line = |a: f64, b: f64| {
+        if a == b { [a; 4] } else { [a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b] }
+    };
+    y.windows(2).map(|w| line(w[0], w[1])).collect()
+}
+
+/// The wall must not vanish between stations either, where two cubics may cross.
+fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
+    let Radii::Cubic(Cubics { outer, inner, .. }) = &piece.radii else { return Ok(()) };
+    let wall: [f64; 4] = std::array::from_fn(|i| outer[i] - inner[i]);
+    if wall[1] > 0.0 && wall[2] > 0.0 {
+        return Ok(());
+    }
+    let step = |i: usize| wall[i + 1] - wall[i];
+    // Wall thickness is least where its derivative, a quadratic in Bernstein form, is 0.
+    let (a, b, c) = (step(0) - 2.0 * step(1) + step(2), step(1) - step(0), step(0));
+    let root = (b * b - a * c).max(0.0).sqrt();
+    let places = [(-b + root) / a, (-b - root) / a, -c / (2.0 * b)];
+    for s in places.into_iter().filter(|s| *s > 0.0 && *s < 1.0) {
+        if bernstein(&wall, s) <= 0.0 {
+            let k = stations.x.partition_point(|at| *at <= piece.start) - 1;
+            let found = format!("a wall that vanishes between x[{k}] and x[{}]", k + 1);
+            let expected = "inner radius below outer radius there too: add a station";
+            return Err(Error::Value(Complaint::new(format!("inner[{k}]"), found, expected)));
+        }
+    }
+    Ok(())
+}
+
+/// Both ends of the bat, the latter at that station, must send waves back.
+fn check_tips(pieces: &[Piece], last_station: usize) -> Result<()> {
+    let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
+    let back = [sends_back(|t| first.at(t).outer), sends_back(|t| last.at(1.0 - t).outer)];
+    let Some(end) = back.into_iter().position(|back| !back) else { return Ok(()) };
+    let [found, expected] = NEVER_BACK;
+    Err(Error::value(format!("outer[{}]", end * last_station), found, expected))
+}
+
+/// Bernstein coefficients of the same cubic between `s0` and `s1`.
+#[inline]
+fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
+    [blossom(b, s0, s0, s0), blossom(b, s0, s0, s1), blossom(b, s0, s1, s1), blossom(b, s1, s1, s1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_of_unequal_length_are_an_error() {
+        let new = |outer: usize, inner: usize| {
+            let (outer, inner) = (vec![0.02; outer], vec![0.0; inner]);
+            let x = vec![0.0, 0.4, 0.8];
+            Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear })
+        };
+        assert!(new(3, 3).is_ok());
+        for (outer, inner, role) in [(2, 3, "outer"), (4, 3, "outer"), (3, 0, "inner")] {
+            let said = new(outer, inner).unwrap_err().to_string();
+            assert!(said.starts_with(&format!("{role}: found ")), "{said}");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Which beam: how much of a section's own motion takes part?
+//!
+//! A [`Theory`] goes into [`crate::modes::solve::Request::theory`]; [`crate::study::theory_choice::theory`] chooses the
+//! simplest that will do.
+
+/// The beam theories, each the limit of the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Theory {
+    /// Sections have mass but no rotary inertia and stay at right angles to the axis.
+    #[default]
+    EulerBernoulli,
+    /// And turn with their own inertia ρI.
+    ///
+    /// # Source
+    ///
+    /// Lord Rayleigh, The Theory of Sound I (1877), article 161.
+    Rayleigh,
+    /// And are sheared, `w′ − θ = Q/κGA`.
+    ///
+    /// # Source
+    ///
+    /// S. Timoshenko, Philos. Mag. 41 (1921) 744.
+    Timoshenko,
+}
+
+impl Theory {
+    /// All of them, the simplest first.
+    pub const ALL: [Self; 3] = [Self::EulerBernoulli, Self::Rayleigh, Self::Timoshenko];
+
+    /// The name that the command line and the files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EulerBernoulli => "euler-bernoulli",
+            Self::Rayleigh => "rayleigh",
+            Self::Timoshenko => "timoshenko",
+        }
+    }
+
+    /// Whether the sections have rotary inertia.
+    pub fn turns(self) -> bool {
+        self != Self::EulerBernoulli
+    }
+
+    /// Whether they are sheared.
+    pub fn shears(self) -> bool {
+        self == Self::Timoshenko
+    }
+}

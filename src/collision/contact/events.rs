@@ -1,0 +1,236 @@
+//! Where a step ends early: the largest compression, the return to it, the end of the contact.
+
+use crate::collision::contact::collocation::{POINTS, lanes, moments, times, total};
+use crate::collision::contact::force_law::Top;
+use crate::collision::contact::step::{Course, Step, Table};
+use crate::collision::contact::touch::{State, Touch};
+
+/// Why a step ends early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// The compression is at its largest.
+    Turned,
+    /// It is as large as its largest again.
+    Again,
+    /// It is gone.
+    Gone,
+}
+
+/// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    /// Why it stops.
+    pub event: Event,
+    /// The largest compression, once the ball is on its way back.
+    pub top: Option<Top>,
+    /// The step's largest force (N).
+    pub most: f64,
+    /// Share of the impulse that a bump may change.
+    pub slight: f64,
+}
+
+/// Share of a step by which a state may be moved along it by a series.
+const NUDGED: f64 = 1e-4;
+/// Share of the energy that a contact may leave unaccounted for.
+pub const CLOSED: f64 = 1e-11;
+
+impl Touch<'_> {
+    /// What happens in a step.
+    #[inline(always)]
+    pub fn event(&self, step: &Step, next: &State, top: Option<Top>) -> Option<Event> {
+        match top {
+            None => (self.rate(next) < 0.0).then_some(Event::Turned),
+            Some(_) if step.compression[1..].iter().any(|x| *x <= 0.0) => Some(Event::Gone),
+            Some(top) => {
+                let beyond = step.force[1..].iter().any(|force| *force > top.force);
+                beyond.then_some(Event::Again)
+            }
+        }
+    }
+
+    /// Whether the ringing surface may leave the ball and return between two points of a step: it does
+    /// not where the compression there is more than `max|x″| g²/8`, g the way between two points.
+    #[inline(always)]
+    pub fn may_pass(&self, now: &State, step: &Step, next: &State) -> bool {
+        let least = step.compression[1..].iter().fold(now.compression, |least, x| least.min(*x));
+        let [w, square] = [&self.weights, self.square].map(lanes);
+        let [a, b] = [&now.real, &now.imaginary].map(|v| lanes(v));
+        let [p, q] = [&next.real, &next.imaginary].map(|v| lanes(v));
+        let bend = total(self.chunks(), |k, l| {
+            let amplitudes = [a[k][l].abs() + b[k][l].abs(), p[k][l].abs() + q[k][l].abs()];
+            w[k][l] * square[k][l] * amplitudes[0].max(amplitudes[1])
+        });
+        let way = step.length * (self.rule.at[2] - self.rule.at[1]);
+        least < 0.125 * bend * way * way
+    }
+
+    /// What is zero at the event, and its rate.
+    #[inline(always)]
+    pub fn distance(&self, event: Event, state: &State, top: Option<Top>) -> [f64; 2] {
+        if event == Event::Turned {
+            let mut rate = -state.force * self.felt.inverse_mass;
+            for n in 0..self.poles.len() {
+                let [a, b] = self.poles[n];
+                let (w, v) = (self.weights[n], [state.real[n], state.imaginary[n]]);
+                // Im s(sv + F).
+                let turned =
+                    times([a, b], [a * v[0] - b * v[1] + state.force, a * v[1] + b * v[0]]);
+                rate -= w * turned[1];
+            }
+            return [self.rate(state), rate];
+        }
+        let rate = self.rate(state);
+        match top.filter(|_| event == Event::Again) {
+            // There the force is known, whatever the step's is.
+            Some(top) => [self.reach(state) - top.compression - self.felt.rest * top.force, rate],
+            None => [self.reach(state) - self.felt.rest * state.force, rate],
+        }
+    }
+
+    /// The state at the event; the energy it was off by, relative, or None where that cannot be put
+    /// right.
+    #[inline(always)]
+    pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> Option<f64> {
+        let Stop { event, top, .. } = stop;
+        // The end of the step, or the first point beyond the event.
+        let goal = |x: f64| match (event, top) {
+            (Event::Gone, _) => x <= 0.0,
+            (Event::Again, Some(top)) => x > top.compression,
+            _ => false,
+        };
+        let beyond = (1..POINTS).find(|i| goal(step.compression[*i])).unwrap_or(POINTS - 1);
+        let end = step.length * self.rule.at[beyond];
+        if beyond < POINTS - 1 {
+            self.within(now, step, end, next);
+        }
+        let (from, to) = (self.distance(event, now, top), self.distance(event, next, top));
+        let mut time = end * crossing(from[0], from[1] * end, to[0], to[1] * end);
+        self.within(now, step, time, next);
+        let guess = time;
+        self.approach(event, step, top, &mut time, next);
+        if (time - guess).abs() > NUDGED * step.length {
+            self.within(now, step, time, next);
+        }
+        let mut corrected = self.round_off(stop, now, step, &mut time, next)?;
+        self.settle(next, top);
+        if event == Event::Gone && self.open(next, top) > CLOSED {
+            // The force's last bit ends within the step: a step of that length has it whole.
+            let (mut last, mut end) = (*step, time);
+            for _ in 0..4 {
+                let table = Table::new(self.rule, self.poles, end);
+                let course = Course { from: 0.0, ..self.course(step) };
+                (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(&course));
+                self.advance(&table, now, &last, next);
+                let [x, rate] = self.distance(event, next, top);
+                let by = -x / rate;
+                if !(by.abs() > 1e-6 * end && by.abs() < 0.5 * end) {
+                    break;
+                }
+                end += by;
+            }
+            // What the shorter step replaces was off in vain.
+            corrected = self.round_off(stop, now, &last, &mut end, next)?;
+            *step = last;
+        }
+        self.settle(next, top);
+        Some(corrected)
+    }
+
+    /// The share of the energy that is not accounted for.
+    #[inline(always)]
+    pub fn open(&self, state: &State, top: Option<Top>) -> f64 {
+        (self.whole_energy(state, top) - self.energy).abs() / self.energy
+    }
+
+    /// Puts the energy of a state at an event right, and the event again.
+    #[inline(always)]
+    pub fn round_off(
+        &self,
+        Stop { event, top, most, slight }: Stop,
+        now: &State,
+        step: &Step,
+        time: &mut f64,
+        next: &mut State,
+    ) -> Option<f64> {
+        let mut corrected = 0.0;
+        if self.damped {
+            next.lost = now.lost + self.loss(now, step, *time);
+        }
+        let (mut known, mut bump) = (f64::NAN, [0, 1].map(|_| vec![0.0; self.poles.len()]));
+        for _ in 0..4 {
+            let length = *time;
+            // A bump is small: one that ends a little beside does as well.
+            let as_before = (length - known).abs() <= 1e-6 * length;
+            if !as_before {
+                known = length;
+                for (n, s) in self.modes() {
+                    let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
+                    bump[0][n] = length * (all[1][0] - all[2][0]);
+                    bump[1][n] = length * (all[1][1] - all[2][1]);
+                }
+            }
+            let bump = [&bump[0][..], &bump[1][..]];
+            corrected += self.correct(next, length, bump, [most, slight], top)?;
+            let [x, rate] = self.distance(event, next, top);
+            let by = -x / rate;
+            let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;
+            if event == Event::Turned || there || !by.is_finite() {
+                break;
+            }
+            *time += by;
+            self.nudge(next, step, *time, by);
+        }
+        Some(corrected)
+    }
+
+    /// Newton's method from a state near the event.
+    #[inline(always)]
+    pub fn approach(
+        &self,
+        event: Event,
+        step: &Step,
+        top: Option<Top>,
+        time: &mut f64,
+        next: &mut State,
+    ) {
+        for _ in 0..4 {
+            let [left, rate] = self.distance(event, next, top);
+            let by = -left / rate;
+            if by.is_nan() || by.abs() > 0.1 * step.length {
+                break;
+            }
+            *time += by;
+            self.nudge(next, step, *time, by);
+            if by.abs() <= 1e-8 * step.length {
+                break;
+            }
+        }
+    }
+}
+
+/// Where in [0, 1] the cubic with those values and slopes at both ends is zero.
+#[inline(always)]
+fn crossing(from: f64, from_slope: f64, to: f64, to_slope: f64) -> f64 {
+    let rise = to - from;
+    let (square, cube) =
+        (3.0 * rise - 2.0 * from_slope - to_slope, from_slope + to_slope - 2.0 * rise);
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut s = (from / (from - to)).clamp(0.0, 1.0);
+    for _ in 0..20 {
+        let value = ((cube * s + square) * s + from_slope) * s + from;
+        let slope = (3.0 * cube * s + 2.0 * square) * s + from_slope;
+        if (value > 0.0) == (from > 0.0) {
+            low = s
+        } else {
+            high = s
+        }
+        let newton = s - value / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let done = (next - s).abs() < 1e-10;
+        s = next;
+        if done {
+            break;
+        }
+    }
+    s
+}

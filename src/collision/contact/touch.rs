@@ -1,0 +1,171 @@
+//! Ball and bat at one moment of a contact: how far they have come together, how fast, with what
+//! energies. The equations are those of [`crate::collision::contact::encounter`].
+
+use crate::collision::contact::collocation::{LANES, Lobatto, Pair, lanes, sum, total};
+use crate::collision::contact::force_law::{ForceLaw, Top};
+
+/// The bat as the ball feels it at one place.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Felt {
+    /// `1/μ` (1/kg): the ball's own mass and the rigid bat's.
+    pub inverse_mass: f64,
+    /// `c_n = φ_n(a)²/m_n` (1/kg).
+    pub gains: Vec<f64>,
+    /// Flexibility of the modes left out (m/N).
+    pub rest: f64,
+}
+
+/// One moment.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    /// Since the first touch (s).
+    pub time: f64,
+    /// `b` of the bump `b s(1 − s)` on the force of the step that led here (N).
+    pub bump: f64,
+    /// Energy that is wrong and not put right yet (J).
+    pub defect: f64,
+    /// `z` (m).
+    pub closing: f64,
+    /// `z′` (m/s).
+    pub speed: f64,
+    /// Real parts of every `v` (N s).
+    pub real: Vec<f64>,
+    /// Its imaginary parts (N s).
+    pub imaginary: Vec<f64>,
+    /// Of the ball (m; not a number where it is still to be found).
+    pub compression: f64,
+    /// Of the ball on the bat (N).
+    pub force: f64,
+    /// J so far (N s).
+    pub impulse: f64,
+    /// Energy the bat's damping has taken (J).
+    pub lost: f64,
+    /// Energy lost in the ball by touches that are over (J).
+    pub spent: f64,
+}
+
+impl State {
+    /// The moment of the first touch, at that closing speed (m/s), nothing ringing.
+    pub fn at_first(modes: usize, speed: f64) -> Self {
+        let none = || vec![0.0; modes];
+        Self { speed, real: none(), imaginary: none(), ..Self::default() }
+    }
+}
+
+/// One place, one ball, one speed.
+pub struct Touch<'a> {
+    /// Where in a step the force is looked at.
+    pub rule: &'a Lobatto,
+    /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
+    pub poles: &'a [Pair],
+    /// Real part of every `s` (1/s).
+    pub decay: &'a [f64],
+    /// Imaginary part of every `s` (1/s).
+    pub swing: &'a [f64],
+    /// Absolute square of every `s` (1/s²).
+    pub square: &'a [f64],
+    /// The bat as the ball feels it there.
+    pub felt: &'a Felt,
+    /// `c/ω_d` of every mode (s/kg).
+    pub weights: Vec<f64>,
+    /// The same over ω_d once more (s²/kg), by which [`Self::in_mode`] makes energies of memories.
+    pub masses: Vec<f64>,
+    /// Whether any mode dies out.
+    pub damped: bool,
+    /// The ball's law.
+    pub law: ForceLaw,
+    /// The closing speed u at the first touch (m/s).
+    pub speed: f64,
+    /// `μ u²/2` at the first touch (J).
+    pub energy: f64,
+    /// What the bat would compress the ball by if it did not ring (m).
+    pub deepest: f64,
+    /// How far the two would then have come together (m).
+    pub way: f64,
+    /// How far the steps' forces may be off, relative.
+    pub accuracy: f64,
+}
+
+impl Touch<'_> {
+    /// The modes that are not there to fill the lanes.
+    #[inline(always)]
+    pub fn modes(&self) -> impl Iterator<Item = (usize, &Pair)> {
+        self.poles.iter().enumerate().take(self.felt.gains.len())
+    }
+
+    /// Lanes of modes.
+    #[inline(always)]
+    pub fn chunks(&self) -> usize {
+        self.weights.len() / LANES
+    }
+
+    /// `z + Σ y` (m).
+    #[inline(always)]
+    pub fn reach(&self, state: &State) -> f64 {
+        let [w, im] = [&self.weights, &state.imaginary].map(|v| lanes(v));
+        state.closing - total(self.chunks(), |k, l| w[k][l] * im[k][l])
+    }
+
+    /// Its rate (m/s).
+    #[inline(always)]
+    pub fn rate(&self, state: &State) -> f64 {
+        let [w, a, b] = [&self.weights, self.decay, self.swing].map(lanes);
+        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
+        let part = |k: usize, l: usize| w[k][l] * (a[k][l] * im[k][l] + b[k][l] * re[k][l]);
+        state.speed - total(self.chunks(), part)
+    }
+
+    /// `m_n (q′² + ω² q²)/2` (J).
+    #[inline(always)]
+    pub fn in_mode(&self, state: &State, n: usize) -> f64 {
+        let (re, im) = (state.real[n], state.imaginary[n]);
+        let rate = self.decay[n] * im + self.swing[n] * re;
+        0.5 * self.masses[n] * (rate * rate + self.square[n] * im * im)
+    }
+
+    /// Of ball and bat, relative to their common motion, with what is lost (J).
+    #[inline(always)]
+    pub fn whole_energy(&self, state: &State, top: Option<Top>) -> f64 {
+        let [stored, lost] = self.law.energy_of(state.compression, state.force, top);
+        let rigid = 0.5 * state.speed * state.speed / self.felt.inverse_mass;
+        let [m, a, b, q] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
+        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
+        let mut modes = [0.0; LANES];
+        for k in 0..self.chunks() {
+            for l in 0..LANES {
+                let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
+                modes[l] += m[k][l] * (rate * rate + q[k][l] * im[k][l] * im[k][l]);
+            }
+        }
+        let rest = 0.5 * self.felt.rest * state.force * state.force;
+        rigid + 0.5 * sum(modes) + stored + lost + state.lost + state.spent + rest
+    }
+
+    /// Compression and force from the motions: `x + C F(x) = z + Σ y`.
+    #[inline(always)]
+    pub fn settle(&self, state: &mut State, top: Option<Top>) {
+        let (reach, rest) = (self.reach(state), self.felt.rest);
+        let (mut x, mut force) = (state.compression, state.force);
+        // From the force that is known, as long as it is not far.
+        for _ in 0..3 {
+            let slope = self.law.slope(x, force, top);
+            let by = (reach - x - rest * force) / (1.0 + rest * slope);
+            let Some([near]) = self.law.near([x], [force], [by], top) else {
+                break;
+            };
+            (x, force) = (x + by, near);
+            if by.abs() <= 1e-8 * self.law.fine(top) * x || rest == 0.0 {
+                [state.compression, state.force] = [x, force];
+                return;
+            }
+        }
+        let shared = self.law.share(reach, rest, top, state.compression);
+        [state.compression, state.force] = shared;
+    }
+}
+
+/// `Σ a_k b_k`.
+#[inline(always)]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

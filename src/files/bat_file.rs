@@ -1,0 +1,308 @@
+//! How a bat is written down: the `sweetspot-bat/1` file, read and checked.
+
+use std::cell::Cell;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::mistakes::{self, Mistakes};
+use crate::base::units::{self, Quantity};
+use crate::bat::body::{Bat, Weighed};
+use crate::bat::formula::Formula;
+use crate::bat::material::Material;
+use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
+use crate::files::document::Document;
+use crate::files::fixtures_file;
+use crate::files::json_node::{Node, Object};
+use crate::files::material_file;
+use crate::files::station_table::Table;
+
+const KEYS: &[&str] = &[
+    "format",
+    "name",
+    "source",
+    "material",
+    "profile",
+    "weighed",
+    "regions",
+    "attachments",
+    "tapes",
+    "absorbers",
+    "joints",
+    "supports",
+    "grip",
+    "$schema",
+];
+const PROFILE_KEYS: &[&str] = &[
+    "interpolation",
+    "unit",
+    "measured_from",
+    "csv",
+    "pieces",
+    "x",
+    "radius",
+    "diameter",
+    "inner_radius",
+    "inner_diameter",
+    "wall_thickness",
+];
+const INTERPOLATIONS: &[(&str, Interpolation)] = &[
+    ("pchip", Interpolation::Pchip),
+    ("linear", Interpolation::Linear),
+    ("constant", Interpolation::Constant),
+];
+
+impl Bat {
+    /// Reads a bat file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column, or several, if
+    /// anything in it is wrong or impossible.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
+        Self::with_text(path).map(|(bat, _)| bat)
+    }
+
+    /// The bat of a file, and what the file says: a pipe can be read only once.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn with_text(path: impl AsRef<Path>) -> Result<(Self, String)> {
+        let path = path.as_ref();
+        let document = Document::read(path)?;
+        let bat = from_document(&document, &Folder::of(path, None))?;
+        Ok((bat, document.text))
+    }
+
+    /// Reads a bat file that a person has named, whose `csv` may lie anywhere: where it is outside of
+    /// the bat file's folder, that is to be said.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn named_by_a_person(path: impl AsRef<Path>) -> Result<Named> {
+        let path = path.as_ref();
+        let document = Document::read(path)?;
+        let outside = Cell::new(None);
+        let bat = from_document(&document, &Folder::of(path, Some(&outside)))?;
+        Ok(Named { bat, text: document.text, columns_outside: outside.into_inner() })
+    }
+
+    /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn from_text(file: &str, text: &str, folder: &Path) -> Result<Self> {
+        from_document(&Document::new(file.to_owned(), text), &Folder { path: folder, left: None })
+    }
+}
+
+/// A bat file that a person has named.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// The bat.
+    pub bat: Bat,
+    /// What its file says.
+    pub text: String,
+    /// The CSV file that it was read from, where that is outside of the bat file's folder.
+    pub columns_outside: Option<PathBuf>,
+}
+
+/// The folder of a bat file, in which its `csv` is sought.
+struct Folder<'a> {
+    path: &'a Path,
+    /// Where to note a file outside of it; without such a place there must be none.
+    left: Option<&'a Cell<Option<PathBuf>>>,
+}
+
+impl<'a> Folder<'a> {
+    fn of(file: &'a Path, left: Option<&'a Cell<Option<PathBuf>>>) -> Self {
+        Self { path: file.parent().unwrap_or(Path::new("")), left }
+    }
+
+    /// The path of a file by its name in a bat file, if it may be read.
+    fn find(&self, name: &str) -> Option<PathBuf> {
+        let path = self.path.join(name);
+        let folder = if self.path == Path::new("") { Path::new(".") } else { self.path };
+        // Links are followed; a file that cannot be found is judged by its name.
+        let inside = match (fs::canonicalize(folder), fs::canonicalize(&path)) {
+            (Ok(folder), Ok(file)) => file.starts_with(folder),
+            _ => Path::new(name).components().all(|part| matches!(part, Component::Normal(_))),
+        };
+        if !inside {
+            self.left?.set(Some(path.clone()));
+        }
+        Some(path)
+    }
+}
+
+fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
+    let root = Node::root(document)?.members()?;
+    // Before the keys are looked at: another format may have others.
+    root.check_format("sweetspot-bat/1")?;
+    let mut mistakes = Mistakes::default();
+    let root = root.only(KEYS, &mut mistakes);
+    mistakes.note(root.require("format", "\"format\": \"sweetspot-bat/1\"").map(|_| ()));
+    // That is for editors.
+    mistakes.note(root.string("$schema"));
+    let name = mistakes.note(root.string("name"));
+    let source = mistakes.note(root.string("source"));
+    let weighed = mistakes.some(fixtures_file::weighed(&root));
+    let material = mistakes.some(material(&root, weighed.as_ref()));
+    let node = mistakes.some(root.require("profile", "a profile"));
+    let profile = node.and_then(|node| profile(node, folder, &mut mistakes));
+    let length = profile.as_ref().map(Profile::length);
+    // Something sound stands in for a material that could not be read: no bat is made of it.
+    let sound = || Material::new(700.0, 14e9).expect("both are above 0");
+    let material = material.unwrap_or_else(sound);
+    let on = fixtures_file::On { material: &material, length };
+    let fixtures = fixtures_file::read(&root, &on, &mut mistakes);
+    let placed = |error: Error| error.placed(|complaint| root.node.locate(complaint));
+    if let (Some(weighed), Some(length)) = (weighed, length) {
+        mistakes.note(weighed.check(length).map_err(placed));
+    }
+    let weighed = weighed.unwrap_or_default();
+    mistakes.end(())?;
+    let profile = profile.expect("a profile that could not be read was noted");
+    let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
+    let bat = Bat::with_fixtures(name, profile, material, fixtures, weighed).map_err(placed)?;
+    Ok(Bat { source: source.unwrap_or_default(), ..bat })
+}
+
+/// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is
+/// asked for in its place where that could not be read.
+fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
+    let regions = root.get("regions").is_some();
+    let without_density = match (weighed.map(|weighed| weighed.mass), regions) {
+        (Some(None), _) => Err("\"density\" here or \"mass\" in \"weighed\""),
+        (Some(Some(_)), true) => Err("\"density\": the weighed mass is one factor for all regions"),
+        // The weighed mass will set it; any positive number is as good.
+        (Some(Some(_)), false) | (None, _) => Ok(1.0),
+    };
+    let without_modulus = match (weighed.map(|weighed| weighed.first_bending), regions) {
+        (Some(None), _) => {
+            Err("\"youngs_modulus\", such as \"18.1 GPa\", or \"first_bending_hz\" in \"weighed\"")
+        }
+        (Some(Some(_)), true) => {
+            Err("\"youngs_modulus\": the tapped frequency is one factor for all regions")
+        }
+        // The tap will set it; a wood's is a good beginning.
+        (Some(Some(_)), false) | (None, _) => Ok(1e10),
+    };
+    material_file::read(root.require("material", "a material")?, without_density, without_modulus)
+}
+
+/// The profile, if there is nothing wrong with it but its keys.
+fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Profile> {
+    let object = node.object(PROFILE_KEYS, mistakes);
+    let object = mistakes.some(object)?;
+    let from_tip = object.get("measured_from");
+    let from_tip = from_tip.map(|node| node.word(&[("knob", false), ("tip", true)])).transpose();
+    let from_tip = mistakes.some(from_tip);
+    let profile = match object.get("pieces") {
+        Some(pieces) => formulas(&object, pieces),
+        None => columns(object, folder),
+    };
+    let profile = mistakes.some(profile)?;
+    Some(if from_tip?.unwrap_or(false) { profile.reversed() } else { profile })
+}
+
+/// Formulas, in the `pieces` of a `profile` object.
+fn formulas(object: &Object, node: &Node) -> Result<Profile> {
+    let mut mistakes = Mistakes::default();
+    for key in PROFILE_KEYS.iter().filter(|key| !["pieces", "measured_from"].contains(key)) {
+        if let Some(node) = object.get(key) {
+            let expected = "\"pieces\" alone: formulas give the radius in m from x in m";
+            mistakes.add(node.key().error(format!("\"{key}\" beside \"pieces\""), expected));
+        }
+    }
+    mistakes.and(node.items().and_then(|items| {
+        if items.is_empty() {
+            return Err(node.error("an empty list", "one piece at least"));
+        }
+        let pieces: Vec<FormulaPiece> = mistakes::all(items.iter().map(formula_piece))?;
+        let placed = |mut complaint: Complaint| {
+            // The field is `pieces[k].key`: its value's place, or that of the piece.
+            let field = std::mem::take(&mut complaint.field);
+            object.node.nearest(&field).complain(complaint)
+        };
+        Profile::from_formulas(pieces).map_err(|error| error.placed(placed))
+    }))
+}
+
+fn formula_piece(node: &Node) -> Result<FormulaPiece> {
+    let mut mistakes = Mistakes::default();
+    let piece = node.object(&["from", "to", "formula", "inner_formula"], &mut mistakes)?;
+    let end = |key: &str, expected: &str| piece.require(key, expected)?.quantity(Quantity::Length);
+    let formula = |node: &Node| {
+        let text = node.string().map_err(|_| {
+            node.error(node.shown(), "a formula in quotes, such as \"0.0125 + 0.02*x\"")
+        })?;
+        Formula::parse_in_place(&text).map_err(|(said, part)| node.complain_of(part, said))
+    };
+    let from = mistakes.note(end("from", "\"from\": where the piece begins"));
+    let to = mistakes.note(end("to", "\"to\": where the piece ends"));
+    let outer = piece.require("formula", "\"formula\": the outer radius in m");
+    let outer = outer.and_then(formula);
+    let inner = mistakes.note(piece.get("inner_formula").map(formula).transpose());
+    mistakes.and(outer.map(|outer| FormulaPiece { from, to, outer, inner }))
+}
+
+/// Columns of stations, in a `profile` object itself or in the CSV file that it names.
+fn columns(object: Object, folder: &Folder) -> Result<Profile> {
+    let mut mistakes = Mistakes::default();
+    let unit = match object.get("unit") {
+        Some(node) => node.string().and_then(|unit| {
+            let factor = units::factor(&unit, Quantity::Length);
+            factor.map_err(|complaint| node.complain(complaint)).map(|factor| (unit, factor))
+        }),
+        None => Ok(("m".to_owned(), 1.0)),
+    };
+    let interpolation = match object.get("interpolation") {
+        Some(node) => node.word(INTERPOLATIONS),
+        None => Ok(Interpolation::Pchip),
+    };
+    // Straight lines ask least of the stations.
+    let interpolation = mistakes.some(interpolation).unwrap_or(Interpolation::Linear);
+    let table = mistakes.some(table(
+        object,
+        folder,
+        unit.as_ref().map_or(("m", 1.0), |unit| (&unit.0, unit.1)),
+    ));
+    // Nothing can be said of places and radii in no unit.
+    let profile = unit.and_then(|_| {
+        let Some(table) = table else { return Ok(None) };
+        let profile = table.stations(interpolation).and_then(Profile::new);
+        profile.map(Some).map_err(|error| table.locate(error))
+    });
+    mistakes.and(profile).map(|profile| profile.expect("a table that could not be read was noted"))
+}
+
+/// The columns that a `profile` object has, or the CSV file that it names.
+fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<Table<'a>> {
+    let Some(node) = object.get("csv") else { return Table::from_json(object, unit) };
+    let mut mistakes = Mistakes::default();
+    let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
+    for key in columns {
+        if let Some(node) = object.get(key) {
+            let found = format!("\"{key}\" beside \"csv\"");
+            mistakes.add(node.key().error(found, "the columns in the csv file alone"));
+        }
+    }
+    mistakes.and(node.string().and_then(|name| {
+        let path = folder.find(&name).ok_or_else(|| {
+            let expected = "a file in the folder of this one, or below";
+            let hint = "the command line also reads others, of a bat file named there";
+            node.complain(Complaint::new("", node.shown(), expected).hinted(hint))
+        })?;
+        Table::from_csv(&path, unit.1).map_err(|error| match error {
+            Error::Read { source, .. } => node.error(
+                format!("{}, which cannot be read ({source})", path.display()),
+                "a CSV file, sought from the folder of this one",
+            ),
+            other => other,
+        })
+    }))
+}

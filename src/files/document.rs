@@ -1,0 +1,191 @@
+//! Where in the file did this stand: the text of one input file and the places in it.
+
+use std::cell::Cell;
+use std::ops::Range;
+use std::path::Path;
+
+use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
+use crate::base::file;
+
+/// The text of one input file, a byte-order mark removed.
+pub(crate) struct Document {
+    pub file: String,
+    pub text: String,
+    /// Offset, line and column of the last place asked for: the next is most often close behind.
+    last: Cell<(usize, usize, usize)>,
+}
+
+impl Document {
+    /// Reads a file as UTF-8.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = file::read(path)?;
+        let name = path.display().to_string();
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self::new(name, &text)),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                // Up to there the same, and what is wrong as a character that stands for it.
+                let text = String::from_utf8_lossy(error.as_bytes());
+                let marked = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
+                let document = Self { file: name, text: text.into_owned(), last: START.into() };
+                let utf_16 = matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+                let found = if utf_16 { "UTF-16 text" } else { "bytes that are not text" };
+                let complaint = Complaint::new("", found, "UTF-8 text");
+                Err(document.error(marked, complaint.hinted("save it as UTF-8 in your editor")))
+            }
+        }
+    }
+
+    pub fn new(file: String, text: &str) -> Self {
+        let text = text.trim_start_matches('\u{feff}').to_owned();
+        Self { file, text, last: START.into() }
+    }
+
+    /// An error about a stretch of the text, in bytes.
+    pub fn error(&self, marked: Range<usize>, complaint: Complaint) -> Error {
+        let (line, column) = self.place(marked.start);
+        let (file, excerpt) = (self.file.clone(), excerpt(&self.text, marked));
+        Error::Input { place: Box::new(Place { file, line, column, excerpt }), complaint }
+    }
+
+    /// Line and column of a byte.
+    fn place(&self, offset: usize) -> (usize, usize) {
+        let (mut at, mut line, mut column) = self.last.get();
+        if at > offset {
+            (at, line, column) = START;
+        }
+        let between = &self.text[at..offset];
+        line += between.bytes().filter(|b| *b == b'\n').count();
+        column = match between.rfind('\n') {
+            Some(end) => 1 + between[end + 1..].chars().count(),
+            None => column + between.chars().count(),
+        };
+        self.last.set((offset, line, column));
+        (line, column)
+    }
+}
+
+/// The first byte is in line 1, column 1.
+const START: (usize, usize, usize) = (0, 1, 1);
+
+/// The line around a stretch of the text, as much of it as fits a terminal. Of a stretch of several
+/// lines the first character stands for the whole.
+fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
+    /// Columns for the line, and for what is marked in it.
+    const LINE: usize = 72;
+    const MARKED: usize = 40;
+    let whole = &text[marked.clone()];
+    let first = whole.chars().next().map_or(0, char::len_utf8);
+    let whole = if whole.contains('\n') { &whole[..first] } else { whole };
+    let shown = head(whole, MARKED);
+    let cut = shown.len() < whole.len();
+    let (before, after) = (&text[..marked.start], &text[marked.start + shown.len()..]);
+    // As many columns on a side as the other leaves, a third of them at least.
+    let room = LINE - columns(shown);
+    let [left, right] = [columns(tail(before, room)), columns(head(after, room))];
+    let right = if cut { 0 } else { right.min((room / 3).max(room - left)) };
+    let (before, after) = (ended(before, room - right), begun(after, right));
+    Excerpt { before, marked: shown.to_owned(), after }
+}
+
+/// The rest of a line, at most so many columns of it, `…` where it goes on.
+fn begun(text: &str, most: usize) -> String {
+    let shown = head(text, most);
+    let more = !matches!(text[shown.len()..].bytes().next(), None | Some(b'\n'));
+    let dots = if more { "…" } else { "" };
+    format!("{}{dots}", shown.trim_end_matches('\r'))
+}
+
+/// What a line has before a place, at most so many columns of it, `…` where it begins earlier.
+fn ended(text: &str, most: usize) -> String {
+    let shown = tail(text, most);
+    let earlier = &text[..text.len() - shown.len()];
+    let dots = if earlier.is_empty() || earlier.ends_with('\n') { "" } else { "…" };
+    format!("{dots}{shown}")
+}
+
+/// The beginning of a text, to the end of its line or to so many columns.
+fn head(text: &str, most: usize) -> &str {
+    let mut left = most;
+    let end = text.char_indices().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));
+    end.map_or(text, |(end, _)| &text[..end])
+}
+
+/// The end of a text, from the beginning of its last line or from so many columns before.
+fn tail(text: &str, most: usize) -> &str {
+    let mut left = most;
+    let end = text.char_indices().rev().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));
+    end.map_or(text, |(start, c)| &text[start + c.len_utf8()..])
+}
+
+/// Whether there is room for a character, and the room after it.
+fn fits(c: char, left: &mut usize) -> bool {
+    let rest = left.checked_sub(width(c));
+    *left = rest.unwrap_or(0);
+    rest.is_some()
+}
+
+fn columns(text: &str) -> usize {
+    text.chars().map(width).sum()
+}
+
+/// Columns of a character in a terminal: a tab is shown as four, what may be wide counts as wide.
+fn width(c: char) -> usize {
+    match c {
+        '\t' => 4,
+        '\u{1100}'.. => 2,
+        _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parts(text: &str, marked: &str) -> [String; 3] {
+        let at = text.find(marked).unwrap();
+        let Excerpt { before, marked, after } = excerpt(text, at..at + marked.len());
+        [before, marked, after]
+    }
+
+    #[test]
+    fn an_excerpt_is_the_line_in_three_parts() {
+        assert_eq!(parts("{\r\n\t\"é\": 7,\r\n}", "7"), ["\t\"é\": ", "7", ","]);
+        assert_eq!(parts("{\n [1,\n 2]", "[1,\n 2]"), [" ", "[", "1,"]);
+        assert_eq!(parts("a", "a"), ["", "a", ""]);
+        let end = excerpt("{\n", 1..1);
+        assert_eq!([end.before, end.marked, end.after], ["{", "", ""]);
+    }
+
+    #[test]
+    fn a_long_line_is_shortened_around_what_is_marked() {
+        let digits = "0123456789".repeat(100_000);
+        let [before, marked, after] = parts(&format!("{digits}bad{digits}"), "bad");
+        let size = |text: &str| text.chars().count();
+        assert_eq!((size(&before), &*marked, size(&after)), (47, "bad", 24));
+        assert!(before.starts_with("…456789") && before.ends_with("789"), "{before}");
+        assert!(after.starts_with("0123") && after.ends_with("2…"), "{after}");
+        let [before, marked, after] = parts(&format!("[{digits}]"), &digits);
+        assert_eq!((&*before, size(&marked), &*after), ("[", 40, "…"));
+        // The beginning and the end of a line leave their room to the other side.
+        let [before, _, after] = parts(&format!("bad{digits}"), "bad");
+        assert_eq!((size(&before), size(&after)), (0, 70));
+        let [before, _, after] = parts(&format!("{digits}bad"), "bad");
+        assert_eq!((size(&before), size(&after)), (70, 0));
+        let wide = "黒".repeat(1000);
+        let [before, _, after] = parts(&format!("{wide}bad{wide}"), "bad");
+        assert!(2 * size(&before) + 2 * size(&after) <= 74, "{before} {after}");
+    }
+
+    #[test]
+    fn places_are_the_same_in_any_order() {
+        let document = Document::new("f".into(), "\u{feff}aé\n黒b\r\n\nc");
+        for order in [[0, 1, 4, 7, 10, 11], [11, 4, 10, 0, 7, 1]] {
+            for offset in order {
+                let known = [(0, (1, 1)), (1, (1, 2)), (4, (2, 1)), (7, (2, 2)), (10, (3, 1))];
+                let known = known.iter().find(|(at, _)| *at == offset).map_or((4, 1), |k| k.1);
+                assert_eq!(document.place(offset), known, "{offset}");
+            }
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Measured modes from a CSV file.
+//!
+//! A table of shapes, as one types it into a spreadsheet: places from the knob end downwards, modes
+//! side by side, the frequency (and the damping) in lines of their own.
+//!
+//! ```text
+//! x_in,          mode_1, mode_2
+//! frequency_hz,  178.2,  583.0
+//! damping_ratio, 0.004,  0.005
+//! 0,             1.00,   0.90
+//! 3,             0.55,   0.12
+//! …
+//! ```
+//!
+//! Or frequencies alone: columns `mode`, `frequency_hz` and `damping_ratio` or `damping_percent`. Lines
+//! that begin with `#` are comments.
+
+use std::path::Path;
+
+use faer::c64;
+
+use crate::base::error::Result;
+use crate::base::units::Quantity;
+use crate::files::document::Document;
+use crate::files::measured::FEWEST;
+use crate::files::measured::cells::{Row, Table};
+use crate::study::measured::data::{Measured, MeasuredMode};
+
+/// Reads measured modes from CSV.
+///
+/// # Errors
+///
+/// [`crate::base::error::Error::Read`], and [`crate::base::error::Error::Input`] with the line and the column.
+pub fn read(path: &Path) -> Result<Measured> {
+    let document = Document::read(path)?;
+    let table = Table::new(&document)?;
+    let measured = match table.header.cells[0].starts_with("x_") || table.header.cells[0] == "x" {
+        true => shapes(&table)?,
+        false => frequencies(&table)?,
+    };
+    let measured = Measured { source: path.display().to_string(), ..measured };
+    Ok(measured.sorted())
+}
+
+/// Hz
+const HIGHEST: f64 = 1e6;
+/// What a number without a meaning of its own may be.
+const ANY: [f64; 2] = [-1e100, 1e100];
+
+/// Shapes: points downwards, modes side by side.
+fn shapes(table: &Table) -> Result<Measured> {
+    let to_metres = table.factor((&table.header, 0), "x", Quantity::Length)?;
+    let mut modes = named(table)?;
+    let (told, points) = apart(table)?;
+    for row in told {
+        tell(table, row, &mut modes)?;
+    }
+    let place = &table.header.cells[0];
+    let along: Vec<f64> = points
+        .iter()
+        .map(|row| Ok(to_metres * table.number((row, 0), place, [-1e6, 1e6])?))
+        .collect::<Result<_>>()?;
+    let mut order: Vec<usize> = (0..along.len()).collect();
+    order.sort_by(|a, b| along[*a].total_cmp(&along[*b]));
+    if let Some(pair) = order.windows(2).find(|pair| along[pair[0]] == along[pair[1]]) {
+        let again = points[pair[0].max(pair[1])];
+        let found = format!("{} a second time", again.cells[0]);
+        return Err(table.wrong((again, 0), place, &found, "every place once"));
+    }
+    if along.len() < FEWEST {
+        let row = points.last().copied().unwrap_or(&table.header);
+        let expected = format!("{FEWEST} at least; with fewer every shape looks like any other");
+        return Err(table.wrong((row, 0), place, &format!("{} places", along.len()), expected));
+    }
+    for (k, mode) in modes.iter_mut().enumerate() {
+        for row in &points {
+            let value = table.number((row, k + 1), &mode.name, ANY)?;
+            mode.shape.push(c64::new(value, 0.0));
+        }
+        if mode.shape.iter().all(|value| value.re == 0.0) {
+            let expected = "a shape that moves somewhere";
+            return Err(table.wrong((points[0], k + 1), &mode.name, "nothing but 0", expected));
+        }
+    }
+    Ok(Measured { modes, along, from_knob: true, ..Measured::default() })
+}
+
+/// The modes of the header, without anything but their names.
+fn named(table: &Table) -> Result<Vec<MeasuredMode>> {
+    let names = &table.header.cells[1..];
+    if names.is_empty() {
+        let expected = "a column for each mode";
+        return Err(table.wrong((&table.header, 0), "header", "no mode", expected));
+    }
+    let bad = |k: &usize| names[*k].is_empty() || names[..*k].contains(&names[*k]);
+    if let Some(k) = (0..names.len()).find(bad) {
+        let expected = "a name of its own for each mode";
+        return Err(table.strange((&table.header, k + 1), "header", expected));
+    }
+    Ok(names.iter().map(|name| unknown(name)).collect())
+}
+
+/// The rows that tell frequencies and dampings, each once, and those of the points.
+fn apart<'a>(table: &'a Table) -> Result<(Vec<&'a Row>, Vec<&'a Row>)> {
+    let kind = |row: &Row| row.cells[0].split('_').next().unwrap_or_default().to_owned();
+    let (told, points): (Vec<&Row>, Vec<&Row>) =
+        table.rows.iter().partition(|row| ["frequency", "damping"].contains(&kind(row).as_str()));
+    let again = |k: &usize| told[..*k].iter().any(|row| kind(row) == kind(told[*k]));
+    if let Some(k) = (1..told.len()).find(again) {
+        let found = format!("{} a second time", kind(told[k]));
+        return Err(table.wrong((told[k], 0), "", &found, "it once"));
+    }
+    if !told.iter().any(|row| kind(row) == "frequency") {
+        let expected = "a row with frequency_hz in its first cell";
+        return Err(table.wrong((&table.header, 0), "", "no frequencies", expected));
+    }
+    if let Some(row) = points.iter().find(|row| row.cells[0].parse::<f64>().is_err()) {
+        let expected = "a place, or frequency_hz, damping_ratio or damping_percent";
+        return Err(table.strange((row, 0), &table.header.cells[0], expected));
+    }
+    Ok((told, points))
+}
+
+/// A row of frequencies or of dampings.
+fn tell(table: &Table, row: &Row, modes: &mut [MeasuredMode]) -> Result<()> {
+    let name = &row.cells[0];
+    let frequencies = name.starts_with("frequency");
+    if !frequencies && name != "damping_ratio" && name != "damping_percent" {
+        return Err(table.strange((row, 0), "", "damping_ratio or damping_percent"));
+    }
+    for (k, mode) in modes.iter_mut().enumerate() {
+        match frequencies {
+            true => mode.frequency = frequency(table, (row, k + 1), (row, 0))?,
+            false => mode.damping_ratio = damping(table, (row, k + 1), &mode.name, name)?,
+        }
+    }
+    Ok(())
+}
+
+/// The frequency in a cell (Hz), its unit in the name in another.
+fn frequency(table: &Table, cell: (&Row, usize), name: (&Row, usize)) -> Result<f64> {
+    let factor = table.factor(name, "frequency", Quantity::Frequency)?;
+    let field = &name.0.cells[name.1];
+    Ok(factor * table.number(cell, field, [0.0, HIGHEST / factor])?)
+}
+
+/// A damping ratio, or percents of it; a cell may be left empty.
+fn damping(table: &Table, at: (&Row, usize), field: &str, name: &str) -> Result<Option<f64>> {
+    let most = if name == "damping_percent" { 100.0 } else { 1.0 };
+    match at.0.cells[at.1].is_empty() {
+        true => Ok(None),
+        false => Ok(Some(table.number(at, field, [0.0, most])? / most)),
+    }
+}
+
+/// Frequencies alone: modes downwards.
+fn frequencies(table: &Table) -> Result<Measured> {
+    let names = &table.header.cells;
+    let known = |name: &str| {
+        ["mode", "damping_ratio", "damping_percent"].contains(&name)
+            || name.starts_with("frequency_")
+    };
+    if let Some(k) = names.iter().position(|name| !known(name)) {
+        let found = format!("column \"{}\"", names[k]);
+        let expected = "x_in and modes for shapes, or mode, frequency_hz, damping_ratio";
+        return Err(table.wrong((&table.header, k), "header", &found, expected));
+    }
+    let stem = |name: &str| name.split('_').next().unwrap_or_default().to_owned();
+    let again = |k: &usize| names[..*k].iter().any(|name| stem(name) == stem(&names[*k]));
+    if let Some(k) = (1..names.len()).find(again) {
+        let found = format!("column \"{}\" beside another", names[k]);
+        return Err(table.wrong((&table.header, k), "header", &found, "one of a kind"));
+    }
+    let column = |kind: &str| names.iter().position(|name| stem(name) == kind);
+    let Some(at) = column("frequency") else {
+        let expected = "it as a column";
+        return Err(table.wrong((&table.header, 0), "header", "no frequency_hz", expected));
+    };
+    let mut modes: Vec<MeasuredMode> = vec![];
+    for (k, row) in table.rows.iter().enumerate() {
+        let order = match column("mode") {
+            Some(cell) => order(table, (row, cell), &modes)?,
+            None => k + 1,
+        };
+        let damping_ratio = match column("damping") {
+            Some(cell) => damping(table, (row, cell), &names[cell], &names[cell])?,
+            None => None,
+        };
+        let frequency = frequency(table, (row, at), (&table.header, at))?;
+        let mode = unknown(&order.to_string());
+        modes.push(MeasuredMode { order: Some(order), frequency, damping_ratio, ..mode });
+    }
+    if modes.is_empty() {
+        return Err(table.wrong((&table.header, 0), "", "no mode", "a row for each mode"));
+    }
+    let as_they_stand = "the frequencies are those of modes 1, 2, … as they stand".to_owned();
+    let assumed = if column("mode").is_none() { vec![as_they_stand] } else { vec![] };
+    Ok(Measured { modes, assumed, ..Measured::default() })
+}
+
+/// The number of a mode, each once.
+fn order(table: &Table, at: (&Row, usize), before: &[MeasuredMode]) -> Result<usize> {
+    match at.0.cells[at.1].parse::<usize>() {
+        Ok(order) if before.iter().any(|mode| mode.order == Some(order)) => {
+            Err(table.wrong(at, "mode", &format!("{order} a second time"), "it once"))
+        }
+        Ok(order) if (1..=MOST).contains(&order) => Ok(order),
+        _ => Err(table.strange(at, "mode", format!("the number of a bending mode, 1 to {MOST}"))),
+    }
+}
+
+/// The highest number of a mode.
+const MOST: usize = 100;
+
+/// A mode of which nothing is known but the name.
+fn unknown(name: &str) -> MeasuredMode {
+    MeasuredMode {
+        name: name.to_owned(),
+        order: None,
+        frequency: 0.0,
+        damping_ratio: None,
+        shape: vec![],
+    }
+}

@@ -1,0 +1,28 @@
+//! How do people and programs write it down?
+//!
+//! Every reader tells all mistakes of a file at once, each with line, column and field.
+//!
+//! | file | question |
+//! |---|---|
+//! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
+//! | `csv_file`, `station_table` | a table; the stations of a profile |
+//! | `material_file`, `fixtures_file`, [`bat_file`] | a bat |
+//! | [`ball_file`], [`shape_file`], [`force_file`] | a ball; an initial shape; a force in time |
+//! | [`schema`] | the types of every JSON format and their schemas |
+//! | [`uff`] | universal files, read and written |
+//! | [`measured`] | measured modes, as laboratories write them |
+
+pub(crate) mod document;
+pub(crate) mod broken_json;
+pub(crate) mod json_node;
+pub(crate) mod csv_file;
+pub(crate) mod station_table;
+pub(crate) mod material_file;
+pub(crate) mod fixtures_file;
+pub mod bat_file;
+pub mod ball_file;
+pub mod shape_file;
+pub mod force_file;
+pub mod schema;
+pub mod uff;
+pub mod measured;

@@ -1,0 +1,223 @@
+//! The modes document, `sweetspot-modes/1`: what is written is this type, and so is its schema.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::bat::theory::Theory;
+use crate::files::schema::resolved::ResolvedBat;
+
+/// The bending modes of a bat: frequencies, shapes, nodes and how far they may be trusted. SI, the
+/// unit in every name; positions count from the knob end; what does not exist is null. Later
+/// versions of the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "Modes file of sweetspot, sweetspot-modes/1")]
+pub struct ModesFile {
+    /// Name of the format and its version: sweetspot-modes/1.
+    pub format: ModesFormat,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// The bat as it was understood, a bat file in its own right.
+    pub bat: ResolvedBat,
+    /// The bat as a rigid body: length, mass, balance point, moments of inertia.
+    pub summary: Summary,
+    /// What was computed, and how.
+    pub model: Model,
+    /// How many motions of the bat are rigid, at 0 Hz: 2 of a free bat. They are not among `modes`.
+    #[schemars(range(max = 2))]
+    pub rigid_modes: usize,
+    /// The elastic modes, rising in frequency.
+    pub modes: Vec<Mode>,
+    /// Left out where equal input was to give equal bytes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub timing: Option<Timing>,
+}
+
+/// Name of the format and its version.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(inline)]
+pub enum ModesFormat {
+    /// Version 1.
+    #[serde(rename = "sweetspot-modes/1")]
+    One,
+}
+
+/// Which program wrote this.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Generator {
+    /// Its name.
+    pub program: String,
+    /// Of the program, not of the format.
+    pub version: String,
+}
+
+impl Generator {
+    /// This program.
+    pub fn this() -> Self {
+        Self { program: "sweetspot".to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() }
+    }
+}
+
+/// The bat as a rigid body. Moments of inertia are transverse, with the sections' own and
+/// everything attached, as a pendulum measures them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Summary {
+    /// From the knob end to the tip (m).
+    pub length_m: f64,
+    /// Mass (kg) with everything attached.
+    pub mass_kg: f64,
+    /// Centre of mass (m).
+    pub balance_point_m: f64,
+    /// Moment of inertia about the balance point (kg m²).
+    pub inertia_balance_kg_m2: f64,
+    /// Where standards hold a bat: 6 in from the knob end (m).
+    pub pivot_m: f64,
+    /// Moment of inertia about that pivot (kg m²): the swing weight.
+    pub inertia_pivot_kg_m2: f64,
+    /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
+    pub center_of_percussion_m: Option<f64>,
+    /// What the weighed and tapped values changed; only of a bat of which something was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weighed: Option<WeighedFactors>,
+}
+
+/// What came of what was weighed and tapped; only of a bat of which something was.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WeighedFactors {
+    /// By how much the weighed mass made all densities larger.
+    pub density_factor: f64,
+    /// By how much the tapped frequency made all moduli larger.
+    pub modulus_factor: f64,
+    /// The balance point that was measured (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance_point_m: Option<f64>,
+    /// The computed balance point less that one (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance_point_difference_m: Option<f64>,
+}
+
+/// What was computed, and how.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Model {
+    /// Beam theory.
+    #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
+    pub theory: String,
+    /// Number of finite elements.
+    pub elements: usize,
+    /// Degree of the deflection in each.
+    pub degree: usize,
+    /// How the eigenvalues were found.
+    #[schemars(extend("enum" = ["statics", "dense", "shift-invert", "arpack"]))]
+    pub solver: String,
+    /// Unknowns of the assembled matrices.
+    pub degrees_of_freedom: usize,
+    /// Products with the compliance or the inverse; 0 for the dense solver.
+    pub lanczos_steps: usize,
+    /// Why this mesh and this degree, in words.
+    pub plan: String,
+    /// Whether every frequency is within the wanted tolerance by its own estimate.
+    pub tolerance_met: bool,
+    /// Whether it is certain that no mode is missing from the list.
+    pub no_mode_missing: bool,
+    /// What was left out and what it costs, a sentence each.
+    pub ignored: Vec<String>,
+    /// How the damping was found; only of a damped bat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Damping>,
+}
+
+/// How the damping was found; only of a damped bat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Damping {
+    /// In words.
+    pub method: String,
+    /// Decay rates (1/s) of rigid motions that only dashpots hold.
+    pub rigid_decay_1_per_s: Vec<f64>,
+}
+
+/// One elastic mode. Its shape is scaled to a largest deflection of 1 along the bat, positive at the
+/// barrel end, or at the knob end if the barrel end is at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Mode {
+    /// From 1.
+    #[schemars(range(min = 1))]
+    pub order: usize,
+    /// Undamped natural frequency (Hz).
+    pub frequency_hz: f64,
+    /// The same as angular frequency (rad/s).
+    pub omega_rad_s: f64,
+    /// Damping ratio, half the loss factor; 0 without damping.
+    pub damping_ratio: f64,
+    /// Modal mass (kg) under the shape's scaling.
+    pub modal_mass_kg: f64,
+    /// Isolated interior zeros of the deflection (m), from the knob.
+    pub nodes_m: Vec<f64>,
+    /// How far the numbers above may be off.
+    pub error: ModeError,
+    /// The deflection along the bat.
+    pub shape: Shape,
+    /// How the mode dies out; only of a damped bat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Damped>,
+}
+
+/// Estimated errors; null where none could be made. Those of the frequency are relative to it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ModeError {
+    /// Of the frequency, by the finite elements.
+    pub discretization: Option<f64>,
+    /// Of the frequency, by arithmetic.
+    pub round_off: Option<f64>,
+    /// Of the eigenpair, relative.
+    pub residual: Option<f64>,
+    /// Of a node's position (m).
+    pub nodes_m: Option<f64>,
+    /// Of the modal mass, relative.
+    pub modal_mass: Option<f64>,
+    /// Of the shape, where its largest deflection is 1.
+    pub shape: Option<f64>,
+}
+
+/// Samples of a shape; as many places as deflections and rotations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Shape {
+    /// Places (m).
+    pub x_m: Vec<f64>,
+    /// Deflection there, 1 at the largest.
+    pub deflection: Vec<f64>,
+    /// Rotation of the section there (rad per m of deflection).
+    pub rotation: Vec<f64>,
+}
+
+/// How a mode dies out; only of a damped bat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Damped {
+    /// Modulus of the damped motion's pole (Hz).
+    pub natural_frequency_hz: f64,
+    /// How fast it swings (Hz).
+    pub damped_frequency_hz: f64,
+    /// Rate at which its amplitude falls (1/s).
+    pub decay_1_per_s: f64,
+    /// Twice the damping ratio.
+    pub loss_factor: f64,
+    /// Sharpness of the resonance, 1/(2 ratio); null without damping.
+    pub q_half_power: Option<f64>,
+    /// As papers on bats count it, 1/ratio; null without damping.
+    pub q_amplitude: Option<f64>,
+    /// The part of the ratio that is the materials'.
+    pub material_damping_ratio: f64,
+    /// Whether it is a complex mode, not one mode by itself.
+    pub complex: bool,
+    /// Estimated error, relative to the frequency.
+    pub error: f64,
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timing {
+    /// Planning (s).
+    pub plan_s: f64,
+    /// Assembling (s).
+    pub assemble_s: f64,
+    /// Solving (s).
+    pub solve_s: f64,
+}

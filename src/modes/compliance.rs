@@ -1,0 +1,445 @@
+//! How does a bat give way to a force anywhere, whatever the degree of its elements?
+//!
+//! [`Flexible::new`] on a solution's mesh is what responses and hits are made of.
+//!
+//! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic
+//! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they
+//! are coordinates of their own, to which these strains are orthogonal.
+
+use std::sync::{Arc, LazyLock};
+
+use crate::base::error::Result;
+use crate::base::quadrature::{gauss, legendre};
+use crate::bat::body::Bat;
+use crate::bat::layup::Worth;
+use crate::bat::theory::Theory;
+use crate::beam::element::{MOST_STRAINS, losses};
+use crate::beam::fixed::{Fixed, Spring, in_grip};
+use crate::beam::mesh::Mesh;
+use crate::beam::motion::{Depth, Motion};
+use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::beam::statics::View;
+use crate::beam::sweep::Loads;
+use crate::eigen::lanczos::dot;
+use crate::modes::eigenpairs::Eigenpairs;
+use crate::modes::mode::Shape;
+
+/// A bat's strains on a mesh, and what forces and motions do with them.
+pub struct Flexible {
+    pairs: Box<dyn Pairs>,
+    mesh: Mesh,
+    stretches: Arc<Vec<(f64, f64)>>,
+    /// Number of strains.
+    pub dimension: usize,
+    /// Strain energy of `½ qᵀq = 1` (J).
+    pub energy_unit: f64,
+    /// The rigid motions that nothing holds.
+    pub rigid: Vec<RigidMotion>,
+    /// The dashpots on the bat and under it.
+    pub dashpots: Vec<Dashpot>,
+    /// How far strains draw out the springs that absorbers hang on, one after the other.
+    pub hung: Vec<Drawn>,
+    /// Loss factors in bending and shear at the points of every cell; empty if there are none.
+    losses: Vec<[f64; 2]>,
+}
+
+/// A rigid motion that nothing holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidMotion {
+    /// Deflection at the balance point (m).
+    pub push: f64,
+    /// Rotation (rad).
+    pub turn: f64,
+    /// Position of the balance point (m).
+    pub balance: f64,
+    /// Its modal mass (kg, or kg m² where it is a rotation of 1 rad).
+    pub mass: f64,
+}
+
+impl RigidMotion {
+    /// The deflection at `x`.
+    pub fn deflection(&self, x: f64) -> f64 {
+        self.push + self.turn * (x - self.balance)
+    }
+}
+
+/// A dashpot and how far it is drawn out.
+#[derive(Debug, Clone)]
+pub struct Dashpot {
+    /// Damping constant (N s/m).
+    pub constant: f64,
+    /// By the free rigid motions (m each).
+    pub rigid: Vec<f64>,
+    /// By the strains.
+    pub strains: Drawn,
+}
+
+/// How far strains draw a dashpot out.
+#[derive(Debug, Clone)]
+pub enum Drawn {
+    /// It stands beside a spring: the strain's place, and metres for a strain of 1.
+    Spring(usize, f64),
+    /// All strains.
+    All(Vec<f64>),
+}
+
+impl Drawn {
+    /// How far (m).
+    pub fn by(&self, q: &[f64]) -> f64 {
+        match self {
+            Self::Spring(place, softness) => q[*place] * softness,
+            Self::All(row) => dot(row, q),
+        }
+    }
+
+    /// Adds the strains (times U) of that force of the dashpot.
+    pub fn add_force(&self, force: f64, strains: &mut [f64]) {
+        match self {
+            Self::Spring(place, softness) => strains[*place] += force * softness,
+            Self::All(row) => strains.iter_mut().zip(row).for_each(|(q, r)| *q += force * r),
+        }
+    }
+}
+
+/// Eigenpairs of any degree and theory.
+trait Pairs: Send + Sync {
+    fn assemble(&mut self, bat: &Bat, mesh: &Mesh);
+    /// ω (rad/s) and unit strains of the slowest modes, and how many of them are apart from the
+    /// others.
+    fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)>;
+    fn compliance(&self, q: &[f64], y: &mut [f64]);
+    fn row(&self, cell: usize, s: f64) -> Vec<f64>;
+    fn freedom(&self) -> usize;
+    fn see(&self, look: &mut dyn FnMut(&View<f64>));
+    fn motion(&self, q: &[f64]) -> Motion<f64>;
+    fn place(&self) -> Place;
+}
+
+/// What a motion of the whole bat needs to know.
+struct Place {
+    dimension: usize,
+    energy_unit: f64,
+    mass: f64,
+    inertia: f64,
+    balance: f64,
+    split: usize,
+    rule: &'static Rule,
+}
+
+impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
+    fn assemble(&mut self, bat: &Bat, mesh: &Mesh) {
+        Self::assemble(self, &[bat], &[mesh]);
+    }
+
+    fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
+        /// As good as arithmetic allows.
+        const CONVERGED: f64 = 1e-13;
+        if count == 0 {
+            return Ok((vec![], vec![], 0));
+        }
+        self.solve(count, CONVERGED)?;
+        let apart = self.solve_apart(CONVERGED)?;
+        let unit = self.statics.energy_unit;
+        let omega = |value: &f64| (unit / value).sqrt();
+        let vectors = self.lanczos.vectors.chunks_exact(self.statics.dimension());
+        Ok((
+            self.lanczos.values.iter().map(omega).collect(),
+            vectors.map(<[f64]>::to_vec).collect(),
+            apart,
+        ))
+    }
+
+    fn compliance(&self, q: &[f64], y: &mut [f64]) {
+        self.apply(q, y, &mut Loads::default());
+    }
+
+    fn row(&self, cell: usize, s: f64) -> Vec<f64> {
+        let body = self.statics.body();
+        match &self.statics.fixed {
+            Some(fixed) => fixed.under_force(&body, cell, s),
+            None => Fixed::nothing().under_force(&body, cell, s),
+        }
+    }
+
+    fn freedom(&self) -> usize {
+        self.statics.freedom()
+    }
+
+    fn see(&self, look: &mut dyn FnMut(&View<f64>)) {
+        let cell = |k: usize| self.statics.cell(k);
+        look(&self.statics.view(&cell));
+    }
+
+    fn motion(&self, q: &[f64]) -> Motion<f64> {
+        let mut motion = Motion::default();
+        self.look_at_one(q, &[], Depth::Shape, &mut motion);
+        motion
+    }
+
+    fn place(&self) -> Place {
+        let s = &self.statics;
+        Place {
+            dimension: s.dimension(),
+            energy_unit: s.energy_unit,
+            mass: s.mass,
+            inertia: s.inertia,
+            balance: s.balance,
+            split: s.split,
+            rule: s.rule,
+        }
+    }
+}
+
+/// Eigenpairs of that degree and theory.
+fn pairs(bat: &Bat, degree: usize, theory: Theory) -> Box<dyn Pairs> {
+    match (theory.shears(), degree) {
+        (false, 3) => Box::new(Eigenpairs::<f64, 4, 4>::new(bat, theory)),
+        (false, 4) => Box::new(Eigenpairs::<f64, 5, 5>::new(bat, theory)),
+        (false, 5) => Box::new(Eigenpairs::<f64, 6, 6>::new(bat, theory)),
+        (false, 6) => Box::new(Eigenpairs::<f64, 7, 7>::new(bat, theory)),
+        (false, 7) => Box::new(Eigenpairs::<f64, 8, 8>::new(bat, theory)),
+        (false, 8) => Box::new(Eigenpairs::<f64, 9, 9>::new(bat, theory)),
+        (false, 9) => Box::new(Eigenpairs::<f64, 10, 10>::new(bat, theory)),
+        (false, 10) => Box::new(Eigenpairs::<f64, 11, 11>::new(bat, theory)),
+        (false, 11) => Box::new(Eigenpairs::<f64, 12, 12>::new(bat, theory)),
+        (false, _) => Box::new(Eigenpairs::<f64, 13, 13>::new(bat, theory)),
+        (true, 3) => Box::new(Eigenpairs::<f64, 4, 6>::new(bat, theory)),
+        (true, 4) => Box::new(Eigenpairs::<f64, 5, 8>::new(bat, theory)),
+        (true, 5) => Box::new(Eigenpairs::<f64, 6, 10>::new(bat, theory)),
+        (true, 6) => Box::new(Eigenpairs::<f64, 7, 12>::new(bat, theory)),
+        (true, 7) => Box::new(Eigenpairs::<f64, 8, 14>::new(bat, theory)),
+        (true, 8) => Box::new(Eigenpairs::<f64, 9, 16>::new(bat, theory)),
+        (true, 9) => Box::new(Eigenpairs::<f64, 10, 18>::new(bat, theory)),
+        (true, 10) => Box::new(Eigenpairs::<f64, 11, 20>::new(bat, theory)),
+        (true, 11) => Box::new(Eigenpairs::<f64, 12, 22>::new(bat, theory)),
+        (true, _) => Box::new(Eigenpairs::<f64, 13, 24>::new(bat, theory)),
+    }
+}
+
+impl Flexible {
+    /// The bat on that mesh, with elements of that degree.
+    pub fn new(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
+        let mut pairs = pairs(bat, degree, theory);
+        pairs.assemble(bat, mesh);
+        let Place { dimension, energy_unit, mass, inertia, balance, .. } = pairs.place();
+        let mut free = vec![[1.0, 0.0], [0.0, 1.0]];
+        pairs.see(&mut |view| {
+            if let Some(fixed) = view.fixed {
+                free = fixed.free().to_vec();
+            }
+        });
+        let rigid = |[push, turn]: [f64; 2]| {
+            let mass = push * push * mass + turn * turn * inertia;
+            RigidMotion { push, turn, balance, mass }
+        };
+        let mut flexible = Self {
+            pairs,
+            mesh: mesh.clone(),
+            stretches: Arc::new(mesh.stretches()),
+            dimension,
+            energy_unit,
+            rigid: free.into_iter().map(rigid).collect(),
+            dashpots: vec![],
+            hung: vec![],
+            losses: vec![],
+        };
+        flexible.pairs.see(&mut |view| {
+            let points = view.fixed.iter().flat_map(|fixed| &fixed.points);
+            let springs = points.filter_map(|point| point.spring);
+            flexible.hung = springs.map(|s| Drawn::Spring(s.place, s.softness)).collect();
+        });
+        flexible.dashpots = flexible.dashpots(bat);
+        flexible.losses = flexible.losses(bat);
+        flexible
+    }
+
+    /// ω (rad/s, rising) and unit strains of the slowest modes, as many as wanted or as there are,
+    /// and how many of the first are far slower than the others.
+    ///
+    /// # Errors
+    ///
+    /// As [`crate::eigen::lanczos::Lanczos::largest`].
+    pub fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
+        let count = count.min(self.pairs.freedom());
+        self.pairs.slowest(count)
+    }
+
+    /// Number of modes that there are.
+    pub fn freedom(&self) -> usize {
+        self.pairs.freedom()
+    }
+
+    /// `M q = A q/U` (s²): strains under the inertia of an acceleration q.
+    pub fn inertia(&self, q: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; q.len()];
+        self.pairs.compliance(q, &mut y);
+        y.iter_mut().for_each(|y| *y /= self.energy_unit);
+        y
+    }
+
+    /// Takes out of strains what the contacts do not allow.
+    pub fn project(&self, strains: &mut [f64]) {
+        self.pairs.see(&mut |view| {
+            view.fixed.iter().for_each(|fixed| fixed.project(strains));
+        });
+    }
+
+    /// What strains q give for the deflection at `x`: `w = row·q`, the free rigid motions left out.
+    /// Divided by U they are the strains under a unit force there.
+    pub fn row(&self, x: f64) -> Vec<f64> {
+        let elements = &self.mesh.elements;
+        let e = elements.partition_point(|e| e.start <= x).max(1) - 1;
+        let s = ((x - elements[e].start) / elements[e].length).clamp(0.0, 1.0);
+        let split = self.pairs.place().split;
+        match e < split {
+            true => self.pairs.row(split - 1 - e, 1.0 - s),
+            false => self.pairs.row(e, s),
+        }
+    }
+
+    /// What a unit force at `x` deflects beyond what the element's polynomials show (m/N): its
+    /// bending moment has a kink there, and its shear force a step.
+    ///
+    /// With `f = (ξ − x)₊` and `P` the polynomials of the curvature, `∫f²/EI dξ` less the same of
+    /// its projection, over the element; and likewise `∫1/κGA dξ` of the step. Moments beyond
+    /// those of the kink are smooth, and the mesh has them.
+    pub fn unresolved(&self, x: f64, worth: impl Fn(f64) -> Worth) -> f64 {
+        static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss(10));
+        let elements = &self.mesh.elements;
+        let k = elements.partition_point(|e| e.start <= x).max(1) - 1;
+        let (e, split) = (&elements[k], self.pairs.place().split);
+        let knob_side = k < split;
+        let along = ((x - e.start) / e.length).clamp(0.0, 1.0);
+        // Outwards, as the cell is seen.
+        let (cell, at) = if knob_side { (split - 1 - k, 1.0 - along) } else { (k, along) };
+        let mut missing = 0.0;
+        self.pairs.see(&mut |view| {
+            let (block, strains) = (view.terms - 2, view.strains);
+            let mut loads = [0.0; MOST_STRAINS];
+            let mut whole = 0.0;
+            for &(s, weight) in RULE.iter() {
+                let s = at + (1.0 - at) * s;
+                let share = weight * (1.0 - at) * e.length;
+                let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
+                let (here, arm) = (worth(place), (s - at) * e.length);
+                whole += share * arm * arm / here.bending;
+                let polynomials = legendre(block, 2.0 * s - 1.0);
+                for (j, p) in polynomials[..block].iter().enumerate() {
+                    loads[j] += share * arm * p;
+                    if strains > block {
+                        loads[block + j] += share * p;
+                    }
+                }
+                if strains > block {
+                    whole += share / here.shear;
+                }
+            }
+            let mut scaled = [0.0; MOST_STRAINS];
+            (view.cell)(cell).scaled_by_loads(&loads[..strains], block, &mut scaled[..strains]);
+            missing = whole - dot(&scaled[..strains], &scaled[..strains]) / view.energy_unit;
+        });
+        missing.max(0.0)
+    }
+
+    /// The deflections along the bat of these strains, the free rigid motions left out.
+    pub fn shape(&self, q: &[f64]) -> Shape {
+        let motion = self.pairs.motion(q);
+        let mut shape = None;
+        self.pairs.see(&mut |view| shape = Some(Shape::of(view, &motion, &self.stretches)));
+        shape.expect("it was seen")
+    }
+
+    /// Whether the materials lose anything.
+    pub fn loses(&self) -> bool {
+        !self.losses.is_empty()
+    }
+
+    /// `K″ q`: the strains' stiffness times its loss factors, all layers of a section bending
+    /// alike; springs, joints and beds lose nothing.
+    pub fn loss(&self, q: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; q.len()];
+        if self.losses.is_empty() {
+            return out;
+        }
+        let mut strains = [0.0; MOST_STRAINS];
+        let [mut values, mut work] = [[0.0; MOST_POINTS]; 2];
+        self.pairs.see(&mut |view| {
+            let (points, block) = (view.rule.count(), view.terms - 2);
+            for k in 0..view.count {
+                let cell = (view.cell)(k);
+                let range = k * view.strains..(k + 1) * view.strains;
+                let strains = &mut strains[..view.strains];
+                cell.strains(&q[range.clone()], block, strains);
+                work.fill(0.0);
+                for part in 0..view.strains / block {
+                    let stiffness =
+                        if part == 0 { view.bending_stiffness } else { view.shear_stiffness };
+                    view.rule.values(&strains[part * block..(part + 1) * block], &mut values);
+                    for (i, point) in view.rule.points.iter().enumerate() {
+                        let at = k * points + i;
+                        let share = point.weight * cell.length / view.energy_unit;
+                        values[i] *= share * stiffness[at] * self.losses[at][part];
+                    }
+                    view.rule.moments(&values, &mut work[part * block..(part + 1) * block]);
+                }
+                cell.scaled_by_loads(&work[..view.strains], block, &mut out[range]);
+            }
+        });
+        out
+    }
+
+    /// The loss factors at the points of the cells, outwards.
+    fn losses(&self, bat: &Bat) -> Vec<[f64; 2]> {
+        if bat.layups.iter().all(|layup| layup.materials().all(|m| m.loss_factor == 0.0)) {
+            return vec![];
+        }
+        let Place { split, rule, .. } = self.pairs.place();
+        let points = rule.count();
+        let mut all = vec![[0.0; 2]; self.mesh.len() * points];
+        for (k, e) in self.mesh.elements.iter().enumerate() {
+            losses(bat, e, rule, |i, loss| all[k * points + i] = loss);
+        }
+        // The knob side is seen outwards too.
+        all[..split * points].reverse();
+        all
+    }
+
+    /// Everything that takes energy out of the bat but its materials.
+    fn dashpots(&self, bat: &Bat) -> Vec<Dashpot> {
+        let mut bed = vec![];
+        self.pairs.see(&mut |view| {
+            let Some(fixed) = view.fixed else { return };
+            let beds = fixed.contacts.iter().filter(|contact| contact.in_a_bed());
+            bed = beds.filter_map(|contact| contact.spring).collect();
+        });
+        let none = vec![0.0; self.rigid.len()];
+        let beside =
+            |constant: f64, strains: Drawn| Dashpot { constant, rigid: none.clone(), strains };
+        let hung = bat.fixtures.absorbers.iter().zip(&self.hung);
+        let mut all: Vec<Dashpot> =
+            hung.map(|(absorber, drawn)| beside(absorber.damping, drawn.clone())).collect();
+        if let Some(grip) = bat.fixtures.grip.filter(|grip| grip.damping > 0.0) {
+            // One for every point of the bed, of its share: the same as for its spring.
+            let Place { energy_unit, split, rule, .. } = self.pairs.place();
+            let per_stiffness = grip.damping / grip.stiffness;
+            let of = |softness: f64| per_stiffness * energy_unit / (softness * softness);
+            let spring = |s: &Spring<f64>| Drawn::Spring(s.place, s.softness);
+            all.extend(bed.iter().map(|s| beside(of(s.softness), spring(s))));
+            if grip.stiffness == 0.0 {
+                for (_, e) in in_grip(bat, &self.mesh, split) {
+                    let e = &self.mesh.elements[e];
+                    for point in &rule.points {
+                        let x = e.start + point.s * e.length;
+                        all.push(Dashpot {
+                            constant: grip.damping * e.length * point.weight,
+                            rigid: self.rigid.iter().map(|rigid| rigid.deflection(x)).collect(),
+                            strains: Drawn::All(self.row(x)),
+                        });
+                    }
+                }
+            }
+        }
+        all.retain(|dashpot| dashpot.constant > 0.0);
+        all
+    }
+}

@@ -1,0 +1,256 @@
+//! How fast do a bat's motions die out, by its materials, hands and absorbers?
+//!
+//! [`crate::Solution::damping`] has the answer; [`damping`](fn@damping) finds it for other modes.
+//!
+//! A material's loss factor η takes `2π η` times the strain energy away in every cycle, so that a
+//! mode has `ζ = ½ Σ η_i U_i/U`, `U_i` its strain energy in material i, bending and shear, springs
+//! and joints without loss. Dashpots couple the modes: the damped bat's own motions are complex,
+//! `e^{st}` with `s = −ζω ± iω√(1 − ζ²)`, `ω = |s|`.
+//!
+//! In time a material's loss is taken as viscous, with that ζ at the mode's own frequency; in a
+//! frequency response ([`crate::motion::frf`]) the stiffness is `1 + iη` times itself, at every frequency.
+//!
+//! # Source
+//!
+//! E. E. Ungar, E. M. Kerwin, J. Acoust. Soc. Am. 34 (1962) 954, for loss factors by strain energy.
+
+use std::fmt;
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::beam::mesh::Mesh;
+use crate::beam::rule::DEGREES;
+use crate::modes::mode::Mode;
+use crate::modes::reduced::{Group, Reduced};
+
+/// How one mode dies out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damped {
+    /// `|s|` (rad/s); of two real s, `√(s₁ s₂)`.
+    pub natural: f64,
+    /// ζ, `−Re s/|s|`; 1 or more where it does not swing.
+    pub ratio: f64,
+    /// The part of ζ that is the materials'.
+    pub of_materials: f64,
+    /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; the slower one of two real s.
+    pub decay: f64,
+    /// How far s may be off, relative to |s|: for the mesh, for the motion being made of few
+    /// strains, and for modes being taken one by one where they are.
+    pub error: f64,
+}
+
+impl Damped {
+    /// One that goes on for ever, or with a damping ratio below 1.
+    fn new(natural: f64, ratio: f64, of_materials: f64) -> Self {
+        let decay = match ratio > 1.0 {
+            true => natural / (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()),
+            false => ratio * natural,
+        };
+        Self { natural, ratio, of_materials, decay, error: 0.0 }
+    }
+
+    /// `|Im s|` (rad/s): how fast it swings; 0 if it does not.
+    pub fn swinging(&self) -> f64 {
+        self.natural * ((1.0 - self.ratio) * (1.0 + self.ratio)).max(0.0).sqrt()
+    }
+
+    /// How far another s is from this one, relative to |s|; of two real ones the slower.
+    fn apart(&self, other: &Self) -> f64 {
+        let [a, b] = [self, other].map(|damped| [damped.decay, damped.swinging()]);
+        (a[0] - b[0]).hypot(a[1] - b[1]) / self.natural
+    }
+
+    /// Q as the sharpness of a resonance, the frequency over the width between the half-power
+    /// points of light damping: `1/(2ζ)`. None without damping.
+    ///
+    /// # Source
+    ///
+    /// J. O. Smith, Introduction to Digital Filters (2007), appendix "Quality Factor (Q)": the
+    /// resonance frequency over twice the decay rate.
+    pub fn q_half_power(&self) -> Option<f64> {
+        (self.ratio > 0.0).then(|| 0.5 / self.ratio)
+    }
+
+    /// Q of the amplitude, as papers on bats count it: `1/ζ`, so that the amplitude falls as
+    /// `e^{−ωt/Q}`. Twice the usual one. None without damping.
+    ///
+    /// # Source
+    ///
+    /// A. M. Nathan, Am. J. Phys. 68 (2000) 979, after L. L. Van Zandt, Am. J. Phys. 60 (1992) 172,
+    /// who takes it for 10.
+    pub fn q_amplitude(&self) -> Option<f64> {
+        (self.ratio > 0.0).then(|| 1.0 / self.ratio)
+    }
+}
+
+/// How a bat's modes die out.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Damping {
+    /// One for each mode of the solution; empty without any damping.
+    pub modes: Vec<Damped>,
+    /// ζ of each undamped mode taken by itself.
+    pub alone: Vec<f64>,
+    /// Decay rates (1/s) of the rigid motions that only dashpots hold.
+    pub rigid: Vec<f64>,
+    /// How the modes were found.
+    pub kind: Kind,
+}
+
+impl Damping {
+    /// Each mode by itself.
+    fn by_modes(modes: Vec<Damped>, rigid: Vec<f64>, kind: Kind) -> Self {
+        let alone = modes.iter().map(|damped| damped.ratio).collect();
+        Self { modes, alone, rigid, kind }
+    }
+}
+
+/// How it was found.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum Kind {
+    /// Nothing damps the bat.
+    #[default]
+    None,
+    /// Only materials do: mode by mode.
+    Materials,
+    /// Dashpots do, but each mode may be taken by itself: complex ones would differ by that much.
+    Modal(f64),
+    /// Complex modes: one by one they would be off by that much.
+    Complex(f64),
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::None => write!(f, "none"),
+            Self::Materials => {
+                write!(f, "of the materials alone, by each mode's strain energy in them")
+            }
+            Self::Modal(change) => write!(
+                f,
+                "mode by mode: complex modes would change a frequency by {change:.1e} of itself or \
+                 a damping ratio by as much at most, which is within the tolerance"
+            ),
+            Self::Complex(change) => write!(
+                f,
+                "complex modes: dashpots couple the modes, which one by one would be off by up to \
+                 {change:.1e} of the frequency"
+            ),
+        }
+    }
+}
+
+/// How the modes of a bat die out, found on that mesh; complex where the dashpots move a frequency
+/// or a damping ratio by more than `tolerance`.
+///
+/// # Errors
+///
+/// [`crate::Error::NotConverged`] if the modes, or those of the damped bat, cannot be found again.
+pub fn damping(
+    bat: &Bat,
+    (mesh, degree, theory): (&Mesh, usize, Theory),
+    modes: &[Mode],
+    tolerance: f64,
+) -> Result<Damping> {
+    let dashpots = bat.fixtures.damping();
+    let own = bat.material().loss_factor;
+    let mut materials = bat.layups.iter().flat_map(|layup| layup.materials());
+    let alike = materials.all(|material| material.loss_factor == own);
+    let lossless = alike && own == 0.0;
+    if modes.is_empty() || (lossless && !dashpots) {
+        return Ok(Damping::default());
+    }
+    if alike && bat.fixtures.none_moving() && !dashpots {
+        let damped = |mode: &Mode| Damped::new(mode.omega, 0.5 * own, 0.5 * own);
+        let modes = modes.iter().map(damped).collect();
+        return Ok(Damping::by_modes(modes, vec![], Kind::Materials));
+    }
+    let mut reduced = Reduced::new(bat, mesh, degree, theory, modes.len())?;
+    let of_materials: Vec<f64> = (0..modes.len()).map(|k| 0.5 * reduced.mode_loss(k)).collect();
+    let alone = |k: usize| {
+        let ratio = of_materials[k] + 0.5 * modes[k].omega * reduced.mode_damping(k);
+        Damped::new(modes[k].omega, ratio, of_materials[k])
+    };
+    let mut alone: Vec<Damped> = (0..modes.len()).map(alone).collect();
+    if !dashpots {
+        return Ok(Damping::by_modes(alone, vec![], Kind::Materials));
+    }
+    let mut together = Together::new(&mut reduced, modes.len(), tolerance, &of_materials)?;
+    let change = |(a, b): (&Damped, &Damped)| {
+        (a.natural / b.natural - 1.0).abs().max((a.ratio - b.ratio).abs())
+    };
+    let changes: Vec<f64> = together.motions.iter().zip(&alone).map(change).collect();
+    let largest = changes.iter().copied().fold(0.0, f64::max);
+    for ((damped, mode), change) in alone.iter_mut().zip(modes).zip(&changes) {
+        damped.error = mode.error.total() + change;
+    }
+    let within = alone.iter().all(|damped| damped.error <= tolerance) || largest == 0.0;
+    if within || changes.len() < alone.len() {
+        return Ok(Damping::by_modes(alone, together.rigid, Kind::Modal(largest)));
+    }
+    // Where a dashpot is strong the bat moves about it as no mode does, and what the modes say of
+    // the mesh is not enough.
+    let (mut mesh, mut degree) = (mesh.clone(), degree);
+    for _ in 0..MOST_REFINEMENTS {
+        (mesh, degree) = match degree + 2 <= *DEGREES.end() {
+            true => (mesh, degree + 2),
+            false => (mesh.refined(|_| 2), degree),
+        };
+        let mut finer = Reduced::new(bat, &mesh, degree, theory, modes.len())?;
+        let before = together;
+        together = Together::new(&mut finer, modes.len(), tolerance, &of_materials)?;
+        let errors = together.motions.iter_mut().zip(&before.motions);
+        errors.for_each(|(now, before)| {
+            now.error = now.error.max(now.apart(before)).max(ROUND_OFF);
+        });
+        if together.motions.iter().all(|damped| damped.error <= tolerance) {
+            break;
+        }
+    }
+    let (modes, rigid) = (together.motions, together.rigid);
+    let alone = alone.iter().map(|damped| damped.ratio).collect();
+    Ok(Damping { modes, alone, rigid, kind: Kind::Complex(largest) })
+}
+
+/// Relative round-off of the small eigenproblem after its vectors are polished.
+const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
+/// Meshes on which the damped motions are found again.
+const MOST_REFINEMENTS: usize = 4;
+
+/// The damped bat's own motions on one mesh.
+struct Together {
+    motions: Vec<Damped>,
+    rigid: Vec<f64>,
+}
+
+impl Together {
+    fn new(
+        reduced: &mut Reduced,
+        modes: usize,
+        tolerance: f64,
+        of_materials: &[f64],
+    ) -> Result<Self> {
+        let free = reduced.free_motions(modes, accuracy(tolerance))?;
+        let motions = free.groups.iter().zip(of_materials);
+        Ok(Self {
+            motions: motions.map(|(group, ratio)| of_group(group, *ratio)).collect(),
+            rigid: free.rigid.iter().map(|pole| -pole.s.re).collect(),
+        })
+    }
+}
+
+/// How accurate the damped motions are to be for a tolerance: it costs little.
+pub fn accuracy(tolerance: f64) -> f64 {
+    (1e-3 * tolerance).clamp(1e-14, 1e-9)
+}
+
+fn of_group(group: &Group, of_materials: f64) -> Damped {
+    let decays = group.poles.iter().map(|pole| -pole.s.re);
+    Damped {
+        natural: group.natural(),
+        ratio: group.ratio(),
+        of_materials,
+        decay: decays.fold(f64::INFINITY, f64::min),
+        error: group.poles.iter().map(|pole| pole.error).fold(0.0, f64::max),
+    }
+}

@@ -1,0 +1,353 @@
+//! What are the lowest bending motions of bats on one mesh?
+//!
+//! The engine below [`crate::solve()`] and [`crate::modes::batch`], which are what to call: it takes
+//! whatever vectors the machine has, and memory that the next bats use again.
+//!
+//! The same bits whatever the vectors and in every lane: nothing is added in another order, and no
+//! product is fused with a sum.
+
+use pulp::{Simd, WithSimd};
+
+use crate::base::error::Result;
+use crate::base::lanes::{Lanes, WIDTH, arch};
+use crate::base::real::{Over, Real};
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::beam::mesh::Mesh;
+use crate::beam::motion::{Applied, Depth, Motion};
+use crate::beam::statics::{Statics, View};
+use crate::beam::sweep::{Loads, Rigid};
+use crate::eigen::lanczos::{Lanczos, Space, Wanted};
+
+/// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.
+#[derive(Debug, Clone)]
+pub struct Eigenpairs<R, const N: usize, const W: usize> {
+    /// The compliance of the bats.
+    pub statics: Statics<R, N, W>,
+    /// The iteration.
+    pub lanczos: Lanczos<R>,
+    /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
+    /// mode.
+    pub motions: Motion<Lanes>,
+    applied: Applied<Lanes, W>,
+    loads: Loads<R, W>,
+    /// Their scaled strains.
+    strains: Vec<Lanes>,
+}
+
+impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
+where
+    Lanes: Over<R>,
+{
+    /// How many modes are looked at together.
+    pub const TOGETHER: usize = WIDTH / R::LANES;
+
+    /// Nothing yet, for bats like this one.
+    pub fn new(bat: &Bat, theory: Theory) -> Self {
+        Self {
+            statics: Statics::empty(bat, theory),
+            lanczos: Lanczos::default(),
+            motions: Motion::default(),
+            applied: Applied::default(),
+            loads: Loads::default(),
+            strains: vec![],
+        }
+    }
+
+    /// Assembles the bats, one per lane, on meshes of one pattern.
+    pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
+        arch().dispatch(Assembly { statics: &mut self.statics, bats, meshes });
+    }
+
+    /// Finds the `count` slowest motions to that residual.
+    ///
+    /// # Errors
+    ///
+    /// As [`Lanczos::largest`].
+    pub fn solve(&mut self, count: usize, residual: f64) -> Result<()> {
+        let earliest = steps_beyond(self.statics.theory, count, residual);
+        self.iterate(self.wanted(count, residual, earliest))
+    }
+
+    /// The same from a start of one's own: bending moments as [`Statics::strains_of_moments`] asks
+    /// for them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Lanczos::largest`].
+    pub fn solve_from(
+        &mut self,
+        count: usize,
+        residual: f64,
+        moments: impl FnMut(&mut [R]),
+    ) -> Result<()> {
+        let wanted = self.wanted(count, residual, 0);
+        let mut start = vec![R::default(); self.statics.dimension()];
+        self.statics.strains_of_moments(&mut start, moments);
+        self.run(wanted, &[], &mut |_, next| next.copy_from_slice(&start))
+    }
+
+    /// Takes that many steps and no more, whatever residual that leaves: [`Motion::defect`] tells.
+    ///
+    /// # Errors
+    ///
+    /// As [`Lanczos::largest`].
+    pub fn solve_in(&mut self, count: usize, steps: usize) -> Result<()> {
+        let earliest = steps.saturating_sub(count);
+        self.iterate(self.wanted(count, f64::INFINITY, earliest))
+    }
+
+    /// What is asked of the iteration: every absorber may ring at nearly one frequency with others.
+    fn wanted(&self, count: usize, residual: f64, earliest: usize) -> Wanted {
+        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.hung());
+        Wanted { count, residual, earliest, clustered }
+    }
+
+    fn iterate(&mut self, wanted: Wanted) -> Result<()> {
+        let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
+            arch().dispatch(Start { statics, count: wanted.count, next });
+        };
+        self.run(wanted, &[], start)
+    }
+
+    fn run(
+        &mut self,
+        wanted: Wanted,
+        known: &[R],
+        start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
+    ) -> Result<()> {
+        let Self { statics, lanczos, loads, .. } = self;
+        let arch = arch();
+        arch.dispatch(Iteration {
+            lanczos,
+            dimension: statics.dimension(),
+            wanted,
+            known,
+            start: &mut |next| start(statics, next),
+            // What the contacts do not allow: a step divides by a small number, and would let it
+            // grow.
+            allow: &mut |next| statics.fixed.iter().for_each(|fixed| fixed.project(next)),
+            apply: &mut |q, y| arch.dispatch(Apply { statics, q, y, loads }),
+        })
+    }
+
+    /// Looks at the motions from number `first` of those found on, [`Self::TOGETHER`] of them or as
+    /// many as there are, as closely as wanted, their frequencies from the eigenvalues.
+    pub fn look(&mut self, first: usize, depth: Depth) {
+        let vectors = std::mem::take(&mut self.lanczos.vectors);
+        let last = self.lanczos.values.len() - 1;
+        let mut values = Lanes::default();
+        for lane in 0..WIDTH {
+            let k = (first + lane / R::LANES).min(last);
+            values.set_lane(lane, self.lanczos.values[k].lane(lane % R::LANES));
+        }
+        self.gather(&vectors, first);
+        self.lanczos.vectors = vectors;
+        self.look_closely(Some(values), depth);
+    }
+
+    /// The same with the motions of these scaled strains, one after the other, their frequencies
+    /// from both energies.
+    pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
+        self.gather(vectors, first);
+        self.look_closely(None, depth);
+    }
+
+    fn look_closely(&mut self, value: Option<Lanes>, depth: Depth) {
+        let Self { statics, motions, applied, strains, .. } = self;
+        let known = value.is_some();
+        arch().dispatch(Inertia { statics, motions, strains, known, applied });
+        let cell = |k: usize| statics.cell(k);
+        let (view, rigid) = (statics.view(&cell), applied.rigid);
+        arch().dispatch(Look { view, rigid, motions, strains, value, depth });
+    }
+
+    /// Strains side by side; the last motion again where there are no more.
+    fn gather(&mut self, vectors: &[R], first: usize) {
+        let dimension = self.statics.dimension();
+        let last = vectors.len() / dimension - 1;
+        self.strains.resize(dimension, Lanes::default());
+        for lane in 0..WIDTH {
+            let k = (first + lane / R::LANES).min(last);
+            let from = &vectors[k * dimension..(k + 1) * dimension];
+            for (strain, from) in self.strains.iter_mut().zip(from) {
+                strain.set_lane(lane, from.lane(lane % R::LANES));
+            }
+        }
+    }
+}
+
+/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as some
+/// steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 + 0.65 n + 0.41
+/// √n (d − 4)` where shear brings the frequencies nearer to each other: fitted to a dowel, a cone and
+/// two bats, 1 to 60 modes, right to one step.
+pub fn steps_beyond(theory: Theory, count: usize, residual: f64) -> usize {
+    let (n, digits) = (count as f64, -residual.log10());
+    let steps = if theory.shears() {
+        2.0 + 0.65 * n + 0.41 * n.sqrt() * (digits - 4.0)
+    } else {
+        2.5 + 0.375 * n + 0.35 * n.cbrt() * (digits - 4.0)
+    };
+    steps.ceil().max(2.0) as usize
+}
+
+impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
+    /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat
+    /// on soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
+    /// round-off would else be in them. Returns how many are apart.
+    ///
+    /// # Errors
+    ///
+    /// As [`Lanczos::largest`].
+    pub fn solve_apart(&mut self, residual: f64) -> Result<usize> {
+        /// Eigenvalues of the compliance this far apart: frequencies a hundred times as far.
+        const FAR: f64 = 1e4;
+        const MOST: usize = 4;
+        let found = &self.lanczos.values;
+        let far = |k: &usize| found[k - 1] > FAR * found[*k];
+        let Some(apart) = (1..found.len().min(MOST + 1)).rev().find(far) else { return Ok(0) };
+        let (count, size) = (found.len() - apart, self.statics.dimension());
+        let mut values = found[..apart].to_vec();
+        let mut residuals = self.lanczos.residuals[..apart].to_vec();
+        let mut vectors = self.lanczos.vectors[..apart * size].to_vec();
+        let steps = self.lanczos.steps;
+        let earliest = steps_beyond(self.statics.theory, count, residual);
+        self.run(self.wanted(count, residual, earliest), &vectors, &mut |statics, next| {
+            statics.start(count, next);
+        })?;
+        values.append(&mut self.lanczos.values);
+        residuals.append(&mut self.lanczos.residuals);
+        vectors.append(&mut self.lanczos.vectors);
+        let lanczos = &mut self.lanczos;
+        (lanczos.values, lanczos.residuals, lanczos.vectors) = (values, residuals, vectors);
+        lanczos.steps += steps;
+        Ok(apart)
+    }
+
+    /// `y = A q`; `loads` is scratch space.
+    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Loads<f64, W>) {
+        arch().dispatch(Apply { statics: &self.statics, q, y, loads });
+    }
+
+    /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
+    ///
+    /// Scaled strains in `known`, one motion after the other, are slower modes, whose round-off is
+    /// taken out.
+    pub fn look_at_one(
+        &self,
+        strains: &[f64],
+        known: &[f64],
+        depth: Depth,
+        motion: &mut Motion<f64>,
+    ) {
+        motion.take_alone(&self.statics, strains, known, depth);
+    }
+}
+
+struct Assembly<'a, R, const N: usize, const W: usize> {
+    statics: &'a mut Statics<R, N, W>,
+    bats: &'a [&'a Bat],
+    meshes: &'a [&'a Mesh],
+}
+
+impl<R: Real, const N: usize, const W: usize> WithSimd for Assembly<'_, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.statics.assemble(self.bats, self.meshes);
+    }
+}
+
+/// The iteration, one for all degrees and theories.
+struct Iteration<'a, R> {
+    lanczos: &'a mut Lanczos<R>,
+    dimension: usize,
+    wanted: Wanted,
+    known: &'a [R],
+    start: &'a mut dyn FnMut(&mut [R]),
+    allow: &'a mut dyn FnMut(&mut [R]),
+    apply: &'a mut dyn FnMut(&[R], &mut [R]),
+}
+
+impl<R: Real> WithSimd for Iteration<'_, R> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Result<()> {
+        let Self { lanczos, dimension, wanted, known, start, allow, apply } = self;
+        lanczos.largest(dimension, wanted, Space { known, allow }, start, apply)
+    }
+}
+
+struct Start<'a, R, const N: usize, const W: usize> {
+    statics: &'a Statics<R, N, W>,
+    count: usize,
+    next: &'a mut [R],
+}
+
+impl<R: Real, const N: usize, const W: usize> WithSimd for Start<'_, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.statics.start(self.count, self.next);
+    }
+}
+
+struct Apply<'a, R, const N: usize, const W: usize> {
+    statics: &'a Statics<R, N, W>,
+    q: &'a [R],
+    y: &'a mut [R],
+    loads: &'a mut Loads<R, W>,
+}
+
+impl<R: Real, const N: usize, const W: usize> WithSimd for Apply<'_, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.statics.apply(self.q, self.y, self.loads);
+    }
+}
+
+struct Inertia<'a, S, R, const N: usize, const W: usize> {
+    statics: &'a Statics<S, N, W>,
+    motions: &'a mut Motion<R>,
+    strains: &'a [R],
+    known: bool,
+    applied: &'a mut Applied<R, W>,
+}
+
+impl<S: Real, R: Over<S>, const N: usize, const W: usize> WithSimd for Inertia<'_, S, R, N, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, _: V) {
+        self.motions.apply(self.statics, self.strains, self.known, self.applied);
+    }
+}
+
+struct Look<'a, S, R> {
+    view: View<'a, S>,
+    rigid: Rigid<R>,
+    motions: &'a mut Motion<R>,
+    strains: &'a [R],
+    value: Option<R>,
+    depth: Depth,
+}
+
+impl<S: Real, R: Over<S>> WithSimd for Look<'_, S, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, _: V) {
+        let Self { view, rigid, motions, strains, value, depth } = self;
+        motions.take(&view, rigid, strains, value, &[], depth != Depth::Shape);
+        if depth == Depth::Changes {
+            motions.take_changes(&view);
+        } else {
+            motions.no_changes(&view);
+        }
+    }
+}

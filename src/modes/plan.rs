@@ -1,0 +1,339 @@
+//! Which elements of which degree does the wanted accuracy need?
+//!
+//! [`Plan::cheapest`] answers by a formula before anything is solved; [`crate::solve()`] looks at
+//! the errors then and calls [`Plan::refined`] where it was wrong.
+//!
+//! On an element of length `h` a mode is nearly `cos kx` with the local wave number
+//! `k = (ω²ρA/EI)^¼`. Polynomials of degree `p − 2` in the curvature miss of it what its Legendre
+//! series has beyond them, with spherical Bessel functions `j_l` at `a = kh/2`
+//!
+//! ```text
+//! Δf/f = ½ Σ_{l ≥ p−1} (2l + 1) j_l(a)² ≈ ½ (2p − 1) [a^{p−1}/(2p − 1)!!]²,
+//! ```
+//!
+//! which for `p = 3` is the known `(kh)⁴/1440`.
+//!
+//! A taper bends the curvature too: under a constant moment it goes as `1/EI ∝ r⁻⁴`, whose series
+//! on an element over which `ln r` changes by `t` gives, with `m = p − 1`,
+//!
+//! ```text
+//! Δf/f = ½/(2m + 1) [(m+3 choose 3) m! 2^m/(2m − 1)!!]² tanh(t/4)^{2m}
+//! ```
+//!
+//! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to `t
+//! = 1`). Where sections turn or shear, `k` is the greater wave number of that theory. An element
+//! may have as much of both as lies on an ellipse. Bores are not looked at: the outer radius stands
+//! for the section, and the check after the solve for the rest.
+//!
+//! # Source
+//!
+//! Rayleigh's expansion of a plane wave and the leading term of `j_l`: Abramowitz and Stegun,
+//! Handbook of Mathematical Functions (1964), 10.1.47 and 10.1.2. The taper's is worked out here,
+//! from the binomial series and the leading coefficient of `P_m`.
+
+use std::fmt;
+use std::time::Duration;
+
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::beam::element::missed;
+use crate::beam::mesh::Mesh;
+use crate::beam::rule::{DEGREES, Rule};
+use crate::modes::survey::{Sample, Survey};
+
+/// A mesh and the degree of its elements.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    /// The elements.
+    pub mesh: Mesh,
+    /// Degree of their deflection.
+    pub degree: usize,
+    /// Why these.
+    pub reason: Reason,
+}
+
+/// Why a plan is as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Reason {
+    /// The user asked for it.
+    #[default]
+    Asked,
+    /// The cheapest of these degrees for that tolerance, by the formula.
+    Cheapest {
+        /// The lowest and the highest that were tried.
+        degrees: [usize; 2],
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
+    /// The plan before missed the tolerance, by little: one degree more.
+    OneDegreeMore {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
+    /// The plan before missed the tolerance: more elements where the error was.
+    Refined {
+        /// The wanted relative error of every frequency.
+        tolerance: f64,
+    },
+    /// The most accurate plan within a time.
+    Budget(Duration),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Asked => write!(f, "as asked"),
+            Self::Cheapest { degrees: [from, to], tolerance } if from == to => {
+                write!(f, "fewest elements of degree {to} for {tolerance:.0e}, by formula")
+            }
+            Self::Cheapest { degrees: [from, to], tolerance } => {
+                write!(f, "cheapest of degrees {from} to {to} for {tolerance:.0e}, by formula")
+            }
+            Self::OneDegreeMore { tolerance } => {
+                write!(f, "the planned degree missed {tolerance:.0e}, so one more")
+            }
+            Self::Refined { tolerance } => {
+                write!(f, "the plan missed {tolerance:.0e}, refined where the error was")
+            }
+            Self::Budget(time) => write!(f, "the most accurate within {time:?}"),
+        }
+    }
+}
+
+/// What a plan is to reach.
+#[derive(Debug, Clone, Copy)]
+pub struct Wanted {
+    /// Number of bending modes.
+    pub modes: usize,
+    /// Relative error of every frequency.
+    pub tolerance: f64,
+    /// The degree, if it is not free.
+    pub degree: Option<usize>,
+    /// More than this only if the profile has as many pieces.
+    pub most_unknowns: usize,
+    /// The beam theory.
+    pub theory: Theory,
+}
+
+/// The plan aims at this share of the wanted error, because no element is like the formula's.
+const AIM: f64 = 0.4;
+/// The smallest relative error worth planning for: arithmetic tells no finer one.
+const FINEST: f64 = 1e-16;
+/// The share of the wanted error that sections may lose.
+const MISSED: f64 = 1e-3;
+/// Halvings of an element for a formula.
+const MOST_HALVINGS: usize = 12;
+
+impl Plan {
+    /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes,
+    /// with that degree if one is given.
+    pub fn cheapest(bat: &Bat, wanted: &Wanted) -> Self {
+        let (least, most) = DEGREES.into_inner();
+        let range = wanted.degree.map_or(least..=most, |degree| degree..=degree);
+        Self::cheapest_among(bat, wanted, range)
+    }
+
+    /// The same with one of these degrees, which rise.
+    pub fn cheapest_among(
+        bat: &Bat,
+        wanted: &Wanted,
+        degrees: impl IntoIterator<Item = usize>,
+    ) -> Self {
+        let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
+        // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds
+        // to the order of a motion at most one for each thing held beyond the two rigid motions.
+        let held = bat.fixtures.held().saturating_sub(2);
+        let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
+        let survey = Survey::of(bat, wanted.theory, phase);
+        let wave = survey.root_omega;
+        let mut best: Option<(f64, usize, Reach)> = None;
+        let mut range: Option<[usize; 2]> = None;
+        for degree in degrees {
+            range = Some([range.map_or(degree, |[from, _]| from), degree]);
+            let mut reach = Reach::of(degree, AIM * tolerance.max(FINEST), wave);
+            let mut count = reach.elements(&survey);
+            // A plan that would be too large is made as large as it may be: rounding up adds to it.
+            while (degree - 1) * count > most_unknowns && count > bat.profile.pieces.len() {
+                reach.scale(1.01 * ((degree - 1) * count) as f64 / most_unknowns as f64);
+                count = reach.elements(&survey);
+            }
+            let cost = cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, degree, reach));
+            }
+        }
+        let ((_, degree, reach), degrees) = best.zip(range).expect("there is a degree");
+        let borders = |k: usize, borders: &mut Vec<f64>| reach.borders(survey.piece(k), borders);
+        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree, wanted);
+        // Too few unknowns for so many modes: shorter elements.
+        while (degree - 1) * mesh.len() < modes {
+            mesh = mesh.refined(|_| 2);
+        }
+        Self { mesh, degree, reason: Reason::Cheapest { degrees, tolerance } }
+    }
+
+    /// So many elements in all, spread by length, of that degree.
+    pub fn fixed(bat: &Bat, elements: usize, degree: usize) -> Self {
+        Self { mesh: Mesh::along(bat, elements), degree, reason: Reason::Asked }
+    }
+
+    /// The plan after a solve that missed, from every element's `defects` (twice the relative error
+    /// of a frequency): one degree more where little is missing and `free` to choose, else every
+    /// element cut into as many parts as its own part of the error asks for.
+    pub fn refined(&self, defects: &[f64], tolerance: f64, free: bool) -> Self {
+        // A degree more takes about two digits off the error, and costs a fifth of the time.
+        const LITTLE: f64 = 100.0;
+        let (count, error) = (self.mesh.len() as f64, 0.5 * defects.iter().sum::<f64>());
+        if free && error < LITTLE * tolerance && self.degree < *DEGREES.end() {
+            let reason = Reason::OneDegreeMore { tolerance };
+            return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
+        }
+        let share = 0.5 * tolerance / count;
+        let order = 2.0 * (self.degree - 1) as f64;
+        let parts = |k: usize| {
+            let excess = 0.5 * defects[k] / share;
+            if excess <= 1.0 { 1 } else { (excess.powf(1.0 / order).ceil() as usize).clamp(2, 4) }
+        };
+        let worst = (0..self.mesh.len()).max_by(|&a, &b| defects[a].total_cmp(&defects[b]));
+        let mesh = self.mesh.refined(|k| if Some(k) == worst { parts(k).max(2) } else { parts(k) });
+        Self { mesh, degree: self.degree, reason: Reason::Refined { tolerance } }
+    }
+}
+
+/// The mesh with every element halved where the points of its rule miss more of a formula, or of
+/// the κ of a bore that tapers, than the wanted error has room for.
+fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
+    let Wanted { theory, tolerance, .. } = *wanted;
+    let bored = bat.profile.stations.inner.iter().any(|r| *r > 0.0);
+    if bat.profile.formulas.is_none() && !(bored && theory.shears()) {
+        return mesh;
+    }
+    let rule = Rule::of(bat, degree);
+    for _ in 0..MOST_HALVINGS {
+        let unresolved: Vec<bool> = mesh
+            .elements
+            .iter()
+            .map(|e| missed(bat, e, rule, theory) > MISSED * tolerance)
+            .collect();
+        if !unresolved.contains(&true) {
+            break;
+        }
+        mesh = mesh.refined(|k| 1 + usize::from(unresolved[k]));
+    }
+    mesh
+}
+
+/// How far an element of one degree reaches within a tolerance: the share of it that a unit of
+/// `∫(ρA/EI)^¼ dx`, or of taper, uses up.
+struct Reach {
+    phase: f64,
+    taper: f64,
+}
+
+impl Reach {
+    fn of(degree: usize, tolerance: f64, wave: f64) -> Self {
+        Self {
+            phase: 0.5 * wave / of_waves(degree, tolerance),
+            taper: 1.0 / of_tapers(degree, tolerance),
+        }
+    }
+
+    fn scale(&mut self, by: f64) {
+        self.phase /= by;
+        self.taper /= by;
+    }
+
+    /// The share that lies between two samples.
+    fn share(&self, a: &Sample, b: &Sample) -> f64 {
+        let (phase, taper) = (self.phase * (b.phase - a.phase), self.taper * (b.taper - a.taper));
+        (phase * phase + taper * taper).sqrt()
+    }
+
+    /// A piece in elements.
+    fn length(&self, piece: &[Sample]) -> f64 {
+        piece.windows(2).map(|w| self.share(&w[0], &w[1])).sum()
+    }
+
+    /// How many elements the bat takes.
+    fn elements(&self, survey: &Survey) -> usize {
+        survey.pieces().map(|piece| whole(self.length(piece))).sum()
+    }
+
+    /// Adds the borders of the elements of a piece, 0 to 1: equal shares between them.
+    fn borders(&self, piece: &[Sample], borders: &mut Vec<f64>) {
+        let length = self.length(piece);
+        let count = whole(length);
+        let step = length / count as f64;
+        borders.push(0.0);
+        let mut sum = 0.0;
+        for w in piece.windows(2) {
+            let here = self.share(&w[0], &w[1]);
+            while borders.len() < count && sum + here >= step * borders.len() as f64 {
+                let part = (step * borders.len() as f64 - sum) / here;
+                borders.push(w[0].s + part * (w[1].s - w[0].s));
+            }
+            sum += here;
+        }
+        borders.push(1.0);
+    }
+}
+
+/// One element at least.
+fn whole(length: f64) -> usize {
+    (length.ceil() as usize).max(1)
+}
+
+/// The largest `a` of a wave whose error is within the tolerance.
+fn of_waves(degree: usize, tolerance: f64) -> f64 {
+    let m = degree - 1;
+    let odd: f64 = (1..=m).map(|k| (2 * k + 1) as f64).product();
+    ((2.0 * tolerance / (2 * m + 1) as f64).sqrt() * odd).powf(1.0 / m as f64)
+}
+
+/// The largest `t` of a taper whose error is within the tolerance.
+fn of_tapers(degree: usize, tolerance: f64) -> f64 {
+    let m = (degree - 1) as f64;
+    let ratio: f64 = (1..degree).map(|k| 2.0 * k as f64 / (2 * k - 1) as f64).product();
+    let first = (m + 1.0) * (m + 2.0) * (m + 3.0) / 6.0 * ratio;
+    let root = ((2.0 * tolerance * (2.0 * m + 1.0)).sqrt() / first).powf(1.0 / m);
+    // An element that holds a point, where `t` is infinite, is none to plan.
+    4.0 * root.min(0.9).atanh()
+}
+
+/// What an element of that degree costs beside others: measured, assembly to error estimate.
+fn cost(degree: usize) -> f64 {
+    let p = degree as f64;
+    1.0 + 0.12 * p * p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::quadrature::{gauss, legendre};
+
+    #[test]
+    fn the_error_formula_is_the_known_one_for_cubics() {
+        // (kh)⁴/1440 with a = kh/2.
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let a = of_waves(3, tolerance);
+            assert!(((2.0 * a).powi(4) / 1440.0 / tolerance - 1.0).abs() < 1e-12);
+        }
+    }
+
+    /// `½ c_m²/(2m + 1) / Σ c_k²/(2k + 1)` with the Legendre coefficients `c_k` of `r⁻⁴` on a cone,
+    /// by quadrature.
+    #[test]
+    fn the_formula_for_tapers_is_the_first_term_left_out() {
+        for (degree, tolerance) in [(3, 1e-2), (3, 1e-5), (5, 1e-4), (6, 1e-7), (8, 1e-10)] {
+            let t = of_tapers(degree, tolerance);
+            let (mut left, mut whole) = (0.0, 0.0);
+            for (s, weight) in gauss(40) {
+                let bend = (1.0 + (2.0 * s - 1.0) * (0.5 * t).tanh()).powi(-4);
+                left += weight * bend * legendre(degree, 2.0 * s - 1.0)[degree - 1];
+                whole += weight * bend * bend;
+            }
+            let error = 0.5 * left * left * (2 * degree - 1) as f64 / whole;
+            assert!(error < 1.1 * tolerance && error > 0.4 * tolerance, "{degree} {t} {error:e}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! How many bending modes a bat has up to a frequency.
+
+use std::f64::consts::TAU;
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::beam::count;
+use crate::beam::mesh::Mesh;
+use crate::beam::statics::Statics;
+use crate::modes::plan::{Plan, Wanted};
+use crate::modes::solve::{Request, Solver, solve};
+
+/// More modes than that are not listed.
+pub const MOST: usize = 1000;
+/// The highest limit (Hz), far above all that a beam describes.
+const HIGHEST: f64 = 1e9;
+/// Relative accuracy of the frequencies among which is counted.
+const ACCURACY: f64 = 1e-6;
+
+/// The number of bending modes whose frequency is at most `limit` (Hz): the request with so many
+/// modes has a solution with none above it, and the next mode is above.
+///
+/// On a mesh that knows so many modes well the motions slower than the limit are counted
+/// ([`count`]), so that none is missed. Only if a mode is nearer to the limit than the request's
+/// tolerance tells, or the request has elements of its own, it is solved to see on which side the
+/// answer has it.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a limit that is not above 0 or has more than [`MOST`] modes below it; those
+/// of [`solve`].
+pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
+    const FIELD: &str = "frequency limit";
+    if !(limit > 0.0 && limit <= HIGHEST) {
+        let expected = format!("a frequency above 0, {HIGHEST:e} Hz at most");
+        return Err(Error::value(FIELD, format!("{limit:?} Hz"), expected));
+    }
+    request.check(1)?;
+    let margin = (3.0 * request.tolerance).clamp(10.0 * ACCURACY, 0.5);
+    let counts =
+        [1.0 - margin, 1.0 + margin].map(|near| counted(bat, request.theory, limit * near));
+    let [Some(surely), Some(mut modes)] = counts else {
+        let found = format!("{limit} Hz, with more than {MOST} bending modes below it");
+        return Err(Error::value(FIELD, found, "a lower frequency"));
+    };
+    if surely == modes && request.elements.is_none() {
+        return Ok(modes);
+    }
+    loop {
+        let solution = solve(bat, &Request { modes, ..*request })?;
+        let below = solution.modes.iter().filter(|mode| mode.frequency() <= limit).count();
+        if below == modes {
+            return Ok(modes);
+        }
+        modes = below;
+    }
+}
+
+/// The bending modes slower than the limit (Hz), on meshes for more and more modes until one is fine
+/// enough for all that are slower on it. None for more than [`MOST`], and for a limit so far above
+/// the bat's frequencies that nothing can be counted there.
+fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
+    const FIRST: usize = 16;
+    let most_unknowns = Solver::Statics.most_unknowns();
+    let mut modes = FIRST;
+    while modes <= MOST {
+        let degree = Some(DEGREE);
+        let wanted = Wanted { modes, tolerance: ACCURACY, degree, most_unknowns, theory };
+        let mesh = Plan::cheapest(bat, &wanted).mesh;
+        let slower = match theory.shears() {
+            true => slower::<{ DEGREE + 1 }, { 2 * DEGREE }>(bat, &mesh, theory, limit)?,
+            false => slower::<{ DEGREE + 1 }, { DEGREE + 1 }>(bat, &mesh, theory, limit)?,
+        };
+        if slower <= modes {
+            return Some(slower);
+        }
+        modes = (2 * modes).min(MOST).max(slower);
+    }
+    None
+}
+
+/// Degree of the elements on which is counted.
+const DEGREE: usize = 7;
+
+/// How many bending modes are slower than the limit on that mesh.
+fn slower<const N: usize, const W: usize>(
+    bat: &Bat,
+    mesh: &Mesh,
+    theory: Theory,
+    limit: f64,
+) -> Option<usize> {
+    let mut statics = Statics::<f64, N, W>::empty(bat, theory);
+    statics.assemble(&[bat], &[mesh]);
+    // A frequency that is the mesh's own to the last digit cannot be counted at; one beside it can.
+    let nearby = (0..8).map(|k| TAU * limit * (1.0 + 1e-13 * f64::from(k * k)));
+    let all = nearby.into_iter().find_map(|omega| count::slower(&statics, omega))?;
+    Some(all.saturating_sub(statics.rigid_modes()))
+}

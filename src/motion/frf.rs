@@ -1,0 +1,235 @@
+//! How does a bat answer a force that swings: receptance, mobility, accelerance?
+//!
+//! [`Frf::new`] for two points, then [`Frf::receptances`] at the frequencies; [`Kind::of`] makes
+//! the others of them.
+//!
+//! ```text
+//! H(ω) = Σ_rigid φ(x) φ(a)/(−ω² m) + row(x)ᵀ (1 + iK″ + iωC − ω²M)⁻¹ row(a)/U
+//! ```
+//!
+//! with time as `e^{+iωt}`. The strains are the modes', the static ones under a force at either
+//! point, so that the modes left out answer as they do at 0 Hz, and then what the residuals at the
+//! worst frequencies call for, until the estimate of what is missing is small. That is the product
+//! of the residuals of both points, for H depends on their product.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::eigen::lanczos::dot;
+use crate::modes::reduced::{Answer, Place, Reduced};
+use crate::modes::solve::{Request, Solution, solve};
+
+/// What is answered to a force.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// Deflection (m/N).
+    #[default]
+    Receptance,
+    /// Velocity (m/(s N)).
+    Mobility,
+    /// Acceleration (m/(s² N) = 1/kg).
+    Accelerance,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Receptance, Self::Mobility, Self::Accelerance];
+
+    /// The name that the command line and the files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Receptance => "receptance",
+            Self::Mobility => "mobility",
+            Self::Accelerance => "accelerance",
+        }
+    }
+
+    /// The unit of the answer, as in the names of columns.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Receptance => "m_per_n",
+            Self::Mobility => "m_per_s_n",
+            Self::Accelerance => "1_per_kg",
+        }
+    }
+
+    /// The factor from a receptance at that frequency (Hz): 1, iω or −ω².
+    pub fn of(self, frequency: f64) -> c64 {
+        let omega = TAU * frequency;
+        match self {
+            Self::Receptance => c64::new(1.0, 0.0),
+            Self::Mobility => c64::new(0.0, omega),
+            Self::Accelerance => c64::new(-omega * omega, 0.0),
+        }
+    }
+}
+
+/// The receptance at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Hz.
+    pub frequency: f64,
+    /// Deflection per force (m/N).
+    pub receptance: c64,
+    /// How much of it may be missing for the strains left out (m/N).
+    pub truncation: f64,
+}
+
+/// A bat, a point that is forced, one that is watched, and all that is needed for any frequency.
+pub struct Frf {
+    /// The modes, on a mesh with a node at both points.
+    pub solution: Solution,
+    reduced: Reduced,
+    /// Forced and watched point.
+    places: [Place; 2],
+    points: [f64; 2],
+}
+
+/// The mesh of a response has its modes to that accuracy at least.
+const MESH: f64 = 1e-8;
+/// What may be missing, relative to the points' own responses.
+const MISSING: f64 = 1e-12;
+
+impl Frf {
+    /// The bat forced at `at` and watched at `to` (m from the knob end), for frequencies up to
+    /// about that of the last of the requested modes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a point that is not on the bat; those of [`solve`].
+    pub fn new(bat: &Bat, request: &Request, at: f64, to: f64) -> Result<Self> {
+        let mut bat = bat.clone();
+        for (name, x) in [("--at", at), ("--to", to)] {
+            if !(x >= 0.0 && x <= bat.length()) {
+                let expected = format!("a place on the bat, 0 to {} m", bat.length());
+                return Err(Error::value(name, format!("{x} m"), expected));
+            }
+            bat.profile.cut([x]);
+        }
+        let request = Request { tolerance: request.tolerance.min(MESH), ..*request };
+        let solution = solve(&bat, &request)?;
+        let (mesh, degree, theory) = (&solution.mesh, solution.degree, solution.theory);
+        let mut reduced = Reduced::new(&bat, mesh, degree, theory, solution.modes.len())?;
+        [at, to].iter().for_each(|x| {
+            reduced.place(*x);
+        });
+        let places = [at, to].map(|x| reduced.place(x));
+        Ok(Self { solution, reduced, places, points: [at, to] })
+    }
+
+    /// The deflection (m/N) under a constant force: of a held bat; of a free one that of its
+    /// bending alone, in balance with its own inertia.
+    pub fn static_compliance(&self) -> f64 {
+        let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
+        dot(&at, &to) / self.reduced.flexible.energy_unit
+    }
+
+    /// The receptance (m/N) without the rigid motions that nothing holds, at 0 Hz or more, of the
+    /// strains that are there: those of the modes and of a constant force until
+    /// [`Self::receptances`] has asked for others.
+    pub fn strained(&self, frequency: f64) -> c64 {
+        let answer = self.reduced.answer(&self.reduced.damping(), &self.places[0], TAU * frequency);
+        answer.at(&self.places[1])
+    }
+
+    /// The part of the receptance (m/N) of rigid motions that nothing holds.
+    pub fn rigid(&self, frequency: f64) -> f64 {
+        if self.reduced.coupled {
+            return 0.0;
+        }
+        let square = (TAU * frequency).powi(2);
+        let [at, to] = &self.places;
+        let motions = self.reduced.flexible.rigid.iter().zip(at.rigid.iter().zip(&to.rigid));
+        motions.map(|(motion, (a, b))| -a * b / (square * motion.mass)).sum::<f64>() + 0.0
+    }
+
+    /// How many strains the answers are made of, modes included.
+    pub fn strains(&self) -> usize {
+        self.reduced.len()
+    }
+
+    /// The receptances at frequencies (Hz); 0 Hz only where no rigid motion is free.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a frequency that is negative, not finite, or 0 of a bat that is not
+    /// held.
+    pub fn receptances(&mut self, frequencies: &[f64]) -> Result<Vec<Sample>> {
+        const MOST_ROUNDS: usize = 20;
+        const PROBES: usize = 16;
+        let free = !self.reduced.flexible.rigid.is_empty();
+        let possible = |f: f64| f.is_finite() && f >= 0.0 && (f > 0.0 || !free);
+        if let Some(f) = frequencies.iter().find(|f| !possible(**f)) {
+            let expected = if free { "above 0 Hz: nothing holds the bat" } else { "0 Hz or more" };
+            return Err(Error::value("frequencies", format!("{f} Hz"), expected));
+        }
+        let mut probes: Vec<f64> = frequencies.to_vec();
+        probes.sort_by(f64::total_cmp);
+        let last = probes.len().saturating_sub(1);
+        let count = probes.len().min(PROBES);
+        let probe = |k: usize| probes[k * last / (count - 1).max(1)];
+        let probes: Vec<f64> = (0..count).map(probe).collect();
+        for _ in 0..MOST_ROUNDS {
+            let damping = self.reduced.damping();
+            let mut worst: Option<(f64, [Answer; 2])> = None;
+            for f in &probes {
+                let answers = self.answers(&damping, *f);
+                let missing = self.missing(&answers) / self.scale(&answers, *f);
+                if missing > worst.as_ref().map_or(MISSING, |(most, _)| *most) {
+                    worst = Some((missing, answers));
+                }
+            }
+            let Some((_, answers)) = worst else { break };
+            let before = self.reduced.len();
+            for strains in answers.into_iter().flat_map(|answer| answer.residual) {
+                self.reduced.add(strains);
+            }
+            if self.reduced.len() == before {
+                break;
+            }
+            // The new strains move both points too.
+            self.places = self.points.map(|x| self.reduced.place(x));
+        }
+        let damping = self.reduced.damping();
+        let sample = |f: &f64| {
+            let answers = self.answers(&damping, *f);
+            let rigid = if free { self.rigid(*f) } else { 0.0 };
+            Sample {
+                frequency: *f,
+                receptance: answers[0].at(&self.places[1]) + c64::new(rigid, 0.0),
+                truncation: self.missing(&answers),
+            }
+        };
+        Ok(frequencies.iter().map(sample).collect())
+    }
+
+    fn answers(&self, damping: &faer::Mat<f64>, frequency: f64) -> [Answer; 2] {
+        let omega = TAU * frequency;
+        [0, 1].map(|k| self.reduced.answer(damping, &self.places[k], omega))
+    }
+
+    /// How much of the receptance the strains miss (m/N).
+    fn missing(&self, answers: &[Answer; 2]) -> f64 {
+        self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
+    }
+
+    /// The mean size of both points' own receptances (m/N), which one between them may be far
+    /// below.
+    fn scale(&self, answers: &[Answer; 2], frequency: f64) -> f64 {
+        let omega = (TAU * frequency).powi(2);
+        let own = |k: usize| {
+            let place = &self.places[k];
+            let mut own = answers[k].at(place);
+            if !self.reduced.coupled {
+                for (motion, w) in self.reduced.flexible.rigid.iter().zip(&place.rigid) {
+                    own -= w * w / (omega * motion.mass);
+                }
+            }
+            own.norm()
+        };
+        (own(0) * own(1)).sqrt().max(f64::MIN_POSITIVE)
+    }
+}

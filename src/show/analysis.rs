@@ -1,0 +1,116 @@
+//! Everything there is to say of a bat and its hits, computed once, for whoever shows it.
+
+use crate::base::error::Result;
+use crate::base::telling::{Tell, nobody};
+use crate::bat::body::Bat;
+use crate::collision::figures::{Figures, SwingLaw};
+use crate::collision::hit::{Model, Scene};
+use crate::collision::strength::Strength;
+use crate::collision::sweep::{Sweep, sweep_telling};
+use crate::modes::solve::{Request, Solution};
+use crate::proof::validation::dowel_proof;
+use crate::study::advise::advice::{Advice, advise};
+
+/// Impact points along the outer half of the bat.
+pub const POINTS: usize = 101;
+
+/// What is analysed besides the modes.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// How ball and bat meet: rigid, energy-loss, pulse or contact.
+    pub model: Model,
+    /// Swing, pitch and ball, and where the swing is from.
+    pub scene: Scene,
+    /// How the swing goes with the bat's swing weight; None where it is given.
+    pub law: Option<SwingLaw>,
+    /// What is asked of the hits: their tolerance and theory.
+    pub hits: Request,
+    /// What is asked of the proof on the dowel.
+    pub proof: Request,
+}
+
+/// The same solver where the truth is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proof {
+    /// So many modes of the uniform dowel.
+    pub modes: usize,
+    /// The largest relative error of a frequency.
+    pub truth: f64,
+    /// The largest relative error that the solver states of them.
+    pub stated: f64,
+}
+
+/// A bat, its modes, its hits, its figures, and how far all of them may be trusted.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    /// The bat that is analysed.
+    pub bat: Bat,
+    /// Its bending modes.
+    pub solution: Solution,
+    /// What was asked.
+    pub task: Task,
+    /// Hits at [`POINTS`] even places from the middle of the bat to its tip.
+    pub hits: Sweep,
+    /// The figures by which bats are compared, and the sweet spot.
+    pub figures: Figures,
+    /// What hits at the sweet spot and five inches inside of it ask of the bat; empty where the model
+    /// has no force in time.
+    pub strength: Vec<Strength>,
+    /// The same solver on a dowel, whose frequencies are known.
+    pub proof: Proof,
+    /// What the model needs; None for a bat of so many pieces that it would take long, and where
+    /// there is none to give.
+    pub advice: Option<Advice>,
+}
+
+impl Analysis {
+    /// All of it, for a bat whose modes are found.
+    ///
+    /// # Errors
+    ///
+    /// As [`sweep_telling`] and [`Figures::new`].
+    pub fn new(bat: Bat, solution: Solution, task: Task) -> Result<Self> {
+        Self::telling(bat, solution, task, &nobody)
+    }
+
+    /// The same, telling how far it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn telling(bat: Bat, solution: Solution, task: Task, tell: Tell) -> Result<Self> {
+        let half = 0.5 * bat.length();
+        let places: Vec<f64> =
+            (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64).collect();
+        let Task { model, scene, law, .. } = &task;
+        let half_of_it = |share: f64, what: &str| tell(0.5 * share, what);
+        let asked = (&task.hits, false);
+        let hits = sweep_telling(&bat, (*model, scene), asked, &places, &half_of_it)?;
+        tell(0.5, "the sweet spot");
+        let figures = Figures::new(&bat, (*model, hits.effort), (scene, *law), &hits.solution)?;
+        let strength = strength(&bat, &task, &hits, &figures);
+        let [truth, stated] = dowel_proof(&task.proof)?;
+        let proof = Proof { modes: task.proof.modes, truth, stated };
+        tell(0.8, "what the model needs");
+        let advice = advice(&bat, task.hits.tolerance);
+        Ok(Self { bat, solution, task, hits, figures, strength, proof, advice })
+    }
+}
+
+/// At the sweet spot, and five inches towards the hands, where a ball jams them.
+fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Strength> {
+    const INSIDE: f64 = 5.0 * 0.0254;
+    let best = figures.spot.exit_speed_max.filter(|_| task.model == Model::Contact);
+    let places = best.map_or(vec![], |best| vec![best.x, best.x - INSIDE]);
+    let at = |x: f64| Strength::at(bat, &hits.solution, (&task.scene, hits.effort), x);
+    places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
+}
+
+fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {
+    const MODES: usize = 5;
+    const MOST_PIECES: usize = 1000;
+    if bat.profile.pieces.len() > MOST_PIECES {
+        return None;
+    }
+    advise(bat, MODES, tolerance).ok()
+}

@@ -1,0 +1,15 @@
+//! Results in the files of other programs: universal files (UFF), VTK, NumPy, CSV, and our own
+//! JSON read back.
+//!
+//! In all of them the bat lies along the global x axis, knob at 0; it deflects along y, and its
+//! sections turn about z, right-handed, so that a rotation is dw/dx where shear is none. Lengths
+//! are in m, masses in kg, frequencies in Hz. Shapes have their largest deflection 1, and modal
+//! masses are those of that scale.
+
+pub mod modes_file;
+pub mod modes_uff;
+pub mod frf_uff;
+pub mod csv;
+pub mod npz;
+pub mod solid;
+pub mod vtu;

@@ -1,0 +1,18 @@
+//! How is it said, drawn and exchanged?
+//!
+//! | file | question |
+//! |---|---|
+//! | [`analysis`] | everything there is to say of one bat and its hits |
+//! | [`report`] | tables for people, JSON for programs |
+//! | [`exchange`] | files for other programs |
+//! | [`plot`] | pictures |
+//! | [`page`] | all of it on one page |
+//! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
+
+pub mod analysis;
+pub mod report;
+pub mod exchange;
+pub mod plot;
+pub mod page;
+pub mod hit_figure;
+pub mod proof_page;

@@ -1,0 +1,145 @@
+//! How far the numbers may be trusted: what is certified, what was left out and what that costs.
+
+use crate::bat::theory::Theory;
+use crate::show::analysis::Analysis;
+use crate::show::page::shown::{self, inline, speed};
+use crate::show::report::advice;
+use crate::show::report::hit_text;
+use crate::show::report::text::Units;
+use crate::study::ignored::{ignored, in_hit};
+use crate::study::trade::reference::solver_name;
+
+/// What is certified, a sentence each.
+pub fn certified(analysis: &Analysis) -> Vec<String> {
+    let Analysis { solution, task, .. } = analysis;
+    let tolerance = task.hits.tolerance;
+    let mut told = vec![];
+    if !solution.modes.is_empty() {
+        let count = solution.modes.len();
+        let worst = shown::error(solution.worst());
+        told.push(match (task.hits.elements, solution.met) {
+            (Some(_), _) => format!(
+                "Frequencies: the elements were asked for and no tolerance; each of the {count} is \
+                 within {worst} of itself."
+            ),
+            (None, true) => format!(
+                "Frequencies: asked within {}, and met; each of the {count} is within {worst} of \
+                 itself, by an estimate made for each.",
+                shown::error(tolerance)
+            ),
+            (None, false) => format!(
+                "Frequencies: asked within {}, NOT met ({}); each of the {count} is within {worst} \
+                 of itself.",
+                shown::error(tolerance),
+                solution.shortfall(tolerance)
+            ),
+        });
+        told.push(count_of_modes(analysis).to_owned());
+    }
+    let proof = &analysis.proof;
+    told.push(format!(
+        "Proof: on the uniform dowel, whose frequencies are known exactly, the same solver misses \
+         modes 1 to {} by {} at most and says {}.",
+        proof.modes,
+        shown::error(proof.truth),
+        shown::error(proof.stated)
+    ));
+    told.extend(exit_speeds(analysis));
+    told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, Units::Both)));
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// Whether it is certain that no mode is missing.
+fn count_of_modes(analysis: &Analysis) -> &'static str {
+    let solution = &analysis.solution;
+    let by_nodes = analysis.bat.fixtures.none_moving() && !solution.theory.shears();
+    match (solution.complete(), by_nodes) {
+        (true, true) => "No mode is missing: mode n has its n + 1 nodes.",
+        (true, false) => "No mode is missing: as many motions are slower as were found.",
+        (false, true) => "A MODE MAY BE MISSING: not every mode n has n + 1 nodes.",
+        (false, false) => "A MODE MAY BE MISSING: the number of slower motions is another.",
+    }
+}
+
+/// The largest error of an exit speed, as the model has it.
+fn exit_speeds(analysis: &Analysis) -> Option<String> {
+    let hits = &analysis.hits;
+    let fastest = hits.impacts.iter().map(|i| i.bat_speed + analysis.task.scene.ball_speed);
+    let fastest = fastest.fold(0.0, f64::max);
+    let outcomes = hits.impacts.iter().filter_map(|impact| impact.outcome.as_ref());
+    let worst = outcomes.map(|outcome| outcome.error).reduce(f64::max)?;
+    let verdict = match (analysis.task.hits.elements, hits.met) {
+        (Some(_), _) => "",
+        (None, true) => "; asked and met",
+        (None, false) => "; NOT met",
+    };
+    Some(format!(
+        "Exit speeds: each within {} of the closing speed, {} at most, by estimate, as this model \
+         has them{verdict}.",
+        shown::error(worst),
+        inline(small(worst * fastest)),
+    ))
+}
+
+/// A small speed: one digit.
+fn small(value: f64) -> [String; 2] {
+    let mph = crate::base::units::miles_per_hour(value);
+    if value >= 0.01 {
+        return speed(value);
+    }
+    [format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph))]
+}
+
+/// How it was computed, a sentence each.
+pub fn method(analysis: &Analysis) -> Vec<String> {
+    let solution = &analysis.solution;
+    let theory = match solution.theory {
+        Theory::EulerBernoulli => "Euler–Bernoulli's theory",
+        Theory::Rayleigh => "Rayleigh's theory (with rotary inertia)",
+        Theory::Timoshenko => "Timoshenko's theory (with rotary inertia and shear)",
+    };
+    let mut told = vec![format!(
+        "The bat is a beam by {theory}: {} elements of degree {}, solver {} ({}).",
+        solution.mesh.len(),
+        solution.degree,
+        solver_name(solution.solver),
+        solution.reason
+    )];
+    if !solution.damping.modes.is_empty() {
+        told.push(format!("Damping: {}.", solution.damping.kind));
+    }
+    let meaning = one_line(hit_text::meaning(analysis.task.model));
+    told.extend(meaning.map(|meaning| format!("The hit: {meaning}.")));
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// What the model left out and what that costs.
+pub fn left_out(analysis: &Analysis) -> Vec<String> {
+    let ignored = ignored(&analysis.bat, &analysis.solution);
+    let mut told: Vec<String> = ignored.iter().map(|text| shown::sentence(text)).collect();
+    told.extend(left_out_of_hit(analysis));
+    told
+}
+
+/// What the hits left out, of which the modes know nothing.
+pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
+    let ignored = in_hit(&analysis.bat, analysis.task.scene.wall.is_some());
+    ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
+}
+
+/// What the model needs on this bat.
+pub fn needed(analysis: &Analysis) -> Vec<String> {
+    let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// Why the ball leaves fastest where it does.
+pub fn why(analysis: &Analysis) -> Option<String> {
+    one_line(&hit_text::why(&analysis.figures, Units::Both))
+}
+
+/// A text made for a terminal as one line; None if it is empty.
+fn one_line(text: &str) -> Option<String> {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    (!line.is_empty()).then_some(line)
+}

@@ -1,0 +1,74 @@
+//! The report as a file, of the kind that its name says.
+
+use std::path::{Path, PathBuf};
+
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::show::page::content::Report;
+use crate::show::page::{html, markdown};
+
+/// What a report is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// One page that needs nothing beside it.
+    Html,
+    /// Text, and a folder of pictures beside it.
+    Markdown,
+}
+
+impl Kind {
+    /// What that name asks for.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for another extension, or none.
+    pub fn of(path: &Path) -> Result<Self> {
+        let extension = path.extension().map(|text| text.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("html" | "htm") => Ok(Self::Html),
+            Some("md" | "markdown") => Ok(Self::Markdown),
+            _ => {
+                let expected = "a file name that ends in .html or .md";
+                Err(Error::value("--report", path.display(), expected))
+            }
+        }
+    }
+}
+
+/// Whether a report can be expected there, before it is made: a name of its kind, in a folder.
+///
+/// # Errors
+///
+/// Those of [`Kind::of`], and [`Error::Write`] where there is no such folder.
+pub fn expected(path: &Path) -> Result<Kind> {
+    let kind = Kind::of(path)?;
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let is_one = folder.unwrap_or(Path::new(".")).join(".").metadata();
+    is_one.map(|_| kind).map_err(|source| Error::Write { path: path.to_owned(), source })
+}
+
+/// Where the pictures of a report in Markdown are: `report.md` has `report_pictures`.
+pub fn pictures_of(path: &Path) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}_pictures"))
+}
+
+/// Writes the report whole; with Markdown first its pictures, then itself.
+///
+/// # Errors
+///
+/// [`Error::Write`], and those of [`Kind::of`].
+pub fn write(path: &Path, report: &Report) -> Result<()> {
+    if Kind::of(path)? == Kind::Html {
+        return file::write(path, html::page(report).as_bytes());
+    }
+    let folder = pictures_of(path);
+    let failed = |source| Error::Write { path: folder.clone(), source };
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    for picture in &report.pictures {
+        let path = folder.join(format!("{}.svg", picture.name));
+        file::write(&path, picture.svg.as_bytes())?;
+    }
+    let beside = folder.file_name().unwrap_or_default().to_string_lossy();
+    file::write(path, markdown::text(report, &beside).as_bytes())
+}

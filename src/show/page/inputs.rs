@@ -1,0 +1,242 @@
+//! What was asked: the scene, the files as they were written, the bat as it was understood.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::base::error::{Error, Result};
+use crate::collision::hit::{Model, Scene};
+use crate::show::analysis::Analysis;
+use crate::show::page::shown::{self, NONE, inline, length, speed};
+use crate::show::page::table::Table;
+use crate::show::report::hit_json::model_name;
+use crate::show::report::resolved::resolved;
+
+/// A file as the user wrote it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// Its path as it was given.
+    pub name: String,
+    /// What it holds, without a byte order mark.
+    pub text: String,
+}
+
+impl Input {
+    /// Longer ones are cut in a page.
+    pub const MOST: usize = 60_000;
+
+    /// Reads one that was read before, whatever it holds; nothing of a pipe, which is empty by now.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn read(path: &Path) -> Result<Self> {
+        let failed = |source| Error::Read { path: path.to_owned(), source };
+        let again = path.is_file();
+        let bytes = if again { std::fs::read(path).map_err(failed)? } else { vec![] };
+        Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
+    }
+
+    /// One that was read.
+    pub fn new(path: &Path, text: &str) -> Self {
+        let text = text.trim_start_matches('\u{feff}').to_owned();
+        Self { name: path.display().to_string(), text }
+    }
+
+    /// A bat file that was read, and the columns that it names.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`].
+    pub fn of_bat(path: &Path, text: &str) -> Result<Vec<Self>> {
+        let document: Value = serde_json::from_str(text).unwrap_or_default();
+        let mut all = vec![Self::new(path, text)];
+        if let Some(columns) = document["profile"]["csv"].as_str() {
+            all.push(Self::read(&path.with_file_name(columns))?);
+        }
+        Ok(all)
+    }
+
+    /// The text as a page shows it, and a remark if that is not all of it.
+    pub fn shown(&self) -> (&str, Option<&'static str>) {
+        match self.text.char_indices().nth(Self::MOST) {
+            Some((end, _)) => (&self.text[..end], Some("Only its beginning is shown.")),
+            None if self.text.is_empty() => {
+                ("", Some("Not shown: it can be read only once, as a pipe can."))
+            }
+            None => (&self.text, None),
+        }
+    }
+}
+
+/// Swing, pitch and ball, in both units.
+pub fn scene(analysis: &Analysis) -> Table {
+    let scene = &analysis.task.scene;
+    let mut table = Table::of_words("The scene", &["What", "Value"]);
+    let mut line = |(what, value): (&str, String)| table.row([what.to_owned(), value]);
+    model(analysis).into_iter().for_each(&mut line);
+    swing(analysis).into_iter().for_each(&mut line);
+    line(("pitch", inline(speed(scene.ball_speed))));
+    ball(scene).into_iter().for_each(&mut line);
+    line(("hands feel the hit at", format!("{} from the knob", shown::place(scene.hands))));
+    if let Some(wall) = scene.wall {
+        line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
+        line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
+    }
+    if analysis.bat.fixtures.holding() {
+        line(("the bat is held", "energies are as its hands see them".to_owned()));
+    }
+    table
+}
+
+/// A name and a value.
+type Line = (&'static str, String);
+
+fn model(analysis: &Analysis) -> Vec<Line> {
+    let model = analysis.task.model;
+    let mut lines = vec![("model of the collision", model_name(model).to_owned())];
+    match model {
+        Model::EnergyLoss(loss) => lines.extend([
+            ("size of the empirical loss, γ", shown::plain(loss.gamma)),
+            ("its decay with the mode, p", shown::plain(loss.decay)),
+        ]),
+        Model::Pulse(pulse) => lines.extend([
+            ("duration of the force", format!("{} ms", shown::digits(1e3 * pulse.duration))),
+            ("share of the vibration that the ball does not lose", shown::plain(pulse.loss_share)),
+        ]),
+        Model::Rigid | Model::Contact => {}
+    }
+    lines
+}
+
+fn swing(analysis: &Analysis) -> Vec<Line> {
+    let scene = &analysis.task.scene;
+    let mut lines = vec![("swing", format!("{:.2} rad/s", scene.swing))];
+    if let Some(law) = analysis.task.law {
+        lines.extend([
+            ("  of the reference bat", format!("{:.2} rad/s", law.of_reference)),
+            ("  which has a swing weight of", inline(shown::inertia(law.reference))),
+            ("  speed against swing weight, exponent", shown::plain(law.exponent)),
+        ]);
+    }
+    let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
+    let pivot = inline(length(scene.pivot.abs()));
+    lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
+    lines
+}
+
+fn ball(scene: &Scene) -> Vec<Line> {
+    let ball = &scene.ball;
+    let mut lines = vec![
+        ("ball", ball.name.clone()),
+        ("  its mass", inline(shown::mass(ball.mass))),
+        ("  its radius", inline(length(ball.radius))),
+    ];
+    if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
+        let [k, alpha] = [stiffness, exponent].map(shown::plain);
+        lines.push(("  its force, k·u^α", format!("k = {k} N/m^α, α = {alpha}")));
+    }
+    let cor = match ball.cor_by_speed.is_empty() {
+        true => shown::plain(scene.cor),
+        false => "by its speed, see the ball's file".to_owned(),
+    };
+    lines.push(("  coefficient of restitution", cor));
+    if !ball.source.is_empty() {
+        lines.push(("  source", ball.source.clone()));
+    }
+    lines
+}
+
+/// Longer tables are cut.
+const MOST: usize = 400;
+
+/// The bat as it was understood: every value in SI but the columns of the profile, the first many of
+/// them.
+pub fn values(analysis: &Analysis) -> Table {
+    let head = ["Key", "Value", "Unit"];
+    let mut table = Table::new("The bat as it was understood, in SI", &head);
+    let bat = resolved(&analysis.bat);
+    for (key, value) in bat.as_object().into_iter().flatten() {
+        if !matches!(key.as_str(), "format" | "name" | "source" | "profile") {
+            flat(key, value, &mut table);
+        }
+    }
+    let count = table.rows.len();
+    if count > MOST {
+        table.rows.truncate(MOST);
+        table.caption += &format!(": the first {MOST} of {count} values");
+    }
+    if let Some(interpolation) = bat["profile"]["interpolation"].as_str() {
+        table.row(["profile.interpolation", interpolation, ""]);
+    }
+    let [density, modulus] = analysis.bat.factors;
+    if analysis.bat.factors != [1.0; 2] {
+        table.row(["factor on all densities, as weighed", &shown::plain(density), ""]);
+        table.row(["factor on all moduli, as tapped", &shown::plain(modulus), ""]);
+    }
+    table
+}
+
+/// A value and all that is within it.
+fn flat(path: &str, value: &Value, table: &mut Table) {
+    match value {
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| flat(&format!("{path}.{key}"), value, table));
+        }
+        Value::Array(items) => {
+            let items = items.iter().enumerate();
+            items.for_each(|(k, item)| flat(&format!("{path}[{k}]"), item, table));
+        }
+        Value::Number(number) => {
+            let shown = number.as_f64().map_or(number.to_string(), shown::digits);
+            table.row([path, &shown, unit(path)]);
+        }
+        Value::String(text) => table.row([path, text.as_str(), ""]),
+        Value::Bool(_) | Value::Null => table.row([path, NONE, ""]),
+    }
+}
+
+/// The SI unit of a key of a bat file.
+fn unit(path: &str) -> &'static str {
+    let grip = path.starts_with("grip");
+    match path.rsplit('.').next().unwrap_or_default() {
+        "x" | "from" | "to" | "offset" | "balance_point" => "m",
+        "mass" => "kg",
+        "density" => "kg/m³",
+        "youngs_modulus" | "shear_modulus" => "Pa",
+        "rotary_inertia" => "kg m²",
+        "rotational_stiffness" => "N m/rad",
+        "stiffness" if grip => "N/m²",
+        "damping" if grip => "N s/m²",
+        "stiffness" => "N/m",
+        "damping" => "N s/m",
+        "first_bending_hz" => "Hz",
+        _ => "",
+    }
+}
+
+/// The columns of the profile in SI, the first many of them; formulas as they were written.
+pub fn profile(analysis: &Analysis) -> Table {
+    let profile = &analysis.bat.profile;
+    if let Some(formulas) = &profile.formulas {
+        let mut table = Table::of_words("The profile", &["From, m", "To, m", "Radius", "Bore"]);
+        for piece in &formulas.pieces {
+            let bore = piece.inner.as_ref().map_or("none", |inner| inner.text());
+            let [from, to] = [piece.from, piece.to].map(shown::plain);
+            table.row([&from, &to, piece.outer.text(), bore]);
+        }
+        return table;
+    }
+    let stations = &profile.stations;
+    let count = stations.x.len();
+    let caption = match count > MOST {
+        true => format!("The profile: the first {MOST} of {count} stations"),
+        false => "The profile".to_owned(),
+    };
+    let mut table = Table::new(caption, &["x, m", "Radius, m", "Inner radius, m"]);
+    let metres = |x: f64| format!("{:.5}", x);
+    for k in 0..count.min(MOST) {
+        table.row([stations.x[k], stations.outer[k], stations.inner[k]].map(metres));
+    }
+    table
+}

@@ -1,0 +1,86 @@
+//! The report as Markdown, its pictures as files beside it.
+
+use std::fmt::Write;
+
+use crate::show::page::content::{Part, Report, Section};
+use crate::show::page::escape::{fence, markdown as escaped, markdown_line};
+use crate::show::page::inputs::Input;
+use crate::show::page::summary::{Fact, NO_HIT};
+use crate::show::page::table::Table;
+use crate::show::plot::picture::Picture;
+
+/// The whole text; `pictures` is the folder of the pictures as seen from it.
+pub fn text(report: &Report, pictures: &str) -> String {
+    let bat = &report.analysis.bat;
+    let mut out = format!("# {}\n\n", escaped(&bat.name));
+    if !bat.source.is_empty() {
+        let _ = writeln!(out, "Source: {}\n", escaped(&bat.source));
+    }
+    out += "## Summary\n\n";
+    let headline = report.summary.headline();
+    if headline.is_empty() {
+        let _ = writeln!(out, "{}\n", escaped(NO_HIT));
+    }
+    let mut table = Table::of_words("Computed, not certified", &["What", "SI", "US", "Remark"]);
+    for Fact { label, values: [si, us], note, .. } in
+        headline.into_iter().chain(report.summary.facts())
+    {
+        table.row([label.to_owned(), si, us, note]);
+    }
+    out += &table.markdown();
+    for Section { title, parts, .. } in report.sections() {
+        let _ = writeln!(out, "## {title}\n");
+        parts.iter().for_each(|one| out += &part(one, pictures));
+    }
+    out
+}
+
+fn part(one: &Part, pictures: &str) -> String {
+    match one {
+        Part::Heading(title) => format!("### {title}\n\n"),
+        Part::Text(text) => format!("{}\n\n", markdown_line(text)),
+        Part::Missing(why) => format!("{}\n\n", markdown_line(why)),
+        Part::List(items) => {
+            let items: Vec<String> =
+                items.iter().map(|item| format!("- {}\n", markdown_line(item))).collect();
+            format!("{}\n", items.concat())
+        }
+        Part::Table(table) => table.markdown(),
+        Part::Picture(picture) | Part::Hovered(picture) => image(picture, pictures),
+        Part::Command(command) => {
+            let fence = fence(command);
+            format!("Made with\n\n{fence}text\n{command}\n{fence}\n\n")
+        }
+        Part::File(input) => file(input),
+        Part::Folded(title, parts) => {
+            let inner: String = parts.iter().map(|inner| part(inner, pictures)).collect();
+            format!("### {title}\n\n{inner}")
+        }
+        // What moves needs a page.
+        Part::Modes | Part::Moment => String::new(),
+    }
+}
+
+fn image(picture: &Picture, pictures: &str) -> String {
+    let Picture { name, title, alt, .. } = picture;
+    // Signs that end a link's target are written as in an address.
+    let folder: String = pictures.chars().map(address).collect();
+    let title = escaped(title).replace('"', "\\\"");
+    format!("![{}]({folder}/{name}.svg \"{title}\")\n\n", escaped(alt))
+}
+
+/// A character of a relative address.
+fn address(c: char) -> String {
+    if c.is_alphanumeric() || "-._~/".contains(c) {
+        return c.to_string();
+    }
+    let mut bytes = [0; 4];
+    c.encode_utf8(&mut bytes).bytes().map(|byte| format!("%{byte:02X}")).collect()
+}
+
+fn file(input: &Input) -> String {
+    let (text, remark) = input.shown();
+    let fence = fence(text);
+    let remark = remark.map_or(String::new(), |remark| format!("{remark}\n\n"));
+    format!("{}:\n\n{fence}text\n{}\n{fence}\n\n{remark}", escaped(&input.name), text.trim_end())
+}

@@ -1,0 +1,78 @@
+//! What moves on the page: stages and controls, which the script brings to life.
+
+use std::fmt::Write;
+
+use crate::show::analysis::Analysis;
+use crate::show::page::data::MOVING;
+use crate::show::page::escape::html as escaped;
+use crate::show::page::moment::Moment;
+use crate::show::page::shown::decimals;
+use crate::show::plot::picture::Picture;
+
+const NO_SCRIPT: &str = "<noscript><p class=\"missing\">What moves here needs JavaScript; everything \
+                         else on this page does without.</p></noscript>\n";
+
+/// The bat bending in one of its modes.
+pub fn modes(analysis: &Analysis) -> String {
+    let modes = analysis.solution.modes.iter().take(MOVING);
+    let names = modes.map(|mode| format!("{} · {} Hz", mode.order, decimals(mode.frequency(), 0)));
+    let names: Vec<String> = names.collect();
+    let choice = choice("mode", "Mode", &names);
+    let note = "The bending is drawn far too large and far too slow; dots are the nodes, which stay at \
+                rest.";
+    player("modes-player", "The bat bending in the chosen mode", &choice, note)
+}
+
+/// Ball and bat at the moment of the hit.
+pub fn moment(moments: &[Moment]) -> String {
+    let names: Vec<String> = moments.iter().map(|moment| moment.label.clone()).collect();
+    let choice = choice("moment", "The ball is hit", &names);
+    let note = "Seen by someone who moves with the bat, which swings upwards. Ball, flight and squeeze \
+                are to scale, and so is the bat's motion where it meets the ball: the bending is \
+                enlarged about that place.";
+    player("moment-player", "Ball and bat at the moment of the hit", &choice, note)
+}
+
+/// Buttons of which one is chosen.
+fn choice(name: &str, legend: &str, labels: &[String]) -> String {
+    let mut out = format!("<fieldset class=\"choice\"><legend>{}</legend>\n", escaped(legend));
+    for (k, label) in labels.iter().enumerate() {
+        let checked = if k == 0 { " checked" } else { "" };
+        let _ = writeln!(
+            out,
+            "<label><input type=\"radio\" name=\"{name}\" value=\"{k}\"{checked}>\
+             <span>{}</span></label>",
+            escaped(label)
+        );
+    }
+    out + "</fieldset>\n"
+}
+
+/// A stage with its controls.
+fn player(id: &str, title: &str, choice: &str, note: &str) -> String {
+    let title = escaped(title);
+    format!(
+        "{NO_SCRIPT}<div class=\"player moving\" id=\"{id}\">\n{choice}\
+         <svg class=\"stage\" role=\"img\" aria-label=\"{title}\"></svg>\n\
+         <p class=\"ends\" aria-hidden=\"true\"><span>knob</span><span>tip</span></p>\n\
+         <div class=\"controls\">\n\
+         <button type=\"button\" class=\"play\" aria-pressed=\"false\">Play</button>\n\
+         <button type=\"button\" class=\"slow\" aria-pressed=\"false\">Slow</button>\n\
+         <label class=\"scrub\"><span>Time</span>\
+         <input type=\"range\" min=\"0\" max=\"1000\" value=\"0\"></label>\n</div>\n\
+         <p class=\"now\"></p>\n<p class=\"remark\">{}</p>\n</div>\n",
+        escaped(note)
+    )
+}
+
+/// The slider of a hair-line that reads a picture off, by pointer and by keyboard.
+pub fn hair_line(picture: &Picture) -> String {
+    format!(
+        "<div class=\"moving hair\">\n<input type=\"range\" min=\"0\" max=\"100\" value=\"0\" \
+         aria-label=\"Position along the barrel: {}\">\n</div>\n",
+        escaped(&picture.title)
+    )
+}
+
+/// Where what it reads is told.
+pub const READING: &str = "<p class=\"moving reading\" aria-live=\"polite\"></p>\n";

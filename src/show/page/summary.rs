@@ -1,0 +1,166 @@
+//! The summary: the numbers a bat maker asks for first.
+
+use serde::Serialize;
+
+use crate::bat::body::STANDARD_PIVOT;
+use crate::show::analysis::Analysis;
+use crate::show::page::shown;
+
+/// The numbers of the summary, in SI, as they stand in the page's data; None where there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// From the knob end to the tip (m).
+    pub length_m: f64,
+    /// Mass with everything attached (kg).
+    pub mass_kg: f64,
+    /// Centre of mass, from the knob end (m).
+    pub balance_point_m: f64,
+    /// About the point 6 in from the knob end.
+    pub inertia_pivot_kg_m2: f64,
+    /// For a pivot there.
+    pub center_of_percussion_m: Option<f64>,
+    /// Of the first modes, three at most.
+    pub frequencies_hz: Vec<f64>,
+    /// Where the ball leaves fastest (m from the knob end).
+    pub sweet_spot_m: Option<f64>,
+    /// The exit speed there (m/s).
+    pub exit_speed_m_s: Option<f64>,
+    /// From where to where it is within 1 % of that (m from the knob end).
+    pub zone_m: Option<[f64; 2]>,
+    /// Bat-ball coefficient of restitution at the sweet spot, of the free bat.
+    pub bbcor: Option<f64>,
+    /// The same of a bat held 6 in from the knob.
+    pub bbcor_pivoted: Option<f64>,
+    /// Angular speed of the swing (rad/s).
+    pub swing_rad_s: f64,
+    /// Speed of the ball towards the bat (m/s).
+    pub ball_speed_m_s: f64,
+}
+
+/// One number of the summary, in SI and in US units, and what it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fact {
+    /// What it is called in the page's data.
+    pub key: &'static str,
+    /// What people call it.
+    pub label: &'static str,
+    /// The number with its unit, in SI and in US units; the second may be empty.
+    pub values: [String; 2],
+    /// A word more; may be empty.
+    pub note: String,
+}
+
+impl Summary {
+    /// The summary of an analysis.
+    pub fn new(analysis: &Analysis) -> Self {
+        let Analysis { bat, solution, task, figures, .. } = analysis;
+        let inertia = bat.inertia();
+        let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+        Self {
+            length_m: bat.length(),
+            mass_kg: inertia.mass,
+            balance_point_m: inertia.balance_point,
+            inertia_pivot_kg_m2: inertia.about(STANDARD_PIVOT),
+            center_of_percussion_m: inertia.center_of_percussion(STANDARD_PIVOT),
+            frequencies_hz: solution.modes.iter().take(3).map(|mode| mode.frequency()).collect(),
+            sweet_spot_m: figures.spot.exit_speed_max.map(|peak| peak.x),
+            exit_speed_m_s: figures.spot.exit_speed_max.map(|peak| peak.value),
+            zone_m: figures.spot.zone,
+            bbcor: best.map(|outcome| outcome.bbcor),
+            bbcor_pivoted: best.map(|outcome| outcome.bbcor_pivoted),
+            swing_rad_s: task.scene.swing,
+            ball_speed_m_s: task.scene.ball_speed,
+        }
+    }
+
+    /// What stands out: sweet spot, exit speed, zone. Empty where no ball is hit.
+    pub fn headline(&self) -> Vec<Fact> {
+        let (Some(x), Some(speed), Some([from, to])) =
+            (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
+        else {
+            return vec![];
+        };
+        vec![
+            Fact {
+                key: "sweet_spot_m",
+                label: "Sweet spot, from the knob",
+                values: shown::length(x),
+                note: format!("{} from the tip", shown::place(self.length_m - x)),
+            },
+            Fact {
+                key: "exit_speed_m_s",
+                label: "Best exit speed",
+                values: shown::speed(speed),
+                note: format!(
+                    "swing {} rad/s, pitch {}",
+                    shown::decimals(self.swing_rad_s, 1),
+                    shown::inline(shown::speed(self.ball_speed_m_s))
+                ),
+            },
+            Fact {
+                key: "zone_m",
+                label: "Sweet zone, within 1 %",
+                values: shown::length(to - from),
+                note: format!(
+                    "from {} to {} cm ({} to {} in)",
+                    shown::centimetres(from),
+                    shown::centimetres(to),
+                    shown::in_inches(from),
+                    shown::in_inches(to)
+                ),
+            },
+        ]
+    }
+
+    /// All the rest, those left out that there are no numbers for.
+    pub fn facts(&self) -> Vec<Fact> {
+        let mut facts = self.body();
+        if let Some((first, others)) = self.frequencies_hz.split_first() {
+            let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
+            let note = match others.is_empty() {
+                true => String::new(),
+                false => format!("then {} Hz", others.join(" and ")),
+            };
+            let values = [format!("{} Hz", shown::decimals(*first, 1)), String::new()];
+            let label = "First bending frequency";
+            facts.push(Fact { key: "frequencies_hz", label, values, note });
+        }
+        if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
+            let note =
+                format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
+            let values = [format!("{free:.3}"), String::new()];
+            facts.push(Fact { key: "bbcor", label: "BBCOR-like figure", values, note });
+        }
+        facts
+    }
+
+    /// The bat as a rigid body.
+    fn body(&self) -> Vec<Fact> {
+        let fact = |key, label, values, note: String| Fact { key, label, values, note };
+        let from_tip = |x: f64| format!("{} from the tip", shown::place(self.length_m - x));
+        let along = shown::length;
+        let about = "moment of inertia about a point 6 in from the knob".to_owned();
+        let (balance, weight) = (self.balance_point_m, shown::inertia(self.inertia_pivot_kg_m2));
+        let mut facts = vec![
+            fact("length_m", "Length", along(self.length_m), String::new()),
+            fact("mass_kg", "Mass", shown::mass(self.mass_kg), String::new()),
+            fact(
+                "balance_point_m",
+                "Balance point, from the knob",
+                along(balance),
+                from_tip(balance),
+            ),
+            fact("inertia_pivot_kg_m2", "Swing weight", weight, about),
+        ];
+        if let Some(x) = self.center_of_percussion_m {
+            let note = format!("{}, pivot 6 in from the knob", from_tip(x));
+            let label = "Centre of percussion, from the knob";
+            facts.push(fact("center_of_percussion_m", label, along(x), note));
+        }
+        facts
+    }
+}
+
+/// Why there is no headline.
+pub const NO_HIT: &str = "There is no sweet spot to show: in this scene ball and bat do not meet, or the model has no \
+     solution.";

@@ -1,0 +1,140 @@
+//! What the hands feel: displacement and velocity of the handle after a hit.
+
+use crate::collision::aftermath::{Aftermath, Instant};
+use crate::show::plot::axis::Axis;
+use crate::show::plot::picture::Picture;
+use crate::show::plot::place::{CM, tenths};
+use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::show::plot::series::{Series, bats, hover, short};
+use crate::show::plot::svg::{Pen, Svg};
+use crate::show::plot::theme::{FRAME, SERIES};
+use crate::show::plot::words::SMALL;
+
+/// Instants of a curve, and at most of all.
+const INSTANTS: usize = 700;
+const IN_ALL: usize = 1800;
+/// Of each of the diagrams, and between them (px).
+const DIAGRAM: f64 = 150.0;
+const BETWEEN: f64 = 18.0;
+/// What is drawn, and its unit.
+const KINDS: [(&str, &str); 2] = [("displacement", "mm"), ("velocity", "m/s")];
+
+/// A bat after a hit, and where it is held.
+pub struct Subject<'a> {
+    /// What the bat is called.
+    pub name: &'a str,
+    /// The bat under the ball's force.
+    pub after: Aftermath<'a>,
+    /// Where the hands feel it (m from the knob end).
+    pub x: f64,
+}
+
+/// Displacement and velocity at the hands against time; picture `hands`. None where there is no force.
+pub fn picture(subjects: &[Subject]) -> Option<Picture> {
+    let until = subjects.iter().map(|s| span(&s.after, s.x)).fold(0.0, f64::max);
+    if until <= 0.0 {
+        return None;
+    }
+    let instants = INSTANTS.min(IN_ALL / subjects.len());
+    let times: Vec<f64> = (0..=instants).map(|k| until * k as f64 / instants as f64).collect();
+    let motions: Vec<_> = subjects.iter().map(|s| motions(&s.after, s.x, &times)).collect();
+    let mut svg = Svg::new(WIDTH, 0.0);
+    let title = "What the hands feel";
+    let (name, facts) = words(subjects);
+    head(&mut svg, title, [name, &facts]);
+    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + 14.0;
+    let frame = |k: usize| {
+        let top = top + 6.0 + k as f64 * (DIAGRAM + BETWEEN);
+        Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
+    };
+    svg.height = frame(1).bottom + NUMBERS + 4.0;
+    let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
+    let mut peaks = vec![];
+    for (k, (what, unit)) in KINDS.into_iter().enumerate() {
+        let values = || motions.iter().flatten().map(|m| m[k + 1]);
+        let label = format!("{what} ({unit})");
+        let y = Axis::around(&label, values().chain([0.0]), ticks_up(DIAGRAM));
+        let plane = Plane { frame: frame(k), x: along.clone(), y };
+        diagram(&mut svg, &plane, k, (subjects, &motions));
+        let most = values().map(f64::abs).fold(0.0, f64::max);
+        peaks.push(format!("{what} up to {} {unit}", short(most)));
+    }
+    svg.text([LEFT, frame(0).top - 6.0], SMALL, told(subjects));
+    let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
+    Some(Picture::new("hands", title, &alt, svg))
+}
+
+/// What the second line says.
+fn words<'a>(subjects: &[Subject<'a>]) -> (&'a str, String) {
+    match subjects {
+        [one] => {
+            let [held, hit] = [one.x, one.after.place].map(|x| tenths(CM * x));
+            (one.name, format!("{held} cm from the knob end, hit at {hit} cm"))
+        }
+        _ => ("", "each hit at its own sweet spot".to_owned()),
+    }
+}
+
+/// What the curves are.
+fn told(subjects: &[Subject]) -> &'static str {
+    match subjects {
+        [_] => {
+            "against the undisturbed swing, whose way is upwards; tinted: the ball is on the bat"
+        }
+        _ => "against the undisturbed swing, whose way is upwards",
+    }
+}
+
+/// Displacements or velocities of all bats; below the second is the axis of time.
+fn diagram(
+    svg: &mut Svg,
+    plane: &Plane,
+    kind: usize,
+    (subjects, motions): (&[Subject], &[Vec<[f64; 3]>]),
+) {
+    let (what, unit) = KINDS[kind];
+    if let [one] = subjects {
+        plane.band(svg, [0.0, 1e3 * one.after.end()], SERIES[5]);
+    }
+    plane.draw(svg);
+    let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
+    svg.line(&zero, Pen::new(FRAME, 1.2));
+    let curve = |(k, (s, motions)): (usize, (&Subject, &Vec<[f64; 3]>))| {
+        let points = motions.iter().map(|m| Some([m[0], m[kind + 1]])).collect();
+        match subjects.len() {
+            1 => Series::curve(what, kind, points).pen(Pen::new(SERIES[kind], 1.7)),
+            _ => Series::curve(s.name, k, points),
+        }
+        .units("ms", unit)
+    };
+    let curves: Vec<Series> = subjects.iter().zip(motions).enumerate().map(curve).collect();
+    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
+    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
+    if kind == 1 {
+        plane.below(svg);
+    }
+}
+
+/// Time (ms), displacement (mm) and velocity (m/s) at a place; where hardly anything moves beside the
+/// place of the hit, as on a clamp, nothing does.
+fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
+    const NOTHING: f64 = 1e-9;
+    let instants = after.at(times);
+    let speed = |x: f64| {
+        let speeds = instants.iter().map(|now| after.motion(x, now)[1].abs());
+        speeds.fold(0.0, f64::max)
+    };
+    let still = speed(x) <= NOTHING * speed(after.place);
+    let motion = |now: &Instant| {
+        let [moved, speed, _] = if still { [0.0; 3] } else { after.motion(x, now) };
+        [1e3 * now.time, 1e3 * moved, speed]
+    };
+    instants.iter().map(motion).collect()
+}
+
+/// How long is shown (s): the touch a few times, and three swings of the first mode.
+fn span(after: &Aftermath, x: f64) -> f64 {
+    let touch = 5.0 * after.end();
+    let slowest = after.lines(x).first().map_or(0.0, |line| 3.0 / line.frequency);
+    touch.max(slowest.min(40.0 * after.end()))
+}

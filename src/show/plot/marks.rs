@@ -1,0 +1,98 @@
+//! The places of a bat that matter, and what it is made of and bears, as rows.
+
+use crate::base::units::ounces;
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::fixtures::{Held, Region};
+use crate::bat::material::Material;
+use crate::show::plot::place::{self, Row};
+use crate::show::plot::series::{digits, short};
+
+/// A bat, the name it has in the picture, and where its swing turns.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// What the bat is called.
+    pub name: &'a str,
+    /// The bat.
+    pub bat: &'a Bat,
+    /// Rotation centre beyond the knob end (m), negative inside the handle; none if nobody swings.
+    pub swing_pivot: Option<f64>,
+}
+
+/// Balance points, pivots, centres of percussion; what one bat is made of and bears.
+pub fn marked(subjects: &[Subject]) -> Vec<Row> {
+    let of = |what: &str, place: &dyn Fn(&Subject) -> Option<f64>| {
+        let places: Vec<(usize, f64)> =
+            subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
+        let label = match (subjects, places.as_slice()) {
+            ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.bat.length())),
+            _ => {
+                format!("{what}: {}", place::listed(&places))
+            }
+        };
+        (!places.is_empty()).then(|| Row::of_places(label, places))
+    };
+    let on_bat = |s: &Subject| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
+    let standard = |s: &Subject| s.bat.inertia().center_of_percussion(on_bat(s)?);
+    let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
+    let mut rows: Vec<Row> = [
+        of("balance point", &|s| Some(s.bat.inertia().balance_point)),
+        of("pivot of standards", &on_bat),
+        of("its centre of percussion", &standard),
+        of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
+        of("its centre of percussion", &swung),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if let [subject] = subjects {
+        rows.extend(fastened(subject.bat));
+    }
+    rows
+}
+
+/// Other materials, weights, joints, supports and hands, as rows; more than a dozen would be no
+/// picture.
+fn fastened(bat: &Bat) -> Vec<Row> {
+    const MOST: usize = 12;
+    let fixtures = &bat.fixtures;
+    let stretch = |label: String, from, to| Row::of_stretches(label, vec![(0, [from, to])]);
+    let place = |label: String, x| Row::of_places(label, vec![(0, x)]);
+    let made =
+        fixtures.regions.iter().filter_map(|r| Some(stretch(made_of(bat, r)?, r.from, r.to)));
+    let taped =
+        fixtures.tapes.iter().map(|tape| stretch(weight("tape", tape.mass), tape.from, tape.to));
+    let held = fixtures.grip.iter().map(|grip| stretch("hands".into(), grip.from, grip.to));
+    let joints = fixtures.joints.iter().map(|joint| place("joint".into(), joint.x));
+    let attached = fixtures.attachments.iter().map(|a| {
+        let spring = a.mass == 0.0;
+        place(if spring { "spring".into() } else { weight("weight", a.mass) }, a.x)
+    });
+    let absorbers = fixtures.absorbers.iter().map(|a| place(weight("absorber", a.mass), a.x));
+    let supports = fixtures.supports.iter().map(|support| {
+        let label = if support.kind == Held::Pinned { "pinned" } else { "clamped" };
+        place(label.into(), support.x)
+    });
+    let all = made.chain(taped).chain(held).chain(joints);
+    all.chain(attached).chain(absorbers).chain(supports).take(MOST).collect()
+}
+
+fn weight(what: &str, mass: f64) -> String {
+    format!("{what} of {} g ({} oz)", digits(1e3 * mass, 3), digits(ounces(mass), 2))
+}
+
+/// What a region is made of where the rest of the bat is not.
+fn made_of(bat: &Bat, region: &Region) -> Option<String> {
+    let name = |material: &Material| match &material.name {
+        Some(name) => name.clone(),
+        None => format!("{} kg/m³", short(material.density)),
+    };
+    let outer = &region.layup.outer;
+    let wall = (outer != bat.material()).then(|| name(outer));
+    let core = region.layup.core.as_ref().map(name);
+    match (wall, core) {
+        (Some(wall), Some(core)) => Some(format!("hatched: {wall} with a core of {core}")),
+        (Some(wall), None) => Some(format!("hatched: {wall}")),
+        (None, Some(core)) => Some(format!("hatched: core of {core}")),
+        (None, None) => None,
+    }
+}

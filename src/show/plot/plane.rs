@@ -1,0 +1,177 @@
+//! A diagram's frame: two axes, their numbers and lines, and from values to pixels.
+
+use crate::show::plot::axis::{Axis, Tick};
+use crate::show::plot::route::Point;
+use crate::show::plot::svg::{Pen, Svg};
+use crate::show::plot::theme::{FRAME, GRID, Ink, TINT};
+use crate::show::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
+
+/// Width of every picture (px).
+pub const WIDTH: f64 = 760.0;
+/// From the left edge to the frames, so that those above each other are in line (px).
+pub const LEFT: f64 = 74.0;
+/// From a frame to the right edge, where nothing else stands there (px).
+pub const RIGHT: f64 = 28.0;
+/// The same where a second axis stands (px).
+pub const SECOND: f64 = 86.0;
+/// What numbers and label of an axis take beside a frame (px).
+pub const NUMBERS: f64 = 42.0;
+/// What title and second line take at the top (px).
+pub const HEAD: f64 = 60.0;
+
+/// A rectangle of the picture (px).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Its left side (pixels, as the others).
+    pub left: f64,
+    /// Its upper side.
+    pub top: f64,
+    /// Its right side.
+    pub right: f64,
+    /// Its lower side.
+    pub bottom: f64,
+}
+
+/// A diagram.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plane {
+    /// Where it is on the paper.
+    pub frame: Frame,
+    /// From left to right.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
+}
+
+/// The title and, standing back, what it is of and what is to be known of it; where there is not room
+/// for all, the name is cut.
+pub fn head(svg: &mut Svg, title: &str, [name, facts]: [&str; 2]) {
+    let most = svg.width - 40.0;
+    svg.text([20.0, 29.0], TITLE, &fitted(title, TITLE, most));
+    let between = if name.is_empty() || facts.is_empty() { "" } else { ": " };
+    let name = fitted(name, SMALL, (most - width(facts, SMALL) - 10.0).max(0.0));
+    svg.text([20.0, 48.0], SMALL, &fitted(&format!("{name}{between}{facts}"), SMALL, most));
+}
+
+/// As many ticks as there is room for along y.
+pub fn ticks_up(height: f64) -> usize {
+    ((height / 24.0) as usize).clamp(3, 9)
+}
+
+impl Plane {
+    /// The pixel of a pair of values.
+    pub fn at(&self, [a, b]: [f64; 2]) -> Point {
+        let Frame { left, top, right, bottom } = self.frame;
+        [left + (right - left) * self.x.share(a), bottom + (top - bottom) * self.y.share(b)]
+    }
+
+    /// The pixel across of a value of x.
+    pub fn across(&self, a: f64) -> f64 {
+        self.frame.left + (self.frame.right - self.frame.left) * self.x.share(a)
+    }
+
+    fn ticks_up(&self) -> usize {
+        ticks_up(self.frame.bottom - self.frame.top)
+    }
+
+    /// Lines to count along, the frame's left and lower side, the numbers and the label of y.
+    pub fn draw(&self, svg: &mut Svg) {
+        let Frame { left, top, right, bottom } = self.frame;
+        for tick in self.y.ticks(self.ticks_up()) {
+            let y = self.at([self.x.from, tick.value])[1];
+            svg.line(&[[left, y], [right, y]], Pen::new(GRID, 1.0));
+            svg.text([left - 7.0, y + 4.4], LABEL.at(Anchor::End), &tick.text);
+        }
+        for tick in self.x.ticks(ticks_along(self.frame, &self.x)) {
+            let x = self.across(tick.value);
+            svg.line(&[[x, top], [x, bottom]], Pen::new(GRID, 1.0));
+        }
+        svg.line(&[[left, top], [left, bottom], [right, bottom]], Pen::new(FRAME, 1.0));
+        self.label_up(svg, left - 58.0, &self.y.label);
+    }
+
+    /// Words along y, as near to its middle as they fit on the picture.
+    fn label_up(&self, svg: &mut Svg, x: f64, words: &str) {
+        let half = 0.5 * width(words, SMALL);
+        let middle = 0.5 * (self.frame.top + self.frame.bottom);
+        let middle = middle.min(svg.height - half - 2.0).max(half + 2.0);
+        let look = SMALL.at(Anchor::Middle);
+        svg.text([x, middle], Type { upwards: true, ..look }, words);
+    }
+
+    /// Numbers and label of x, below the frame.
+    pub fn below(&self, svg: &mut Svg) {
+        let bottom = self.frame.bottom;
+        let ticks = self.x.ticks(ticks_along(self.frame, &self.x));
+        along(svg, self.frame, (&self.x, &ticks), [bottom, 5.0, 18.0, 36.0]);
+    }
+
+    /// Numbers and label of another axis for x, above the frame: distances, so none below 0.
+    pub fn above(&self, svg: &mut Svg, axis: &Axis) {
+        let mut ticks = axis.ticks(ticks_along(self.frame, axis));
+        ticks.retain(|tick| tick.value >= 0.0);
+        along(svg, self.frame, (axis, &ticks), [self.frame.top, -5.0, -9.0, -26.0]);
+    }
+
+    /// Numbers and label of another axis for y, right of the frame.
+    pub fn right(&self, svg: &mut Svg, axis: &Axis) {
+        let Frame { top, right, bottom, .. } = self.frame;
+        svg.line(&[[right, top], [right, bottom]], Pen::new(FRAME, 1.0));
+        for tick in axis.ticks(self.ticks_up()) {
+            let y = bottom + (top - bottom) * axis.share(tick.value);
+            svg.line(&[[right, y], [right + 5.0, y]], Pen::new(FRAME, 1.0));
+            svg.text([right + 9.0, y + 4.4], LABEL, &tick.text);
+        }
+        self.label_up(svg, right + SECOND - 12.0, &axis.label);
+    }
+
+    /// A stretch of x, tinted from top to bottom.
+    pub fn band(&self, svg: &mut Svg, [from, to]: [f64; 2], ink: Ink) {
+        let Frame { left, top, right, bottom } = self.frame;
+        let [from, to] = [from, to].map(|x| self.across(x).clamp(left, right));
+        if to > from {
+            svg.rect([[from, top], [to, bottom]], ink, TINT, None);
+        }
+    }
+}
+
+/// As many ticks as there is room for along x.
+fn ticks_along(frame: Frame, axis: &Axis) -> usize {
+    let count = |most: &usize| {
+        let widest = axis.ticks(*most).iter().map(|t| width(&t.text, LABEL)).fold(0.0, f64::max);
+        (widest + 14.0) * *most as f64 <= frame.right - frame.left
+    };
+    (3..=12).rev().find(count).unwrap_or(2)
+}
+
+/// An axis along x: where it is, and from there the ends of its ticks, its numbers and its label.
+fn along(
+    svg: &mut Svg,
+    frame: Frame,
+    (axis, ticks): (&Axis, &[Tick]),
+    [y, tick, number, label]: [f64; 4],
+) {
+    let Frame { left, right, .. } = frame;
+    for at in ticks {
+        let x = left + (right - left) * axis.share(at.value);
+        svg.line(&[[x, y], [x, y + tick]], Pen::new(FRAME, 1.0));
+        svg.text([x, y + number], LABEL.at(Anchor::Middle), &at.text);
+    }
+    svg.line(&[[left, y], [right, y]], Pen::new(FRAME, 1.0));
+    svg.text([0.5 * (left + right), y + label], SMALL.at(Anchor::Middle), &axis.label);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_the_axes_are_the_corners_of_the_frame() {
+        let frame = Frame { left: 60.0, top: 20.0, right: 560.0, bottom: 320.0 };
+        let (x, y) = (Axis::new("x", [40.0, 80.0]), Axis::new("y", [-1.0, 3.0]));
+        let plane = Plane { frame, x, y };
+        assert_eq!(plane.at([40.0, -1.0]), [60.0, 320.0]);
+        assert_eq!(plane.at([80.0, 3.0]), [560.0, 20.0]);
+        assert_eq!(plane.at([50.0, 0.0]), [185.0, 245.0]);
+    }
+}

@@ -1,0 +1,86 @@
+//! The pictures that belong to a result.
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::collision::aftermath::Aftermath;
+use crate::collision::hit::{Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::collision::sweep::Sweep;
+use crate::collision::sweet_spot::SweetSpot;
+use crate::modes::solve::Solution;
+use crate::show::analysis::Analysis;
+use crate::show::plot::picture::Picture;
+use crate::show::plot::{contact, exit_speed, hands, ledger, profile, shapes, u_curve};
+use crate::study::trade::u_curve::Column;
+
+/// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
+/// marked.
+pub fn of_modes(bat: &Bat, solution: &Solution, swing_pivot: Option<f64>) -> Vec<Picture> {
+    let name = bat.name.as_str();
+    let side = profile::picture(&[profile::Subject { name, bat, swing_pivot }]);
+    let bent = shapes::picture(&[shapes::Subject { name, bat, solution }], shapes::MODES);
+    std::iter::once(side).chain(bent).collect()
+}
+
+/// Hits along a bat, and how they came about.
+#[derive(Debug, Clone, Copy)]
+pub struct Hits<'a> {
+    /// The bat that is hit.
+    pub bat: &'a Bat,
+    /// How ball and bat meet.
+    pub model: Model,
+    /// The swing, the pitch and the ball.
+    pub scene: &'a Scene,
+    /// The hits along it.
+    pub sweep: &'a Sweep,
+    /// Its sweet spot by every definition.
+    pub spot: &'a SweetSpot,
+}
+
+impl Hits<'_> {
+    /// `exit_speed` and `ledger` along the bat; `contact`, `hysteresis` and `hands` of the hit at one
+    /// place (m), without one at the sweet spot. What the model does not tell is not among them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub fn pictures(&self, at: Option<f64>) -> Result<Vec<Picture>> {
+        let Self { bat, model, scene, sweep, spot } = *self;
+        let (name, length, impacts) = (bat.name.as_str(), bat.length(), &sweep.impacts);
+        let along = exit_speed::Subject { name, length, impacts, spot };
+        let mut all: Vec<Picture> = exit_speed::picture(&[along]).into_iter().collect();
+        all.extend(ledger::picture(name, bat, impacts, 0.0));
+        if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
+            let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+            let touch = contact::Subject::new(name, &hitter, x);
+            all.extend(contact::pictures(touch.as_slice()));
+            let felt = hitter.force(x).map(|force| hands::Subject {
+                name,
+                after: Aftermath::new(bat, &sweep.solution, x, force),
+                x: scene.hands,
+            });
+            all.extend(hands::picture(felt.as_slice()));
+        }
+        Ok(all)
+    }
+}
+
+/// All that belong to an analysis: the bat and its modes, and its hits.
+///
+/// # Errors
+///
+/// As [`Hits::pictures`].
+pub fn of_analysis(analysis: &Analysis) -> Result<Vec<Picture>> {
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let mut pictures = of_modes(bat, solution, Some(task.scene.pivot));
+    let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
+    pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(None)?);
+    Ok(pictures)
+}
+
+/// The error of the first and of the last mode of a U-curve.
+pub fn of_u_curve(name: &str, columns: &[Column], modes: usize) -> Vec<Picture> {
+    let last = modes.saturating_sub(1);
+    let which = [0, last].into_iter().take(1 + usize::from(last > 0));
+    which.filter_map(|mode| u_curve::picture(name, columns, mode)).collect()
+}

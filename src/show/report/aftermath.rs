@@ -1,0 +1,328 @@
+//! What comes of a hit: hands, strain and stress, spectrum; as text, CSV and JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::base::units::{inches, miles_per_hour};
+use crate::bat::body::Bat;
+use crate::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
+use crate::collision::hit::Impact;
+use crate::collision::strength::{Limit, Load, Strength, nearest};
+use crate::show::report::json::generator;
+use crate::show::report::text::{Units, wrapped};
+
+/// All that is told of a hit's aftermath.
+pub struct AfterHit {
+    /// How long was looked (s).
+    pub until: f64,
+    /// Watched places (m), what each feels, and the modes as they ring there.
+    pub watched: Vec<(f64, Sting, Vec<Line>)>,
+    /// The largest strain while the ball is there.
+    pub during: Option<Strained>,
+    /// The largest strain of the whole time.
+    pub after: Option<Strained>,
+    /// The largest strain of every place in the whole time.
+    pub envelope: Vec<Strained>,
+    /// Where the bat comes nearest to what its materials bear, and the swing (rad/s) that takes it
+    /// there, by every limit that is known.
+    pub loads: Vec<(Load, Option<f64>)>,
+    /// How far the largest strain changes where a quarter of the modes is left out, relative.
+    pub strain_error: f64,
+    instants: Vec<Instant>,
+}
+
+/// Points along the bat at which strain is looked for.
+const PLACES: usize = 200;
+
+impl AfterHit {
+    /// Looks from the first touch until that time (s), or until the ball leaves if that is later.
+    pub fn new(bat: &Bat, after: &Aftermath, watched: &[f64], until: f64) -> Self {
+        const WITHIN: usize = 200;
+        /// Steps as short as while the ball is there; then they grow with the time.
+        const SHORT: usize = 2000;
+        let end = after.end();
+        let until = until.max(end);
+        let step = end / WITHIN as f64;
+        // The same instants however long it is looked: what was found stays found.
+        let later = |t: &f64| Some(t + step * (t / (step * SHORT as f64)).max(1.0));
+        let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
+        let beyond = std::iter::successors(later(&end), later).take_while(|t| *t <= until);
+        let times: Vec<f64> = within.chain(beyond).collect();
+        let instants = after.at(&times);
+        let places: Vec<f64> =
+            (0..=PLACES).map(|k| bat.length() * k as f64 / PLACES as f64).collect();
+        let all = after.count();
+        let during = after.worst(&places, &instants[..=WITHIN], all);
+        let envelope = after.envelope(&places, &instants, all);
+        let whole = after.worst(&places, &instants, all);
+        let loads = Limit::ALL.iter().filter_map(|limit| nearest(bat, &envelope, *limit));
+        let loads = loads.map(|load| (load, None)).collect();
+        let fewer = after.worst(&places, &instants, all - all / 4);
+        let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
+        let seen = |x: &f64| (*x, after.sting(*x, &instants), after.lines(*x));
+        Self {
+            until,
+            watched: watched.iter().map(seen).collect(),
+            during,
+            after: whole,
+            envelope,
+            loads,
+            strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
+            instants,
+        }
+    }
+}
+
+/// One line of the hit itself.
+pub fn impact(impact: &Impact, units: Units) -> String {
+    let Some(outcome) = &impact.outcome else { return String::new() };
+    format!(
+        "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
+        place(impact.x, units),
+        units.inline(units.speed(outcome.exit_speed)),
+        1e3 * outcome.contact_time.unwrap_or(0.0),
+        1e-3 * outcome.peak_force.unwrap_or(0.0)
+    )
+}
+
+fn place(x: f64, units: Units) -> String {
+    units.inline(units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x))))
+}
+
+/// The tables for the terminal.
+pub fn text(report: &AfterHit, units: Units) -> String {
+    let mut out = format!(
+        "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
+        1e3 * report.until
+    );
+    for (x, sting, _) in &report.watched {
+        let [moved, speed, acceleration] = sting.peak;
+        let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
+        let speed = units.inline(
+            units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed))),
+        );
+        let _ = writeln!(
+            out,
+            "  at {}, which begins to move after {:.2} ms",
+            place(*x, units),
+            1e3 * sting.begins
+        );
+        let moved = units.inline(
+            units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved))),
+        );
+        let _ = writeln!(out, "    {:<36} {moved} {a}", "largest displacement");
+        let _ = writeln!(out, "    {:<36} {speed} {b}", "largest velocity");
+        let shaken = format!("{:.0} m/s² ({:.0} g)", acceleration, acceleration / 9.806_65);
+        let _ = writeln!(out, "    {:<36} {shaken} {c}", "largest acceleration");
+    }
+    if let (Some(during), Some(after)) = (report.during, report.after) {
+        let _ = writeln!(
+            out,
+            "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)",
+            (100.0 * report.strain_error).max(1.0)
+        );
+        for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
+            let _ = writeln!(
+                out,
+                "  {what:<24} {:.3} %, {:.1} MPa at {}, {:.2} ms",
+                100.0 * worst.strain,
+                1e-6 * worst.stress,
+                place(worst.x, units),
+                1e3 * worst.time
+            );
+        }
+    }
+    out += &strength(report, units);
+    let Some((x, _, lines)) = report.watched.first() else { return out };
+    let _ = writeln!(
+        out,
+        "\nSpectrum at {} when the ball has left: amplitude of every mode\n       Hz        mm       \
+         m/s         g",
+        place(*x, units)
+    );
+    let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
+    for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
+        let [moved, speed, acceleration] = line.amplitude;
+        let _ = writeln!(
+            out,
+            "{:>9.1} {:>9.3} {speed:>9.3} {:>9.0}",
+            line.frequency,
+            1e3 * moved,
+            acceleration / 9.806_65
+        );
+    }
+    out
+}
+
+/// What the bat bears of it, and along it.
+fn strength(report: &AfterHit, units: Units) -> String {
+    let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
+    let every = (report.envelope.len() / 10).max(1);
+    for at in report.envelope.iter().step_by(every) {
+        let place = format!("at {}", place(at.x, units));
+        let _ =
+            writeln!(out, "  {place:<24} {:.3} %, {:.1} MPa", 100.0 * at.strain, 1e-6 * at.stress);
+    }
+    out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";
+    if report.loads.is_empty() {
+        let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
+                       the material in the bat file say what it bears";
+        return out + &wrapped(unknown, 4);
+    }
+    for (load, swing) in &report.loads {
+        out += &wrapped(&format!("  {}", reached(load, *swing, units)), 4);
+    }
+    out
+}
+
+/// How near a hit takes the bat to a limit, where, and the swing (rad/s) that takes it there.
+pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
+    let (bears, most, test) = match load.limit {
+        Limit::Stress => (
+            format!("{:.0} MPa", 1e-6 * load.bears),
+            format!("{:.1} MPa", 1e-6 * load.at.stress),
+            "that slow bending bears; how much more a blow does is not known",
+        ),
+        Limit::Strain => (
+            format!("{:.2} %", 100.0 * load.bears),
+            format!("a strain of {:.3} %", 100.0 * load.at.strain),
+            "at which it breaks in a blow",
+        ),
+    };
+    let swing = match swing {
+        Some(0.0) => "reached by the pitch alone, without a swing".to_owned(),
+        Some(swing) => format!("reached at a swing of about {swing:.1} rad/s"),
+        None => "reached by no swing up to 200 rad/s".to_owned(),
+    };
+    format!(
+        "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
+        place(load.at.x, units),
+        100.0 * load.share
+    )
+}
+
+/// What hits at some places ask of the bat, for a screen.
+pub fn strengths(all: &[Strength], units: Units) -> String {
+    if all.iter().all(|at| at.loads.is_empty()) {
+        return String::new();
+    }
+    let mut out = String::from(
+        "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
+    );
+    for at in all {
+        for (load, swing) in &at.loads {
+            let text = reached(load, *swing, units);
+            out += &wrapped(&format!("  hit at {}: {text}", place(at.x, units)), 4);
+        }
+    }
+    out
+}
+
+/// The same for a file.
+pub fn strengths_json(all: &[Strength]) -> Value {
+    let at = |at: &Strength| {
+        let loads: Vec<Value> = at.loads.iter().map(strength_json).collect();
+        json!({ "x_m": at.x, "limits": loads })
+    };
+    all.iter().map(at).collect()
+}
+
+/// Force, and motion and strain at the watched places, in time.
+pub fn history(after: &Aftermath, report: &AfterHit) -> String {
+    let mut out = String::from("t_s,force_n");
+    for (x, ..) in &report.watched {
+        for what in ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"] {
+            let _ = write!(out, ",{what}_at_{x}_m");
+        }
+    }
+    out.push('\n');
+    let places: Vec<f64> = report.watched.iter().map(|(x, ..)| *x).collect();
+    for now in &report.instants {
+        let _ = write!(out, "{},{}", now.time, now.force);
+        let strains = after.strains(&places, now, after.count());
+        for (x, strain) in places.iter().zip(strains) {
+            let [moved, speed, acceleration] = after.motion(*x, now);
+            let _ = write!(out, ",{moved},{speed},{acceleration},{strain}");
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// The `sweetspot-ring/1` document of a hit.
+pub fn json(after: &Aftermath, report: &AfterHit) -> Value {
+    let worst = |worst: Option<Strained>| {
+        worst.map(
+            |w| json!({ "x_m": w.x, "time_s": w.time, "strain": w.strain, "stress_pa": w.stress }),
+        )
+    };
+    let watched = report.watched.iter().map(|(x, sting, lines)| {
+        let motions: Vec<[f64; 3]> =
+            report.instants.iter().map(|now| after.motion(*x, now)).collect();
+        let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
+        let strains = report.instants.iter().map(|now| after.strains(&[*x], now, after.count())[0]);
+        let lines = lines.iter().map(|line| {
+            json!({
+                "frequency_hz": line.frequency,
+                "displacement_m": line.amplitude[0],
+                "velocity_m_s": line.amplitude[1],
+                "acceleration_m_s2": line.amplitude[2],
+            })
+        });
+        json!({
+            "x_m": x,
+            "begins_s": sting.begins,
+            "peak": {
+                "displacement_m": sting.peak[0],
+                "velocity_m_s": sting.peak[1],
+                "acceleration_m_s2": sting.peak[2],
+            },
+            "spectrum": lines.collect::<Vec<_>>(),
+            "displacement_m": column(0),
+            "velocity_m_s": column(1),
+            "acceleration_m_s2": column(2),
+            "strain": strains.collect::<Vec<_>>(),
+        })
+    });
+    let along = |of: &dyn Fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
+    let times: Vec<f64> = report.instants.iter().map(|now| now.time).collect();
+    let forces: Vec<f64> = report.instants.iter().map(|now| now.force).collect();
+    json!({
+        "format": "sweetspot-ring/1",
+        "generator": generator(),
+        "modes": after.count(),
+        "at_m": after.place,
+        "contact_s": after.end(),
+        "times_s": times,
+        "force_n": forces,
+        "watched": watched.collect::<Vec<_>>(),
+        "strain_max_in_contact": worst(report.during),
+        "strain_max": worst(report.after),
+        "strain_error": report.strain_error,
+        "along": {
+            "x_m": along(&|at| at.x),
+            "strain_max": along(&|at| at.strain),
+            "stress_max_pa": along(&|at| at.stress),
+        },
+        "strength": report.loads.iter().map(strength_json).collect::<Vec<_>>(),
+    })
+}
+
+/// How near the bat comes to one limit.
+fn strength_json((load, swing): &(Load, Option<f64>)) -> Value {
+    let (limit, bears) = match load.limit {
+        Limit::Stress => ("stress", "strength_pa"),
+        Limit::Strain => ("strain", "strain_to_failure"),
+    };
+    json!({
+        "limit": limit,
+        bears: load.bears,
+        "x_m": load.at.x,
+        "time_s": load.at.time,
+        "strain": load.at.strain,
+        "stress_pa": load.at.stress,
+        "share": load.share,
+        "reached_at_swing_rad_s": swing,
+    })
+}

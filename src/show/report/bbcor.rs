@@ -1,0 +1,174 @@
+//! BBCOR along a bat: table, CSV and JSON.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::base::units::{inches, miles_per_hour};
+use crate::bat::body::STANDARD_PIVOT;
+use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Tested};
+use crate::files::schema;
+use crate::files::schema::bbcor as file;
+use crate::files::schema::modes::Generator;
+use crate::show::report::hit_json::ball_out;
+use crate::show::report::text::{Units, wrapped};
+use crate::study::ignored;
+
+/// Where the ball's restitution is from: the source of the default, the ball's file, or who asked.
+pub fn cor_source(tested: &Tested, given: bool) -> String {
+    let ball = &tested.protocol.ball;
+    match (given, ball.name.as_str()) {
+        (true, _) => "given with --cor".to_owned(),
+        (false, "baseball") => COR_SOURCE.to_owned(),
+        (false, _) => format!("the ball's own ({})", ball.source),
+    }
+}
+
+/// Everything for the terminal.
+pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
+    let protocol = &tested.protocol;
+    let mut out = format!("BBCOR of {} (computed, not certified)\n", tested.bat.name);
+    let pivot = units.inline(units.length(STANDARD_PIVOT));
+    let speed = units.inline(units.speed(protocol.ball_speed));
+    let cor = match protocol.ball.cor_by_speed.is_empty() {
+        true => protocol.cor.to_string(),
+        false => "by its speed".to_owned(),
+    };
+    let scene = format!(
+        "  bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}: {cor_source}",
+        protocol.ball.name
+    );
+    out += &wrapped(&scene, 4);
+    for effect in ignored::in_hit(&tested.bat, false) {
+        out += &wrapped(&format!("  left out: {effect}"), 4);
+    }
+    out += &table(tested, units);
+    out + &verdict(tested, units)
+}
+
+fn table(tested: &Tested, units: Units) -> String {
+    let us = units == Units::Us;
+    let (near, fast) = if us { ("in", "mph") } else { ("cm", "m/s") };
+    let row = |cells: [String; 7]| {
+        let [knob, tip, exit, second, efficiency, bbcor, error] = cells;
+        let line = format!(
+            "{knob:>9} {tip:>9} {exit:>9} {second:>9} {efficiency:>8} {bbcor:>9} {error:>9}"
+        );
+        format!("{}\n", line.trim_end())
+    };
+    let [tip, second] = if units == Units::Both { ["in", "mph"] } else { [near, ""] };
+    let mut out = String::from("\n");
+    out += &row(["knob", "tip", "rebound", "", "e_A", "BBCOR", "within"].map(str::to_owned));
+    out += &row([near, tip, fast, second, "", "", ""].map(str::to_owned));
+    let length = |x: f64, unit: &str| {
+        format!("{:.2}", if unit == "in" { inches(x) } else { 100.0 * x } + 0.0)
+    };
+    for (k, place) in tested.places.iter().enumerate() {
+        let x = place.impact.x;
+        let outcome = place.impact.outcome.as_ref();
+        let shown = |v: f64| format!("{:.2}", if us { miles_per_hour(v) } else { v });
+        let mph = |v: f64| format!("{:.1}", miles_per_hour(v));
+        let both = units == Units::Both;
+        let line = row([
+            length(x, near),
+            length(tested.bat.length() - x, tip),
+            outcome.map_or("no value".to_owned(), |o| shown(o.exit_speed)),
+            outcome.filter(|_| both).map_or(String::new(), |o| mph(o.exit_speed)),
+            outcome.map_or(String::new(), |o| format!("{:.4}", o.collision_efficiency)),
+            place.bbcor.map_or(String::new(), |bbcor| format!("{bbcor:.4}")),
+            place.error.map_or(String::new(), |error| format!("{error:.0e}")),
+        ]);
+        let mark = if tested.largest == Some(k) { "  largest" } else { "" };
+        let _ = writeln!(out, "{}{mark}", line.trim_end());
+    }
+    out
+}
+
+/// The largest against the limit, in a sentence.
+fn verdict(tested: &Tested, units: Units) -> String {
+    let Some((most, bbcor)) = tested.most().and_then(|most| Some((most, most.bbcor?))) else {
+        return "\nNo place of the scan has a figure.\n".to_owned();
+    };
+    let place = units.inline(units.length(tested.bat.length() - most.impact.x));
+    let against = match tested.within() {
+        Some(true) => format!("below the limit of {LIMIT:.2}"),
+        Some(false) => format!("above the limit of {LIMIT:.2}"),
+        None => format!("as near the limit of {LIMIT:.2} as its error"),
+    };
+    let text = format!(
+        "Largest {bbcor:.4}, {place} from the tip: {against} ({LIMIT_SOURCE}). It rises with the \
+         ball's cor by about as much; a laboratory's ball and limit decide, not this."
+    );
+    format!("\n{}", wrapped(&text, 0))
+}
+
+/// A line for each place, SI.
+pub fn csv(tested: &Tested) -> String {
+    let mut out =
+        String::from("x_m,from_tip_m,exit_speed_m_s,collision_efficiency,bbcor,bbcor_error\n");
+    let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
+    for place in &tested.places {
+        let (x, outcome) = (place.impact.x, place.impact.outcome.as_ref());
+        let _ = writeln!(
+            out,
+            "{x},{},{},{},{},{}",
+            tested.bat.length() - x,
+            cell(outcome.map(|o| o.exit_speed)),
+            cell(outcome.map(|o| o.collision_efficiency)),
+            cell(place.bbcor),
+            cell(place.error)
+        );
+    }
+    out
+}
+
+/// The `sweetspot-bbcor/1` document.
+pub fn json(tested: &Tested, cor_source: &str) -> Value {
+    let (protocol, length) = (&tested.protocol, tested.bat.length());
+    let largest = |place: &Place| {
+        Some(file::Largest {
+            x_m: place.impact.x,
+            from_tip_m: length - place.impact.x,
+            bbcor: place.bbcor?,
+            error: place.error?,
+        })
+    };
+    schema::value(&file::BbcorFile {
+        format: file::BbcorFormat::One,
+        generator: Generator::this(),
+        bat_name: tested.bat.name.clone(),
+        certified: false,
+        protocol: file::Protocol {
+            pivot_m: STANDARD_PIVOT,
+            inertia_pivot_kg_m2: tested.bat.inertia().about(STANDARD_PIVOT),
+            ball_speed_m_s: protocol.ball_speed,
+            step_m: STEP,
+            ball: ball_out(&protocol.ball),
+            cor: protocol.cor,
+            cor_source: cor_source.to_owned(),
+            limit_source: LIMIT_SOURCE.to_owned(),
+        },
+        places: tested.places.iter().map(|at| place(at, length, protocol.ball_speed)).collect(),
+        largest: tested.most().and_then(largest),
+        limit: LIMIT,
+        within_limit: tested.within(),
+        tolerance_met: tested.sweep.met,
+        ignored: ignored::in_hit(&tested.bat, false),
+    })
+}
+
+fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {
+    let (impact, outcome) = (&place.impact, place.impact.outcome.as_ref());
+    file::Place {
+        x_m: impact.x,
+        from_tip_m: length - impact.x,
+        exit_speed_m_s: outcome.map(|o| o.exit_speed),
+        collision_efficiency: outcome.map(|o| o.collision_efficiency),
+        bbcor: place.bbcor,
+        flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
+        error: file::PlaceError {
+            exit_speed_m_s: outcome.map(|o| o.error * ball_speed),
+            bbcor: place.error,
+        },
+    }
+}

@@ -1,0 +1,317 @@
+//! Several bats side by side: tables of 80 columns, and words.
+
+use std::fmt::Write;
+
+use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::collision::hit::Scene;
+use crate::show::report::hit_json::model_name;
+use crate::show::report::text::{Units, wrapped};
+use crate::study::comparison::contender::Contender;
+use crate::study::comparison::rows::{Difference, From, Row, Unit, energies_compare};
+use crate::study::comparison::stretches::Stretch;
+use crate::study::comparison::table::Comparison;
+use crate::study::ignored::in_hit;
+
+/// What a bat is called in the tables: A, B, …
+pub fn letter(bat: usize) -> char {
+    char::from(b'A' + bat as u8)
+}
+
+/// Factor, decimals and name of a unit in the tables.
+struct Scale {
+    factor: f64,
+    decimals: usize,
+    name: &'static str,
+}
+
+fn scale(unit: Unit, us: bool) -> Scale {
+    let of = |factor, decimals, name| Scale { factor, decimals, name };
+    match (unit, us) {
+        (Unit::Metres, false) => of(100.0, 2, "cm"),
+        (Unit::Metres, true) => of(inches(1.0), 2, "in"),
+        (Unit::Kilograms, false) => of(1000.0, 1, "g"),
+        (Unit::Kilograms, true) => of(ounces(1.0), 2, "oz"),
+        (Unit::KilogramSquareMetres, false) => of(1.0, 5, "kg m²"),
+        (Unit::KilogramSquareMetres, true) => of(ounce_square_inches(1.0), 0, "oz in²"),
+        (Unit::MetresPerSecond, false) => of(1.0, 2, "m/s"),
+        (Unit::MetresPerSecond, true) => of(miles_per_hour(1.0), 2, "mph"),
+        (Unit::Hertz, _) => of(1.0, 1, "Hz"),
+        (Unit::RadiansPerSecond, _) => of(1.0, 2, "rad/s"),
+        (Unit::Joules, _) => of(1.0, 2, "J"),
+        (Unit::One, _) => of(1.0, 4, ""),
+    }
+}
+
+impl Scale {
+    fn value(&self, value: f64) -> String {
+        format!("{:.*}", self.decimals, value * self.factor + 0.0)
+    }
+
+    /// A difference with its sign, a power of ten where the decimals would hide it.
+    fn difference(&self, difference: Difference) -> String {
+        if !difference.is_real() {
+            return "none".to_owned();
+        }
+        let by = difference.by * self.factor;
+        let plain = format!("{by:+.*}", self.decimals);
+        if plain.bytes().any(|b| (b'1'..=b'9').contains(&b)) { plain } else { format!("{by:+.0e}") }
+    }
+
+    /// How far it may be off.
+    fn within(&self, difference: Difference, value: f64) -> String {
+        let within = difference.within * self.factor;
+        match within {
+            _ if difference.within <= 1e-11 * value.abs() => "exact".to_owned(),
+            w if w >= 0.1 => format!("{w:.1}"),
+            w if w >= 0.001 => format!("{w:.3}"),
+            w => format!("{w:.0e}"),
+        }
+    }
+}
+
+/// Everything for the terminal.
+pub fn text(comparison: &Comparison, units: Units) -> String {
+    let mut out = legend(comparison, units);
+    if comparison.bats.len() > 2 {
+        out += &overview(comparison, units);
+    }
+    for bat in 1..comparison.bats.len() {
+        out += &pair(comparison, bat, units);
+    }
+    out += "\nIn words\n";
+    words(comparison, units).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    out
+}
+
+fn legend(comparison: &Comparison, units: Units) -> String {
+    let mut out = String::from("Bats compared; A is the one the others are measured by\n");
+    for (k, contender) in comparison.bats.iter().enumerate() {
+        let modes = contender.sweep.solution.modes.len();
+        let theory = contender.sweep.solution.theory.name();
+        let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name);
+        out += &wrapped(&line, 5);
+        for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
+            out += &wrapped(&format!("     left out: {effect}"), 5);
+        }
+    }
+    let first = &comparison.bats[0];
+    let Scene { pivot, ball, ball_speed, .. } = &first.scene;
+    let side = if *pivot < 0.0 { "inside" } else { "beyond" };
+    let scene = format!(
+        "Hit: model {}, swung about a point {} {side} the knob end, {} at {}",
+        model_name(comparison.terms.model),
+        units.inline(units.length(pivot.abs())),
+        ball.name,
+        units.inline(units.speed(*ball_speed)),
+    );
+    out += &wrapped(&scene, 5);
+    out += &wrapped(&swing(first), 5);
+    let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
+                  with a smaller --tol. What is no more than that is none.";
+    out + &wrapped(within, 5)
+}
+
+/// How the swings of the bats go together.
+fn swing(first: &Contender) -> String {
+    match first.law {
+        None => format!(
+            "     All are swung at {:.1} rad/s, the lighter as the heavier; --reference-inertia and \
+             --swing-exponent have one batter swing each",
+            first.scene.swing
+        ),
+        Some(law) => format!(
+            "     One batter swings each: {:.1} rad/s times ({:.4} kg m² over its swing weight) to \
+             the power {}",
+            law.of_reference, law.reference, law.exponent
+        ),
+    }
+}
+
+/// Rows that say something in this comparison: places from the tip only where lengths differ.
+fn shown(comparison: &Comparison) -> impl Iterator<Item = &Row> {
+    let both = !comparison.same_length();
+    comparison.figures.iter().filter(move |row| {
+        row.values.iter().any(Option::is_some) && (both || row.from != From::Tip)
+    })
+}
+
+/// The name of a row with its unit; a place from the tip follows the same from the knob end.
+fn label(row: &Row, scale: &Scale) -> String {
+    match (row.from, scale.name) {
+        (From::Tip, unit) => format!("    from the tip, {unit}"),
+        (_, "") => row.name.clone(),
+        (_, unit) => format!("{}, {unit}", row.name),
+    }
+}
+
+/// The values of all bats.
+fn overview(comparison: &Comparison, units: Units) -> String {
+    let us = units == Units::Us;
+    let mut out = format!("\n{:32}", "All (places from the knob end)");
+    let width = (48 / comparison.bats.len()).min(10);
+    (0..comparison.bats.len()).for_each(|k| {
+        let _ = write!(out, "{:>width$}", letter(k));
+    });
+    out.push('\n');
+    for row in shown(comparison) {
+        let scale = scale(row.unit, us);
+        let mut line = format!("  {:30}", label(row, &scale));
+        for value in &row.values {
+            let cell = value.map_or(String::new(), |figure| scale.value(figure.value));
+            let _ = write!(line, "{cell:>width$}");
+        }
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    out
+}
+
+/// One bat beside the first: figures, then exit speeds by place.
+fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
+    let (us, name) = (units == Units::Us, letter(bat));
+    let less = format!("{name} less A");
+    let title = format!("{name} beside A");
+    let cells = [title, "A".into(), name.to_string(), less.clone(), "within".into()];
+    let mut out = format!("\n{}", row(&cells, if units == Units::Both { &less } else { "" }));
+    for figure in shown(comparison) {
+        let scale = scale(figure.unit, us);
+        out += &compared(figure, bat, &format!("  {}", label(figure, &scale)), units);
+    }
+    let near: Vec<_> = comparison.from_tip.iter().zip(&comparison.by_tip).step_by(4).collect();
+    out += &by_place("Exit speed from the tip", &near, bat, units);
+    if !comparison.same_length() {
+        let near: Vec<_> = comparison.from_knob.iter().zip(&comparison.by_knob).collect();
+        out += &by_place("Exit speed from the knob end", &near, bat, units);
+    }
+    out
+}
+
+fn by_place(title: &str, rows: &[(&f64, &Row)], bat: usize, units: Units) -> String {
+    let hit = |(_, row): &&(&f64, &Row)| row.values[0].is_some() || row.values[bat].is_some();
+    let lines: Vec<String> = rows
+        .iter()
+        .filter(hit)
+        .map(|(distance, row)| {
+            let place = match units {
+                Units::Si => format!("  at {:.2} cm", 100.0 * **distance),
+                Units::Us => format!("  at {:.2} in", inches(**distance)),
+                Units::Both => {
+                    format!("  at {:.2} cm, {:.2} in", 100.0 * **distance, inches(**distance))
+                }
+            };
+            compared(row, bat, &place, units)
+        })
+        .collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    let unit = scale(Unit::MetresPerSecond, units == Units::Us).name;
+    format!("{title}, {unit}\n{}", lines.concat())
+}
+
+/// A line of two values and their difference.
+fn compared(figure: &Row, bat: usize, label: &str, units: Units) -> String {
+    let scale_here = scale(figure.unit, units == Units::Us);
+    let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
+    let difference = figure.difference(bat);
+    let size = figure.values[0].map_or(0.0, |f| f.value);
+    let in_us = difference.filter(|d| units == Units::Both && d.is_real());
+    let in_us = in_us.map_or(String::new(), |d| {
+        let us = scale(figure.unit, true);
+        if us.name == scale_here.name {
+            String::new()
+        } else {
+            format!("{} {}", us.difference(d), us.name)
+        }
+    });
+    let cells = [
+        label.to_owned(),
+        value(0),
+        value(bat),
+        difference.map_or(String::new(), |d| scale_here.difference(d)),
+        difference.map_or(String::new(), |d| scale_here.within(d, size)),
+    ];
+    row(&cells, &in_us)
+}
+
+/// 80 columns.
+fn row([label, a, b, difference, within]: &[String; 5], us: &str) -> String {
+    let line = format!("{label:32}{a:>9}{b:>9}{difference:>10}{within:>8}{us:>12}");
+    format!("{}\n", line.trim_end())
+}
+
+/// A sentence or two about each bat beside the first.
+pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
+    let mut all = vec![];
+    for (bat, contender) in comparison.bats.iter().enumerate().skip(1) {
+        all.push(best(comparison, bat, units));
+        let place = |x: f64| {
+            units.inline(units.show(format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x))))
+        };
+        let stretch = |s: &Stretch| stretch(s, letter(bat), &place, units);
+        let parts: Vec<String> = comparison.stretches(bat).iter().map(stretch).collect();
+        if !parts.is_empty() {
+            all.push(format!("By distance from the tip: {}.", parts.join("; ")));
+        }
+        if contender.scene.swing != comparison.bats[0].scene.swing {
+            all.push(format!(
+                "{} is swung at {:.2} rad/s, A at {:.2}.",
+                letter(bat),
+                contender.scene.swing,
+                comparison.bats[0].scene.swing
+            ));
+        }
+    }
+    if !energies_compare(&comparison.bats) {
+        all.push(NO_ENERGIES.to_owned());
+    }
+    all
+}
+
+const NO_ENERGIES: &str = "Vibration is not compared: the energies of a held bat are as its hands see \
+                           them, those of a free one as the ground does.";
+
+/// Whose best hit is faster.
+fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
+    let name = letter(bat);
+    let row = comparison.figures.iter().find(|row| row.key == "best_exit_speed");
+    let Some(difference) = row.and_then(|row| row.difference(bat)) else {
+        return format!("{name} beside A: one of them hits no ball.");
+    };
+    let speed = |v: f64| by_speed(v, units);
+    if !difference.is_real() {
+        return format!(
+            "{name} and A hit equally hard at their best: the difference is no more than the \
+             errors, {}.",
+            speed(difference.within)
+        );
+    }
+    let (harder, other) = if difference.by > 0.0 { (name, 'A') } else { ('A', name) };
+    format!(
+        "{harder} hits harder at its best than {other}, by {}, and that is more than the errors, {}.",
+        speed(difference.by.abs()),
+        speed(difference.within)
+    )
+}
+
+fn by_speed(v: f64, units: Units) -> String {
+    let digits = |v: f64| if v >= 0.1 { format!("{v:.2}") } else { format!("{v:.1e}") };
+    units.inline(
+        units.show(format!("{} m/s", digits(v)), format!("{} mph", digits(miles_per_hour(v)))),
+    )
+}
+
+fn stretch(s: &Stretch, name: char, place: &dyn Fn(f64) -> String, units: Units) -> String {
+    let at = match s.from == s.to {
+        true => format!("at {}", place(s.from)),
+        false => format!("from {} to {}", place(s.from), place(s.to)),
+    };
+    match s.harder {
+        0 => format!("{at} no difference beyond the errors"),
+        harder => format!(
+            "{at} {} is faster, by up to {} at {}",
+            if harder > 0 { name } else { 'A' },
+            by_speed(s.most.by.abs(), units),
+            place(s.most_at)
+        ),
+    }
+}

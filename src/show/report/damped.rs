@@ -1,0 +1,72 @@
+//! How the modes die out, for the table and for the JSON.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use crate::files::schema::modes as file;
+use crate::modes::damping::Kind;
+use crate::modes::solve::Solution;
+
+/// A row for each mode; nothing for a bat without damping.
+pub fn table(solution: &Solution) -> String {
+    let damping = &solution.damping;
+    if damping.modes.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from(
+        "Damping (Q, width: 1/(2 ratio); Q, amplit., as papers on bats have it: 1/ratio)\n",
+    );
+    out += "  mode  damped frequency      ratio       decay    Q, width  Q, amplit.\n";
+    let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| digits(q, 4));
+    for (mode, damped) in solution.modes.iter().zip(&damping.modes) {
+        let _ = writeln!(
+            out,
+            "  {:>4} {:>14.2} Hz {:>10} {:>9}/s {:>11} {:>11}",
+            mode.order,
+            damped.swinging() / TAU,
+            digits(damped.ratio, 3),
+            digits(damped.decay, 3),
+            q(damped.q_half_power()),
+            q(damped.q_amplitude())
+        );
+    }
+    if !damping.rigid.is_empty() {
+        let rates: Vec<String> = damping.rigid.iter().map(|rate| digits(*rate, 3)).collect();
+        let _ = writeln!(out, "  rigid motions decay at {}/s", rates.join("/s and "));
+    }
+    out
+}
+
+/// So many digits, with a power of ten where the plain number would be long.
+fn digits(value: f64, count: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", count - 1).parse().unwrap_or(value);
+    match rounded.abs() {
+        0.0 | 1e-3..1e5 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// What a mode's damping is; None where nothing damps it.
+pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
+    let damped = solution.damping.modes.get(k)?;
+    Some(file::Damped {
+        natural_frequency_hz: damped.natural / TAU,
+        damped_frequency_hz: damped.swinging() / TAU,
+        decay_1_per_s: damped.decay,
+        loss_factor: 2.0 * damped.ratio,
+        q_half_power: damped.q_half_power(),
+        q_amplitude: damped.q_amplitude(),
+        material_damping_ratio: damped.of_materials,
+        complex: matches!(solution.damping.kind, Kind::Complex(_)),
+        error: damped.error,
+    })
+}
+
+/// How the damping was found; None where there is none.
+pub fn of_model(solution: &Solution) -> Option<file::Damping> {
+    let damping = &solution.damping;
+    (!damping.modes.is_empty()).then(|| file::Damping {
+        method: damping.kind.to_string(),
+        rigid_decay_1_per_s: damping.rigid.clone(),
+    })
+}

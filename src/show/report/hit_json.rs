@@ -1,0 +1,166 @@
+//! The JSON file of a hit, in SI, the unit in every key's name.
+
+use serde_json::Value;
+
+use crate::bat::body::Bat;
+use crate::collision::ball::Ball;
+use crate::collision::figures::{Figures, Swung};
+use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Separation, Wall};
+use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::files::schema;
+use crate::files::schema::hit as file;
+use crate::files::schema::modes::Generator;
+use crate::study::ignored;
+
+/// The `sweetspot-hit/1` document, without the figures.
+pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &SweetSpot) -> Value {
+    schema::value(&file::HitFile {
+        format: file::HitFormat::One,
+        generator: Generator::this(),
+        model: model_name(model).to_owned(),
+        scene: scene_out(bat, scene),
+        impacts: impacts.iter().map(|impact| impact_out(bat, impact)).collect(),
+        sweet_spot: sweet_spot(spot),
+        ignored: ignored::in_hit(bat, scene.wall.is_some()),
+        figures: None,
+    })
+}
+
+/// The standard figures, beside the impacts in the same document.
+pub fn figures(figures: &Figures) -> Value {
+    schema::value(&figures_out(figures))
+}
+
+/// One impact.
+pub fn impact(bat: &Bat, impact: &Impact) -> Value {
+    schema::value(&impact_out(bat, impact))
+}
+
+/// The name that the command line and the files use.
+pub fn model_name(model: Model) -> &'static str {
+    match model {
+        Model::Rigid => "rigid",
+        Model::EnergyLoss(_) => "energy-loss",
+        Model::Pulse(_) => "pulse",
+        Model::Contact => "contact",
+    }
+}
+
+/// From where the energies of hits on that bat are seen.
+pub fn seen_from(bat: &Bat) -> &'static str {
+    if bat.fixtures.holding() { "hands" } else { "ground" }
+}
+
+fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
+    let wall = |wall: Wall| file::Wall { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
+    file::Scene {
+        bat_pivot_m: scene.pivot,
+        swing_rad_s: scene.swing,
+        ball: ball_out(&scene.ball),
+        ball_speed_m_s: scene.ball_speed,
+        cor: scene.cor,
+        hands_m: scene.hands,
+        energies_seen_from: seen_from(bat).to_owned(),
+        wall: scene.wall.map(wall),
+    }
+}
+
+/// The ball, with what its numbers come from.
+pub fn ball_out(ball: &Ball) -> file::Ball {
+    file::Ball {
+        name: ball.name.clone(),
+        source: ball.source.clone(),
+        mass_kg: ball.mass,
+        radius_m: ball.radius,
+        stiffness: ball.stiffness,
+        exponent: ball.exponent,
+        cor: ball.cor,
+        cor_by_speed: ball.cor_by_speed.clone(),
+    }
+}
+
+fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
+    file::SweetSpot {
+        exit_speed_max: spot.exit_speed_max.map(peak),
+        vibration_min: spot.vibration_min.map(peak),
+        node_mode_1_m: spot.node_mode_1,
+        node_mode_2_m: spot.node_mode_2,
+        center_of_percussion_m: spot.center_of_percussion,
+        zone_m: spot.zone,
+        hands_velocity_min: spot.hands_velocity_min.map(peak),
+        hands_acceleration_min: spot.hands_acceleration_min.map(peak),
+        inch_off_m_s: spot.inch_off,
+    }
+}
+
+fn peak(peak: Peak) -> file::Peak {
+    file::Peak { x_m: peak.x, value: peak.value }
+}
+
+fn figures_out(figures: &Figures) -> file::Figures {
+    let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+    let swung = |swung: &Swung| file::Swung {
+        exponent: swung.exponent,
+        swing_rad_s: swung.swing,
+        exit_speed_max: swung.best.map(peak),
+    };
+    let moved = |(change, spot): &(String, SweetSpot)| file::Moved {
+        sweet_spot: sweet_spot(spot),
+        change: change.clone(),
+    };
+    file::Figures {
+        certified: false,
+        bat_ball_speed_m_s: best.map(|o| o.exit_speed),
+        collision_efficiency: best.map(|o| o.collision_efficiency),
+        bbcor: best.map(|o| o.bbcor),
+        bbcor_pivoted: best.map(|o| o.bbcor_pivoted),
+        bbcor_max: figures.bbcor_max.map(peak),
+        bbcor_pivoted_max: figures.bbcor_pivoted_max.map(peak),
+        rigid_exit_speed_max: figures.rigid_best.map(peak),
+        swings: figures.swings.iter().map(swung).collect(),
+        moves: figures.moves.iter().map(moved).collect(),
+    }
+}
+
+fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
+    let outcome = impact.outcome.as_ref();
+    let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
+    file::Impact {
+        x_m: impact.x,
+        from_tip_m: bat.length() - impact.x,
+        bat_speed_m_s: impact.bat_speed,
+        exit_speed_m_s: number(&|o| o.exit_speed),
+        rigid_exit_speed_m_s: impact.rigid_exit_speed,
+        cor: number(&|o| o.cor),
+        impulse_n_s: number(&|o| o.impulse),
+        contact_time_s: outcome.and_then(|o| o.contact_time),
+        first_separation: outcome.and_then(|o| o.first_separation).map(separation),
+        peak_force_n: outcome.and_then(|o| o.peak_force),
+        peak_compression_m: outcome.and_then(|o| o.peak_compression),
+        collision_efficiency: number(&|o| o.collision_efficiency),
+        bbcor: number(&|o| o.bbcor),
+        bbcor_pivoted: number(&|o| o.bbcor_pivoted),
+        modes_used: outcome.map(|o| o.energy.vibration_by_mode.len()),
+        flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
+        energy_j: outcome.map(|o| energy_out(&o.energy)),
+        error: file::HitError { exit_speed: number(&|o| o.error) },
+    }
+}
+
+fn separation(first: Separation) -> file::FirstSeparation {
+    file::FirstSeparation { time_s: first.time, exit_speed_m_s: first.exit_speed }
+}
+
+fn energy_out(energy: &Energy) -> file::Energy {
+    file::Energy {
+        initial: energy.initial,
+        ball: energy.ball,
+        bat_rigid: energy.bat_rigid,
+        vibration: energy.vibration(),
+        vibration_by_mode: energy.vibration_by_mode.clone(),
+        dissipated_ball: energy.dissipated_ball,
+        dissipated_damping: energy.dissipated_damping,
+        wall: energy.wall,
+        imbalance: energy.imbalance(),
+    }
+}

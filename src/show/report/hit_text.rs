@@ -1,0 +1,319 @@
+//! Tables of a hit for the terminal.
+
+use std::fmt::Write;
+
+use crate::base::units::{inches, miles_per_hour};
+use crate::bat::body::Bat;
+use crate::collision::figures::Figures;
+use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::sweep::Sweep;
+use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::show::report::curve;
+use crate::show::report::text::{Units, rounded, wrapped};
+use crate::study::ignored;
+
+/// What the flags of hits mean, and the letters that stand for them in the table.
+const FLAGS: [(&str, char, &str); 7] = [
+    ("reload", 'r', "pressed again while it was springing back"),
+    ("late_contact", 'l', "the bat caught up when the force had almost gone"),
+    ("second_contact", 's', "hit again after it left; the speed is that in the end"),
+    ("no_contact", 'n', "the bat runs away from the ball"),
+    ("no_section", 'p', "the bat ends in a point"),
+    ("no_real_solution", 'i', "the model has no real solution"),
+    ("unresolved", 'u', "not resolved: the energies do not close"),
+];
+
+/// A line for every flag that hits have.
+fn legend(impacts: &[Impact]) -> String {
+    let has = |flag: &&(&str, char, &str)| impacts.iter().any(|i| i.flags.contains(&flag.0));
+    let line = |(name, letter, words): &(&str, char, &str)| {
+        format!("  {letter}  {}: {words}\n", name.replace('_', " "))
+    };
+    FLAGS.iter().filter(has).map(line).collect()
+}
+
+/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration, and what
+/// is unusual.
+pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
+    let mut out =
+        row(["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-"].map(str::to_owned));
+    out += &row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion"].map(str::to_owned));
+    let (near, far) = if units == Units::Us { ("in", "mph") } else { ("cm", "m/s") };
+    let (tip, second) = match units {
+        Units::Si => ("cm", ""),
+        Units::Us => ("in", ""),
+        Units::Both => ("in", "mph"),
+    };
+    out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
+    let length = |x: f64, unit: &str| {
+        let value = if unit == "in" { inches(x) } else { 100.0 * x };
+        // A rounding of nothing is no length.
+        format!("{:.2}", value + 0.0)
+    };
+    let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
+    for impact in impacts {
+        let from_tip = (bat.length() - impact.x).max(0.0);
+        let mut cells = [const { String::new() }; 8];
+        cells[0] = length(impact.x, near);
+        cells[1] = length(from_tip, tip);
+        cells[2] = format!("{:.2}", fast(impact.bat_speed));
+        cells[5] = impact.rigid_exit_speed.map_or(String::new(), |v| format!("{:.2}", fast(v)));
+        if let Some(outcome) = &impact.outcome {
+            cells[3] = format!("{:.2}", fast(outcome.exit_speed));
+            if units == Units::Both {
+                cells[4] = format!("{:.1}", miles_per_hour(outcome.exit_speed));
+            }
+            cells[6] = format!("{:.3}", outcome.collision_efficiency);
+            cells[7] = format!("{:.2}", outcome.energy.vibration());
+        } else {
+            cells[3] = "no value".to_owned();
+        }
+        let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
+        let marks: String = letters.collect();
+        let gap = if marks.is_empty() { "" } else { " " };
+        let _ = writeln!(out, "{}{gap}{marks}", row(cells).trim_end_matches('\n'));
+    }
+    out + &legend(impacts)
+}
+
+/// Eight right-aligned cells, 76 columns.
+fn row(cells: [String; 8]) -> String {
+    let line: String = cells
+        .iter()
+        .zip([10, 9, 10, 10, 9, 10, 9, 9])
+        .fold(String::new(), |line, (cell, width)| format!("{line}{cell:>width$}"));
+    format!("{}\n", line.trim_end())
+}
+
+/// Exit speed along the barrel, drawn.
+pub fn curve(impacts: &[Impact], units: Units) -> String {
+    let us = units == Units::Us;
+    let fast = |v: f64| if us { miles_per_hour(v) } else { v };
+    let places: Vec<f64> =
+        impacts.iter().map(|i| if us { inches(i.x) } else { 100.0 * i.x }).collect();
+    let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast(o.exit_speed));
+    let ours: Vec<_> = impacts.iter().map(exit).collect();
+    let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(fast)).collect();
+    let labels = if us {
+        ["exit speed, mph (* this bat, . if it did not bend)", "in from the knob"]
+    } else {
+        ["exit speed, m/s (* this bat, . if it did not bend)", "cm from the knob"]
+    };
+    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels, [66, 15])
+}
+
+/// One sentence: why the ball leaves fastest where it does.
+pub fn why(figures: &Figures, units: Units) -> String {
+    let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
+    let (Some(peak), Some(rigid)) = (figures.spot.exit_speed_max, figures.rigid_best) else {
+        return String::new();
+    };
+    let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+    let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
+        let text = "Why there: further out the bat gives way more than its speed makes up for.";
+        return wrapped(text, 0);
+    };
+    let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
+    let text = format!(
+        "Why there: a bat that does not bend would be best at {}; vibration takes {there:.2} J there \
+         and {:.2} J at the sweet spot, {} {way}. Further out recoil and vibration take more than the \
+         bat's speed there makes up for.",
+        place(rigid.x),
+        here.energy.vibration(),
+        place((peak.x - rigid.x).abs())
+    );
+    wrapped(&text, 0)
+}
+
+fn centimetres(x: f64) -> String {
+    format!("{:.1} cm", 100.0 * x)
+}
+
+fn in_inches(x: f64) -> String {
+    format!("{:.1} in", inches(x))
+}
+
+/// What a model is, wherever its results are printed; an empirical one says so.
+pub fn meaning(model: Model) -> &'static str {
+    match model {
+        Model::Rigid => "     the bat does not bend in this model\n",
+        Model::EnergyLoss(_) => {
+            "     empirical: the loss to vibration is the WPI report's fit, not derived, and\n     \
+             energy is not conserved (energy_j.imbalance in the JSON)\n"
+        }
+        Model::Pulse(_) => {
+            "     the force is a half sine of a given duration, and the ball's loss a given share\n"
+        }
+        Model::Contact => "     ball and modes in contact; the ball returns less than it takes\n",
+    }
+}
+
+/// What is left out of a hit with as many modes as it needs.
+pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
+    let Some(truncation) = sweep.truncation else { return String::new() };
+    let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
+    let fastest = sweep.impacts.iter().map(closing).fold(0.0, f64::max);
+    let change = truncation * fastest;
+    let shown = |speed: f64, unit: &str| format!("{speed:.1e} {unit}");
+    let change =
+        units.inline(units.show(shown(change, "m/s"), shown(miles_per_hour(change), "mph")));
+    let count = sweep.solution.modes.len();
+    let text = format!(
+        "{count} modes; what is left out of those above changes an exit speed by {change} at most, \
+         by estimate."
+    );
+    wrapped(&text, 0)
+}
+
+/// The sweet spot by each definition, from knob and tip.
+pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
+    let mut out =
+        String::from("Sweet spot                             from knob            from tip\n");
+    let mut line = |what: &str, x: Option<f64>, value: Option<String>| {
+        let Some(x) = x else { return };
+        let place = |x: f64| match units {
+            Units::Si => format!("{:.2} cm", 100.0 * x),
+            Units::Us => format!("{:.2} in", inches(x)),
+            Units::Both => format!("{:.2} cm, {:.2} in", 100.0 * x, inches(x)),
+        };
+        let what = value.map_or(what.to_owned(), |value| format!("{what}, {value}"));
+        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
+        let _ = writeln!(out, "{text}");
+    };
+    let mut peak = |what: &str, peak: Option<Peak>, shown: &dyn Fn(f64) -> String| {
+        line(what, peak.map(|p| p.x), peak.map(|p| shown(p.value)));
+    };
+    let speed = |v: f64| units.inline(units.speed(v));
+    peak("fastest ball", spot.exit_speed_max, &speed);
+    peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
+    peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
+    let shaken = |a: f64| format!("{:.0} g", a / STANDARD_GRAVITY);
+    peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
+    line("node of mode 1", spot.node_mode_1, None);
+    line("node of mode 2", spot.node_mode_2, None);
+    line("centre of percussion (swing)", spot.center_of_percussion, None);
+    if let Some([from, to]) = spot.zone {
+        line("within 1 % of the best: from", Some(from), None);
+        line("                        to", Some(to), None);
+    }
+    out
+}
+
+/// m/s².
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// What is stated of a bat: efficiency, BBCOR, what an inch costs, swings.
+pub fn figures(figures: &Figures, units: Units) -> String {
+    let Some(outcome) = figures.best.as_ref().and_then(|best| best.outcome.as_ref()) else {
+        return String::new();
+    };
+    let mut out = String::from("Figures at the sweet spot (computed, not certified)\n");
+    let speed = |v: f64| units.inline(units.speed(v));
+    let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
+    let mut line = |what: &str, value: String| {
+        let _ = writeln!(out, "  {what:<36} {value}");
+    };
+    line("bat-ball speed", speed(outcome.exit_speed));
+    line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
+    line("BBCOR there, of a free bat", format!("{:.3}", outcome.bbcor));
+    line("  of one held 6 in from the knob", format!("{:.3}", outcome.bbcor_pivoted));
+    let most = |peak: Peak| format!("{:.3} at {}", peak.value, place(peak.x));
+    if let Some(peak) = figures.bbcor_max {
+        line("largest BBCOR, of a free bat", most(peak));
+    }
+    if let Some(peak) = figures.bbcor_pivoted_max {
+        line("  of one held 6 in from the knob", most(peak));
+    }
+    if let Some([knob, tip]) = figures.spot.inch_off {
+        let lost = |v: f64| {
+            units.show(
+                format!("{:+.2} m/s", v - outcome.exit_speed),
+                format!("{:+.1} mph", miles_per_hour(v - outcome.exit_speed)),
+            )
+        };
+        let lost = |v: Option<f64>| v.map_or("no hit".to_owned(), |v| units.inline(lost(v)));
+        line("1 in off towards the knob", lost(knob));
+        line("1 in off towards the tip", lost(tip));
+    }
+    for swung in &figures.swings {
+        let what = match swung.exponent {
+            0.0 => "same angular speed".to_owned(),
+            0.5 => "same energy of rotation".to_owned(),
+            n => format!("speed falls as (swing weight)^{}", -n),
+        };
+        let best = swung.best.map_or("no hit".to_owned(), |best| speed(best.value));
+        line(&what, format!("{:.2} rad/s: {best}", swung.swing));
+    }
+    out
+}
+
+/// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
+pub fn moves(figures: &Figures, units: Units) -> String {
+    if figures.spot.exit_speed_max.is_none() {
+        return String::new();
+    }
+    let mut out = String::from(
+        "How it moves, mm to the tip fastest   least  least hand  least hand   best\n\
+         \u{20}                              ball  vibr.    velocity     shaking  speed\n",
+    );
+    let spot = &figures.spot;
+    for (what, moved) in &figures.moves {
+        let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
+            (Some(before), Some(after)) => {
+                format!("{:+.1}", rounded(1e3 * (after.x - before.x), 1))
+            }
+            _ => String::new(),
+        };
+        let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
+            (Some(before), Some(after)) => {
+                let change = after.value - before.value;
+                match units {
+                    Units::Us => format!("{:+.1} mph", rounded(miles_per_hour(change), 1)),
+                    _ => format!("{:+.2} m/s", rounded(change, 2)),
+                }
+            }
+            _ => String::new(),
+        };
+        let line = format!(
+            "  {what:<24} {:>8} {:>7} {:>11} {:>11}   {faster}",
+            by(|s| s.exit_speed_max),
+            by(|s| s.vibration_min),
+            by(|s| s.hands_velocity_min),
+            by(|s| s.hands_acceleration_min),
+        );
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    out
+}
+
+/// The scene in words.
+pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
+    let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
+    let mut out = format!(
+        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end\n     \
+         {} at {}, cor {}\n",
+        scene.swing,
+        units.inline(units.length(scene.pivot.abs())),
+        scene.ball.name,
+        units.inline(units.speed(scene.ball_speed)),
+        match scene.ball.cor_by_speed.is_empty() {
+            true => scene.cor.to_string(),
+            false => "by its speed".to_owned(),
+        }
+    );
+    if let Some(wall) = scene.wall {
+        let _ = writeln!(
+            out,
+            "     the barrel's wall gives way: {:.3e} N/m, {} kg",
+            wall.stiffness, wall.mass
+        );
+    }
+    for effect in ignored::in_hit(bat, scene.wall.is_some()) {
+        out += &wrapped(&format!("     left out: {effect}"), 5);
+    }
+    if bat.fixtures.holding() {
+        out += "     the bat is held: energies are as its hands see them, the bat at rest;\n     \
+         swinging in what holds it counts as vibration\n";
+    }
+    out
+}

@@ -1,0 +1,21 @@
+//! How is everything that was asked for printed and written?
+//!
+//! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents;
+//! nothing here computes physics.
+
+pub mod curve;
+pub mod resolved;
+pub mod damped;
+pub mod json;
+pub mod text;
+pub mod sketch;
+pub mod hit_text;
+pub mod hit_json;
+pub mod bbcor;
+pub mod aftermath;
+pub mod u_curve;
+pub mod trade;
+pub mod advice;
+pub mod comparison;
+pub mod comparison_data;
+pub mod measured;

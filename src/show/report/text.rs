@@ -1,0 +1,215 @@
+//! Tables for the terminal, 80 columns wide, in the units asked for.
+
+use std::fmt::Write;
+
+use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::theory::Theory;
+use crate::modes::mode::Mode;
+use crate::modes::solve::Solution;
+use crate::show::report::damped;
+use crate::study::ignored::ignored;
+use crate::study::trade::reference::solver_name;
+
+/// Which units the tables are in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Units {
+    /// SI alone.
+    Si,
+    /// US units alone.
+    Us,
+    /// Both, side by side.
+    Both,
+}
+
+impl Units {
+    /// A value in SI, in US units, or in both.
+    pub fn show(self, si: String, us: String) -> String {
+        match self {
+            Self::Si => si,
+            Self::Us => us,
+            Self::Both => format!("{si:<18} {us}"),
+        }
+    }
+
+    /// A length, given in metres.
+    pub fn length(self, metres: f64) -> String {
+        self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
+    }
+
+    /// A mass, given in kilograms.
+    pub fn mass(self, kilograms: f64) -> String {
+        self.show(format!("{kilograms:.4} kg"), format!("{:.2} oz", ounces(kilograms)))
+    }
+
+    /// A moment of inertia, given in kg m².
+    pub fn inertia(self, value: f64) -> String {
+        let us = format!("{:.0} oz in²", ounce_square_inches(value));
+        self.show(format!("{value:.5} kg m²"), us)
+    }
+
+    /// A speed, given in m/s.
+    pub fn speed(self, value: f64) -> String {
+        let (si, us) = (rounded(value, 2), rounded(miles_per_hour(value), 1));
+        self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
+    }
+
+    /// The same in running text: `0.0635 m (2.50 in)`.
+    pub fn inline(self, value: String) -> String {
+        match (self, value.split_once("   ")) {
+            (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),
+            _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    /// A list of positions (m), a line per system of units.
+    pub fn positions(self, places: &[f64]) -> Vec<String> {
+        let list = |scale: f64, unit: &str| {
+            let shown: Vec<String> = places.iter().map(|x| format!("{:.2}", x * scale)).collect();
+            format!("{} {unit}", shown.join("  "))
+        };
+        let (si, us) = (list(100.0, "cm"), list(inches(1.0), "in"));
+        match self {
+            Self::Si => vec![si],
+            Self::Us => vec![us],
+            Self::Both => vec![si, us],
+        }
+    }
+}
+
+/// What bat this is: size, mass, balance, swing weight, centre of percussion.
+pub fn summary(bat: &Bat, units: Units) -> String {
+    let inertia = bat.inertia();
+    let length = bat.length();
+    let mut out = format!("{}\n", bat.name);
+    let mut line = |what: &str, value: String| {
+        let _ = writeln!(out, "  {what:<34} {value}");
+    };
+    line("length", units.length(length));
+    line("mass", units.mass(inertia.mass));
+    line("balance point, from knob", units.length(inertia.balance_point));
+    line("balance point, from tip", units.length(length - inertia.balance_point));
+    if let Some(weighed) = bat.weighed.balance_point {
+        line("  less the weighed one", units.length(inertia.balance_point - weighed));
+    }
+    line("inertia about balance point", units.inertia(inertia.about_balance));
+    line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
+    if let Some(center) = inertia.center_of_percussion(STANDARD_PIVOT) {
+        line("centre of percussion, from knob", units.length(center));
+        line("centre of percussion, from tip", units.length(length - center));
+    }
+    out
+}
+
+/// The value to so many decimals; nothing is 0, not −0.
+pub fn rounded(value: f64, decimals: i32) -> f64 {
+    let scale = 10.0_f64.powi(decimals);
+    (scale * value).round() / scale + 0.0
+}
+
+/// So many decimals, or a power of ten where that would be all zeros or very long.
+fn fixed(value: f64, decimals: usize) -> String {
+    match value.abs() {
+        0.0 | 1e-2..1e6 => format!("{value:.decimals$}"),
+        _ => format!("{value:.2e}"),
+    }
+}
+
+/// The nodes of so many modes fit a screen or two.
+const MOST_NODES: usize = 20;
+
+/// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
+pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
+    let mut out = wrapped(&format!("Bending modes ({})", bat.fixtures.freedom()), 2);
+    if solution.modes.is_empty() {
+        return out;
+    }
+    out += "  mode    frequency    f/f1   relative error   modal mass (largest |w| = 1)\n";
+    let first = solution.modes.first().map_or(1.0, |mode| mode.omega);
+    for mode in &solution.modes {
+        let _ = writeln!(
+            out,
+            "  {:>4} {:>9} Hz {:>7}   within {:<8} {:>8} g",
+            mode.order,
+            fixed(mode.frequency(), 2),
+            fixed(mode.omega / first, 3),
+            format!("{:.0e}", mode.error.total()),
+            fixed(1e3 * mode.modal_mass, 1),
+        );
+    }
+    out += &damped::table(solution);
+    if with_nodes > 0 {
+        out += "Nodes\n";
+    }
+    for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
+        let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
+        let mut label = format!("mode {}", mode.order);
+        if mode.nodes.is_empty() {
+            let _ = writeln!(out, "  {label:<8} none");
+            continue;
+        }
+        for (end, places) in [("from knob", &mode.nodes), ("from tip", &from_tip)] {
+            for line in units.positions(places) {
+                let line = format!("  {label:<8} {end:<9}  {line}");
+                out += &wrapped(&line, 22);
+                label.clear();
+            }
+        }
+    }
+    if with_nodes.min(solution.modes.len()) > MOST_NODES {
+        let _ = writeln!(out, "  those of modes above {MOST_NODES} are in the JSON");
+    }
+    out
+}
+
+/// How the modes were found, and what the model left out.
+pub fn model(bat: &Bat, solution: &Solution) -> String {
+    let mut model = format!(
+        "Model: {}, {} elements of degree {}, solver {}",
+        match solution.theory {
+            Theory::EulerBernoulli => "Euler-Bernoulli",
+            Theory::Rayleigh => "Rayleigh (rotary inertia)",
+            Theory::Timoshenko => "Timoshenko (rotary inertia and shear)",
+        },
+        solution.mesh.len(),
+        solution.degree,
+        solver_name(solution.solver)
+    );
+    if solution.steps > 0 {
+        let _ = write!(model, " ({} Lanczos steps)", solution.steps);
+    }
+    let mut out = wrapped(&model, 7);
+    let oscillates = bat.fixtures.none_moving() && !solution.theory.turns();
+    let by_nodes = oscillates && solution.modes.iter().all(Mode::has_its_nodes);
+    let count = match (solution.complete(), by_nodes) {
+        (true, true) => "none is missing: mode n has its n + 1 nodes",
+        (true, false) => "none is missing: as many motions are slower",
+        (false, _) => "A MODE MAY BE MISSING: the number of slower motions is another",
+    };
+    let plan = format!(
+        "  why: {}; every frequency within {:.0e}; {count}",
+        solution.reason,
+        solution.worst()
+    );
+    out += &wrapped(&plan, 7);
+    if !solution.damping.modes.is_empty() {
+        out += &wrapped(&format!("  damping: {}", solution.damping.kind), 11);
+    }
+    for effect in ignored(bat, solution) {
+        out += &wrapped(&format!("  left out: {effect}"), 12);
+    }
+    out
+}
+
+/// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
+pub fn wrapped(text: &str, indent: usize) -> String {
+    let (mut out, mut rest, mut lead) = (String::new(), text, 0);
+    while lead + rest.chars().count() > 80 {
+        let end = rest.char_indices().nth(80 - lead).map_or(rest.len(), |(at, _)| at);
+        let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
+        let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
+        (rest, lead) = (rest[space..].trim_start(), indent);
+    }
+    let _ = writeln!(out, "{:lead$}{rest}", "");
+    out
+}

@@ -1,0 +1,144 @@
+//! Speed against accuracy: tables, JSON, CSV.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::bat::body::Bat;
+use crate::show::report::json::generator;
+use crate::show::report::text::wrapped;
+use crate::show::report::u_curve::{columns, heading, of_choice, of_reference};
+use crate::study::trade::front::{Run, fastest, front};
+use crate::study::trade::measure::Trade;
+use crate::study::trade::reference::solver_name;
+use crate::study::trade::words::time;
+
+/// Runs of the front with a larger error are shown only if there are no others.
+const COARSEST: f64 = 1e-2;
+
+/// The reference, the front, the planner's choices and what follows, 80 columns wide.
+pub fn text(bat: &Bat, trade: &Trade) -> String {
+    let reference = &trade.reference;
+    let modes = reference.omegas.len();
+    let mut out = heading("Speed against accuracy", bat, reference);
+    let ways = match trade.runs.len() {
+        1 => "the only way".to_owned(),
+        runs => format!("of {runs} ways"),
+    };
+    let _ = writeln!(out, "Front: {ways} measured, none is both faster and more accurate");
+    let _ = writeln!(
+        out,
+        "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planned for"
+    );
+    let good = front(&trade.runs).any(|run| run.error() <= COARSEST);
+    for run in front(&trade.runs).filter(|run| !good || run.error() <= COARSEST) {
+        let (choice, floor) = (&run.choice, reference.floor());
+        let line = format!(
+            "  {:>10}  {:>9} {:>7} {:>9} {:>9}  {:<12}  {}",
+            time(run.seconds),
+            error(run.error(), floor),
+            choice.degree,
+            choice.elements,
+            choice.degrees_of_freedom,
+            solver_name(choice.solver),
+            run.planned_for.map_or(String::new(), |tolerance| format!("{tolerance:.0e}"))
+        );
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    out += &planner(trade);
+    out += "In words\n";
+    trade.words.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    out
+}
+
+/// An error, or below what it cannot be told from none.
+fn error(error: f64, floor: f64) -> String {
+    if error > floor { format!("{error:.1e}") } else { format!("< {floor:.0e}") }
+}
+
+fn planned(trade: &Trade) -> Vec<(f64, &Run)> {
+    let plans = trade.runs.iter().filter_map(|run| Some((run.planned_for?, run)));
+    let mut plans: Vec<_> = plans.collect();
+    plans.sort_by(|a, b| b.0.total_cmp(&a.0));
+    plans
+}
+
+fn planner(trade: &Trade) -> String {
+    let floor = trade.reference.floor();
+    let mut out = String::from(
+        "The planner's choices, beside the fastest run within the same tolerance\n  asked      \
+         time     error   stated  degree elements    fastest, n x degree\n",
+    );
+    for (tolerance, run) in planned(trade) {
+        let best = fastest(&trade.runs, tolerance);
+        let _ = writeln!(
+            out,
+            "  {:>5}{:>10}{:>10}{:>9}{:>8}{:>9}  {}",
+            format!("{tolerance:.0e}"),
+            time(run.seconds),
+            error(run.error(), floor),
+            format!("{:.1e}", run.stated),
+            run.choice.degree,
+            run.choice.elements,
+            best.map_or(String::new(), |best| format!(
+                "{:>9}, {} x {}",
+                time(best.seconds),
+                best.choice.elements,
+                best.choice.degree
+            ))
+        );
+    }
+    out
+}
+
+/// The `sweetspot-trade/1` document.
+pub fn json(bat: &Bat, trade: &Trade) -> Value {
+    let planner: Vec<Value> = planned(trade).into_iter().map(|(_, run)| of_run(run)).collect();
+    json!({
+        "format": "sweetspot-trade/1",
+        "generator": generator(),
+        "bat": { "name": bat.name },
+        "modes": trade.reference.omegas.len(),
+        "reference": of_reference(&trade.reference),
+        "runs": trade.runs.iter().map(of_run).collect::<Vec<_>>(),
+        "planner": planner,
+        "more_elements": columns(&trade.columns),
+        "words": trade.words,
+    })
+}
+
+fn of_run(run: &Run) -> Value {
+    let mut document = of_choice(&run.choice);
+    document["seconds"] = json!(run.seconds);
+    document["repeats"] = json!(run.repeats);
+    document["error"] = json!(run.error());
+    document["error_by_mode"] = json!(run.errors);
+    document["stated_error"] = json!(run.stated);
+    document["planned_for"] = json!(run.planned_for);
+    document["on_front"] = json!(run.on_front);
+    document
+}
+
+/// Every run as a line of CSV, fastest first.
+pub fn csv(trade: &Trade) -> String {
+    let mut out = String::from(
+        "degree,elements,solver,degrees_of_freedom,seconds,error,stated_error,on_front,planned_for\n",
+    );
+    for run in &trade.runs {
+        let choice = &run.choice;
+        let _ = writeln!(
+            out,
+            "{},{},{},{},{},{},{},{},{}",
+            choice.degree,
+            choice.elements,
+            solver_name(choice.solver),
+            choice.degrees_of_freedom,
+            run.seconds,
+            run.error(),
+            run.stated,
+            run.on_front,
+            run.planned_for.map_or(String::new(), |tolerance| tolerance.to_string())
+        );
+    }
+    out
+}

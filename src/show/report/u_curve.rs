@@ -1,0 +1,238 @@
+//! The U-curve: tables, JSON, CSV.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::bat::body::Bat;
+use crate::modes::solve::Solver;
+use crate::show::report::json::generator;
+use crate::show::report::text::wrapped;
+use crate::study::trade::reference::{Choice, Reference, solver_name};
+use crate::study::trade::u_curve::{Column, End, Way, best, loss};
+
+/// What was measured against what.
+pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
+    let discretisation = |choice: &Choice| {
+        let elements = if choice.elements == 1 { "element" } else { "elements" };
+        format!("{} {elements} of degree {}", choice.elements, choice.degree)
+    };
+    let title = format!("{what}: {}", bat.name);
+    let truth = format!(
+        "  {}, measured against {}, every frequency within {:.0e}; {} agree with them to {:.0e}",
+        reference.theory.name(),
+        discretisation(&reference.choice),
+        reference.stated,
+        discretisation(&reference.other),
+        reference.agreement.max(f64::EPSILON)
+    );
+    wrapped(&title, 4) + &wrapped(&truth, 4)
+}
+
+/// Errors at which 8 digits, 4 digits and none are left.
+pub const THRESHOLDS: [f64; 3] = [1e-8, 1e-4, 1.0];
+
+/// The error of the first and the last mode against the number of elements, and where it is lost.
+pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
+    let mut out = heading("Error against the number of cubic elements", bat, reference);
+    out += &wrapped(
+        "  own λ: as the solver's eigenvalue says; again: recomputed from its shape as strain \
+         energy over kinetic energy, as every answer of this program is",
+        4,
+    );
+    let last = reference.omegas.len() - 1;
+    for mode in [0, last].into_iter().take(1 + usize::from(last > 0)) {
+        let _ = writeln!(out, "Relative error of frequency {}", mode + 1);
+        out += &table(columns, mode);
+    }
+    out += &losses(columns);
+    out += "  (> n: not up to n elements)\n";
+    for column in columns {
+        let name = solver_name(column.solver);
+        let why = match &column.end {
+            Some(End::Refused { elements, reason }) => {
+                format!("  {name} ends at {elements} elements: {reason}")
+            }
+            Some(End::TooLarge { elements }) => {
+                format!("  {name} ends before {elements} elements: more than it takes")
+            }
+            Some(End::NoTime { elements }) => {
+                format!("  {name} ends before {elements} elements: too long for the --budget")
+            }
+            None => continue,
+        };
+        out += &wrapped(&why, 4);
+    }
+    out
+}
+
+/// Columns in the order of the table.
+fn ways(columns: &[Column]) -> Vec<(&Column, Way)> {
+    columns.iter().flat_map(|column| column.ways().iter().map(move |way| (column, *way))).collect()
+}
+
+fn name(column: &Column, way: Way) -> String {
+    let name = solver_name(column.solver);
+    match (column.solver, way) {
+        (Solver::Statics, _) => name.to_owned(),
+        (_, Way::Own) => format!("{name}, own λ"),
+        (_, Way::Recomputed) => format!("{name}, again"),
+    }
+}
+
+fn table(columns: &[Column], mode: usize) -> String {
+    let ways = ways(columns);
+    let line = |first: &str, cells: Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("{cell:>10}")).collect();
+        format!("{}\n", format!("{first:>9}{cells}").trim_end())
+    };
+    let second = ways.iter().map(|(column, way)| match (column.solver, way) {
+        (Solver::Statics, _) => "",
+        (_, Way::Own) => "own λ",
+        (_, Way::Recomputed) => "again",
+    });
+    let mut out = format!("{:>9}", "");
+    for column in columns {
+        // Over both of its columns, if it has two.
+        let width = 10 * column.ways().len();
+        let _ = write!(out, "{:>width$}", solver_name(column.solver));
+    }
+    out.push('\n');
+    out += &line("elements", second.map(str::to_owned).collect());
+    let mut counts: Vec<usize> =
+        columns.iter().flat_map(|column| column.points.iter().map(|p| p.elements)).collect();
+    counts.sort_unstable();
+    counts.dedup();
+    for n in counts {
+        let cell = |(column, way): &(&Column, Way)| {
+            let series = column.series(*way, mode);
+            let here = series.iter().find(|(elements, _)| *elements == n);
+            here.map_or("-".to_owned(), |(_, error)| format!("{error:.1e}"))
+        };
+        out += &line(&n.to_string(), ways.iter().map(cell).collect());
+    }
+    out
+}
+
+/// Where each loses what, for mode 1.
+fn losses(columns: &[Column]) -> String {
+    let mut out =
+        String::from("Where frequency 1 is lost: the first n beyond the best with such an error\n");
+    let row = |cells: [&str; 6]| {
+        let [name, best, error, eight, four, none] = cells;
+        format!("  {name:<19} {best:>7} {error:>8}{eight:>14}{four:>14}{none:>14}\n")
+    };
+    out += &row(["", "best n", "error", "1e-8", "1e-4", "1"]);
+    out += &row(["", "", "", "8 digits left", "4 left", "none"]);
+    for (column, way) in ways(columns) {
+        let series = column.series(way, 0);
+        let Some((least, error)) = best(&series) else { continue };
+        let [eight, four, none] = THRESHOLDS.map(|threshold| lost(column, &series, threshold));
+        let (name, least) = (name(column, way), least.to_string());
+        out += &row([&name, &least, &format!("{error:.1e}"), &eight, &four, &none]);
+    }
+    out
+}
+
+fn lost(column: &Column, series: &[(usize, f64)], threshold: f64) -> String {
+    match (loss(series, threshold), &column.end, series.last()) {
+        (Some((n, _)), ..) => n.to_string(),
+        (None, Some(End::Refused { elements, .. }), _) => format!("refuses {elements}"),
+        (None, _, Some((n, _))) => format!("> {n}"),
+        (None, ..) => String::new(),
+    }
+}
+
+/// The document of the U-curve, in the format `sweetspot-u-curve/1`.
+pub fn json(bat: &Bat, reference: &Reference, curve: &[Column]) -> Value {
+    json!({
+        "format": "sweetspot-u-curve/1",
+        "generator": generator(),
+        "bat": { "name": bat.name },
+        "modes": reference.omegas.len(),
+        "degree": 3,
+        "reference": of_reference(reference),
+        "columns": columns(curve),
+    })
+}
+
+/// The frequencies everything is measured against, and how far they may be trusted.
+pub fn of_reference(reference: &Reference) -> Value {
+    let hertz: Vec<f64> = reference.omegas.iter().map(|w| w / std::f64::consts::TAU).collect();
+    let mut document = of_choice(&reference.choice);
+    document["theory"] = json!(reference.theory.name());
+    document["frequencies_hz"] = json!(hertz);
+    document["stated_error"] = json!(reference.stated);
+    document["floor"] = json!(reference.floor());
+    document["confirmed_by"] = of_choice(&reference.other);
+    document["confirmed_by"]["agreement"] = json!(reference.agreement);
+    document
+}
+
+/// Degree, elements, solver, unknowns.
+pub fn of_choice(choice: &Choice) -> Value {
+    json!({
+        "degree": choice.degree,
+        "elements": choice.elements,
+        "solver": solver_name(choice.solver),
+        "degrees_of_freedom": choice.degrees_of_freedom,
+    })
+}
+
+/// Points and losses of every column.
+pub fn columns(columns: &[Column]) -> Vec<Value> {
+    columns.iter().map(of_column).collect()
+}
+
+fn of_column(column: &Column) -> Value {
+    let points = column.points.iter().map(|point| {
+        json!({
+            "elements": point.elements,
+            "seconds": point.seconds,
+            "own_error_by_mode": if point.own.is_empty() { Value::Null } else { json!(point.own) },
+            "recomputed_error_by_mode": point.recomputed,
+        })
+    });
+    let end = column.end.as_ref().map(|end| match end {
+        End::Refused { elements, reason } => json!({ "elements": elements, "reason": reason }),
+        End::TooLarge { elements } => json!({ "elements": elements, "reason": "too large" }),
+        End::NoTime { elements } => json!({ "elements": elements, "reason": "no time" }),
+    });
+    json!({
+        "solver": solver_name(column.solver),
+        "points": points.collect::<Vec<_>>(),
+        "end": end,
+        "own_lost_at": of_losses(column, Way::Own),
+        "recomputed_lost_at": of_losses(column, Way::Recomputed),
+    })
+}
+
+/// The numbers of elements at which mode 1 is lost; null where it is not.
+fn of_losses(column: &Column, way: Way) -> Value {
+    let series = column.series(way, 0);
+    let Some((least, error)) = best(&series) else { return Value::Null };
+    let [eight, four, none] = THRESHOLDS.map(|threshold| loss(&series, threshold).map(|at| at.0));
+    json!({
+        "best_elements": least,
+        "least_error": error,
+        "error_1e-8": eight,
+        "error_1e-4": four,
+        "error_1": none,
+    })
+}
+
+/// A line for every solver, way, number of elements and mode.
+pub fn csv(columns: &[Column]) -> String {
+    let mut out = String::from("solver,frequency,elements,mode,error\n");
+    for (column, way) in ways(columns) {
+        let whose = if way == Way::Own { "own" } else { "recomputed" };
+        for point in &column.points {
+            let errors = if way == Way::Own { &point.own } else { &point.recomputed };
+            for (k, error) in errors.iter().enumerate() {
+                let (name, n) = (solver_name(column.solver), point.elements);
+                let _ = writeln!(out, "{name},{whose},{n},{},{error}", k + 1);
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,94 @@
+//! Bats hit at the same places, and everything that is compared of them.
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::collision::figures::SwingLaw;
+use crate::collision::hit::Scene;
+use crate::modes::solve::Request;
+use crate::study::comparison::contender::{Contender, Terms, multiples, places};
+use crate::study::comparison::rows::{From, Row, figures, speeds};
+use crate::study::comparison::stretches::{Stretch, stretches};
+
+/// A bat with its own swing and its own request: theories may differ.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The bat.
+    pub bat: Bat,
+    /// The scene with this bat's swing.
+    pub scene: Scene,
+    /// Where that swing is from, if one batter swings all bats.
+    pub law: Option<SwingLaw>,
+    /// What is asked of its modes; the tolerance is that of the exit speeds.
+    pub request: Request,
+}
+
+/// All figures of several bats; the first is the one the others are compared with.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// How all of them are hit.
+    pub terms: Terms,
+    /// The bats, the first the one the others are compared with.
+    pub bats: Vec<Contender>,
+    /// Everything but the exit speeds by place.
+    pub figures: Vec<Row>,
+    /// Distances from the tip (m), a quarter of the asked one apart.
+    pub from_tip: Vec<f64>,
+    /// The exit speeds there.
+    pub by_tip: Vec<Row>,
+    /// Distances from the knob end (m) where all bats have a place, the asked one apart.
+    pub from_knob: Vec<f64>,
+    /// The exit speeds there.
+    pub by_knob: Vec<Row>,
+}
+
+/// How much of the shortest bat is compared, from the tip on.
+const COMPARED: f64 = 0.4;
+
+impl Comparison {
+    /// Hits all bats.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for places too close or too far apart, and those of
+    /// [`Contender::new`].
+    pub fn new(entries: Vec<Entry>, terms: Terms) -> Result<Self> {
+        let lengths = || entries.iter().map(|entry| entry.bat.length());
+        let shortest = lengths().fold(f64::INFINITY, f64::min);
+        let longest = lengths().fold(0.0, f64::max);
+        let reach = COMPARED * shortest;
+        if !(terms.every >= reach / 250.0 && terms.every <= reach) {
+            let found = format!("{:?} m", terms.every);
+            let expected = format!("{:.2e} to {:.2e} m on these bats", reach / 250.0, reach);
+            return Err(Error::value("every", found, expected));
+        }
+        let mut bats = vec![];
+        for Entry { bat, scene, law, request } in entries {
+            let places = places(&bat, terms.every, reach);
+            bats.push(Contender::new(bat, (scene, law), &request, &terms, &places)?);
+        }
+        let from_tip = multiples([0.0, reach], 0.25 * terms.every);
+        let from_knob = multiples([longest - reach, shortest], terms.every);
+        Ok(Self {
+            terms,
+            figures: figures(&bats),
+            by_tip: speeds(&bats, From::Tip, &from_tip),
+            by_knob: speeds(&bats, From::Knob, &from_knob),
+            from_tip,
+            from_knob,
+            bats,
+        })
+    }
+
+    /// Whether all bats are equally long.
+    pub fn same_length(&self) -> bool {
+        !self.figures[0].values.iter().flatten().any(|length| {
+            let first = self.bats[0].bat.length();
+            (length.value - first).abs() > 1e-9 * first
+        })
+    }
+
+    /// Where that bat hits harder than the first.
+    pub fn stretches(&self, bat: usize) -> Vec<Stretch> {
+        stretches(&self.from_tip, &self.by_tip, bat)
+    }
+}

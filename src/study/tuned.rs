@@ -1,0 +1,79 @@
+//! How stiff is a bat whose first frequency was tapped?
+//!
+//! [`tuned`] finds the one factor on all its moduli.
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::modes::mode::Mode;
+use crate::modes::solve::{Request, solve};
+
+/// The bat, as described, with one factor on every E and G, so that its first bending mode has the
+/// frequency that was tapped; as it is if none was.
+///
+/// A free bat's frequencies go as the root of the factor, and one step finds it; springs, joints
+/// and hands do not grow with it. How much a frequency does is the share of the bat's own strain
+/// energy in the mode's, which two solutions tell; the first bending mode is the first one of which
+/// that is at least half, not one in which the bat moves stiffly on what holds it.
+///
+/// # Errors
+///
+/// [`Error::Value`] where no factor gives that frequency; those of [`solve`].
+pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
+    const MOST_STEPS: usize = 60;
+    const STIFFER: f64 = 1.01;
+    let Some(tapped) = bat.weighed.first_bending else { return Ok(bat) };
+    let tolerance = (0.01 * tolerance).clamp(1e-12, 1e-6);
+    // Hands and springs leave at most two slow motions that are rigid by themselves; an absorber
+    // adds one more each.
+    let held = bat.fixtures.holding() || !bat.fixtures.absorbers.is_empty();
+    let modes = if held { 3 + bat.fixtures.absorbers.len() } else { 1 };
+    let request = Request { modes, tolerance, theory, ..Request::default() };
+    let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+    let mut nearest = 0.0_f64;
+    for _ in 0..MOST_STEPS {
+        let here = solve(&bat, &request)?;
+        let mut stiffer = bat.clone();
+        stiffer.scale(1.0, STIFFER);
+        let there = solve(&stiffer, &request)?;
+        let share = |(a, b): (&Mode, &Mode)| 2.0 * (b.omega / a.omega).ln() / STIFFER.ln();
+        let shares: Vec<f64> = here.modes.iter().zip(&there.modes).map(share).collect();
+        let bending = shares.iter().position(|share| *share >= 0.5);
+        let bending = bending.unwrap_or_else(|| {
+            let larger = |a: &usize, b: &usize| shares[*a].total_cmp(&shares[*b]);
+            (0..shares.len()).max_by(larger).unwrap_or(0)
+        });
+        let found = here.modes[bending].frequency();
+        let ratio = tapped / found;
+        if nearest == 0.0 || ratio.ln().abs() < (tapped / nearest).ln().abs() {
+            nearest = found;
+        }
+        // Where arithmetic knows a frequency less well, as well as it does, and half of --tol.
+        let known = here.modes[bending].error.total().min(50.0 * tolerance);
+        if (ratio - 1.0).abs() <= known.max(2.0 * tolerance) {
+            return Ok(bat);
+        }
+        // Newton's step in logarithms, never beyond what is known to be too soft or too stiff.
+        let now = bat.factors[1];
+        if ratio > 1.0 {
+            low = low.max(now)
+        } else {
+            high = high.min(now)
+        }
+        let step = ratio.powf(2.0 / shares[bending].max(0.02)).clamp(1e-4, 1e4);
+        let mut next = now * step;
+        if !(next > low && next < high) && low > 0.0 && high.is_finite() {
+            next = (low * high).sqrt();
+        }
+        if !(1e-9..1e9).contains(&next) || next == now {
+            break;
+        }
+        bat.scale(1.0, next / now);
+    }
+    let found = format!("{tapped} Hz; the nearest one that was reached is {nearest:.6} Hz");
+    let expected = match bat.fixtures.absorbers.is_empty() {
+        true => "a first bending frequency that a stiffer or softer bat of that kind can have",
+        false => "a first bending frequency with the absorber, which takes one near its own away",
+    };
+    Err(Error::value("weighed.first_bending_hz", found, expected))
+}
