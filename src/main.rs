@@ -9,7 +9,7 @@ use cli::{diagnostic, style};
 use sweetspot::Error;
 
 fn main() -> ExitCode {
-    let cli::Done { text, code, warning } = match cli::run() {
+    let cli::done::Done { text, code, warning } = match cli::verbs::run() {
         Ok(done) => done,
         Err(error) => {
             // There is nobody left to tell if stderr is closed.
@@ -17,8 +17,11 @@ fn main() -> ExitCode {
             let coloured = style::coloured(err.is_terminal());
             let _ = write!(err, "{}", diagnostic::render(&error, coloured));
             // Modes that do not converge are an accuracy not reached; all else is the input.
-            let code =
-                if matches!(error, Error::NotConverged { .. }) { cli::NOT_REACHED } else { 2 };
+            let code = if matches!(error, Error::NotConverged { .. }) {
+                cli::done::NOT_REACHED
+            } else {
+                2
+            };
             return ExitCode::from(code);
         }
     };
@@ -32,7 +35,7 @@ fn main() -> ExitCode {
         _ => {
             if let Some(warning) = warning {
                 // A closed standard error is no reason to fail.
-                let _ = writeln!(io::stderr(), "warning: {}", cli::printable(&warning));
+                let _ = writeln!(io::stderr(), "warning: {}", cli::done::printable(&warning));
             }
             ExitCode::from(code)
         }

@@ -1,4 +1,5 @@
-//! The order of the modules is the architecture: each uses only those declared above it.
+//! The order of chapters, and of files in a chapter, is the architecture: each uses only those declared
+//! above it. Chapters and files are taken from the tree itself.
 
 mod common;
 
@@ -9,126 +10,201 @@ use common::folder::Folder;
 
 /// Names declared by `mod x;` lines, in order.
 fn declared(file: &Path) -> Vec<String> {
-    let text = fs::read_to_string(file).unwrap();
+    let text = fs::read_to_string(file).unwrap_or_default();
     let names = text.lines().filter_map(|line| {
-        line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';').map(str::to_owned)
+        let name = line.strip_prefix("pub(crate) ").or(line.strip_prefix("pub ")).unwrap_or(line);
+        name.strip_prefix("mod ")?.strip_suffix(';').map(str::to_owned)
     });
     names.collect()
 }
 
-/// The source files of a module: `x.rs`, or all of `x/` and of the folders in it.
-fn sources(folder: &Path, module: &str) -> Vec<PathBuf> {
-    let single = folder.join(format!("{module}.rs"));
-    if single.exists() { vec![single] } else { files(&folder.join(module)) }
+fn files(path: &Path) -> Vec<PathBuf> {
+    if !path.is_dir() {
+        return vec![path.to_owned()];
+    }
+    let entries = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| files(&path))
+        .filter(|path| path.extension().is_some_and(|e| e == "rs"))
+        .collect()
 }
 
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
-    entries.flat_map(below).collect()
+/// The paths that a use names, groups written out: `a::{b, c::d}` is `a::b` and `a::c::d`.
+fn written_out(path: &str) -> Vec<String> {
+    let Some(open) = path.find('{') else { return vec![path.trim().to_owned()] };
+    let (before, inside) = (&path[..open], &path[open + 1..path.rfind('}').unwrap()]);
+    let (mut parts, mut depth) = (vec![String::new()], 0);
+    for c in inside.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                parts.push(String::new());
+                continue;
+            }
+            _ => {}
+        }
+        parts.last_mut().unwrap().push(c);
+    }
+    let parts = parts.iter().filter(|part| !part.trim().is_empty());
+    parts.flat_map(|part| written_out(&format!("{}{}", before.trim(), part.trim()))).collect()
 }
 
-/// Complaints about uses of `prefix::later` in a module declared before `later`.
-fn reaching_back(folder: &Path, root: &str, prefix: &str) -> Vec<String> {
-    let modules = declared(&folder.join(root));
-    assert!(modules.len() > 1, "no modules found in {root}");
+/// Every path in a file's code that begins in the crate, as `chapter::file::…`. Tests may look at
+/// everything, and so may the prose.
+fn used(source: &Path, file: &Path) -> Vec<String> {
+    let text = fs::read_to_string(file).unwrap();
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let code: String = lines.map(|line| format!("{line}\n")).collect();
+    let mut room: Vec<String> = file
+        .parent()
+        .unwrap()
+        .strip_prefix(source)
+        .unwrap()
+        .iter()
+        .map(|part| part.to_str().unwrap().to_owned())
+        .collect();
+    // In a room's contents page `super` is the room above, in its files the room itself.
+    if file.ends_with("mod.rs") {
+        room.pop();
+    }
+    let mut paths = vec![];
+    for (start, len) in ["crate::", "super::"]
+        .iter()
+        .flat_map(|word| code.match_indices(word).map(|(at, word)| (at, word.len())))
+    {
+        if code[..start].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
+            continue;
+        }
+        let rest = &code[start + len..];
+        let mut depth = 0;
+        let end = rest.find(|c: char| {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            depth < 0 || depth == 0 && !(c.is_alphanumeric() || "_:}".contains(c))
+        });
+        let path = &rest[..end.unwrap_or(rest.len())];
+        let mut from = if code[start..].starts_with("super") { room.clone() } else { vec![] };
+        for path in written_out(path) {
+            let mut path = path.as_str();
+            while let Some(above) = path.strip_prefix("super::") {
+                from.pop();
+                path = above;
+            }
+            paths.push(from.iter().map(|part| format!("{part}::")).collect::<String>() + path);
+        }
+    }
+    paths
+}
+
+/// Complaints about uses of `prefix::later` in a module declared before `later`, in this room and in
+/// all rooms in it.
+fn reaching_back(source: &Path, room: &Path, root: &str) -> Vec<String> {
+    let modules = declared(&room.join(root));
+    let prefix: String = room
+        .strip_prefix(source)
+        .unwrap()
+        .iter()
+        .map(|part| format!("{}::", part.to_str().unwrap()))
+        .collect();
     let mut complaints = Vec::new();
     for (k, module) in modules.iter().enumerate() {
-        for file in sources(folder, module) {
-            let text = fs::read_to_string(&file).unwrap();
-            // Tests may look at everything, and so may the prose.
-            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-            let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-            let code: Vec<&str> = code.collect();
-            // Grouped and relative paths would hide a use from this test.
-            let hidden =
-                |line: &&str| line.contains("use crate::{") || line.contains("super::super");
-            if let Some(line) = code.iter().find(|line| hidden(line)) {
-                complaints.push(format!("{}: write {line} out", file.display()));
-            }
-            for later in &modules[k + 1..] {
-                // In a room, `super` is the room.
-                let own = root == "mod.rs" && file.parent() == Some(folder);
-                let near = own.then(|| format!("super::{later}"));
-                let used = [Some(format!("{prefix}::{later}")), near];
-                let ends =
-                    |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-                for used in used.iter().flatten() {
-                    if code.iter().any(|line| line.split(used).skip(1).any(ends)) {
-                        let file = file.display();
-                        complaints.push(format!("{file} uses {used}, declared below it"));
-                    }
+        let (single, inner) = (room.join(format!("{module}.rs")), room.join(module));
+        let sources = if single.exists() { vec![single] } else { files(&inner) };
+        for file in sources {
+            for path in used(source, &file) {
+                let later = modules[k + 1..].iter().find(|later| {
+                    path.strip_prefix(&format!("{prefix}{later}"))
+                        .is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+                });
+                if let Some(later) = later {
+                    let file = file.strip_prefix(source).unwrap().display();
+                    complaints.push(format!("{file} uses {path}, {later} is declared below it"));
                 }
             }
+        }
+        if inner.is_dir() {
+            complaints.extend(reaching_back(source, &inner, "mod.rs"));
         }
     }
     complaints
 }
 
+fn source() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
 #[test]
 fn no_module_reaches_back() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut complaints = reaching_back(&source, "lib.rs", "crate");
-    let rooms = [
-        "beam",
-        "eigen",
-        "trade",
-        "advise",
-        "collision",
-        "schema",
-        "comparison",
-        "measured",
-        "report",
-        "exchange",
-        "exchange/uff",
-        "measured_file",
-        "plot",
-        "page",
-        "extremes",
-    ];
-    for room in rooms {
-        let prefix = format!("crate::{}", room.replace('/', "::"));
-        complaints.extend(reaching_back(&source.join(room), "mod.rs", &prefix));
-    }
+    let mut complaints = reaching_back(&source(), &source(), "lib.rs");
+    // The program's chapter stands beside the library's.
+    complaints.extend(reaching_back(&source(), &source().join("cli"), "mod.rs"));
     assert!(complaints.is_empty(), "{complaints:#?}");
 }
 
+/// `src/` holds the chapters and the two roots, and a chapter's first page is its contents.
 #[test]
-fn a_planted_use_of_a_later_module_is_found() {
-    let folder = Folder::new("layering");
-    folder.write("lib.rs", "pub mod first;\nmod second;\n");
-    folder.write("first.rs", "use crate::second::Thing;\n");
-    folder.write("second.rs", "use crate::first;\n");
-    let complaints = reaching_back(&folder.0, "lib.rs", "crate");
-    assert_eq!(complaints.len(), 1, "{complaints:?}");
+fn every_chapter_opens_with_its_contents() {
+    let mut chapters = declared(&source().join("lib.rs"));
+    chapters.push("cli".to_owned());
+    let mut found: Vec<String> = fs::read_dir(source())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    found.sort();
+    let mut expected: Vec<String> =
+        chapters.iter().cloned().chain(["lib.rs", "main.rs"].map(str::to_owned)).collect();
+    expected.sort();
+    assert_eq!(found, expected);
+    for chapter in chapters {
+        let folder = source().join(&chapter);
+        let contents = fs::read_to_string(folder.join("mod.rs")).unwrap();
+        assert!(contents.starts_with("//! ") && contents.lines().count() <= 60, "{chapter}");
+        let said = |line: &str| {
+            let line = line.trim();
+            line.is_empty()
+                || line.starts_with("//")
+                || line.ends_with(';') && !line.contains(" fn ")
+        };
+        assert!(contents.lines().all(said), "{chapter}: more than a contents page");
+        let mut listed = declared(&folder.join("mod.rs"));
+        let mut there: Vec<String> = fs::read_dir(&folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.is_dir() || path.extension().is_some_and(|e| e == "rs"))
+            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+            .filter(|name| name != "mod")
+            .collect();
+        listed.sort();
+        there.sort();
+        assert_eq!(listed, there, "{chapter}");
+    }
 }
 
 #[test]
-fn a_planted_use_in_a_folder_of_a_folder_is_found() {
-    let folder = Folder::new("layering-deep");
-    folder.write("lib.rs", "pub mod room;\nmod second;\n");
-    folder.write("second.rs", "");
+fn planted_uses_of_later_modules_are_found() {
+    let folder = Folder::new("layering");
+    folder.write("lib.rs", "pub mod room;\npub(crate) mod second;\n");
+    folder.write("second.rs", "use crate::room::late::Thing;\n");
     fs::create_dir_all(folder.0.join("room/inner")).unwrap();
     folder.write("room/mod.rs", "mod inner;\nmod late;\n");
-    folder.write("room/late.rs", "");
+    folder.write("room/late.rs", "use super::inner::first::Thing;\n");
     folder.write("room/inner/mod.rs", "mod first;\nmod last;\n");
-    folder.write("room/inner/first.rs", "use crate::second::Thing;\nuse super::last::Thing;\n");
-    folder.write("room/inner/last.rs", "use crate::room::late::Thing;\nuse super::first::Thing;\n");
-    let of = |part: &str, root, prefix| reaching_back(&folder.0.join(part), root, prefix).len();
-    assert_eq!(of("", "lib.rs", "crate"), 1);
-    assert_eq!(of("room", "mod.rs", "crate::room"), 1);
-    assert_eq!(of("room/inner", "mod.rs", "crate::room::inner"), 1);
-}
-
-/// What could be lifted out needs nothing of the crate but its errors.
-#[test]
-fn the_universal_files_are_on_their_own() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/exchange/uff");
-    for file in files(&folder) {
-        let text = fs::read_to_string(&file).unwrap();
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-        let other = |line: &&str| line.contains("crate::") && !line.contains("crate::error::");
-        assert_eq!(code.clone().find(other), None, "{}", file.display());
+    let first = "use crate::{other, second::Thing};\nuse super::{last::Thing, last};\n";
+    folder.write("room/inner/first.rs", first);
+    let last = "fn f() { crate::room::late::g() }\nuse super::super::late::Thing;\n";
+    folder.write("room/inner/last.rs", &format!("{last}use super::first;\n// crate::second\n"));
+    let complaints = reaching_back(&folder.0, &folder.0, "lib.rs");
+    let expected = [
+        "first.rs uses second::Thing",
+        "last.rs uses room::late::g",
+        "last.rs uses room::late::Thing",
+        "first.rs uses room::inner::last::Thing",
+        "first.rs uses room::inner::last,",
+    ];
+    for expected in expected {
+        let found = complaints.iter().filter(|found| found.contains(expected)).count();
+        assert_eq!(found, 1, "{expected} in {complaints:#?}");
     }
+    assert_eq!(complaints.len(), expected.len(), "{complaints:#?}");
 }

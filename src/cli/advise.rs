@@ -7,8 +7,8 @@ use sweetspot::show::report::advice;
 use sweetspot::study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::cli::common::{OutputArgs, examples, read};
+use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::value::tolerance;
-use crate::cli::{Done, NOT_REACHED};
 
 /// Which physics this bat needs, and which it can do without
 ///

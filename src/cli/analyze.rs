@@ -19,9 +19,10 @@ use sweetspot::show::report::{advice, aftermath, hit_json, hit_text};
 use crate::cli::common::{
     BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,
 };
+use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
+use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::{Done, pictures};
 
 /// Everything about a bat on one screen
 ///

@@ -11,11 +11,12 @@ use sweetspot::show::plot::bbcor as plot;
 use sweetspot::show::report::bbcor as report;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::done::Done;
 use crate::cli::hit::verdict;
+use crate::cli::pictures;
 use crate::cli::ring::on_the_bat;
 use crate::cli::scene::{ball, cor};
 use crate::cli::value::quantity;
-use crate::cli::{Done, pictures};
 
 /// BBCOR as laboratories measure it, computed
 ///

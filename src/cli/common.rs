@@ -19,9 +19,10 @@ use sweetspot::show::report::text::Units;
 use sweetspot::study::theory_choice;
 use sweetspot::study::tuned;
 
+use crate::cli::done::{NOT_REACHED, printable};
 use crate::cli::progress::{self, Progress};
+use crate::cli::style;
 use crate::cli::value::{TheoryChoice, budget, quantity, solver, theory, tolerance, unit_system};
-use crate::cli::{NOT_REACHED, printable, style};
 
 /// The end of a verb's help: commands to try, and how values are written.
 pub fn examples(commands: &str) -> String {

@@ -14,9 +14,10 @@ use sweetspot::study::measured::place::{End, Told};
 use sweetspot::study::measured::study::Study;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
+use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::quantity;
-use crate::cli::{Done, NOT_REACHED, pictures};
 
 /// Bats side by side, or one beside its measured modes
 ///

@@ -4,7 +4,7 @@ use clap::Command;
 use clap_complete::{Shell, generate};
 use sweetspot::base::error::Result;
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 
 /// Print the completions for a shell
 ///

@@ -8,8 +8,8 @@ use sweetspot::files::uff::{self, Stamp};
 use sweetspot::show::exchange::modes_file::{self, ModeTable};
 use sweetspot::show::exchange::{csv, modes_uff, npz, vtu};
 
+use crate::cli::done::{Done, printable};
 use crate::cli::progress::Progress;
-use crate::cli::{Done, printable};
 
 /// Modes in the files of other programs: universal file, VTK, NumPy, CSV
 ///

@@ -3,7 +3,7 @@
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use sweetspot::base::error::{Complaint, Error, Excerpt, Place};
 
-use crate::cli::printable;
+use crate::cli::done::printable;
 
 /// Columns of a terminal that is not wide.
 const WIDTH: usize = 80;

@@ -15,8 +15,8 @@ use sweetspot::show::exchange::frf_uff::{self, Measured};
 use sweetspot::show::report::json;
 use sweetspot::show::report::text::wrapped;
 
-use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::done::Done;
 use crate::cli::value::{named, number, quantity, shown_length};
 
 /// How the bat answers a shaker or a tap, over frequency

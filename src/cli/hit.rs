@@ -12,9 +12,10 @@ use sweetspot::show::plot::sets::Hits;
 use sweetspot::show::report::{hit_json, hit_text, sketch};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{quantity, shown_length};
-use crate::cli::{Done, NOT_REACHED, pictures};
 
 /// How fast the ball leaves, place by place, and the sweet spot
 ///

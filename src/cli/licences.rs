@@ -2,7 +2,7 @@
 
 use sweetspot::base::error::Result;
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 
 /// Print the licences of this program and of everything in it
 ///

@@ -7,7 +7,7 @@ use clap_mangen::Man;
 use sweetspot::base::error::{Error, Result, nearest};
 use sweetspot::base::file;
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 
 /// Print a manual page, or write all of them
 ///

@@ -10,8 +10,9 @@ use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 use sweetspot::show::report::json;
 use sweetspot::show::report::text::{Units, wrapped};
 
+use crate::cli::done::Done;
+use crate::cli::style;
 use crate::cli::value::unit_system;
-use crate::cli::{Done, style};
 
 /// The built-in materials with their sources
 ///

@@ -13,7 +13,8 @@ use sweetspot::show::report::json::{self, ShapePoints};
 use sweetspot::show::report::{sketch, text};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
-use crate::cli::{Done, pictures};
+use crate::cli::done::Done;
+use crate::cli::pictures;
 
 /// How the bat rings: frequencies, nodes, shapes
 ///

@@ -12,10 +12,10 @@ use sweetspot::show::report::sketch::{self, Places, Row};
 use sweetspot::show::report::text;
 use sweetspot::show::report::text::{Units, wrapped};
 
-use crate::cli::Done;
 use crate::cli::ask::{self, Dialogue};
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{glyphs, printed};
+use crate::cli::done::Done;
 
 /// Write a bat file, by asking or from options
 ///

@@ -21,8 +21,8 @@ use sweetspot::show::report::aftermath::{self, AfterHit};
 use sweetspot::show::report::{hit_json, hit_text, json};
 use sweetspot::study::ignored;
 
-use crate::cli::Done;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
+use crate::cli::done::Done;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{number, quantity, shown_length};
 

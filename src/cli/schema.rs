@@ -3,7 +3,7 @@
 use sweetspot::base::error::Result;
 use sweetspot::files::schema::{self, File};
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::value::named;
 
 /// JSON Schema of a bat file, and of what modes, hit and bbcor write

@@ -5,7 +5,7 @@ use std::io::{IsTerminal, stdout};
 
 use clap::builder::styling::Style;
 
-use crate::cli::printable;
+use crate::cli::done::printable;
 
 /// Longest word or two before a colon that is a heading of its own.
 const LABEL: usize = 16;

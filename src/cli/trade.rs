@@ -14,9 +14,10 @@ use sweetspot::study::trade::reference::Reference;
 use sweetspot::study::trade::u_curve as curve;
 
 use crate::cli::common::{Prepared, examples, prepare, read};
+use crate::cli::done::Done;
 use crate::cli::progress::Progress;
 use crate::cli::value::{TheoryChoice, budget, theory};
-use crate::cli::{Done, pictures, style};
+use crate::cli::{pictures, style};
 
 /// What accuracy costs on this bat, measured here and now
 ///

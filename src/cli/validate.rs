@@ -14,8 +14,9 @@ use sweetspot::show::hit_figure;
 use sweetspot::show::proof_page;
 use sweetspot::show::report::text::wrapped;
 
+use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
-use crate::cli::{Done, FAILED, extremes_table, hit_promise_table, promise_table};
+use crate::cli::{extremes_table, hit_promise_table, promise_table};
 
 /// Every known answer beside ours
 ///

@@ -1,0 +1,36 @@
+//! What a verb leaves: text, exit code, warning.
+
+use sweetspot::base::xml::is_bidi;
+
+/// What is left to do when a verb is done.
+pub struct Done {
+    /// What to print on standard output.
+    pub text: String,
+    /// The exit code.
+    pub code: u8,
+    /// What to say on standard error when everything else is written.
+    pub warning: Option<String>,
+}
+
+impl Done {
+    pub fn new(text: String, code: u8) -> Self {
+        Self { text, code, warning: None }
+    }
+
+    pub fn with(self, warning: Option<String>) -> Self {
+        Self { warning, ..self }
+    }
+}
+
+/// A check or a validation failed.
+pub const FAILED: u8 = 1;
+/// The asked accuracy could not be reached; the best answer, if there is one, is given.
+pub const NOT_REACHED: u8 = 3;
+
+/// One line that does nothing to a terminal, whatever a file is called or holds.
+pub fn printable(text: &str) -> String {
+    // Marks that turn the direction of writing could show a line as another one.
+    let acts = |c: char| c.is_control() || is_bidi(c) || matches!(c, '\u{2028}' | '\u{2029}');
+    let escaped = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(escaped).collect()
+}

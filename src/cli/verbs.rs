@@ -1,0 +1,136 @@
+//! Which verb did the user type?
+
+use std::ffi::OsString;
+use std::io::IsTerminal;
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+
+use crate::cli::done::Done;
+use crate::cli::{
+    advise, analyze, bbcor, compare, completions, convert, frf, help, hit, licences, man,
+    materials, modes, new, ring, scene, schema, stop, style, trade, validate,
+};
+
+/// What a baseball bat does when it meets a ball
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = AFTER
+)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+const AFTER: &str = "\
+Start here:
+  sweetspot new
+      writes a bat file from what you measured
+  sweetspot analyze meshes/r161.json
+      everything about a bat on one screen
+  sweetspot hit --help
+      what a verb answers, with examples
+
+Exit codes: 0 done; 1 a check failed; 2 the input or the command line is wrong;
+3 the asked accuracy could not be reached (the best answer, if any, is still given);
+ended by a signal: 128 and its number.";
+
+#[derive(Subcommand)]
+enum Verb {
+    Analyze(analyze::Args),
+    Modes(modes::Args),
+    Hit(hit::Args),
+    Bbcor(bbcor::Args),
+    Compare(compare::Args),
+    Ring(ring::Args),
+    Frf(frf::Args),
+    Trade(trade::Args),
+    Advise(advise::Args),
+    Convert(convert::Args),
+    Validate(validate::Args),
+    Materials(materials::Args),
+    Schema(schema::Args),
+    New(new::Args),
+    Man(man::Args),
+    Completions(completions::Args),
+    #[command(alias = "licenses")]
+    Licences(licences::Args),
+}
+
+/// Verbs of the trade that this version does not know yet.
+const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
+
+/// Parses the command line and runs the verb. Wrong usage ends the program here.
+pub fn run() -> Result<Done> {
+    refuse_later(std::env::args_os().nth(1))?;
+    let verb = match parse() {
+        Ok(cli) => cli.verb,
+        Err(said) => return say(&said),
+    };
+    stop::cleanly();
+    file::keep();
+    match verb {
+        Verb::Analyze(args) => analyze::run(&args),
+        Verb::Modes(args) => modes::run(&args),
+        Verb::Hit(args) => hit::run(&args),
+        Verb::Bbcor(args) => bbcor::run(&args),
+        Verb::Compare(args) => compare::run(&args),
+        Verb::Ring(args) => ring::run(&args),
+        Verb::Frf(args) => frf::run(&args),
+        Verb::Trade(args) => trade::run(&args),
+        Verb::Advise(args) => advise::run(&args),
+        Verb::Convert(args) => convert::run(&args),
+        Verb::Validate(args) => validate::run(&args),
+        Verb::Materials(args) => materials::run(&args),
+        Verb::Schema(args) => schema::run(&args),
+        Verb::New(args) => new::run(&args),
+        Verb::Man(args) => man::run(&args, Cli::command()),
+        Verb::Completions(args) => completions::run(&args, Cli::command()),
+        Verb::Licences(args) => licences::run(&args),
+    }
+}
+
+/// The command line, or what is to be said in its place. What sets the scene of a hit is for
+/// `ring --hit` alone in that verb.
+fn parse() -> std::result::Result<Cli, clap::Error> {
+    let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
+    let matches = help::fitted(Cli::command()).try_get_matches()?;
+    if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
+        let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
+        if let Some(name) = stray.and_then(clap::Arg::get_long) {
+            let text = format!("--{name} sets the scene of a hit: add --hit X, or leave it out");
+            return Err(Cli::command().error(ErrorKind::MissingRequiredArgument, text));
+        }
+    }
+    Cli::from_arg_matches(&matches)
+}
+
+/// Help and version, which are results as any other; wrong usage ends the program.
+fn say(said: &clap::Error) -> Result<Done> {
+    if said.use_stderr() {
+        said.exit();
+    }
+    let coloured = style::coloured(std::io::stdout().is_terminal());
+    let text = said.render();
+    Ok(Done::new(if coloured { text.ansi().to_string() } else { text.to_string() }, 0))
+}
+
+/// Whether an option stands on the command line.
+fn given(matches: &clap::ArgMatches, name: &str) -> bool {
+    matches!(matches.try_contains_id(name), Ok(true))
+        && matches.value_source(name) == Some(ValueSource::CommandLine)
+}
+
+fn refuse_later(verb: Option<OsString>) -> Result<()> {
+    match verb.filter(|verb| LATER_VERBS.iter().any(|later| verb == later)) {
+        Some(verb) => {
+            let what = format!("\"{}\"", verb.display());
+            Err(Error::NotYet { what, advice: "see --help for what there is" })
+        }
+        None => Ok(()),
+    }
+}
