@@ -9,7 +9,7 @@ use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use pulp::Arch;
+use pulp::{Arch, WithSimd};
 
 use crate::base::real::{Over, Real};
 
@@ -25,9 +25,13 @@ pub fn leave_wide_vectors_unused() {
     PLAIN.store(true, Ordering::Relaxed);
 }
 
-/// The widest vectors to use on this machine.
-pub(crate) fn arch() -> Arch {
-    if PLAIN.load(Ordering::Relaxed) { Arch::Scalar } else { Arch::new() }
+/// Does the work with the widest vectors that this machine has.
+///
+/// Work is compiled for every kind of vectors: once, not anew in every function that asks for it.
+#[inline(never)]
+pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
+    let arch = if PLAIN.load(Ordering::Relaxed) { Arch::Scalar } else { Arch::new() };
+    arch.dispatch(work)
 }
 
 /// One number for each of several bats or modes.

@@ -9,7 +9,7 @@
 use pulp::{Simd, WithSimd};
 
 use crate::base::error::Result;
-use crate::base::lanes::{Lanes, WIDTH, arch};
+use crate::base::lanes::{Lanes, WIDTH, widest};
 use crate::base::real::{Over, Real};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -56,7 +56,7 @@ where
 
     /// Assembles the bats, one per lane, on meshes of one pattern.
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
-        arch().dispatch(Assembly { statics: &mut self.statics, bats, meshes });
+        widest(Assembly { statics: &mut self.statics, bats, meshes });
     }
 
     /// Finds the `count` slowest motions to that residual.
@@ -105,7 +105,7 @@ where
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
         let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
-            arch().dispatch(Start { statics, count: wanted.count, next });
+            widest(Start { statics, count: wanted.count, next });
         };
         self.run(wanted, &[], start)
     }
@@ -117,8 +117,7 @@ where
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
-        let arch = arch();
-        arch.dispatch(Iteration {
+        widest(Iteration {
             lanczos,
             dimension: statics.dimension(),
             wanted,
@@ -127,7 +126,7 @@ where
             // What the contacts do not allow: a step divides by a small number, and would let it
             // grow.
             allow: &mut |next| statics.fixed.iter().for_each(|fixed| fixed.project(next)),
-            apply: &mut |q, y| arch.dispatch(Apply { statics, q, y, loads }),
+            apply: &mut |q, y| widest(Apply { statics, q, y, loads }),
         })
     }
 
@@ -156,10 +155,10 @@ where
     fn look_closely(&mut self, value: Option<Lanes>, depth: Depth) {
         let Self { statics, motions, applied, strains, .. } = self;
         let known = value.is_some();
-        arch().dispatch(Inertia { statics, motions, strains, known, applied });
+        widest(Inertia { statics, motions, strains, known, applied });
         let cell = |k: usize| statics.cell(k);
         let (view, rigid) = (statics.view(&cell), applied.rigid);
-        arch().dispatch(Look { view, rigid, motions, strains, value, depth });
+        widest(Look { view, rigid, motions, strains, value, depth });
     }
 
     /// Strains side by side; the last motion again where there are no more.
@@ -226,7 +225,7 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
 
     /// `y = A q`; `loads` is scratch space.
     pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Loads<f64, W>) {
-        arch().dispatch(Apply { statics: &self.statics, q, y, loads });
+        widest(Apply { statics: &self.statics, q, y, loads });
     }
 
     /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].

@@ -32,7 +32,7 @@ use std::sync::OnceLock;
 
 use pulp::{Simd, WithSimd};
 
-use crate::base::lanes::arch;
+use crate::base::lanes::widest;
 use crate::collision::contact::collocation::{LANES, Lobatto, POINTS, Pair};
 use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::flight::Landing;
@@ -163,7 +163,7 @@ impl Collider {
     /// are gains, in steps whose force is off by about `accuracy`, relative.
     pub fn meet(&self, felt: &Felt, law: &ForceLaw, speed: f64, accuracy: f64) -> Encounter {
         let history = None;
-        arch().dispatch(Meeting { collider: self, felt, law, speed, accuracy, history })
+        widest(Meeting { collider: self, felt, law, speed, accuracy, history })
     }
 
     /// The meeting, and its force in time, piece by piece, from the first touch to the last.
@@ -177,7 +177,7 @@ impl Collider {
         let mut pieces = Vec::new();
         let history = Some(&mut pieces);
         let meeting = Meeting { collider: self, felt, law, speed, accuracy, history };
-        (arch().dispatch(meeting), pieces)
+        (widest(meeting), pieces)
     }
 }
 
