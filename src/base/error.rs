@@ -129,7 +129,7 @@ impl Error {
         Self::Value(Complaint::new(field, found, expected))
     }
 
-    /// The same, where every complaint about a value is made one about its place in a file.
+    /// This error, with every complaint about a value turned by `place` into one about its place in a file.
     pub(crate) fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
         let one = |error| match error {
             Self::Value(complaint) => place(complaint),
@@ -210,12 +210,12 @@ impl Complaint {
         Self { field: field.into(), found, expected: expected.into(), hint }
     }
 
-    /// The same with a word about what to do.
+    /// This complaint with a hint about what to do.
     pub fn hinted(self, hint: impl Into<String>) -> Self {
         Self { hint: hint.into(), ..self }
     }
 
-    /// The same with the nearest of `names` to a misspelt `word`, if one is near enough.
+    /// This complaint with a hint at the nearest of `names` to a misspelt `word`, if one is near enough.
     pub fn or_nearest(self, word: &str, names: &[&str]) -> Self {
         match nearest(word, names) {
             Some(name) => self.hinted(format!("did you mean {name}?")),

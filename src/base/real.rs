@@ -26,7 +26,7 @@ pub trait Real:
     /// How many numbers there are side by side.
     const LANES: usize;
 
-    /// The same number in every lane.
+    /// `value` in every lane.
     fn splat(value: f64) -> Self;
     /// The number in one lane.
     fn lane(&self, lane: usize) -> f64;
@@ -49,7 +49,7 @@ pub trait Real:
 /// The numbers in which a bat that is given in numbers `S` can move: the same, lane by lane, or
 /// several motions side by side of one bat.
 pub trait Over<S>: Real + Mul<S, Output = Self> {
-    /// The same number for every motion.
+    /// `value` for every motion.
     fn of(value: S) -> Self;
 }
 

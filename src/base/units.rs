@@ -146,7 +146,7 @@ impl Quantity {
         self.expected_in(self.facts().2)
     }
 
-    /// The same where bare numbers are in that unit.
+    /// What a value of this quantity may look like where numbers without a unit are in `unit`.
     pub fn expected_in(self, unit: &str) -> String {
         let (name, _, _, example) = self.facts();
         let bare = if unit == "in" { "inches" } else { unit };
@@ -223,7 +223,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     parse_beside(text, quantity, quantity.facts().2)
 }
 
-/// The same where bare numbers, which a text is not, are in the unit `bare`.
+/// A value of `quantity` in SI from a text with its unit. `bare`, the unit of the numbers beside it that
+/// are no text, is only named in the complaint.
 ///
 /// # Errors
 ///

@@ -71,8 +71,8 @@ pub struct Inertia {
     pub balance_point: f64,
     /// The body's moment of inertia about the balance point (kg m²), as a pendulum measures it.
     pub about_balance: f64,
-    /// The same of the bat as a line of mass, without the sections' own `∫ρI dx` (kg m²):
-    /// what an Euler–Bernoulli beam swings with.
+    /// Moment of inertia about the balance point of the bat as a line of mass, without the sections' own
+    /// `∫ρI dx` (kg m²): what an Euler–Bernoulli beam swings with.
     pub line_about_balance: f64,
 }
 
@@ -92,9 +92,10 @@ impl Bat {
         Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
     }
 
-    /// The same with other materials along it, and with what is on it and holds it. The weighed
-    /// mass includes what is attached; it sets one factor on all densities. What was tapped is kept
-    /// for [`crate::study::tuned`].
+    /// A bat of a shape and materials, with what is on it and what holds it.
+    ///
+    /// The weighed mass includes what is attached; it sets one factor on all densities. Tapped
+    /// frequencies are kept for [`crate::study::tuned`].
     ///
     /// # Errors
     ///

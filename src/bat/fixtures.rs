@@ -49,7 +49,7 @@ pub struct Attachment {
     pub rotary_inertia: f64,
     /// Spring from the bat at `x` to the ground, against deflection (N/m).
     pub stiffness: f64,
-    /// The same against rotation (N m/rad).
+    /// Spring from the bat at `x` to the ground, against rotation (N m/rad).
     pub rotational_stiffness: f64,
 }
 
@@ -135,7 +135,7 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
     }
 
-    /// The same without what gives way: springs to ground and hands. A hit is over before they push.
+    /// These fixtures without springs to ground and hands, which push only after a hit is over.
     pub fn without_springs(&self) -> Self {
         let mut bare = self.clone();
         for attachment in &mut bare.attachments {

@@ -405,7 +405,7 @@ fn power(input: &mut Input) -> ModalResult<Node, Fault> {
     })
 }
 
-/// The same one level deeper, where the levels are not too many.
+/// The parser `inner` one level of brackets or powers deeper; an error below [`DEEPEST`] levels.
 fn deeper<'a, T>(
     mut inner: impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault>,
 ) -> impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault> {

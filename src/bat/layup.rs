@@ -128,7 +128,7 @@ impl Layup {
         std::iter::once(&self.outer).chain(&self.core)
     }
 
-    /// The same materials, heavier by one factor and stiffer by another; tape stays what it weighs.
+    /// Makes the materials heavier by one factor and stiffer by another; tape keeps its mass.
     pub fn scaled(&mut self, density: f64, modulus: f64) {
         for material in std::iter::once(&mut self.outer).chain(&mut self.core) {
             material.density *= density;

@@ -194,7 +194,7 @@ impl Profile {
         *self.stations.x.last().expect("a profile has stations")
     }
 
-    /// The same shape turned end for end.
+    /// This profile reversed end for end.
     pub fn reversed(mut self) -> Self {
         let length = self.length();
         let Stations { x, outer, inner, .. } = &mut self.stations;
@@ -282,7 +282,7 @@ impl Piece {
 }
 
 impl Radii {
-    /// The same seen from the other end.
+    /// Reverses the radii along their piece, as seen from its other end.
     fn reverse(&mut self) {
         match self {
             Self::Cubic(cubics) => {
@@ -299,7 +299,7 @@ impl Cubics {
         Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
     }
 
-    /// The same cubics between `s0` and `s1`, by de Casteljau's subdivision.
+    /// The part of these cubics between `s0` and `s1` in [0, 1], by de Casteljau's subdivision.
     #[inline]
     pub fn part(&self, s0: f64, s1: f64) -> Self {
         if self.degree == 0 {

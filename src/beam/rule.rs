@@ -15,9 +15,9 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 pub struct Rule {
     /// The points, from left to right.
     pub points: Vec<Point>,
-    /// `P_0 … P_{N−1}` at the points, `N` the degree plus 1: point by point.
+    /// `P_0 … P_{N−1}` at the points, point by point; `N` is the degree plus 1.
     legendre: Vec<f64>,
-    /// The same polynomial by polynomial.
+    /// `P_0 … P_{N−1}` at the points, polynomial by polynomial.
     by_term: Vec<f64>,
     /// `∫₀^{s_j} (s_j − s) ℓ_i(s) ds`, `[i][j]`: twice integrated from the left end, for a
     /// function given at the points (`ℓ_i` the polynomial that is 1 at point `i`, 0 at the others).

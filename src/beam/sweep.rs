@@ -24,7 +24,7 @@ impl<S: Real, const W: usize> Default for Cell<S, W> {
 }
 
 impl<S: Real, const W: usize> Cell<S, W> {
-    /// The same without its size in its type.
+    /// A view of this cell without its size in its type.
     #[inline(always)]
     pub fn view(&self) -> CellView<'_, S> {
         CellView {
@@ -108,7 +108,7 @@ impl<R: Real> Rigid<R> {
         self.push + self.turn * arm
     }
 
-    /// The same seen from the other side: what turns outwards there turns inwards here.
+    /// The motion seen from the other side: what turns outwards there turns inwards here.
     pub fn mirrored(self) -> Self {
         Self { turn: -self.turn, ..self }
     }

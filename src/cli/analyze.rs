@@ -211,7 +211,7 @@ fn advice(analysis: &Analysis) -> String {
     }
 }
 
-/// The same solver on the uniform dowel, whose frequencies are known in closed form.
+/// Accuracy of the solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(analysis: &Analysis) -> String {
     let Proof { modes, truth, stated } = analysis.proof;
     let here = match analysis.solution.modes.is_empty() {

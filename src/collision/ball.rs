@@ -19,7 +19,8 @@ pub struct Ball {
     pub exponent: Option<f64>,
     /// Coefficient of restitution on a rigid wall, e₀.
     pub cor: f64,
-    /// The same at rising speeds (m/s), in place of it where there are any.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed; replaces `cor`
+    /// where it is not empty.
     pub cor_by_speed: Vec<[f64; 2]>,
 }
 

@@ -87,7 +87,7 @@ impl Protocol {
         Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan }
     }
 
-    /// The same with its force law and its places checked, before anything is computed.
+    /// This protocol with its force law and its places checked, before anything is computed.
     ///
     /// # Errors
     ///

@@ -52,13 +52,13 @@ pub struct Figures {
     pub best: Option<Impact>,
     /// Where the same bat would be best if it did not bend.
     pub rigid_best: Option<Peak>,
-    /// What it loses to vibration there as it is (J).
+    /// Energy that the bending bat loses to vibration at [`Self::rigid_best`] (J).
     pub vibration_at_rigid_best: Option<f64>,
     /// The largest BBCOR of the outer half, as of a free bat.
     pub bbcor_max: Option<Peak>,
-    /// The same as of a bat held at the standard pivot.
+    /// The largest BBCOR of the outer half, as of a bat held at the standard pivot, 6 in from the knob.
     pub bbcor_pivoted_max: Option<Peak>,
-    /// The same batter with this bat, by several laws; empty where no reference bat was given.
+    /// Swings of one batter with this bat, by several laws; empty where no reference bat was given.
     pub swings: Vec<Swung>,
     /// The sweet spot of other scenes, each with what is different.
     pub moves: Vec<(String, SweetSpot)>,

@@ -155,7 +155,7 @@ pub struct Outcome {
     pub peak_compression: Option<f64>,
     /// `e_A (1 + r) + r`, r = m/M_eff of the free bat.
     pub bbcor: f64,
-    /// The same with `r = m Q²/I` of the bat held 6 in from the knob.
+    /// BBCOR of the bat held 6 in from the knob: `e_A (1 + r) + r` with `r = m Q²/I`.
     pub bbcor_pivoted: f64,
     /// Where the energy went.
     pub energy: Energy,

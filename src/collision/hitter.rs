@@ -270,8 +270,8 @@ impl<'a> Hitter<'a> {
         self.strike_knowing(x, None)
     }
 
-    /// The same where the errors by truncation and by steps are known, of a contact: they are not
-    /// looked for.
+    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation and by steps
+    /// given where they are `known`: they are not estimated again.
     pub fn strike_knowing(&self, x: f64, known: Option<[f64; 2]>) -> Impact {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let rigid_exit_speed = self.rigid_exit(x);
@@ -509,13 +509,14 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The bat at `x` as the effort has it.
+    /// The bat as the ball feels it at `x` (m), with as many modes as the effort takes.
     fn felt(&self, x: f64) -> Felt {
         let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
         self.felt_with(x, self.modes_used(), beyond)
     }
 
-    /// The same with so many modes, and the others if wanted.
+    /// The bat as the ball feels it at `x` (m), with `count` modes; `beyond` is the flexibility of all
+    /// modes where those beyond `count` are to be included.
     fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
         let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
         let mut felt = match beyond {
@@ -583,7 +584,7 @@ fn report_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
     modes.iter().map(scaled).collect()
 }
 
-/// The same, each as large as the errors of its mode allow.
+/// Upper bounds of the deflections of [`report_shapes`], by the stated errors of each mode.
 fn largest_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
     let with_error = |mode: &Mode| {
         let deflection = mode.shape.deflection(x).abs() + mode.error.shape;

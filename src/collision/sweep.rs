@@ -56,7 +56,7 @@ pub fn sweep(
     sweep_telling(bat, (model, scene), (request, exactly), places, &nobody)
 }
 
-/// The same, telling how many of the places have been struck.
+/// Strikes the bat at all places as [`sweep`] does, and tells how many of them have been struck.
 ///
 /// # Errors
 ///

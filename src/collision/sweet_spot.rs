@@ -24,13 +24,13 @@ pub struct SweetSpot {
     pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).
     pub node_mode_1: Option<f64>,
-    /// The same node of the second mode (m).
+    /// The barrel-side node of the second bending mode (m).
     pub node_mode_2: Option<f64>,
     /// The centre of percussion for the swing's own pivot (m).
     pub center_of_percussion: Option<f64>,
     /// Where the hands feel the least velocity (m/s), as [`Glance::hands`] counts it.
     pub hands_velocity_min: Option<Peak>,
-    /// The same of the acceleration (m/s²).
+    /// Where the hands feel the least acceleration (m/s²), as [`Glance::hands`] counts it.
     pub hands_acceleration_min: Option<Peak>,
     /// Where the exit speed is within 1 % of its maximum (m).
     pub zone: Option<[f64; 2]>,

@@ -133,7 +133,7 @@ impl Plan {
         Self::cheapest_among(bat, wanted, range)
     }
 
-    /// The same with one of these degrees, which rise.
+    /// The cheapest plan within the tolerance with one of these degrees, which rise.
     pub fn cheapest_among(
         bat: &Bat,
         wanted: &Wanted,

@@ -117,9 +117,9 @@ pub struct Row {
     /// Largest true over stated error of any one frequency; a ratio of 3 is the limit. Where nothing
     /// is known it is 0.
     pub frequency_ratio: f64,
-    /// The same of the nodes.
+    /// Largest true over stated error of any one node; 0 where nothing is known.
     pub node_ratio: f64,
-    /// The same of the modal masses.
+    /// Largest true over stated error of any one modal mass; 0 where nothing is known.
     pub mass_ratio: f64,
     /// Modes whose true error is above 1e-13.
     pub visible: usize,

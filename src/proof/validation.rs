@@ -112,20 +112,20 @@ pub struct Check {
 pub enum Known {
     /// Natural frequency (Hz).
     FrequencyHz,
-    /// To the first frequency.
+    /// Ratio of a frequency to the first one.
     FrequencyRatio,
-    /// A node from the knob end (m).
+    /// Position of a node from the knob end (m).
     NodeM,
-    /// For a largest deflection of 1 (kg).
+    /// Modal mass for a largest deflection of 1 (kg).
     ModalMassKg,
     /// How fast a damped mode dies out and how fast it swings.
     #[serde(rename = "decay_1_per_s")]
     Decay,
     /// How fast a damped mode swings (Hz).
     DampedFrequencyHz,
-    /// Deflection per force at a frequency, with time as `e^{+iωt}`.
+    /// Real part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
     ReceptanceRealMPerN,
-    /// The same, imaginary part.
+    /// Imaginary part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
     ReceptanceImaginaryMPerN,
     /// Deflection after an impulse of 1 N s, by the rigid motions and the modes of the case.
     DeflectionAfterBlowM,
@@ -135,12 +135,12 @@ pub enum Known {
     BalancePointM,
     /// Moment of inertia about the balance point (kg m²).
     InertiaBalanceKgM2,
-    /// The same about the point 6 in from the knob (kg m²).
+    /// Moment of inertia about the point 6 in from the knob (kg m²).
     #[serde(rename = "inertia_pivot_kg_m2")]
     InertiaPivotKgM2,
-    /// For a pivot 6 in from the knob, from the knob end (m).
+    /// Centre of percussion for a pivot 6 in from the knob, from the knob end (m).
     CenterOfPercussionM,
-    /// Swing weight: about the point 6 in from the knob (oz in²).
+    /// Swing weight: moment of inertia about the point 6 in from the knob (oz in²).
     InertiaPivotOzIn2,
     /// Something of a hit.
     #[serde(untagged)]

@@ -66,8 +66,8 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
     }
 }
 
-/// The same of the lowest modes: of a bare bat by [`shift`], of any other by the theories
-/// themselves, solved to that tolerance.
+/// Frequency shifts of the lowest modes by effects left out: of a bare bat by [`shift`], of any other
+/// by solving with each theory, to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
     match bat.fixtures.none_moving() {
@@ -76,7 +76,8 @@ pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     }
 }
 
-/// The same by the theories themselves, solved to that tolerance; None where one has no solution.
+/// Frequency shifts of the lowest modes by solving with each theory, to that tolerance; None where one
+/// has no solution.
 pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shift>> {
     let all = |theory| {
         let request = Request { modes, tolerance, theory, ..Request::default() };

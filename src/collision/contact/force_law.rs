@@ -119,7 +119,7 @@ impl ForceLaw {
         self.energy_of(x, self.force(x, top)[0], top)
     }
 
-    /// The same where the force (N) is known.
+    /// Energy stored and energy lost so far (J) at the compression `x` (m), where the force (N) is known.
     #[inline(always)]
     pub fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2] {
         let (loading, unloading) = (1.0 / (1.0 + self.exponent), 1.0 / (1.0 + self.unloading));

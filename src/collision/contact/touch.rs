@@ -68,7 +68,7 @@ pub struct Touch<'a> {
     pub felt: &'a Felt,
     /// `c/ω_d` of every mode (s/kg).
     pub weights: Vec<f64>,
-    /// The same over ω_d once more (s²/kg), by which [`Self::in_mode`] makes energies of memories.
+    /// `c/ω_d²` of every mode (s²/kg), by which [`Self::in_mode`] makes energies of memories.
     pub masses: Vec<f64>,
     /// Whether any mode dies out.
     pub damped: bool,

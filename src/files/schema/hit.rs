@@ -81,7 +81,7 @@ pub struct Ball {
     pub exponent: Option<f64>,
     /// Coefficient of restitution on a rigid wall.
     pub cor: f64,
-    /// The same by speed: pairs of a speed (m/s) and the restitution at it, rising.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cor_by_speed: Vec<[f64; 2]>,
 }
@@ -101,13 +101,13 @@ pub struct Wall {
 pub struct Impact {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
-    /// The same from the tip (m).
+    /// Distance of the impact point from the tip (m).
     pub from_tip_m: f64,
     /// Speed of the bat there before the hit (m/s).
     pub bat_speed_m_s: f64,
     /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed_m_s: Option<f64>,
-    /// The same if the bat did not bend (m/s).
+    /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Option<f64>,
     /// Coefficient of restitution of this hit.
     pub cor: Option<f64>,
@@ -128,7 +128,7 @@ pub struct Impact {
     /// Bat-ball coefficient of restitution of the free bat: e_A (1 + r) + r, r the ball's mass over
     /// the bat's effective mass there.
     pub bbcor: Option<f64>,
-    /// The same of a bat held 6 in from the knob.
+    /// Bat-ball coefficient of restitution of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
     /// How many bending modes took part.
     pub modes_used: Option<usize>,
@@ -241,7 +241,7 @@ pub struct Figures {
     pub bbcor_pivoted_max: Option<Peak>,
     /// Where the same bat would be best if it did not bend, and its exit speed there (m/s).
     pub rigid_exit_speed_max: Option<Peak>,
-    /// The same batter with this bat, by several laws of swing; empty without a reference inertia.
+    /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
     /// The sweet spot of scenes that differ in one thing each.
     pub moves: Vec<Moved>,

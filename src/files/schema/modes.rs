@@ -143,7 +143,7 @@ pub struct Mode {
     pub order: usize,
     /// Undamped natural frequency (Hz).
     pub frequency_hz: f64,
-    /// The same as angular frequency (rad/s).
+    /// Undamped natural angular frequency (rad/s).
     pub omega_rad_s: f64,
     /// Damping ratio, half the loss factor; 0 without damping.
     pub damping_ratio: f64,

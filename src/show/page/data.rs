@@ -46,7 +46,7 @@ pub struct Curve {
     pub x_m: Vec<f64>,
     /// Speed of the ball off the bat (m/s).
     pub exit_speed_m_s: Vec<Option<f64>>,
-    /// The same if the bat did not bend (m/s).
+    /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Vec<Option<f64>>,
     /// What stays in the bat's bending (J).
     pub vibration_j: Vec<Option<f64>>,

@@ -29,7 +29,7 @@ pub struct Summary {
     pub zone_m: Option<[f64; 2]>,
     /// Bat-ball coefficient of restitution at the sweet spot, of the free bat.
     pub bbcor: Option<f64>,
-    /// The same of a bat held 6 in from the knob.
+    /// Bat-ball coefficient of restitution at the sweet spot, of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,

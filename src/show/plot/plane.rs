@@ -12,7 +12,7 @@ pub const WIDTH: f64 = 760.0;
 pub const LEFT: f64 = 74.0;
 /// From a frame to the right edge, where nothing else stands there (px).
 pub const RIGHT: f64 = 28.0;
-/// The same where a second axis stands (px).
+/// From a frame to the right edge where a second axis stands (px).
 pub const SECOND: f64 = 86.0;
 /// What numbers and label of an axis take beside a frame (px).
 pub const NUMBERS: f64 = 42.0;

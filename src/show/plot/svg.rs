@@ -49,7 +49,7 @@ impl Pen {
         Self { ink, width: 2.0, dash }
     }
 
-    /// The same in dashes, given as SVG has them.
+    /// This pen with dashes, given as SVG has them.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Self { dash, ..self }
     }

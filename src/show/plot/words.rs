@@ -37,17 +37,17 @@ pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
-    /// The same with that end of the words at their place.
+    /// This type with `anchor`, the end of the words that stands at their place.
     pub const fn at(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
-    /// The same in that colour.
+    /// This type in that colour.
     pub const fn ink(self, ink: Ink) -> Self {
         Self { ink, ..self }
     }
 
-    /// The same in that size (pixels).
+    /// This type in that size (pixels).
     pub const fn sized(self, size: f64) -> Self {
         Self { size, ..self }
     }

@@ -219,7 +219,7 @@ pub fn strengths(all: &[Strength], units: Units) -> String {
     out
 }
 
-/// The same for a file.
+/// What hits at some places ask of the bat, as JSON.
 pub fn strengths_json(all: &[Strength]) -> Value {
     let at = |at: &Strength| {
         let loads: Vec<Value> = at.loads.iter().map(strength_json).collect();

@@ -28,7 +28,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
     schema::value(&modes_file(bat, solution, points, timing))
 }
 
-/// The same as plain data.
+/// The `sweetspot-modes/1` document as plain data.
 pub fn modes_file(
     bat: &Bat,
     solution: &Solution,

@@ -54,7 +54,7 @@ impl Units {
         self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
     }
 
-    /// The same in running text: `0.0635 m (2.50 in)`.
+    /// A quantity of this type's other functions as running text: `0.0635 m (2.50 in)`.
     pub fn inline(self, value: String) -> String {
         match (self, value.split_once("   ")) {
             (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),

@@ -66,26 +66,27 @@ pub struct RigidMode {
 pub struct Shapes {
     /// The points on the bat, and the shapes there.
     pub placed: Placed,
-    /// Rows: measured bending modes; columns: computed modes.
+    /// MAC of measured bending modes (rows) with computed modes (columns).
     pub mac: Vec<Vec<f64>>,
-    /// The computed modes among themselves at the measured points.
+    /// MAC of the computed modes among themselves, at the measured points.
     pub own_mac: Vec<Vec<f64>>,
-    /// The same at many points.
+    /// MAC of the computed modes among themselves, at many points.
     pub dense_mac: Vec<Vec<f64>>,
     /// Phase collinearity of every measured bending mode.
     pub collinearity: Vec<f64>,
-    /// Its share out of phase.
+    /// Share out of phase of every measured bending mode.
     pub out_of_phase: Vec<f64>,
-    /// What every two measured bending modes have in common in the bat's mass, 1 for the same. None
-    /// for a bat with absorbers, whose motion was not measured.
+    /// Mass orthogonality of every two measured bending modes, 1 for the same mode. None for a bat with
+    /// absorbers, whose motion was not measured.
     pub common: Option<Vec<Vec<f64>>>,
-    /// The same of the computed partners, taken from the same points only; None without a partner,
-    /// and with absorbers.
+    /// Mass orthogonality of the computed partners, taken from the measured points only; None without a
+    /// partner, and with absorbers.
     pub sampled_common: Vec<Vec<Option<f64>>>,
     /// Rigid motion in every measured bending mode, as a share of its size. None for a bat with
     /// absorbers, and for one that something holds.
     pub rigid_share: Option<Vec<f64>>,
-    /// The same in its computed partner, taken from the same points.
+    /// Rigid motion in the computed partner of every measured bending mode, taken from the measured points,
+    /// as a share of its size.
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
