@@ -129,7 +129,7 @@ impl Error {
         Self::Value(Complaint::new(field, found, expected))
     }
 
-    /// This error, with every complaint about a value turned by `place` into one about its place in a file.
+    /// This error, with every complaint about a value turned by `place` into one about a file.
     pub(crate) fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
         let one = |error| match error {
             Self::Value(complaint) => place(complaint),

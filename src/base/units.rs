@@ -369,7 +369,7 @@ fn split(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim())
 }
 
-/// What was found that is no unit, and what it may have been meant for.
+/// The unrecognised unit and a suggested one.
 type Unknown = (String, String);
 
 /// The factor and the dimension of a product of powers of symbols.
@@ -460,7 +460,7 @@ mod tests {
         {
             assert!(parse(text, Quantity::Length).is_err(), "{text}");
         }
-        // A division by a unit is none.
+        // `5/s` divides a unit: it is not a fraction.
         assert!(
             same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
         );

@@ -494,7 +494,7 @@ fn named(input: &mut Input) -> ModalResult<Node, Fault> {
     Err(ErrMode::Cut(Fault { found: Some(found), expected: expected.into(), ..fault }))
 }
 
-/// A name that is none, and the nearest one that a formula may use.
+/// An unknown name, with the nearest valid one.
 fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
     let functions = FUNCTIONS.map(|(name, _)| name);
     let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();

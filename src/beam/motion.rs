@@ -52,8 +52,8 @@ pub struct Motion<R> {
     pub ends: [[R; 2]; 2],
     /// Kinetic energy over ω²/2: `∫ρA w² dx`, `∫ρI θ² dx` and what is attached (kg m²).
     pub kinetic: R,
-    /// Product of the motion and its [`Self::changes`] `c` in the bat's mass: `∫ρA w c dx`, `∫ρI θ c_θ dx`
-    /// and what is attached (kg m²).
+    /// Product of the motion and its [`Self::changes`] `c` in the bat's mass: `∫ρA w c dx`,
+    /// `∫ρI θ c_θ dx` and what is attached (kg m²).
     pub work: R,
     /// ω (rad/s): its square, Rayleigh's quotient, is strain energy over kinetic energy, both from
     /// the strains.

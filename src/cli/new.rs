@@ -30,7 +30,7 @@ pub struct Args {
     /// Where to write it (- = standard output) [default: after the name]
     file: Option<PathBuf>,
 
-    /// Ask even if standard input is no terminal: an answer per line
+    /// Read answers from standard input, one per line, even when it is not a terminal
     #[arg(long)]
     ask: bool,
 

@@ -101,7 +101,7 @@ impl Scene {
     }
 }
 
-/// The wall of a hollow barrel as a spring under the ball: a shell mode whose own momentum is none,
+/// The wall of a hollow barrel as a spring under the ball: a shell mode without momentum of its own,
 /// so that it disturbs neither the rigid motion nor the bending modes.
 ///
 /// A mode of mass m and `ω² = k/m` gives way by `F/k` to a slow force. Without a mass it is a
@@ -113,24 +113,24 @@ impl Scene {
 /// softball bats", Engineering of Sport 5 (2004), for ball and wall as springs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// k (N/m).
+    /// Stiffness k (N/m).
     pub stiffness: f64,
-    /// m (kg).
+    /// Mass m (kg); 0 is a spring in series with the ball.
     pub mass: f64,
 }
 
 /// One impact. What does not exist (no real solution, no contact) is None.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
-    /// From the knob end (m).
+    /// Distance of the impact point from the knob end (m).
     pub x: f64,
     /// Speed of the bat at `x` before the hit (m/s).
     pub bat_speed: f64,
-    /// What the same bat would do if it did not bend (m/s).
+    /// Exit speed of the ball if the bat did not bend (m/s).
     pub rigid_exit_speed: Option<f64>,
-    /// What came of it; None where there is no hit or no real solution.
+    /// The outcome; None where ball and bat do not meet or there is no real solution.
     pub outcome: Option<Outcome>,
-    /// What is unusual in it, and why there is no outcome where there is none.
+    /// What is unusual in this impact, or why it has no outcome.
     pub flags: Vec<&'static str>,
 }
 

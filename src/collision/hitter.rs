@@ -214,8 +214,8 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The hit at `x` as a search for places sees it. None where there is none, and None too where the
-    /// bat ends in a point: there a ball is met by ever less of it.
+    /// The hit at `x` (m) as a search for places sees it. None where ball and bat do not meet, and
+    /// where the bat ends in a point: there a ball is met by ever less of it.
     pub fn glance(&self, x: f64) -> Option<Glance> {
         /// Of the largest radius.
         const POINTED: f64 = 0.25;
@@ -287,7 +287,7 @@ impl<'a> Hitter<'a> {
         Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
     }
 
-    /// The force at `x` (m) in time, of a contact; None where there is none.
+    /// The force at `x` (m) in time, by the contact model; None with other models and without a hit.
     pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
@@ -295,8 +295,8 @@ impl<'a> Hitter<'a> {
         resolved(SMOOTH, meet, |(met, _)| met.is_sound(&felt, closing)).map(|(_, pieces)| pieces)
     }
 
-    /// Force and compression of the ball at `x` (m) in time, of a contact, so many instants in every
-    /// piece of the force; None where there is none.
+    /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants
+    /// in every piece of the force; None with other models and without a hit.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
         let modes: Vec<[f64; 2]> =
@@ -372,7 +372,7 @@ impl<'a> Hitter<'a> {
         let mut answer = Answer { impulse, ..rigid };
         answer.in_modes = loss.energies(&shapes, impulse, ball);
         let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
-        // No bound on the shapes is no bound on the loss.
+        // If the shapes cannot be bounded, neither can the loss.
         let other = of(loss.vibration(&largest)).filter(|v| v.is_finite());
         answer.error += other.map_or(1.0, |v| (v - exit).abs() / closing);
         Some(answer)

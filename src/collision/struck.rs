@@ -65,7 +65,7 @@ impl<'a> Struck<'a> {
     /// The bat as a ball of that mass (kg) feels it at `x` (m), with all modes.
     ///
     /// Of `count` modes, `count − 1` are kept as they are; the last one gets the mass that makes it
-    /// stand for all beyond it in a slow motion. The flexibility still missing then is added as a spring.
+    /// stand for all beyond it in a slow motion. The flexibility that is still missing then is added.
     ///
     /// A mode beyond follows a slow force as `y = −c/ω² (F − F″/ω² + …)`. With `C = Σ c/ω²` and `D =
     /// Σ c/ω⁴` of all that are not taken, the gain `D ω⁴` at the first one's own ω and the

@@ -184,7 +184,7 @@ fn brent(
         let over = 2.0 * (q - r);
         let by = ((best.x - second.x) * r - (best.x - third.x) * q) / over;
         let inside = best.x + by > low + width && best.x + by < high - width;
-        // A parabola that is not a number is none.
+        // A parabola with NaN fails this test.
         if inside && by.abs() < 0.5 * before.abs() {
             (before, step) = (step, by);
         } else {

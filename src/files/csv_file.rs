@@ -13,7 +13,7 @@ use crate::files::document::Document;
 /// with `#` are comments.
 pub(crate) struct Csv {
     columns: Vec<(&'static str, Vec<f64>)>,
-    /// The unit of each column in the words of the header, empty where there is none.
+    /// The unit of each column as the header writes it; empty for a column without a unit.
     units: Vec<String>,
     /// Byte offset of the header, and of each row.
     pub header: usize,

@@ -221,7 +221,7 @@ impl<'a> Node<'a> {
         Ok(raws.iter().enumerate().map(item).collect())
     }
 
-    /// Item `k` of a list, or the list itself if there is none.
+    /// Item `k` of a list, or the list itself if it is too short.
     pub fn item(&self, k: usize) -> Self {
         let raws: Option<Vec<&'a RawValue>> = serde_json::from_str(self.raw).ok();
         raws.and_then(|raws| raws.get(k).map(|raw| raw.get())).map_or_else(

@@ -146,7 +146,7 @@ impl Track {
     }
 }
 
-/// A deflection below this share of the largest is none where something holds the bat.
+/// Where something holds the bat, a deflection below this share of the largest counts as 0.
 const STILL: f64 = 1e-12;
 /// Clamps part a bat into stretches that know nothing of each other: one that moves less than this
 /// share of another is at rest but for what the iteration left.
@@ -391,7 +391,7 @@ impl Shape {
 
     /// The isolated zeros of the deflection inside the bat (m), rising.
     ///
-    /// A deflection of at most `rest` is none: a stretch at rest has no nodes. Beside a place of
+    /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of
     /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
     /// where the deflection comes nearest to zero beyond it.
     fn zeros(&self, track: &Track, rest: f64) -> Vec<f64> {
@@ -493,7 +493,7 @@ impl Shape {
             (value, xi - step, near && (value * bend).abs() <= 4.0 * SMALL * slope * slope)
         };
         // The error is about the cube of the step, over the square of the distance to where the
-        // slope is zero: after a step of 1e-5 of both there is none left.
+        // slope is zero: after a step of 1e-5 of both it is below round-off.
         const SMALL: f64 = 1e-5;
         let start = left + (right - left) * (before / (before - after));
         // Nearly always two steps do, with nothing to decide on the way.

@@ -59,12 +59,12 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Whether that can be asked of so many bats side by side.
+    /// Checks that this request is possible for `bats` bats side by side.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, for too
-    /// many modes, and for a mesh that would not fit into memory.
+    /// [`Error::Value`] for an invalid tolerance, degree or element count, for too many modes, and
+    /// for a mesh that would not fit into memory.
     pub fn check(&self, bats: usize) -> Result<()> {
         if self.modes > MOST_MODES {
             return Err(Error::value("modes", self.modes, format!("0 to {MOST_MODES}")));
@@ -152,7 +152,7 @@ pub struct Solution {
 impl Solution {
     /// The largest relative error of a frequency, by its own estimate.
     pub fn worst(&self) -> f64 {
-        // No number is no bound, which a maximum would pass over.
+        // NaN must count as unbounded; `f64::max` would drop it.
         let known = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
         self.modes.iter().map(|mode| known(mode.error.total())).fold(0.0, f64::max)
     }
@@ -197,7 +197,7 @@ pub struct Timing {
     pub solve: Duration,
 }
 
-/// More are no bending modes of a bat.
+/// Upper limit on requested modes; beam theory has no meaning beyond it.
 const MOST_MODES: usize = 2000;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;

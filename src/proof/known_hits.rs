@@ -56,13 +56,13 @@ pub enum Seen {
     ShareBelowRigid,
     /// `e_eff` in `v′ = [(e_eff − r) v + (1 + e_eff) V]/(1 + r)`: BBCOR of the free bat.
     EffectiveRestitution,
-    /// Share of the ball afterwards in all energy before the hit, the bat's included, seen from the ground.
+    /// Share of the ball afterwards in all energy before the hit (ball and bat, seen from the ground).
     BallShare,
-    /// Share of the energy lost inside the ball in all energy before the hit, seen from the ground.
+    /// Share of the energy lost inside the ball in all energy before the hit (seen from the ground).
     LostInBallShare,
-    /// Share of the bat's rigid motion afterwards in all energy before the hit, seen from the ground.
+    /// Share of the bat's rigid motion afterwards in all energy before the hit (seen from the ground).
     RecoilShare,
-    /// Share of the bending modes afterwards in all energy before the hit, seen from the ground.
+    /// Share of the bending modes afterwards in all energy before the hit (seen from the ground).
     VibrationShare,
     /// Place of the largest exit speed, from the knob end (m).
     BestPlaceM,

@@ -264,7 +264,7 @@ fn node_ratio(mode: &Mode, exact: &[f64], length: f64) -> f64 {
     ratio(largest(off), mode.error.nodes, NODE_KNOWN_TO)
 }
 
-/// The maximum, for which a number that is none is as bad as can be.
+/// The maximum of the values, or infinity if one of them is NaN.
 pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(|v| if v.is_nan() { f64::INFINITY } else { v }).fold(0.0, f64::max)
 }

@@ -72,7 +72,7 @@ struct Solve {
     modes: usize,
     tolerance: Option<f64>,
     elements: Option<usize>,
-    /// A name; the plain beam if there is none.
+    /// Name of the beam theory; the plain beam if absent.
     theory: Option<String>,
 }
 
@@ -166,7 +166,7 @@ pub struct Row {
     pub relative: bool,
     /// For information only: neither passed nor missed.
     pub information: bool,
-    /// Why the tolerance is what it is, or why there is none.
+    /// Why the tolerance is what it is, or why the check has no tolerance.
     pub note: Option<String>,
 }
 
@@ -369,7 +369,7 @@ impl Truth {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where there is no case of that name or its bat is none.
+    /// [`Error::Value`] for an unknown case, or one without a valid bat.
     pub fn of_cases(names: &[&str]) -> Result<Self> {
         let mut truth: Option<Self> = None;
         for name in names {
@@ -478,7 +478,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] if there is none of that name, and whatever its file raises.
+    /// [`Error::Value`] for an unknown name, and whatever its file raises.
     pub fn bat(&self) -> Result<Bat> {
         match &self.bat {
             Value::String(path) => bundled_bat(path),
@@ -500,7 +500,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where its theory is none.
+    /// [`Error::Value`] for an unknown theory.
     pub fn request(&self) -> Result<Request> {
         let known = |name: &String| Theory::ALL.into_iter().find(|theory| theory.name() == name);
         let theory = match &self.solve.theory {
@@ -678,7 +678,7 @@ mod tests {
                 let tolerances = [check.relative, check.absolute];
                 let given = tolerances.iter().flatten().filter(|t| **t > 0.0).count();
                 assert_eq!(given, usize::from(!check.information), "{name}: {check:?}");
-                // A reason to count is none not to, and the other way round.
+                // A case either counts or has a reason not to, never both.
                 assert!(check.note.is_some() || check.information == information, "{name}");
                 information = check.information;
             }

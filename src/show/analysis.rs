@@ -53,8 +53,8 @@ pub struct Analysis {
     pub hits: Sweep,
     /// The figures by which bats are compared, and the sweet spot.
     pub figures: Figures,
-    /// What hits at the sweet spot and five inches closer to the handle ask of the bat; empty where the model
-    /// has no force in time.
+    /// What hits at the sweet spot and five inches closer to the handle ask of the bat; empty where
+    /// the model has no force in time.
     pub strength: Vec<Strength>,
     /// Accuracy of the solver on a dowel, whose frequencies are known.
     pub proof: Proof,

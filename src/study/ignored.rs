@@ -66,8 +66,8 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
     }
 }
 
-/// Frequency shifts of the lowest modes by effects left out: of a bare bat by [`shift`], of any other
-/// by solving with each theory, to that tolerance.
+/// Frequency shifts of the lowest modes by rotary inertia and shear: of a bare bat by [`shift`], of any
+/// other by solving with each theory, to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
     match bat.fixtures.none_moving() {
@@ -76,8 +76,8 @@ pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     }
 }
 
-/// Frequency shifts of the lowest modes by solving with each theory, to that tolerance; None where one
-/// has no solution.
+/// Frequency shifts of the lowest modes by rotary inertia and shear, by solving with each theory to
+/// that tolerance; None where a solve fails.
 pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shift>> {
     let all = |theory| {
         let request = Request { modes, tolerance, theory, ..Request::default() };
@@ -164,7 +164,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         );
     }
     if bat.fixtures.grip.is_none() {
-        ignored.push("hands: nothing of them; a \"grip\" in the bat file puts them on".to_owned());
+        ignored.push("hands: not modelled (add a \"grip\" to the bat file)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
         Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),

@@ -46,7 +46,7 @@ pub struct Table {
     pub turns: Vec<f64>,
     /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, `[i][j][part][mode]`.
     pub kernels: Vec<f64>,
-    /// `∫₀^h e^{s(h − τ)} b dτ` of the bump `b = σ(1 − σ)`, σ = τ/h, over the whole step, `[part][mode]`.
+    /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part][mode]`.
     pub bump: Vec<f64>,
 }
 

@@ -195,7 +195,7 @@ fn mac(study: &Study, shapes: &Shapes) -> String {
     out
 }
 
-/// What every two shapes have in common in the bat's mass.
+/// Mass orthogonality of every two shapes.
 fn common(study: &Study, shapes: &Shapes) -> String {
     let count = study.bending.len().min(COLUMNS);
     let Some(own) = shapes.common.as_ref().filter(|_| count > 1) else { return String::new() };

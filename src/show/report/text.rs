@@ -182,8 +182,8 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     let oscillates = bat.fixtures.none_moving() && !solution.theory.turns();
     let by_nodes = oscillates && solution.modes.iter().all(Mode::has_its_nodes);
     let count = match (solution.complete(), by_nodes) {
-        (true, true) => "none is missing: mode n has its n + 1 nodes",
-        (true, false) => "none is missing: as many motions are slower",
+        (true, true) => "no mode is missing: mode n has its n + 1 nodes",
+        (true, false) => "no mode is missing (inertia count)",
         (false, _) => "A MODE MAY BE MISSING: the number of slower motions is another",
     };
     let plan = format!(

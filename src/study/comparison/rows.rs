@@ -43,7 +43,7 @@ impl Unit {
 /// Where a place is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
-    /// It is no place.
+    /// The value is not a position.
     Nowhere,
     /// The knob end.
     Knob,

@@ -85,8 +85,8 @@ pub struct Shapes {
     /// Rigid motion in every measured bending mode, as a share of its size. None for a bat with
     /// absorbers, and for one that something holds.
     pub rigid_share: Option<Vec<f64>>,
-    /// Rigid motion in the computed partner of every measured bending mode, taken from the measured points,
-    /// as a share of its size.
+    /// Rigid motion in the computed partner of every measured bending mode, as a share of its size;
+    /// taken from the measured points.
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
