@@ -32,9 +32,9 @@ pub trait Real:
     fn lane(&self, lane: usize) -> f64;
     /// Sets the number in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
-    /// Of every lane.
+    /// Square root of every lane.
     fn sqrt(self) -> Self;
-    /// Without sign, of every lane.
+    /// Absolute value of every lane.
     fn abs(self) -> Self;
     /// The greater of both, lane by lane.
     fn max(self, other: Self) -> Self;

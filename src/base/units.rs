@@ -35,44 +35,44 @@ type Dimension = [i8; 4];
 /// A physical quantity: what a value is, its dimension, its SI unit and an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// m
+    /// A length, in m.
     Length,
-    /// kg
+    /// A mass, in kg.
     Mass,
-    /// kg/m³
+    /// A density, in kg/m³.
     Density,
-    /// Pa; of a modulus, too.
+    /// A pressure, a stress or a modulus, in Pa.
     Pressure,
-    /// m/s
+    /// A speed, in m/s.
     Speed,
-    /// rad/s
+    /// An angular speed, in rad/s.
     AngularSpeed,
-    /// rad
+    /// An angle, in rad.
     Angle,
-    /// s
+    /// A time, in s.
     Time,
-    /// Hz
+    /// A frequency, in Hz.
     Frequency,
-    /// N
+    /// A force, in N.
     Force,
-    /// N/m
+    /// A stiffness, in N/m.
     Stiffness,
-    /// N m/rad
+    /// A stiffness against rotation, in N m/rad.
     RotationalStiffness,
-    /// N/m²: per length of bat.
+    /// A stiffness per length of bat, in N/m².
     BedStiffness,
-    /// N s/m
+    /// A damping constant, in N s/m.
     Damping,
-    /// N s/m²: per length of bat.
+    /// A damping constant per length of bat, in N s/m².
     BedDamping,
-    /// Of mass (kg m²).
+    /// A moment of inertia, in kg m².
     Inertia,
-    /// N s
+    /// An impulse, in N s.
     Impulse,
 }
 
 impl Quantity {
-    /// All of them, for tables and tests.
+    /// All quantities, for tables and tests.
     pub const ALL: [Self; 17] = [
         Self::Length,
         Self::Mass,
@@ -126,7 +126,7 @@ impl Quantity {
         dimension == [length, mass, time, angle] || without
     }
 
-    /// Its SI unit, and the factor to it, 1.
+    /// The SI unit of this quantity, and the factor to it, 1.
     pub(crate) fn si(self) -> (&'static str, f64) {
         (self.facts().2, 1.0)
     }
@@ -223,8 +223,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     parse_beside(text, quantity, quantity.facts().2)
 }
 
-/// A value of `quantity` in SI from a text with its unit. `bare`, the unit of the numbers beside it that
-/// are no text, is only named in the complaint.
+/// The value of a text with its unit, in SI. `bare` is the unit of plain numbers beside this text; a
+/// complaint names it.
 ///
 /// # Errors
 ///

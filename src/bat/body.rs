@@ -22,15 +22,15 @@ pub struct Bat {
     pub name: String,
     /// Where its numbers come from.
     pub source: String,
-    /// Its pieces end wherever a material or a fixture begins.
+    /// Shape of the bat; its pieces end wherever a material or a fixture begins.
     pub profile: Profile,
     /// What the pieces of the profile are made of; the first is the bat's own material.
     pub layups: Vec<Layup>,
     /// What is on it and what holds it.
     pub fixtures: Fixtures,
-    /// What a scale and a tap said of it.
+    /// Mass, balance point and first frequency as they were measured.
     pub weighed: Weighed,
-    /// By how much what was weighed and tapped made all densities and all moduli larger.
+    /// Factors on all densities and on all moduli that weighing and tapping led to.
     pub factors: [f64; 2],
 }
 
@@ -178,7 +178,7 @@ impl Bat {
         &self.layups[0].outer
     }
 
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub fn length(&self) -> f64 {
         self.profile.length()
     }

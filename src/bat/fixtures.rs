@@ -89,7 +89,7 @@ pub struct Joint {
 /// A place that is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// Where (m).
+    /// Position of the support (m).
     pub x: f64,
     /// What it holds.
     pub kind: Held,
@@ -118,8 +118,8 @@ pub struct Grip {
 }
 
 impl Fixtures {
-    /// Whether nothing moves otherwise than a bare bat: regions of other materials and tape may be
-    /// there.
+    /// Whether the bat moves as a bare one: it may have tape and regions of other materials, but no
+    /// attachments, absorbers, joints, supports or hands.
     pub fn none_moving(&self) -> bool {
         self.attachments.is_empty()
             && self.absorbers.is_empty()

@@ -145,7 +145,7 @@ impl Formula {
         &self.0.root
     }
 
-    /// Its value at `x`: not a number where it has none, such as `sqrt(-1)`.
+    /// Value of the formula at `x`; NaN where it is undefined, such as `sqrt(-1)`.
     pub fn at(&self, x: f64) -> f64 {
         self.0.root.value(x, &mut |_| {})
     }
@@ -304,7 +304,8 @@ impl Fault {
         ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
     }
 
-    /// In found and expected, with the place: `"tanhh" at character 10 of "0.0127 + tanhh(x)"`.
+    /// The fault as what was found, with its place, and what was expected: `"tanhh" at character 10 of
+    /// "0.0127 + tanhh(x)"`.
     fn complaint(self, text: &str) -> Complaint {
         let here = word(&text[self.offset..]);
         let what = match self.found {

@@ -158,7 +158,7 @@ impl Bounds<'_> {
         Some([outer, inner, outer - inner])
     }
 
-    /// By how much EI or ρA may vary on the stretch, relative.
+    /// Bound on the relative variation of EI and ρA along the stretch.
     pub(crate) fn variation(&self, core: f64) -> f64 {
         let [least, most] = self.sizes();
         let bending = most.bending(core) / least.bending(core);

@@ -91,7 +91,7 @@ pub enum Radii {
 pub struct Cubics {
     /// Coefficients `b₀ … b₃` of the outer radius (m).
     pub outer: [f64; 4],
-    /// Those of the inner radius (m).
+    /// Coefficients of the inner radius (m).
     pub inner: [f64; 4],
     /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
     pub degree: usize,
@@ -137,7 +137,7 @@ impl Section {
         self.area() * (r * r + ri * ri) / 4.0
     }
 
-    /// By how much rounding of the radii is larger in the wall, `r/(r − rᵢ)`.
+    /// Factor by which rounding of the radii grows in the wall thickness, `r/(r − rᵢ)`.
     pub fn thinness(self) -> f64 {
         if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
     }
@@ -189,7 +189,7 @@ impl Profile {
         Ok(Self { pieces, stations, formulas: None })
     }
 
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub fn length(&self) -> f64 {
         *self.stations.x.last().expect("a profile has stations")
     }

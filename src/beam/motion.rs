@@ -82,11 +82,11 @@ pub struct Motion<R> {
 /// How closely a motion is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// Its shape and energies.
+    /// Shape and energies of the motion.
     Shape,
-    /// Its defect too.
+    /// Shape, energies and defect.
     Defect,
-    /// And by how much the shape may be off.
+    /// Shape, energies, defect, and how far the shape may be off.
     Changes,
 }
 

@@ -39,11 +39,11 @@ pub const MOST_POINTS: usize = 32;
 /// One Gauss point.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
-    /// In (0, 1).
+    /// Position along the element, in (0, 1).
     pub s: f64,
-    /// Of sum 1.
+    /// Weight of the point; all weights of a rule add up to 1.
     pub weight: f64,
-    /// The cubic Bernstein polynomials there.
+    /// Values of the four cubic Bernstein polynomials at the point.
     pub bernstein: [f64; 4],
 }
 

@@ -7,7 +7,7 @@ use crate::beam::element::{Link, Matrix, Vector, over_strains};
 /// An element on one side of the root, seen in that direction.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell<R, const W: usize> {
-    /// What it stores and how far it carries its outer end.
+    /// Mass matrix of the element and how its strains move its outer end.
     pub link: Link<R, W>,
     /// `L⁻¹` of the stiffness of its strains.
     pub inverse: Matrix<R, W>,
@@ -145,7 +145,7 @@ pub struct Outwards<R, const KEEP: bool> {
     pub theta: RunningSum<R, KEEP>,
     /// Force of the inertia so far, over ω².
     pub force: RunningSum<R, KEEP>,
-    /// Its moment about the balance point, over ω².
+    /// Moment of the inertia about the balance point so far, over ω².
     pub moment: RunningSum<R, KEEP>,
 }
 

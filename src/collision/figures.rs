@@ -16,11 +16,11 @@ use crate::modes::solve::Solution;
 /// measured of batters lies between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SwingLaw {
-    /// n.
+    /// Exponent n of the law.
     pub exponent: f64,
-    /// I_ref (kg m²).
+    /// Moment of inertia I_ref of the reference bat (kg m²).
     pub reference: f64,
-    /// Ω₀, the swing of the reference bat (rad/s).
+    /// Angular speed Ω₀ of the swing with the reference bat (rad/s).
     pub of_reference: f64,
 }
 
@@ -37,7 +37,7 @@ impl SwingLaw {
 pub struct Swung {
     /// n of the law.
     pub exponent: f64,
-    /// rad/s
+    /// Angular speed of the swing (rad/s).
     pub swing: f64,
     /// Place (m) and exit speed (m/s).
     pub best: Option<Peak>,

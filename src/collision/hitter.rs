@@ -70,7 +70,7 @@ struct Answer {
 }
 
 impl Answer {
-    /// Of a model without modes and times.
+    /// The answer of a model without modes and times.
     fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
         // The models' own formulas are exact to a few roundings.
         let error = 8.0 * f64::EPSILON;
@@ -96,9 +96,9 @@ impl Answer {
 /// A hit without its ledger and its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glance {
-    /// From the knob end (m).
+    /// Distance of the impact point from the knob end (m).
     pub x: f64,
-    /// m/s
+    /// Exit speed of the ball (m/s).
     pub exit_speed: f64,
     /// Energy left in vibration (J); None for a model without.
     pub vibration: Option<f64>,

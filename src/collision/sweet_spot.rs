@@ -9,9 +9,9 @@ use crate::modes::solve::Solution;
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// From the knob end (m).
+    /// Position from the knob end (m).
     pub x: f64,
-    /// What is largest or least there, in its own unit.
+    /// The largest or least value, found at `x`, in its own unit.
     pub value: f64,
 }
 

@@ -43,7 +43,7 @@ pub struct Wanted {
     pub residual: f64,
     /// Convergence is looked for from this many steps beyond `count` on.
     pub earliest: usize,
-    /// That many eigenvalues may lie as near to each other as to need steps of their own.
+    /// Number of eigenvalues that may lie so near to each other that they need steps of their own.
     pub clustered: usize,
 }
 

@@ -57,7 +57,7 @@ struct Member {
 /// A motion as `e^{st}` that goes on by itself.
 #[derive(Debug, Clone)]
 pub struct Pole {
-    /// `s` (1/s).
+    /// Complex rate `s` of `e^{st}` (1/s).
     pub s: c64,
     /// Parts of the rigid motions, where they are coupled.
     pub rigid: Vec<c64>,
@@ -65,7 +65,7 @@ pub struct Pole {
     pub parts: Vec<c64>,
     /// `vᵀ(2sM + C)v` (J s/m²): with it a unit impulse at a makes `v v(a) e^{st}/norm`.
     pub norm: c64,
-    /// How far s may be off for the motion being one on few strains, relative to |s|.
+    /// Error of s, relative to |s|, because the motion is one on few strains.
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
@@ -77,11 +77,11 @@ pub struct Pole {
 /// How a damped bat goes on by itself.
 #[derive(Debug, Clone)]
 pub struct FreeMotions {
-    /// Of rising |s|.
+    /// Groups of motions by rising |s|.
     pub groups: Vec<Group>,
-    /// Those of the rigid motions that dashpots slow down.
+    /// Motions of the rigid bat that dashpots slow down.
     pub rigid: Vec<Pole>,
-    /// What else the reduced bat does.
+    /// All other motions of the reduced bat.
     pub others: Vec<Pole>,
 }
 

@@ -35,9 +35,9 @@ pub struct Request {
     pub modes: usize,
     /// Wanted relative accuracy of every frequency; not enforced where `elements` is given.
     pub tolerance: f64,
-    /// This many elements, whatever accuracy that gives.
+    /// Fixed number of elements, whatever accuracy that gives; None plans it from the tolerance.
     pub elements: Option<usize>,
-    /// Elements of this degree; with `elements` alone it is 3.
+    /// Fixed degree of the elements; None plans it, or takes 3 where `elements` is given.
     pub degree: Option<usize>,
     /// How the eigenvalues are found.
     pub solver: Solver,
@@ -580,7 +580,7 @@ impl<'a> Moments<'a> {
         Some(Self { bat, sum: Shape::sum(&parts) })
     }
 
-    /// From places, 0 to 1 along the bat, to the moments there.
+    /// Replaces places, 0 to 1 along the bat, by the bending moments there.
     fn at(&self, places: &mut [f64]) {
         let length = self.bat.length();
         for place in places {

@@ -106,11 +106,11 @@ impl Table {
 /// A step whose force is known at the points.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Step {
-    /// How long it is (s).
+    /// Length of the step (s).
     pub length: f64,
-    /// At the points (m).
+    /// Compression at the points (m).
     pub compression: [f64; POINTS],
-    /// At the points (N).
+    /// Force at the points (N).
     pub force: [f64; POINTS],
     /// The force as a polynomial of the time over the length.
     pub powers: [f64; POINTS],
