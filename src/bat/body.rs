@@ -18,9 +18,9 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 /// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
-    /// What people call it.
+    /// Name of the bat.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the bat come from.
     pub source: String,
     /// Shape of the bat; its pieces end wherever a material or a fixture begins.
     pub profile: Profile,

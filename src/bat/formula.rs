@@ -451,7 +451,7 @@ fn number(input: &mut Input) -> ModalResult<Node, Fault> {
     let sign = || opt(one_of(['+', '-']));
     let exponent = (one_of(['e', 'E']), sign(), take_while(1.., '0'..='9'));
     let written = (digits(), opt(('.', digits())), opt(exponent)).take().parse_next(input)?;
-    // A point alone is no number, and the largest ones are none that a computer can hold.
+    // A point alone is not a number, and a number beyond the range of `f64` is refused.
     let value = written.parse().ok().filter(|value: &f64| value.is_finite());
     match value {
         Some(value) => {

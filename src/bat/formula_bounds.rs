@@ -188,7 +188,7 @@ mod tests {
     use crate::bat::formula::Formula;
 
     /// Terms of the Legendre series of κGA beyond degree 31, relative to its least value, by
-    /// quadrature with as many points as no bound asks for.
+    /// quadrature with more points than any bound asks for.
     fn tail(curves: &Curves, tube: &Material) -> f64 {
         const POINTS: usize = 80;
         let points = gauss(POINTS);

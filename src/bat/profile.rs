@@ -41,35 +41,35 @@ pub struct Stations {
 /// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaPiece {
-    /// Where it begins (m).
+    /// Where the piece begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the piece ends (m).
     pub to: f64,
-    /// The outer radius.
+    /// Formula of the outer radius.
     pub outer: Formula,
-    /// None where the bat is solid.
+    /// Formula of the inner radius; None where the bat is solid.
     pub inner: Option<Formula>,
 }
 
 /// A whole profile in formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formulas {
-    /// Touching end to end, from 0.
+    /// Pieces, touching end to end from 0.
     pub pieces: Vec<FormulaPiece>,
-    /// Whether their `x` counts from the tip.
+    /// Whether `x` in the formulas counts from the tip.
     pub from_tip: bool,
 }
 
 /// A stretch of the bat where both radii are smooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// Where it begins (m).
+    /// Where the piece begins (m).
     pub start: f64,
-    /// How long it is (m).
+    /// Length of the piece (m).
     pub length: f64,
-    /// Both radii along it.
+    /// Both radii along the piece.
     pub radii: Radii,
-    /// Which of the bat's layups it is made of; 0 is the bat's own material.
+    /// Index of the bat's layup that the piece is made of; 0 is the bat's own material.
     pub layup: usize,
 }
 
@@ -142,7 +142,7 @@ impl Section {
         if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
     }
 
-    /// What is inside the inner radius, as a section of its own.
+    /// The bore as a section of its own: what is inside the inner radius.
     #[inline]
     pub fn bore(self) -> Self {
         Self { outer: self.inner, inner: 0.0 }

@@ -11,7 +11,7 @@ pub struct Cell<R, const W: usize> {
     pub link: Link<R, W>,
     /// `L⁻¹` of the stiffness of its strains.
     pub inverse: Matrix<R, W>,
-    /// Distance of its inner end from the balance point, counted outwards (m).
+    /// Distance of the inner end of the element from the balance point, counted outwards (m).
     pub arm: R,
 }
 
@@ -48,7 +48,7 @@ pub struct CellView<'a, S> {
     pub turn: &'a [S],
     /// h (m).
     pub length: S,
-    /// Distance of its inner end from the balance point, counted outwards (m).
+    /// Distance of the inner end of the element from the balance point, counted outwards (m).
     pub arm: S,
 }
 

@@ -182,7 +182,7 @@ impl SolveArgs {
         prepare(bat, self.theory, self.request(modes), output.quiet)
     }
 
-    /// A time for the modes alone says nothing of a whole hit.
+    /// Refuses `--budget`: a time for the modes alone does not limit a whole hit.
     ///
     /// # Errors
     ///

@@ -5,9 +5,9 @@ use crate::base::error::{Error, Result};
 /// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ball {
-    /// What people call it.
+    /// Name of the ball.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the ball come from.
     pub source: String,
     /// Mass (kg).
     pub mass: f64,

@@ -145,7 +145,8 @@ fn scales(
     if let Some(complaint) = not_by_commas(names) {
         return Err(document.error(line(&document.text, header), complaint));
     }
-    /// There are fewer keys, so that a mistake is among so many columns if there are more.
+    /// Columns that are checked: a header with more than this has a mistake among the first ones, since
+    /// there are fewer keys.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
     mistakes::all(names.iter().enumerate().take(LOOKED_AT).map(|(k, name)| {

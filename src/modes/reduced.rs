@@ -145,7 +145,7 @@ impl Reduced {
         self.members.len()
     }
 
-    /// Whether there is no strain.
+    /// Whether the number of strains is 0.
     pub fn is_empty(&self) -> bool {
         self.members.is_empty()
     }
@@ -290,7 +290,7 @@ impl Reduced {
     /// # Errors
     ///
     /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
-    /// dashpots are so large that round-off leaves none that dies out.
+    /// dashpots are so large that round-off leaves no motion that dies out.
     pub fn free_motions(&mut self, wanted: usize, tolerance: f64) -> Result<FreeMotions> {
         const MOST_ROUNDS: usize = 12;
         const MOST_MEMBERS: usize = 400;

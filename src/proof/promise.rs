@@ -98,9 +98,9 @@ pub const BATS: &[(&str, &[&str])] = &[
 /// One bat solved for one tolerance: what was promised and what is true.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// Its name in the table.
+    /// Name of the bat in the table.
     pub bat: &'static str,
-    /// Relative, of every frequency.
+    /// Wanted relative accuracy of every frequency.
     pub tolerance: f64,
     /// How many modes were asked for.
     pub modes: usize,
@@ -123,7 +123,7 @@ pub struct Row {
     pub mass_ratio: f64,
     /// Modes whose true error is above 1e-13.
     pub visible: usize,
-    /// Those of the visible ones stated within 30 times the true error.
+    /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
 }
 
@@ -144,22 +144,22 @@ impl Row {
 /// The promise over several rows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Summary {
-    /// As in [`Row`], the worst of all.
+    /// Worst of the ratios of true to stated frequency error over all rows.
     pub frequency_ratio: f64,
-    /// The worst of the nodes.
+    /// Worst of the ratios of true to stated node error over all rows.
     pub node_ratio: f64,
-    /// The worst of the modal masses.
+    /// Worst of the ratios of true to stated modal mass error over all rows.
     pub mass_ratio: f64,
-    /// All visible errors.
+    /// Number of visible errors.
     pub visible: usize,
-    /// Those of them stated within 30 times.
+    /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
     /// Rows with an error beyond three times the stated one.
     pub broken: usize,
 }
 
 impl Summary {
-    /// Over those rows.
+    /// The summary of those rows.
     pub fn of(rows: &[Row]) -> Self {
         let worst = |ratio: fn(&Row) -> f64| rows.iter().map(ratio).fold(0.0, f64::max);
         Self {

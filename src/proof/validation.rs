@@ -82,9 +82,9 @@ struct Solve {
 pub struct Check {
     /// What is known.
     pub quantity: Known,
-    /// Of which mode, from 1.
+    /// Number of the mode, from 1.
     pub mode: Option<usize>,
-    /// Of which of its nodes, from 1 at the knob.
+    /// Number of the node of that mode, from 1 at the knob.
     pub node: Option<usize>,
     /// Where a ball hits, or a force acts and its deflection is seen (m), and how fast it swings
     /// (Hz).
@@ -181,8 +181,8 @@ impl Row {
         !self.information && !self.passes()
     }
 
-    /// The error in units of the tolerance. A missing value is infinitely far, not NaN, which a
-    /// maximum would pass over; what is for information is no distance at all.
+    /// The error in units of the tolerance. A missing value gives infinity, because a maximum would
+    /// drop NaN; a check for information gives 0.
     pub fn share(&self) -> f64 {
         let share = if self.information { 0.0 } else { self.error / self.tolerance };
         if share.is_nan() { f64::INFINITY } else { share }
@@ -354,13 +354,13 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
 pub struct Truth {
     /// The bat.
     pub bat: Bat,
-    /// By which theory.
+    /// Beam theory of the known numbers.
     pub theory: Theory,
-    /// Of mode 1, 2, … (Hz).
+    /// Frequencies of modes 1, 2, … (Hz).
     pub frequencies: Vec<f64>,
-    /// From the knob end (m), of the lowest modes; empty where they are not known.
+    /// Nodes of the lowest modes from the knob end (m); empty where they are not known.
     pub nodes: Vec<Vec<f64>>,
-    /// In kg, of the lowest modes, where they are known.
+    /// Modal masses of the lowest modes (kg), where they are known.
     pub modal_masses: Vec<Option<f64>>,
 }
 

@@ -45,7 +45,7 @@ pub struct Proof {
 pub struct Analysis {
     /// The bat that is analysed.
     pub bat: Bat,
-    /// Its bending modes.
+    /// Bending modes of the bat.
     pub solution: Solution,
     /// What was asked.
     pub task: Task,

@@ -16,9 +16,9 @@ use crate::modes::solve::{Request, Solution, solve};
 /// Relative change of a mode's frequency by effects that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shift {
-    /// By the sections' own rotary inertia.
+    /// Relative shift of the frequency by the sections' own rotary inertia.
     pub rotary_inertia: f64,
-    /// By shear, if the material's shear modulus is known.
+    /// Relative shift of the frequency by shear; None if the material's shear modulus is not known.
     pub shear: Option<f64>,
 }
 
@@ -179,7 +179,7 @@ pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
     const STRETCHES: usize = 200;
     let half = 0.5 * bat.length();
     let wall = |k: usize| {
-        // Between the stations too, and not at the tip, where a cap is no wall.
+        // Between the stations too, and not at the tip, where a cap is not a wall.
         let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
         let section = bat.profile.at(x);
         (section.inner > 0.0).then_some([section.outer - section.inner, x])

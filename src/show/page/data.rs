@@ -103,7 +103,7 @@ impl<'a> Data<'a> {
 
 impl Outline {
     fn new(profile: &Profile) -> Self {
-        /// More are no steps of a bat that are seen.
+        /// Steps that are drawn: more than this could not be told apart.
         const MOST: usize = 100;
         let length = profile.length();
         let even = (0..POINTS).map(|k| length * k as f64 / (POINTS - 1) as f64);

@@ -101,9 +101,9 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
 struct Flight<'a> {
     after: &'a Aftermath<'a>,
     touch: Vec<Squeezed>,
-    /// Its mass (kg).
+    /// Mass of the ball (kg).
     ball: f64,
-    /// m/s
+    /// Closing speed of ball and bat (m/s).
     closing: f64,
 }
 
@@ -112,7 +112,7 @@ impl Flight<'_> {
     /// (m).
     fn gaps(&self, times: &[f64]) -> Vec<f64> {
         let end = self.after.end();
-        // What wall and ball keep at the end of the touch is no way that the ball flies.
+        // The squeeze that wall and ball keep at the end of the touch is not part of the ball's flight.
         let kept = self.apart(&[end])[0] + squeezed(&self.touch, end);
         let gap = |(time, apart): (&f64, f64)| match *time {
             time if time < 0.0 => apart,

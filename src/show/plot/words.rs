@@ -16,15 +16,15 @@ pub enum Anchor {
 /// How words look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Type {
-    /// Its colour.
+    /// Colour of the words.
     pub ink: Ink,
-    /// px
+    /// Height of the letters (px).
     pub size: f64,
-    /// Whether it is bold.
+    /// Whether the words are bold.
     pub bold: bool,
-    /// Which end of the words is at their place.
+    /// Which end of the words stands at their place.
     pub anchor: Anchor,
-    /// Turned to run upwards.
+    /// Whether the words run upwards.
     pub upwards: bool,
 }
 

@@ -53,11 +53,11 @@ impl Model {
 /// A model and its modes.
 #[derive(Debug, Clone)]
 pub struct Solved {
-    /// What of the bat is in it.
+    /// The model: a theory and the parts of the bat it includes.
     pub model: Model,
     /// The bat as the model sees it.
     pub bat: Bat,
-    /// Its modes.
+    /// Modes of the model.
     pub solution: Solution,
 }
 

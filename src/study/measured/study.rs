@@ -37,15 +37,15 @@ pub struct Study {
 /// A measured and a computed mode that are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// The measured one's number, from 0.
+    /// Number of the measured mode, from 0.
     pub measured: usize,
-    /// The computed one's, from 0.
+    /// Number of the computed mode, from 0.
     pub computed: usize,
-    /// None where there are no shapes.
+    /// MAC of both shapes; None without measured shapes.
     pub mac: Option<f64>,
     /// Computed over measured frequency, less 1; None for a measured 0 Hz.
     pub difference: Option<f64>,
-    /// What is stated of the computed frequency, relative.
+    /// Stated relative error of the computed frequency.
     pub within: f64,
     /// The factor from the computed shape (largest deflection 1) to the measured one.
     pub scale: Option<c64>,
@@ -54,7 +54,7 @@ pub struct Pair {
 /// A measured mode too slow to bend the bat: the bat on its supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMode {
-    /// Its number, from 0.
+    /// Number of the measured mode, from 0.
     pub measured: usize,
     /// How far from a straight line its shape is, as a share of its size (root of the squares at
     /// the points).
@@ -96,7 +96,7 @@ const RIGID_BELOW: f64 = 0.5;
 const STRAIGHT: f64 = 0.5;
 /// Computed modes go up to this times the highest measured frequency.
 const ABOVE: f64 = 1.25;
-/// And are no more than so many.
+/// Computed modes are at most this many.
 const MOST: usize = 100;
 /// Even steps along a bat that hide no shape.
 const MANY: usize = 400;

@@ -6,7 +6,7 @@ use crate::study::measured::study::{RigidMode, Shapes, Study};
 const ALIKE: f64 = 0.9;
 /// Frequencies that differ by less are the same, as far as a laboratory can tell.
 const SAME: f64 = 5e-4;
-/// And above this of two computed shapes, which should not, if it is twice that at many points: in
+/// MAC above which two computed shapes are alike, which should not, if it is twice that at many points: in
 /// the points' plain sum even the shapes of a smooth curve have something in common.
 const CONFUSED: f64 = 0.1;
 /// Shares of rigid motion, or of what two shapes have in common, above this are worth a word where
