@@ -76,7 +76,7 @@ pub enum Error {
     /// The iteration stopped before every wanted mode had converged.
     #[error(
         "only {converged} of {wanted} modes converged in {steps} Lanczos steps, and a list with \
-         holes is no answer; ask for fewer modes or report this bat"
+         holes would be misread; ask for fewer modes or report this bat"
     )]
     NotConverged {
         /// How many modes were asked for.

@@ -157,7 +157,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         return Err(Error::value("--csv", "- beside --json -", expected));
     }
     if !(2..=MOST).contains(&args.bats.len()) {
-        let found = format!("{} bat", args.bats.len());
+        let found = format!("{} bat file(s)", args.bats.len());
         return Err(Error::value("compare", found, format!("2 to {MOST} bat files")));
     }
     let model = args.scene.model()?;

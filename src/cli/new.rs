@@ -96,7 +96,7 @@ pub fn run(args: &Args) -> Result<Done> {
         if ask { asked(args, &mut Dialogue::new(stdin().lock()))? } else { given(args)? };
     let text = bat_text::text(&measured);
     made(args, &measured, &text).inspect_err(|_| {
-        // Print the answers, so that they are not lost with the file; an unusable standard error is ignored.
+        // Print the answers, so that they are not lost with the file, unless standard error is closed.
         let _ =
             if ask { write!(stderr(), "The bat, which was not written:\n{text}") } else { Ok(()) };
     })

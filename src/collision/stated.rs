@@ -1,5 +1,5 @@
 //! How far the exit speed of a contact may be off: by the modes left out, by its steps, and by how
-//! much the hit magnifies what is small.
+//! much the hit magnifies small changes.
 //!
 //! Each comes from other answers to the same hit: with fewer modes, with finer steps, a little faster.
 //! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of

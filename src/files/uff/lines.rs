@@ -59,7 +59,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line of text: any line but a fence in its exact columns; None if the next line is a fence.
+    /// A line of text: any line but a fence in its exact columns; None at a fence and at the end.
     pub fn text(&mut self) -> Option<Line<'a>> {
         self.peek().filter(|line| line.bytes.trim_ascii_end() != b"    -1")?;
         self.next()

@@ -230,8 +230,8 @@ pub enum Analysis {
         step: i64,
         /// Frequency (Hz).
         frequency: f64,
-        },
-        /// Any other type: its integers and reals as they stand.
+    },
+    /// Any other type: its integers and reals as they stand.
     Other {
         /// Number of the type.
         kind: i64,

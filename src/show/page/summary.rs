@@ -6,7 +6,7 @@ use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown;
 
-/// The numbers of the summary, in SI, as they stand in the page's data; None for a number that does not exist.
+/// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Length from the knob end to the tip (m).

@@ -275,7 +275,9 @@ fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     let name = letter(bat);
     let row = comparison.figures.iter().find(|row| row.key == "best_exit_speed");
     let Some(difference) = row.and_then(|row| row.difference(bat)) else {
-        return format!("{name} beside A: one of them hits no ball.");
+        return format!(
+            "{name} and A cannot be compared at their best: one of them does not hit the ball."
+        );
     };
     let speed = |v: f64| by_speed(v, units);
     if !difference.is_real() {

@@ -184,7 +184,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     let count = match (solution.complete(), by_nodes) {
         (true, true) => "no mode is missing: mode n has its n + 1 nodes",
         (true, false) => "no mode is missing (inertia count)",
-        (false, _) => "A MODE MAY BE MISSING: the number of slower motions is another",
+        (false, _) => "A MODE MAY BE MISSING: the inertia count differs from the modes found",
     };
     let plan = format!(
         "  why: {}; every frequency within {:.0e}; {count}",
