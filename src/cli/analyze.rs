@@ -219,7 +219,7 @@ fn proof(analysis: &Analysis) -> String {
         false => format!("; on this bat it states {:.1e}", analysis.solution.worst()),
     };
     format!(
-        "Proof: on the uniform dowel the same solver finds the exact modes 1 to {modes} within\n       \
+        "Proof: on the uniform dowel the solver finds the exact modes 1 to {modes} within\n       \
          {truth:.1e} and states {stated:.1e}{here}\n"
     )
 }
