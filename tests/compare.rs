@@ -13,7 +13,7 @@ use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::modes::solve::Request;
 use sweetspot::study::comparison::contender::Terms;
-use sweetspot::study::comparison::rows::{Row, Unit};
+use sweetspot::study::comparison::rows::{ComparedFigure, Unit};
 use sweetspot::study::comparison::table::{Comparison, Entry};
 
 const INCH: f64 = 0.0254;
@@ -29,11 +29,11 @@ fn compare_by(model: Model, bats: &[Bat], tolerance: f64) -> Comparison {
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
 }
 
-fn row<'a>(comparison: &'a Comparison, key: &str) -> &'a Row {
+fn row<'a>(comparison: &'a Comparison, key: &str) -> &'a ComparedFigure {
     comparison.figures.iter().find(|row| row.key == key).unwrap_or_else(|| panic!("{key}"))
 }
 
-fn all(comparison: &Comparison) -> impl Iterator<Item = &Row> {
+fn all(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
     comparison.figures.iter().chain(&comparison.by_tip).chain(&comparison.by_knob)
 }
 

@@ -4,13 +4,13 @@
 use std::sync::LazyLock;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::hit_promise::{Course, Row, Summary, rows};
+use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary, rows};
 
-static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(&nobody).unwrap());
+static ROWS: LazyLock<Vec<CheckedHit>> = LazyLock::new(|| rows(&nobody).unwrap());
 
 #[test]
 fn true_errors_of_exit_speeds_are_within_three_times_the_stated_ones() {
-    let false_ones: Vec<&Row> = ROWS.iter().filter(|row| !row.holds()).collect();
+    let false_ones: Vec<&CheckedHit> = ROWS.iter().filter(|row| !row.holds()).collect();
     assert!(false_ones.is_empty(), "{false_ones:#?}");
     let all = Summary::of(ROWS.iter());
     assert!(all.hits >= 300 && all.visible >= 250, "{all:?}");

@@ -3,9 +3,9 @@
 use std::sync::LazyLock;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::promise::{BATS, DIGITS, Row, Summary, rows};
+use sweetspot::proof::promise::{BATS, CheckedBat, DIGITS, Summary, rows};
 
-static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(&nobody).unwrap());
+static ROWS: LazyLock<Vec<CheckedBat>> = LazyLock::new(|| rows(&nobody).unwrap());
 
 #[test]
 fn true_errors_are_within_three_times_the_stated_ones() {
@@ -25,7 +25,7 @@ fn true_errors_are_within_three_times_the_stated_ones() {
 
 #[test]
 fn nodes_and_modal_masses_are_looked_at() {
-    let known = |ratio: fn(&Row) -> f64| {
+    let known = |ratio: fn(&CheckedBat) -> f64| {
         BATS.iter().filter(|(bat, _)| ROWS.iter().any(|r| r.bat == *bat && ratio(r) > 0.0)).count()
     };
     assert!(known(|row| row.node_ratio) >= 15);

@@ -127,7 +127,7 @@ impl Form {
     /// Adds what stands at this border.
     fn meet(&mut self, fixed: &Fixed<f64>, what: What, tau: f64) {
         match what {
-            What::Point(k) => {
+            What::PointMass(k) => {
                 let point = &fixed.points[k];
                 if point.spring.is_some() {
                     self.extend();

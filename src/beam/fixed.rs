@@ -46,7 +46,7 @@ pub struct Body<'a, S, const N: usize, const W: usize> {
 #[derive(Debug, Clone)]
 pub struct Fixed<S> {
     /// Masses, on the bat itself or on springs.
-    pub points: Vec<Point<S>>,
+    pub points: Vec<PointMass<S>>,
     /// Places that give way to bending.
     pub joints: Vec<Spring<S>>,
     /// What holds a deflection or a rotation.
@@ -80,7 +80,7 @@ pub struct Stop {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum What {
     /// A point mass.
-    Point(usize),
+    PointMass(usize),
     /// A joint.
     Joint(usize),
     /// A contact.
@@ -98,7 +98,7 @@ pub struct Spring<S> {
 
 /// A point mass, directly on the bat or on a spring.
 #[derive(Debug, Clone, Copy)]
-pub struct Point<S> {
+pub struct PointMass<S> {
     /// Distance of the point mass from the balance point, outwards (m).
     pub arm: S,
     /// Mass of the point (kg).
@@ -240,11 +240,11 @@ impl<S: Real> Fixed<S> {
         let hung = bat.fixtures.absorbers.iter();
         let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
         for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
-            let what = What::Point(self.points.len());
+            let what = What::PointMass(self.points.len());
             let side = self.stop(body.split, node_at(bat, mesh, x), what);
             let spring = stiffness.map(|stiffness| self.spring(body, stiffness));
             let outwards = if side == 1 { 1.0 } else { -1.0 };
-            self.points.push(Point {
+            self.points.push(PointMass {
                 arm: number(outwards) * (number(x) - body.balance),
                 mass: number(mass),
                 offset: number(outwards * offset),
@@ -335,7 +335,7 @@ impl<S: Real> Fixed<S> {
 
     fn meet(&self, what: What, build: &mut Build<S>) {
         match what {
-            What::Point(_) => {}
+            What::PointMass(_) => {}
             What::Joint(k) => {
                 let Spring { place, softness } = self.joints[k];
                 let adds = vec![[S::default(), softness]];
@@ -431,7 +431,7 @@ impl<S: Real> Fixed<S> {
                 way.over(&body.cells[run.clone()], strains, &mut loads.cells[run]);
                 let Some(stop) = stops.get(k) else { break };
                 match stop.what {
-                    What::Point(k) => {
+                    What::PointMass(k) => {
                         let point = &self.points[k];
                         loads.points[k] =
                             point.load(point.displaced(way.w.value(), way.theta.value(), q));
@@ -467,7 +467,7 @@ impl<S: Real> Fixed<S> {
                 moment.add(load[W - 2] * cell.arm + load[W - 1]);
             }
             for stop in &self.stops[side] {
-                let What::Point(k) = stop.what else { continue };
+                let What::PointMass(k) = stop.what else { continue };
                 let point = &self.points[k];
                 let taken = point.load([rigid.deflection(point.arm + point.offset), rigid.turn]);
                 let load = &mut loads.points[k];
@@ -502,7 +502,7 @@ impl<S: Real> Fixed<S> {
                 way.over(&body.cells[run.clone()], &loads.cells[run], rigid, strains);
                 let Some(stop) = before else { break };
                 match stop.what {
-                    What::Point(k) => {
+                    What::PointMass(k) => {
                         let [force, couple] = loads.points[k];
                         way.shear.add(force);
                         way.bending.add(couple);
@@ -554,7 +554,7 @@ impl<S: Real> Fixed<S> {
     }
 }
 
-impl<S: Real> Point<S> {
+impl<S: Real> PointMass<S> {
     /// How far its mass and how far the bat turns, of a bat that is at `w` and `theta` here.
     pub fn displaced<R: Over<S>>(&self, w: R, theta: R, strains: &[R]) -> [R; 2] {
         let own = self.spring.map_or(R::default(), |s| strains[s.place] * s.softness);

@@ -271,7 +271,7 @@ impl<R: Real> Motion<R> {
                 Some(What::Joint(k)) => {
                     theta.add(q[fixed.joints[k].place] * fixed.joints[k].softness);
                 }
-                Some(What::Point(k)) => {
+                Some(What::PointMass(k)) => {
                     let point = &fixed.points[k];
                     let [moved, turned] = point.displaced(w.value(), theta.value(), q);
                     let lift = rigid.deflection(point.arm + point.offset);
@@ -304,7 +304,7 @@ impl<R: Real> Motion<R> {
         for run in runs(&cells, view.stops(side)).rev() {
             if let (Some(fixed), Some(stop)) = (view.fixed_for::<R>(), run.stop) {
                 let [force, couple] = match stop {
-                    What::Point(k) => self.forces[k],
+                    What::PointMass(k) => self.forces[k],
                     What::Contact(k) => fixed.contacts[k].on_the_bat(self.reactions[k]),
                     What::Joint(_) => [R::default(); 2],
                 };
@@ -465,7 +465,7 @@ impl<R: Real> Motion<R> {
                         let joint = &fixed.joints[k];
                         theta += self.image[joint.place] * joint.softness;
                     }
-                    Some(What::Point(k)) => {
+                    Some(What::PointMass(k)) => {
                         let point = &fixed.points[k];
                         let change = point.displaced(w, theta, &self.image);
                         let [push, couple] = point.load(change);
@@ -527,7 +527,7 @@ impl<R: Real> Motion<R> {
             }
             let Some(fixed) = view.fixed_for::<R>() else { continue };
             for stop in &fixed.stops[side] {
-                let What::Point(k) = stop.what else { continue };
+                let What::PointMass(k) = stop.what else { continue };
                 let point = &fixed.points[k];
                 let [moved, turned] = self.point_changes[k];
                 let lift = rigid.deflection(point.arm + point.offset);

@@ -14,7 +14,7 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 #[derive(Debug)]
 pub struct Rule {
     /// The points, from left to right.
-    pub points: Vec<Point>,
+    pub points: Vec<GaussPoint>,
     /// `P_0 … P_{N−1}` at the points, point by point; `N` is the degree plus 1.
     legendre: Vec<f64>,
     /// `P_0 … P_{N−1}` at the points, polynomial by polynomial.
@@ -38,7 +38,7 @@ pub const MOST_POINTS: usize = 32;
 
 /// One Gauss point.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+pub struct GaussPoint {
     /// Position along the element, in (0, 1).
     pub s: f64,
     /// Weight of the point; all weights of a rule add up to 1.
@@ -77,7 +77,11 @@ impl Rule {
     fn new(terms: usize, count: usize) -> Self {
         let point = |&(s, weight): &(f64, f64)| {
             let t = 1.0 - s;
-            Point { s, weight, bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s] }
+            GaussPoint {
+                s,
+                weight,
+                bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s],
+            }
         };
         let places = gauss(count);
         let at: Vec<Vec<f64>> =

@@ -12,7 +12,7 @@ use sweetspot::show::page::content::Report;
 use sweetspot::show::page::inputs::Input;
 use sweetspot::show::plot::sets;
 use sweetspot::show::report::json::{self, ShapePoints};
-use sweetspot::show::report::sketch::{self, Row};
+use sweetspot::show::report::sketch::{self, SketchRow};
 use sweetspot::show::report::text::{self, Units};
 use sweetspot::show::report::{advice, aftermath, hit_json, hit_text};
 
@@ -138,7 +138,7 @@ fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
 }
 
 /// The nodes of the first three modes and the sweet spot.
-fn rows(analysis: &Analysis) -> Vec<Row> {
+fn rows(analysis: &Analysis) -> Vec<SketchRow> {
     let mut rows = sketch::of_modes(&analysis.bat, &analysis.solution);
     // The balance point is the last of them.
     rows.drain(3.min(rows.len() - 1)..rows.len() - 1);

@@ -14,7 +14,7 @@ use sweetspot::collision::hit::Impact;
 use sweetspot::files::bat_file::Named;
 use sweetspot::modes::solve::{self, Request, Solution, Solver};
 use sweetspot::modes::up_to::modes_up_to;
-use sweetspot::show::report::sketch::{self, Glyphs, Row};
+use sweetspot::show::report::sketch::{self, Glyphs, SketchRow};
 use sweetspot::show::report::text::Units;
 use sweetspot::study::theory_choice;
 use sweetspot::study::tuned;
@@ -270,7 +270,7 @@ impl OutputArgs {
     }
 
     /// The bat and its places drawn with what this terminal can show.
-    pub fn sketch(&self, bat: &Bat, rows: &[Row]) -> String {
+    pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
         sketch::draw(bat, rows, self.units, glyphs())
     }
 

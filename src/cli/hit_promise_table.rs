@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::proof::hit_promise::{Course, Row, Summary};
+use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary};
 
 const TITLE: &str = "Errors of exit speeds on random hits, relative to the closing speed:
 
@@ -10,7 +10,7 @@ hits                       n  true/stated    close  met
 ";
 
 /// A line for every kind of bat and for what happens in a hit, and one for all.
-pub fn summary(rows: &[Row]) -> String {
+pub fn summary(rows: &[CheckedHit]) -> String {
     let mut out = TITLE.to_owned();
     let mut bats: Vec<&str> = rows.iter().map(|row| row.bat.as_str()).collect();
     bats.sort_unstable();
@@ -25,7 +25,7 @@ pub fn summary(rows: &[Row]) -> String {
     out
 }
 
-fn line<'a>(out: &mut String, name: &str, rows: impl Iterator<Item = &'a Row>) {
+fn line<'a>(out: &mut String, name: &str, rows: impl Iterator<Item = &'a CheckedHit>) {
     let summary = Summary::of(rows);
     let Summary { hits, ratio, met, .. } = summary;
     let close = 100.0 * summary.share_close();
@@ -37,7 +37,7 @@ fn line<'a>(out: &mut String, name: &str, rows: impl Iterator<Item = &'a Row>) {
 }
 
 /// One line per hit.
-pub fn table(rows: &[Row]) -> String {
+pub fn table(rows: &[CheckedHit]) -> String {
     let mut out = String::from(
         "hit  bat        what happens      tol     true   stated  known to  ratio  met\n",
     );

@@ -8,7 +8,7 @@ use sweetspot::base::file;
 use sweetspot::base::units::inches;
 use sweetspot::bat::body::Bat;
 use sweetspot::proof::validation::bundled_bat;
-use sweetspot::show::report::sketch::{self, Places, Row};
+use sweetspot::show::report::sketch::{self, Places, SketchRow};
 use sweetspot::show::report::text;
 use sweetspot::show::report::text::{Units, wrapped};
 
@@ -261,8 +261,11 @@ fn like(name: &str, length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>> {
 fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let places = measured.stations.iter().map(|s| s[0] * bat.length() / end(measured)).collect();
     let rows = [
-        Row { label: "measured".into(), places: Places::Points(places) },
-        Row { label: "balance".into(), places: Places::Points(vec![bat.inertia().balance_point]) },
+        SketchRow { label: "measured".into(), places: Places::Points(places) },
+        SketchRow {
+            label: "balance".into(),
+            places: Places::Points(vec![bat.inertia().balance_point]),
+        },
     ];
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let density = bat.material().density;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::proof::promise::{BATS, DIGITS, Row, Summary};
+use sweetspot::proof::promise::{BATS, CheckedBat, DIGITS, Summary};
 
 const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
 30 times the true ones in nine of ten above 1e-13. Worst true/stated error:
@@ -15,10 +15,10 @@ so; ! an error beyond three times the stated one
 ";
 
 /// One line per bat: the worst ratios of true to stated errors, and what became of every tolerance.
-pub fn summary(rows: &[Row]) -> String {
+pub fn summary(rows: &[CheckedBat]) -> String {
     let mut out = TITLE.to_owned();
     for (bat, _) in BATS {
-        let of_bat: Vec<Row> = rows.iter().filter(|row| row.bat == *bat).cloned().collect();
+        let of_bat: Vec<CheckedBat> = rows.iter().filter(|row| row.bat == *bat).cloned().collect();
         let modes = of_bat.iter().map(|row| row.modes).max().unwrap_or(0);
         let marks: String = of_bat.iter().map(mark).collect();
         line(&mut out, bat, &modes.to_string(), &Summary::of(&of_bat), &marks);
@@ -40,7 +40,7 @@ fn line(out: &mut String, bat: &str, modes: &str, summary: &Summary, marks: &str
 }
 
 /// One line per bat and tolerance.
-pub fn table(rows: &[Row]) -> String {
+pub fn table(rows: &[CheckedBat]) -> String {
     let mut out = String::from(
         "                          degree x   worst error     true/stated         within\n\
          bat                tol    elements   true   stated  freq nodes masses   30   met\n",
@@ -74,7 +74,7 @@ fn ratio(value: f64) -> String {
     if value == 0.0 { String::new() } else { format!("{value:.2}") }
 }
 
-fn mark(row: &Row) -> char {
+fn mark(row: &CheckedBat) -> char {
     match (row.holds(), row.met, row.truly_met()) {
         (false, _, _) => '!',
         (_, true, true) => '+',

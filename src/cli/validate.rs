@@ -9,7 +9,7 @@ use sweetspot::base::telling::Tell;
 use sweetspot::proof::hit_promise;
 use sweetspot::proof::promise::{self, Summary};
 use sweetspot::proof::published::Answer;
-use sweetspot::proof::validation::{CASES, Row, run as run_case};
+use sweetspot::proof::validation::{CASES, KnownNumber, run as run_case};
 use sweetspot::show::hit_figure;
 use sweetspot::show::proof_page;
 use sweetspot::show::report::text::wrapped;
@@ -136,7 +136,7 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
         information += shown;
         misses += missed;
         if args.summary {
-            let worst = rows.iter().map(Row::share).fold(0.0, f64::max);
+            let worst = rows.iter().map(KnownNumber::share).fold(0.0, f64::max);
             let _ = writeln!(out, "{name:<33} {:>5}  {missed:>6}  {worst:>8.3}", rows.len());
         } else {
             let _ = writeln!(out, "{} ({name})", case.name);
@@ -153,7 +153,7 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
     Ok(misses == 0)
 }
 
-fn line(row: &Row, out: &mut String) {
+fn line(row: &KnownNumber, out: &mut String) {
     let (expected, found) = (significant(row.expected), significant(row.found));
     let _ = write!(out, "  {:<18} {expected:>13} {found:>14}  {:>8.1e}", row.quantity, row.error);
     let _ = if row.information {

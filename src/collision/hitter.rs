@@ -18,7 +18,7 @@ use crate::collision::energy_loss::wpi_alpha;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Effort, Energy, Impact, Model, Outcome, Scene, Separation, Wall};
 use crate::collision::pulse::Pulse;
-use crate::collision::rigid::{Motion, RigidBat};
+use crate::collision::rigid::{RigidBat, RigidVelocity};
 use crate::collision::stated::Answered;
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
@@ -32,7 +32,7 @@ pub struct Hitter<'a> {
     solution: &'a Solution,
     profile: &'a Profile,
     bat: RigidBat,
-    motion: Motion,
+    motion: RigidVelocity,
     held: bool,
     /// How a held bat moves that does not bend: springs and hands are too slow for a hit.
     stiff: Vec<RigidMotion>,

@@ -22,7 +22,7 @@ pub struct RigidBat {
 
 /// How a rigid bat moves: its balance point across the axis (m/s), and its rotation (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct RigidVelocity {
     /// Velocity of the balance point across the axis (m/s).
     pub velocity: f64,
     /// Rotation, positive where the tip goes ahead (rad/s).
@@ -48,7 +48,7 @@ pub struct Rebound {
     /// Velocity `v′` of the ball after the blow (m/s).
     pub ball_velocity: f64,
     /// Motion of the bat after the blow.
-    pub bat: Motion,
+    pub bat: RigidVelocity,
     /// Kinetic energy lost, `μ u² (1 − e²)/2` (J).
     pub dissipated: f64,
 }
@@ -61,23 +61,23 @@ impl RigidBat {
     }
 
     /// The motion of a bat turning at `rotation` (rad/s) about a point `pivot` (m) beyond the knob.
-    pub fn swung(&self, rotation: f64, pivot: f64) -> Motion {
-        Motion { velocity: rotation * (pivot + self.balance_point), rotation }
+    pub fn swung(&self, rotation: f64, pivot: f64) -> RigidVelocity {
+        RigidVelocity { velocity: rotation * (pivot + self.balance_point), rotation }
     }
 
     /// `V = v_c + Ω y` (m/s): the speed of the bat at `x`.
-    pub fn speed_at(&self, x: f64, motion: Motion) -> f64 {
+    pub fn speed_at(&self, x: f64, motion: RigidVelocity) -> f64 {
         motion.velocity + motion.rotation * (x - self.balance_point)
     }
 
     /// `M v_c²/2 + I Ω²/2` (J).
-    pub fn kinetic_energy(&self, motion: Motion) -> f64 {
+    pub fn kinetic_energy(&self, motion: RigidVelocity) -> f64 {
         (self.mass * motion.velocity.powi(2) + self.inertia * motion.rotation.powi(2)) / 2.0
     }
 
     /// The motion after giving the impulse `J` (N s) to a ball at `x`.
-    pub fn after(&self, motion: Motion, impulse: f64, x: f64) -> Motion {
-        Motion {
+    pub fn after(&self, motion: RigidVelocity, impulse: f64, x: f64) -> RigidVelocity {
+        RigidVelocity {
             velocity: motion.velocity - impulse / self.mass,
             rotation: motion.rotation - impulse * (x - self.balance_point) / self.inertia,
         }
@@ -92,7 +92,7 @@ impl RigidBat {
     /// Newton's impact law with both momenta kept. It is Eq. 1-7 of the WPI report (named in
     /// [`crate::collision::energy_loss::wpi_alpha`]), `v′ = v + k (1 + e) u/(1 + k + (M/I) y²)` with `k = M/m`,
     /// where the report's text misprints the ball's mass for the bat's in `M/I`.
-    pub fn strike(&self, motion: Motion, ball: Incoming, x: f64) -> Rebound {
+    pub fn strike(&self, motion: RigidVelocity, ball: Incoming, x: f64) -> Rebound {
         let closing = self.speed_at(x, motion) - ball.velocity;
         let reduced = 1.0 / (1.0 / ball.mass + 1.0 / self.recoil_mass(x));
         let impulse = reduced * (1.0 + ball.restitution) * closing;
@@ -118,9 +118,11 @@ mod tests {
         for x in [0.0, 0.2, 0.5, 0.7, 0.84] {
             let hit = BAT.strike(before, BALL, x);
             let y = x - BAT.balance_point;
-            let linear = |v: f64, bat: Motion| BALL.mass * v + BAT.mass * bat.velocity;
-            let angular = |v: f64, bat: Motion| BALL.mass * v * y + BAT.inertia * bat.rotation;
-            let energy = |v: f64, bat: Motion| BALL.mass * v * v / 2.0 + BAT.kinetic_energy(bat);
+            let linear = |v: f64, bat: RigidVelocity| BALL.mass * v + BAT.mass * bat.velocity;
+            let angular =
+                |v: f64, bat: RigidVelocity| BALL.mass * v * y + BAT.inertia * bat.rotation;
+            let energy =
+                |v: f64, bat: RigidVelocity| BALL.mass * v * v / 2.0 + BAT.kinetic_energy(bat);
             let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
             let (v, after) = (hit.ball_velocity, hit.bat);
             same(linear(BALL.velocity, before), linear(v, after));
@@ -134,7 +136,8 @@ mod tests {
     #[test]
     fn a_shift_of_the_observer_shifts_every_speed_and_changes_no_impulse() {
         let hit = BAT.strike(BAT.swung(50.0, 0.15), BALL, 0.7);
-        let moving = Motion { velocity: BAT.swung(50.0, 0.15).velocity + 25.0, rotation: 50.0 };
+        let moving =
+            RigidVelocity { velocity: BAT.swung(50.0, 0.15).velocity + 25.0, rotation: 50.0 };
         let seen = BAT.strike(moving, Incoming { velocity: -15.0, ..BALL }, 0.7);
         assert!((seen.impulse - hit.impulse).abs() < 1e-13);
         assert!((seen.ball_velocity - hit.ball_velocity - 25.0).abs() < 1e-12);

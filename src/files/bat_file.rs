@@ -15,7 +15,7 @@ use crate::files::document::Document;
 use crate::files::fixtures_file;
 use crate::files::json_node::{Node, Object};
 use crate::files::material_file;
-use crate::files::station_table::Table;
+use crate::files::station_table::StationTable;
 
 const KEYS: &[&str] = &[
     "format",
@@ -281,8 +281,8 @@ fn columns(object: Object, folder: &Folder) -> Result<Profile> {
 }
 
 /// The columns that a `profile` object has, or the CSV file that it names.
-fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<Table<'a>> {
-    let Some(node) = object.get("csv") else { return Table::from_json(object, unit) };
+fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<StationTable<'a>> {
+    let Some(node) = object.get("csv") else { return StationTable::from_json(object, unit) };
     let mut mistakes = Mistakes::default();
     let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
     for key in columns {
@@ -297,7 +297,7 @@ fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<T
             let hint = "the command line also reads others, of a bat file named there";
             node.complain(Complaint::new("", node.shown(), expected).hinted(hint))
         })?;
-        Table::from_csv(&path, unit.1).map_err(|error| match error {
+        StationTable::from_csv(&path, unit.1).map_err(|error| match error {
             Error::Read { source, .. } => node.error(
                 format!("{}, which cannot be read ({source})", path.display()),
                 "a CSV file, sought from the folder of this one",

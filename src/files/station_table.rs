@@ -21,7 +21,7 @@ struct Column {
 }
 
 /// The columns of a profile and where each value stands.
-pub(crate) struct Table<'a> {
+pub(crate) struct StationTable<'a> {
     x: Column,
     outer: Column,
     inner: Option<Column>,
@@ -34,7 +34,7 @@ enum Places<'a> {
     Csv { document: Document, csv: Csv },
 }
 
-impl<'a> Table<'a> {
+impl<'a> StationTable<'a> {
     /// The columns of a `profile` object; bare numbers are in the unit of that name and factor to m.
     pub fn from_json(object: Object<'a>, unit: (&str, f64)) -> Result<Self> {
         let column = |key: &'static str, node: &Node| -> Result<Column> {
@@ -70,7 +70,7 @@ impl<'a> Table<'a> {
 
     /// The columns of a CSV file, named and given their units by its header (`x_in,diameter_in`);
     /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
-    pub fn from_csv(path: &Path, unit: f64) -> Result<Table<'static>> {
+    pub fn from_csv(path: &Path, unit: f64) -> Result<StationTable<'static>> {
         let document = Document::read(path)?;
         let keys: Vec<&'static str> = ["x"].into_iter().chain(OUTER).chain(INNER).collect();
         let csv = Csv::read(&document, &keys, Quantity::Length, unit)?;
@@ -95,7 +95,7 @@ impl<'a> Table<'a> {
             );
         };
         let inner = take(&INNER);
-        Ok(Table { x, outer, inner, places: Places::Csv { document, csv } })
+        Ok(StationTable { x, outer, inner, places: Places::Csv { document, csv } })
     }
 
     /// Radii from whatever columns there are.

@@ -41,11 +41,11 @@ pub struct Ringing {
     reduced: Reduced,
     /// Whether shear leaves rotations their own inertia, for initial shapes.
     turns: bool,
-    motions: Vec<Motion>,
+    motions: Vec<ModeInTime>,
 }
 
 /// One motion: how it goes in time, and the deflections that go with it.
-struct Motion {
+struct ModeInTime {
     clock: Clock,
     /// Real part of the deflections, and the imaginary part of a complex motion.
     forms: Vec<Form>,
@@ -94,7 +94,7 @@ impl Ringing {
                 let clock = Oscillator { omega: 0.0, damping_ratio: 0.0, mass: motion.mass };
                 let rigid = vec![(1.0, *motion)];
                 let form = Form { rigid, bent: None, hung: vec![0.0; reduced.flexible.hung.len()] };
-                motions.push(Motion { clock: Clock::Oscillator(clock), forms: vec![form] });
+                motions.push(ModeInTime { clock: Clock::Oscillator(clock), forms: vec![form] });
             }
         }
         if matches!(solution.damping.kind, Kind::Complex(_)) || reduced.coupled {
@@ -114,7 +114,7 @@ impl Ringing {
                 let mass = reduced.flexible.energy_unit / (omega * omega);
                 let clock = Clock::Oscillator(Oscillator { omega, damping_ratio: ratio, mass });
                 let forms = vec![form(&reduced, strains, vec![])];
-                motions.push(Motion { clock, forms });
+                motions.push(ModeInTime { clock, forms });
             }
         }
         Ok(Self { reduced, turns: theory.turns(), motions })
@@ -179,7 +179,7 @@ impl Ringing {
     /// What a unit impulse at `x` starts: of an oscillator its deflection there, which its impulse
     /// response divides by the mass.
     fn at(&self, x: f64) -> Vec<c64> {
-        let part = |motion: &Motion| {
+        let part = |motion: &ModeInTime| {
             let imaginary = motion.forms.get(1).map_or(0.0, |form| form.at(x));
             let here = c64::new(motion.forms[0].at(x), imaginary);
             match &motion.clock {
@@ -210,7 +210,7 @@ impl Ringing {
                 modes.push(product(&form) * omega * omega / unit);
             }
         }
-        let part = |motion: &Motion| match &motion.clock {
+        let part = |motion: &ModeInTime| match &motion.clock {
             Clock::Oscillator(o) => c64::new(product(&motion.forms[0]) / o.mass, 0.0),
             Clock::Pole(pole) => self.reduced.share(pole, &rigid, &modes),
         };
@@ -267,7 +267,7 @@ fn form(reduced: &Reduced, strains: &[f64], rigid: Vec<(f64, RigidMotion)>) -> F
 }
 
 /// A pole as a motion.
-fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> Motion {
+fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> ModeInTime {
     let take = |of: &dyn Fn(&c64) -> f64| {
         let mut strains = vec![0.0; reduced.flexible.dimension];
         for (k, part) in pole.parts.iter().enumerate() {
@@ -287,7 +287,7 @@ fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> Motion {
         true => vec![take(&|part| part.re)],
         false => vec![take(&|part| part.re), take(&|part| part.im)],
     };
-    Motion { clock: Clock::Pole(pole), forms }
+    ModeInTime { clock: Clock::Pole(pole), forms }
 }
 
 #[cfg(test)]

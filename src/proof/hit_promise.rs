@@ -91,7 +91,7 @@ impl Course {
 
 /// One hit: what was promised and what is true.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct CheckedHit {
     /// Position of the hit in the file, from 0.
     pub number: usize,
     /// Name of the bat.
@@ -114,7 +114,7 @@ pub struct Row {
     pub later: f64,
 }
 
-impl Row {
+impl CheckedHit {
     /// True over stated error, as far as the truth is known.
     pub fn ratio(&self) -> f64 {
         // An error that is not a number is as bad as can be.
@@ -157,7 +157,7 @@ pub struct Summary {
 
 impl Summary {
     /// The summary of those rows.
-    pub fn of<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+    pub fn of<'a>(rows: impl IntoIterator<Item = &'a CheckedHit>) -> Self {
         rows.into_iter().fold(Self::default(), |sum, row| Self {
             hits: sum.hits + 1,
             ratio: sum.ratio.max(row.ratio()),
@@ -184,7 +184,7 @@ impl Summary {
 /// # Errors
 ///
 /// [`Error::Input`] for a file that is not one of hits, and as [`sweep`].
-pub fn rows(tell: Tell) -> Result<Vec<Row>> {
+pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
     tell(0.0, "random hits");
     let drawn: Drawn = serde_json::from_str(TEXT).map_err(|error| {
         Error::value(FILE, error.to_string(), "hits as search/hits writes them")
@@ -195,13 +195,13 @@ pub fn rows(tell: Tell) -> Result<Vec<Row>> {
     numbered.map(|(number, hit)| row(number, &bats[hit.bat], hit)).collect()
 }
 
-fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<Row> {
+fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
     let scene = hit.scene();
     let swept = sweep(bat, Model::Contact, &scene, &hit.request()?, hit.modes.is_some(), &[hit.x])?;
     let closing = hit.swing * (hit.x + hit.pivot) + hit.pitch;
     let outcome = swept.impacts[0].outcome.as_ref();
     let off = |speed: f64| (speed - hit.exit_speed).abs() / closing;
-    Ok(Row {
+    Ok(CheckedHit {
         number,
         bat: bat.name.clone(),
         course: match (hit.contacts, hit.reloads) {
@@ -252,8 +252,8 @@ impl Hit {
 mod tests {
     use super::*;
 
-    fn row(truth: f64, stated: f64) -> Row {
-        Row {
+    fn row(truth: f64, stated: f64) -> CheckedHit {
+        CheckedHit {
             number: 0,
             bat: "dowel".into(),
             course: Course::Single,

@@ -97,7 +97,7 @@ pub const BATS: &[(&str, &[&str])] = &[
 
 /// One bat solved for one tolerance: what was promised and what is true.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct CheckedBat {
     /// Name of the bat in the table.
     pub bat: &'static str,
     /// Wanted relative accuracy of every frequency.
@@ -127,7 +127,7 @@ pub struct Row {
     pub close: usize,
 }
 
-impl Row {
+impl CheckedBat {
     /// Whether no true error exceeds three times the stated one, and no claim of the tolerance
     /// stands on a larger one.
     pub fn holds(&self) -> bool {
@@ -160,8 +160,8 @@ pub struct Summary {
 
 impl Summary {
     /// The summary of those rows.
-    pub fn of(rows: &[Row]) -> Self {
-        let worst = |ratio: fn(&Row) -> f64| rows.iter().map(ratio).fold(0.0, f64::max);
+    pub fn of(rows: &[CheckedBat]) -> Self {
+        let worst = |ratio: fn(&CheckedBat) -> f64| rows.iter().map(ratio).fold(0.0, f64::max);
         Self {
             frequency_ratio: worst(|row| row.frequency_ratio),
             node_ratio: worst(|row| row.node_ratio),
@@ -188,7 +188,7 @@ impl Summary {
 /// # Errors
 ///
 /// As [`solve`].
-pub fn rows(tell: Tell) -> Result<Vec<Row>> {
+pub fn rows(tell: Tell) -> Result<Vec<CheckedBat>> {
     let mut rows = Vec::new();
     let all = BATS.len() * DIGITS.count();
     for (name, cases) in BATS {
@@ -205,7 +205,7 @@ fn known(cases: &[&str]) -> Result<Truth> {
     if cases.is_empty() { Truth::of_dowel(MODES) } else { Truth::of_cases(cases) }
 }
 
-fn row(bat: &'static str, truth: &Truth, tolerance: f64) -> Result<Row> {
+fn row(bat: &'static str, truth: &Truth, tolerance: f64) -> Result<CheckedBat> {
     let modes = truth.frequencies.len().min(MODES);
     let theory = truth.theory;
     let solution = solve(&truth.bat, &Request { modes, tolerance, theory, ..Request::default() })?;
@@ -213,7 +213,7 @@ fn row(bat: &'static str, truth: &Truth, tolerance: f64) -> Result<Row> {
 }
 
 /// The row of a solution: each known number beside ours.
-fn compared(bat: &'static str, truth: &Truth, tolerance: f64, solution: &Solution) -> Row {
+fn compared(bat: &'static str, truth: &Truth, tolerance: f64, solution: &Solution) -> CheckedBat {
     let pairs = solution.modes.iter().zip(&truth.frequencies);
     let frequencies: Vec<(f64, f64)> = pairs
         .map(|(mode, exact)| ((mode.frequency() / exact - 1.0).abs(), mode.error.total()))
@@ -227,7 +227,7 @@ fn compared(bat: &'static str, truth: &Truth, tolerance: f64, solution: &Solutio
         };
         exact.map_or(0.0, off)
     };
-    Row {
+    CheckedBat {
         bat,
         tolerance,
         modes: solution.modes.len(),

@@ -9,7 +9,7 @@ use crate::base::telling::Tell;
 use crate::base::units::inches;
 use crate::bat::theory::Theory;
 use crate::modes::solve::{Request, solve};
-use crate::proof::validation::{CASES, Case, Check, Kind, Known, Row, run};
+use crate::proof::validation::{CASES, Case, Check, Kind, Known, KnownNumber, run};
 
 /// A case with its rows, one for each check.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct Answer {
     /// The case.
     pub case: Case,
     /// Rows, one for each check.
-    pub rows: Vec<Row>,
+    pub rows: Vec<KnownNumber>,
 }
 
 impl Answer {
@@ -39,17 +39,17 @@ impl Answer {
 
     /// Whether a number of it is missed.
     pub fn missed(&self) -> bool {
-        self.rows.iter().any(Row::missed)
+        self.rows.iter().any(KnownNumber::missed)
     }
 
     /// The rows that count: not those for information.
-    pub fn counted(&self) -> impl Iterator<Item = &Row> {
+    pub fn counted(&self) -> impl Iterator<Item = &KnownNumber> {
         self.rows.iter().filter(|row| !row.information)
     }
 
     /// The worst error in units of its tolerance.
     pub fn worst(&self) -> f64 {
-        self.rows.iter().map(Row::share).fold(0.0, f64::max)
+        self.rows.iter().map(KnownNumber::share).fold(0.0, f64::max)
     }
 }
 
@@ -69,7 +69,7 @@ pub fn bats(answers: &[Answer]) -> Vec<&str> {
 }
 
 /// How far the furthest frequency, node, exit speed and time are off, as the end of a sentence.
-pub fn furthest(rows: &[&Row]) -> String {
+pub fn furthest(rows: &[&KnownNumber]) -> String {
     let largest = |relative: bool, unit: &str| {
         let rows =
             rows.iter().filter(|row| row.relative == relative && row.quantity.ends_with(unit));

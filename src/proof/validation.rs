@@ -149,7 +149,7 @@ pub enum Known {
 
 /// A known number beside ours.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct KnownNumber {
     /// Name of its case.
     pub case: String,
     /// What is known, in words.
@@ -170,7 +170,7 @@ pub struct Row {
     pub note: Option<String>,
 }
 
-impl Row {
+impl KnownNumber {
     /// Whether the error is within the tolerance; NaN is not.
     pub fn passes(&self) -> bool {
         self.error <= self.tolerance
@@ -550,25 +550,25 @@ impl Case {
 /// # Errors
 ///
 /// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
-pub fn run(name: &str, text: &str) -> Result<(Case, Vec<Row>)> {
+pub fn run(name: &str, text: &str) -> Result<(Case, Vec<KnownNumber>)> {
     let case = read(name, text)?;
     let mut note = None;
     let mut rows = Vec::new();
     for (check, found) in case.checks.iter().zip(case.found()?) {
         note = check.note.clone().or(note);
-        rows.push(Row { note: note.clone(), ..row(name, check, found) });
+        rows.push(KnownNumber { note: note.clone(), ..row(name, check, found) });
     }
     Ok((case, rows))
 }
 
 /// A check beside what was found, the note aside.
-fn row(case: &str, check: &Check, found: f64) -> Row {
+fn row(case: &str, check: &Check, found: f64) -> KnownNumber {
     // Without a tolerance, places and hits differ by their unit and all else by a share.
     let absolute = matches!(check.quantity, Known::NodeM | Known::Hit(_));
     let shown = check.information && !absolute;
     let relative = check.relative.is_some() || shown;
     let scale = if relative { check.expected.abs() } else { 1.0 };
-    Row {
+    KnownNumber {
         case: case.to_owned(),
         quantity: label(check),
         expected: check.expected,
@@ -687,7 +687,7 @@ mod tests {
 
     #[test]
     fn what_is_for_information_is_neither_passed_nor_missed() {
-        let row = Row {
+        let row = KnownNumber {
             case: String::new(),
             quantity: String::new(),
             expected: 1.0,
@@ -699,14 +699,17 @@ mod tests {
             note: None,
         };
         assert!(!row.missed() && row.share() == 0.0);
-        let counted = Row { information: false, ..row.clone() };
+        let counted = KnownNumber { information: false, ..row.clone() };
         assert!(counted.missed() && counted.share() > 1.0);
-        assert_eq!(Row { found: f64::NAN, error: f64::NAN, ..counted }.share(), f64::INFINITY);
+        assert_eq!(
+            KnownNumber { found: f64::NAN, error: f64::NAN, ..counted }.share(),
+            f64::INFINITY
+        );
     }
 
     #[test]
     fn a_wrong_answer_and_a_missing_one_do_not_pass() {
-        let row = |found: f64| Row {
+        let row = |found: f64| KnownNumber {
             case: String::new(),
             quantity: String::new(),
             expected: 1.0,

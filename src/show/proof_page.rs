@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use crate::base::error::Result;
 use crate::proof::published::{self, Answer, decimals, number, percent, signed};
-use crate::proof::validation::Row;
+use crate::proof::validation::KnownNumber;
 use crate::show::hit_figure;
 
 /// How many numbers were compared, and how many are missed, in one sentence.
@@ -112,7 +112,7 @@ fn named(answer: &Answer, bat: &str) -> bool {
 /// A line for each bat: how many of its numbers are within their tolerance, and how far off.
 fn verdicts(known: &[&Answer], bats: &[&str], out: &mut String) {
     for bat in bats {
-        let rows: Vec<&Row> =
+        let rows: Vec<&KnownNumber> =
             known.iter().filter(|a| named(a, bat)).flat_map(|a| a.counted()).collect();
         let within = rows.iter().filter(|row| row.passes()).count();
         let _ = match rows.len() {
@@ -190,7 +190,7 @@ fn details(answer: &Answer, out: &mut String) {
 }
 
 /// Our number, with one digit more than the published one, or as many as the difference.
-fn found(row: &Row) -> String {
+fn found(row: &KnownNumber) -> String {
     if !row.relative {
         return number(row.found, digits_of_difference(row));
     }
@@ -199,13 +199,13 @@ fn found(row: &Row) -> String {
 }
 
 /// Two digits of the tolerance; a length without one to the millimetre.
-fn digits_of_difference(row: &Row) -> usize {
+fn digits_of_difference(row: &KnownNumber) -> usize {
     let decimals = if row.information { 3.0 } else { 1.0 - row.tolerance.log10().floor() };
     decimals.max(0.0) as usize
 }
 
 /// Ours less the published one: a share in per cent, else in the quantity's unit.
-fn difference(row: &Row) -> String {
+fn difference(row: &KnownNumber) -> String {
     let difference = row.found - row.expected;
     if row.relative {
         return percent(difference / row.expected.abs());
@@ -213,7 +213,7 @@ fn difference(row: &Row) -> String {
     signed(difference, digits_of_difference(row))
 }
 
-fn tolerance(row: &Row) -> String {
+fn tolerance(row: &KnownNumber) -> String {
     match (row.information, row.relative) {
         (true, _) => "none".to_owned(),
         (false, false) => row.tolerance.to_string(),

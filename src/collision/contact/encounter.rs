@@ -37,7 +37,7 @@ use crate::collision::contact::collocation::{LANES, Lobatto, POINTS, Pair};
 use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::{ForceLaw, Top};
-use crate::collision::contact::step::{Coupling, Course, Piece, Step, Table};
+use crate::collision::contact::step::{Coupling, Course, Piece, Step, StepTable};
 use crate::collision::contact::touch::{Felt, State, Touch};
 
 /// What a meeting of ball and bat left behind.
@@ -106,7 +106,7 @@ pub struct Collider {
     swing: Vec<f64>,
     square: Vec<f64>,
     /// Steps of length `longest/2^level`, made when first needed.
-    tables: Vec<OnceLock<Table>>,
+    tables: Vec<OnceLock<StepTable>>,
     longest: f64,
 }
 
@@ -270,7 +270,7 @@ enum Taken {
 /// Tables of steps, made when first needed, and who wants to know the force.
 struct Means<'a> {
     all: &'a [Pair],
-    tables: &'a [OnceLock<Table>],
+    tables: &'a [OnceLock<StepTable>],
     longest: f64,
     history: Option<&'a mut Vec<Piece>>,
 }
@@ -381,7 +381,8 @@ impl Touch<'_> {
     fn step(&self, run: &mut Run, means: &mut Means, met: &mut Encounter) -> Taken {
         let Run { now, next, top, last, level, .. } = run;
         let length = means.longest * 0.5_f64.powi(*level as i32);
-        let table = means.tables[*level].get_or_init(|| Table::new(self.rule, means.all, length));
+        let table =
+            means.tables[*level].get_or_init(|| StepTable::new(self.rule, means.all, length));
         let coupling = match run.couplings[*level] {
             Some(known) => known,
             None => *run.couplings[*level].insert(self.coupling(table)),

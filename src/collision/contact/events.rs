@@ -2,7 +2,7 @@
 
 use crate::collision::contact::collocation::{POINTS, lanes, moments, times, total};
 use crate::collision::contact::force_law::Top;
-use crate::collision::contact::step::{Course, Step, Table};
+use crate::collision::contact::step::{Course, Step, StepTable};
 use crate::collision::contact::touch::{State, Touch};
 
 /// Why a step ends early.
@@ -117,7 +117,7 @@ impl Touch<'_> {
             // The force's last bit ends within the step: a step of that length has it whole.
             let (mut last, mut end) = (*step, time);
             for _ in 0..4 {
-                let table = Table::new(self.rule, self.poles, end);
+                let table = StepTable::new(self.rule, self.poles, end);
                 let course = Course { from: 0.0, ..self.course(step) };
                 (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(&course));
                 self.advance(&table, now, &last, next);

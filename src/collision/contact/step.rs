@@ -37,7 +37,7 @@ impl Piece {
 
 /// What a step of one length does to every mode; numbers of the modes side by side.
 #[derive(Debug, Clone)]
-pub struct Table {
+pub struct StepTable {
     /// Length of the step (s).
     pub length: f64,
     /// Number of modes, those that fill the lanes included.
@@ -50,7 +50,7 @@ pub struct Table {
     pub bump: Vec<f64>,
 }
 
-impl Table {
+impl StepTable {
     /// The table of a step of that length (s) for modes of those `s` (1/s).
     pub fn new(rule: &Lobatto, poles: &[Pair], length: f64) -> Self {
         let modes = poles.len();
@@ -158,7 +158,7 @@ const ROUND_OFF: f64 = 1e-12;
 impl Touch<'_> {
     /// The coupling by a step of that table.
     #[inline(always)]
-    pub fn coupling(&self, table: &Table) -> Coupling {
+    pub fn coupling(&self, table: &StepTable) -> Coupling {
         let square = table.length * table.length * self.felt.inverse_mass;
         let mut coupling = [[0.0; POINTS]; AHEAD];
         for i in 0..AHEAD {
@@ -175,7 +175,7 @@ impl Touch<'_> {
     #[inline(always)]
     pub fn solve(
         &self,
-        table: &Table,
+        table: &StepTable,
         coupling: &Coupling,
         now: &State,
         top: Option<Top>,
@@ -282,7 +282,7 @@ impl Touch<'_> {
 
     /// The state at the end of a step, but for compression and force.
     #[inline(always)]
-    pub fn advance(&self, table: &Table, now: &State, step: &Step, next: &mut State) {
+    pub fn advance(&self, table: &StepTable, now: &State, step: &Step, next: &mut State) {
         let (h, end) = (table.length, POINTS - 1);
         let push = dot(&self.rule.weights, &step.force);
         (next.time, next.bump, next.defect) = (now.time + h, 0.0, now.defect);
@@ -300,7 +300,14 @@ impl Touch<'_> {
 
     /// The modes' memories at point i of a step.
     #[inline(always)]
-    pub fn memories(&self, table: &Table, now: &State, step: &Step, i: usize, next: &mut State) {
+    pub fn memories(
+        &self,
+        table: &StepTable,
+        now: &State,
+        step: &Step,
+        i: usize,
+        next: &mut State,
+    ) {
         let turn = [table.turn(i, 0), table.turn(i, 1)];
         let mut kernels = [turn; POINTS];
         for (j, kernel) in kernels.iter_mut().enumerate() {

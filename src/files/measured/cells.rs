@@ -6,20 +6,20 @@ use crate::files::csv_file::row_start;
 use crate::files::document::Document;
 
 /// Cells and where each row begins.
-pub(crate) struct Table<'a> {
+pub(crate) struct CellTable<'a> {
     document: &'a Document,
-    pub header: Row,
+    pub header: CellRow,
     /// Rows below the header, each as wide as the header.
-    pub rows: Vec<Row>,
+    pub rows: Vec<CellRow>,
 }
 
 /// One row.
-pub(crate) struct Row {
+pub(crate) struct CellRow {
     offset: usize,
     pub cells: Vec<String>,
 }
 
-impl<'a> Table<'a> {
+impl<'a> CellTable<'a> {
     /// Splits the text into cells; empty rows and comments are skipped.
     pub fn new(document: &'a Document) -> Result<Self> {
         let reader = csv::ReaderBuilder::new()
@@ -38,7 +38,7 @@ impl<'a> Table<'a> {
             let cells: Vec<String> = record.iter().map(str::to_owned).collect();
             // Spreadsheets leave lines that hold only commas.
             if cells.iter().any(|cell| !cell.is_empty()) {
-                rows.push(Row { offset, cells });
+                rows.push(CellRow { offset, cells });
             }
         }
         let expected = "a header such as x_in,mode_1,mode_2 or mode,frequency_hz";
@@ -62,7 +62,7 @@ impl<'a> Table<'a> {
     /// An error about a cell.
     pub fn wrong(
         &self,
-        (row, cell): (&Row, usize),
+        (row, cell): (&CellRow, usize),
         field: &str,
         found: &str,
         expected: impl Into<String>,
@@ -74,7 +74,7 @@ impl<'a> Table<'a> {
     /// An error about a cell with its own words in quotes.
     pub fn strange(
         &self,
-        (row, cell): (&Row, usize),
+        (row, cell): (&CellRow, usize),
         field: &str,
         expected: impl Into<String>,
     ) -> Error {
@@ -83,7 +83,7 @@ impl<'a> Table<'a> {
     }
 
     /// The number in a cell, if it is in that range.
-    pub fn number(&self, at: (&Row, usize), field: &str, [low, high]: [f64; 2]) -> Result<f64> {
+    pub fn number(&self, at: (&CellRow, usize), field: &str, [low, high]: [f64; 2]) -> Result<f64> {
         let text = &at.0.cells[at.1];
         match text.parse::<f64>() {
             Ok(value) if value >= low && value <= high => Ok(value),
@@ -95,7 +95,7 @@ impl<'a> Table<'a> {
     }
 
     /// The factor to SI of a name such as `x_in`, its beginning being `stem`.
-    pub fn factor(&self, at: (&Row, usize), stem: &str, quantity: Quantity) -> Result<f64> {
+    pub fn factor(&self, at: (&CellRow, usize), stem: &str, quantity: Quantity) -> Result<f64> {
         let name = &at.0.cells[at.1];
         let Some(unit) = name.strip_prefix(stem).and_then(|rest| rest.strip_prefix('_')) else {
             let example = if quantity == Quantity::Length { "x_in or x_m" } else { "frequency_hz" };

@@ -23,7 +23,7 @@ use crate::base::error::Result;
 use crate::base::units::Quantity;
 use crate::files::document::Document;
 use crate::files::measured::FEWEST;
-use crate::files::measured::cells::{Row, Table};
+use crate::files::measured::cells::{CellRow, CellTable};
 use crate::study::measured::data::{Measured, MeasuredMode};
 
 /// Reads measured modes from CSV.
@@ -33,7 +33,7 @@ use crate::study::measured::data::{Measured, MeasuredMode};
 /// [`crate::base::error::Error::Read`], and [`crate::base::error::Error::Input`] with the line and the column.
 pub fn read(path: &Path) -> Result<Measured> {
     let document = Document::read(path)?;
-    let table = Table::new(&document)?;
+    let table = CellTable::new(&document)?;
     let measured = match table.header.cells[0].starts_with("x_") || table.header.cells[0] == "x" {
         true => shapes(&table)?,
         false => frequencies(&table)?,
@@ -48,7 +48,7 @@ const HIGHEST: f64 = 1e6;
 const ANY: [f64; 2] = [-1e100, 1e100];
 
 /// Shapes: points downwards, modes side by side.
-fn shapes(table: &Table) -> Result<Measured> {
+fn shapes(table: &CellTable) -> Result<Measured> {
     let to_metres = table.factor((&table.header, 0), "x", Quantity::Length)?;
     let mut modes = named(table)?;
     let (told, points) = apart(table)?;
@@ -86,7 +86,7 @@ fn shapes(table: &Table) -> Result<Measured> {
 }
 
 /// The modes of the header, without anything but their names.
-fn named(table: &Table) -> Result<Vec<MeasuredMode>> {
+fn named(table: &CellTable) -> Result<Vec<MeasuredMode>> {
     let names = &table.header.cells[1..];
     if names.is_empty() {
         let expected = "a column for each mode";
@@ -101,9 +101,9 @@ fn named(table: &Table) -> Result<Vec<MeasuredMode>> {
 }
 
 /// The rows that tell frequencies and dampings, each once, and those of the points.
-fn apart<'a>(table: &'a Table) -> Result<(Vec<&'a Row>, Vec<&'a Row>)> {
-    let kind = |row: &Row| row.cells[0].split('_').next().unwrap_or_default().to_owned();
-    let (told, points): (Vec<&Row>, Vec<&Row>) =
+fn apart<'a>(table: &'a CellTable) -> Result<(Vec<&'a CellRow>, Vec<&'a CellRow>)> {
+    let kind = |row: &CellRow| row.cells[0].split('_').next().unwrap_or_default().to_owned();
+    let (told, points): (Vec<&CellRow>, Vec<&CellRow>) =
         table.rows.iter().partition(|row| ["frequency", "damping"].contains(&kind(row).as_str()));
     let again = |k: &usize| told[..*k].iter().any(|row| kind(row) == kind(told[*k]));
     if let Some(k) = (1..told.len()).find(again) {
@@ -122,7 +122,7 @@ fn apart<'a>(table: &'a Table) -> Result<(Vec<&'a Row>, Vec<&'a Row>)> {
 }
 
 /// A row of frequencies or of dampings.
-fn tell(table: &Table, row: &Row, modes: &mut [MeasuredMode]) -> Result<()> {
+fn tell(table: &CellTable, row: &CellRow, modes: &mut [MeasuredMode]) -> Result<()> {
     let name = &row.cells[0];
     let frequencies = name.starts_with("frequency");
     if !frequencies && name != "damping_ratio" && name != "damping_percent" {
@@ -138,14 +138,19 @@ fn tell(table: &Table, row: &Row, modes: &mut [MeasuredMode]) -> Result<()> {
 }
 
 /// The frequency in a cell (Hz), its unit in the name in another.
-fn frequency(table: &Table, cell: (&Row, usize), name: (&Row, usize)) -> Result<f64> {
+fn frequency(table: &CellTable, cell: (&CellRow, usize), name: (&CellRow, usize)) -> Result<f64> {
     let factor = table.factor(name, "frequency", Quantity::Frequency)?;
     let field = &name.0.cells[name.1];
     Ok(factor * table.number(cell, field, [0.0, HIGHEST / factor])?)
 }
 
 /// A damping ratio, or percents of it; a cell may be left empty.
-fn damping(table: &Table, at: (&Row, usize), field: &str, name: &str) -> Result<Option<f64>> {
+fn damping(
+    table: &CellTable,
+    at: (&CellRow, usize),
+    field: &str,
+    name: &str,
+) -> Result<Option<f64>> {
     let most = if name == "damping_percent" { 100.0 } else { 1.0 };
     match at.0.cells[at.1].is_empty() {
         true => Ok(None),
@@ -154,7 +159,7 @@ fn damping(table: &Table, at: (&Row, usize), field: &str, name: &str) -> Result<
 }
 
 /// Frequencies alone: modes downwards.
-fn frequencies(table: &Table) -> Result<Measured> {
+fn frequencies(table: &CellTable) -> Result<Measured> {
     let names = &table.header.cells;
     let known = |name: &str| {
         ["mode", "damping_ratio", "damping_percent"].contains(&name)
@@ -199,7 +204,7 @@ fn frequencies(table: &Table) -> Result<Measured> {
 }
 
 /// The number of a mode, each once.
-fn order(table: &Table, at: (&Row, usize), before: &[MeasuredMode]) -> Result<usize> {
+fn order(table: &CellTable, at: (&CellRow, usize), before: &[MeasuredMode]) -> Result<usize> {
     match at.0.cells[at.1].parse::<usize>() {
         Ok(order) if before.iter().any(|mode| mode.order == Some(order)) => {
             Err(table.wrong(at, "mode", &format!("{order} a second time"), "it once"))

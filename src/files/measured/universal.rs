@@ -250,21 +250,21 @@ fn nodes(universal: &Universal) -> BTreeMap<i64, &Node> {
 }
 
 /// Nodes side by side: where they are along the axis (m), and which they are.
-struct Point {
+struct NodeGroup {
     along: f64,
     members: Vec<usize>,
 }
 
-fn points(at: &[Vector], axis: Vector) -> Vec<Point> {
+fn points(at: &[Vector], axis: Vector) -> Vec<NodeGroup> {
     let mut all: Vec<(f64, usize)> =
         at.iter().enumerate().map(|(k, x)| (dot(*x, axis), k)).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     let span = all.last().map_or(0.0, |last| last.0 - all[0].0);
-    let mut points: Vec<Point> = vec![];
+    let mut points: Vec<NodeGroup> = vec![];
     for (along, k) in all {
         match points.last_mut().filter(|point| along - point.along <= SAME * span) {
             Some(point) => point.members.push(k),
-            None => points.push(Point { along, members: vec![k] }),
+            None => points.push(NodeGroup { along, members: vec![k] }),
         }
     }
     points
@@ -286,8 +286,8 @@ fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
 }
 
 /// The mean over the nodes of every point.
-fn averaged(motions: &[Motion], points: &[Point], of: impl Fn(&Motion) -> c64) -> Vec<c64> {
-    let mean = |point: &Point| {
+fn averaged(motions: &[Motion], points: &[NodeGroup], of: impl Fn(&Motion) -> c64) -> Vec<c64> {
+    let mean = |point: &NodeGroup| {
         let sum = point.members.iter().fold(c64::new(0.0, 0.0), |sum, k| sum + of(&motions[*k]));
         sum / point.members.len() as f64
     };
@@ -296,7 +296,7 @@ fn averaged(motions: &[Motion], points: &[Point], of: impl Fn(&Motion) -> c64) -
 
 /// The deflection in the direction normal to the axis in which a mode moves most: its values, the
 /// direction in words, and its share of all the motion.
-fn deflection(motions: &[Motion], points: &[Point], axis: Vector) -> (Vec<c64>, String, f64) {
+fn deflection(motions: &[Motion], points: &[NodeGroup], axis: Vector) -> (Vec<c64>, String, f64) {
     let [one, other] = normals(axis);
     let along = |motion: &Motion, direction: Vector| {
         (0..3).fold(c64::new(0.0, 0.0), |sum, k| sum + motion[k] * direction[k])

@@ -21,7 +21,7 @@ pub struct Data<'a> {
     /// What hits along the barrel do.
     pub curve: Curve,
     /// The first modes, [`MOVING`] at most.
-    pub modes: Vec<Motion>,
+    pub modes: Vec<MovingMode>,
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
     /// How large the ball is drawn (mm).
@@ -60,7 +60,7 @@ pub struct Curve {
 
 /// One mode: what moves, and how fast.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Motion {
+pub struct MovingMode {
     /// Number of the bending mode, from 1.
     pub order: usize,
     /// Natural frequency (Hz).
@@ -81,7 +81,7 @@ impl<'a> Data<'a> {
     pub fn new(analysis: &Analysis, summary: &'a Summary, moments: &'a [Moment]) -> Self {
         let outline = Outline::new(&analysis.bat.profile);
         let modes = analysis.solution.modes.iter().take(MOVING);
-        let modes = modes.map(|mode| Motion {
+        let modes = modes.map(|mode| MovingMode {
             order: mode.order,
             frequency_hz: rounded(mode.frequency(), 2),
             nodes_mm: mode.nodes.iter().map(|x| rounded(1e3 * x, 2)).collect(),

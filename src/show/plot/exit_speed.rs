@@ -5,7 +5,7 @@ use crate::collision::hit::Impact;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM, Row};
+use crate::show::plot::place::{self, CM, PlaceRow};
 use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
 use crate::show::plot::series::{Series, hover, legend};
 use crate::show::plot::svg::{Pen, Svg};
@@ -93,7 +93,7 @@ fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
     (title, one.name, most.unwrap_or_default())
 }
 
-fn described(subjects: &[Subject], rows: &[Row]) -> String {
+fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
     let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
     let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
     format!(
@@ -146,7 +146,7 @@ fn zone(svg: &mut Svg, planes: [&Plane; 2], subjects: &[Subject]) {
 }
 
 /// A row for every definition that has a place.
-fn sweet_spots(subjects: &[Subject]) -> Vec<Row> {
+fn sweet_spots(subjects: &[Subject]) -> Vec<PlaceRow> {
     type Of = fn(&SweetSpot) -> Option<f64>;
     let all: [(&str, Of); 7] = [
         ("fastest ball", |s| s.exit_speed_max.map(|p| p.x)),
@@ -157,19 +157,24 @@ fn sweet_spots(subjects: &[Subject]) -> Vec<Row> {
         ("slowest at the hands", |s| s.hands_velocity_min.map(|p| p.x)),
         ("least shaken at the hands", |s| s.hands_acceleration_min.map(|p| p.x)),
     ];
-    let mut rows: Vec<Row> = all.iter().filter_map(|(what, of)| row(subjects, what, *of)).collect();
+    let mut rows: Vec<PlaceRow> =
+        all.iter().filter_map(|(what, of)| row(subjects, what, *of)).collect();
     let zones: Vec<(usize, [f64; 2])> =
         subjects.iter().enumerate().filter_map(|(k, s)| Some((k, s.spot.zone?))).collect();
     if let [(_, [from, to])] = zones.as_slice() {
         let label = format!("within 1 %: {:.1} to {:.1} cm", CM * from, CM * to);
-        rows.insert(1.min(rows.len()), Row::of_stretches(label, zones));
+        rows.insert(1.min(rows.len()), PlaceRow::of_stretches(label, zones));
     } else if !zones.is_empty() {
-        rows.insert(1.min(rows.len()), Row::of_stretches("within 1 %".into(), zones));
+        rows.insert(1.min(rows.len()), PlaceRow::of_stretches("within 1 %".into(), zones));
     }
     rows
 }
 
-fn row(subjects: &[Subject], what: &str, of: impl Fn(&SweetSpot) -> Option<f64>) -> Option<Row> {
+fn row(
+    subjects: &[Subject],
+    what: &str,
+    of: impl Fn(&SweetSpot) -> Option<f64>,
+) -> Option<PlaceRow> {
     let places: Vec<(usize, f64)> =
         subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s.spot)?))).collect();
     let label = match (subjects, places.as_slice()) {
@@ -179,5 +184,5 @@ fn row(subjects: &[Subject], what: &str, of: impl Fn(&SweetSpot) -> Option<f64>)
             format!("{what}: {}", place::listed(&places))
         }
     };
-    Some(Row::of_places(label, places))
+    Some(PlaceRow::of_places(label, places))
 }

@@ -4,7 +4,7 @@ use crate::base::units::ounces;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::fixtures::{Held, Region};
 use crate::bat::material::Material;
-use crate::show::plot::place::{self, Row};
+use crate::show::plot::place::{self, PlaceRow};
 use crate::show::plot::series::{digits, short};
 
 /// A bat, the name it has in the picture, and where its swing turns.
@@ -19,7 +19,7 @@ pub struct Subject<'a> {
 }
 
 /// Balance points, pivots, centres of percussion; what one bat is made of and bears.
-pub fn marked(subjects: &[Subject]) -> Vec<Row> {
+pub fn marked(subjects: &[Subject]) -> Vec<PlaceRow> {
     let of = |what: &str, place: &dyn Fn(&Subject) -> Option<f64>| {
         let places: Vec<(usize, f64)> =
             subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
@@ -29,12 +29,12 @@ pub fn marked(subjects: &[Subject]) -> Vec<Row> {
                 format!("{what}: {}", place::listed(&places))
             }
         };
-        (!places.is_empty()).then(|| Row::of_places(label, places))
+        (!places.is_empty()).then(|| PlaceRow::of_places(label, places))
     };
     let on_bat = |s: &Subject| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
     let standard = |s: &Subject| s.bat.inertia().center_of_percussion(on_bat(s)?);
     let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
-    let mut rows: Vec<Row> = [
+    let mut rows: Vec<PlaceRow> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),
         of("its centre of percussion", &standard),
@@ -52,11 +52,11 @@ pub fn marked(subjects: &[Subject]) -> Vec<Row> {
 
 /// Other materials, weights, joints, supports and hands, as rows; more than a dozen would
 /// crowd the picture.
-fn fastened(bat: &Bat) -> Vec<Row> {
+fn fastened(bat: &Bat) -> Vec<PlaceRow> {
     const MOST: usize = 12;
     let fixtures = &bat.fixtures;
-    let stretch = |label: String, from, to| Row::of_stretches(label, vec![(0, [from, to])]);
-    let place = |label: String, x| Row::of_places(label, vec![(0, x)]);
+    let stretch = |label: String, from, to| PlaceRow::of_stretches(label, vec![(0, [from, to])]);
+    let place = |label: String, x| PlaceRow::of_places(label, vec![(0, x)]);
     let made =
         fixtures.regions.iter().filter_map(|r| Some(stretch(made_of(bat, r)?, r.from, r.to)));
     let taped =

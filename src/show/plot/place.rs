@@ -60,7 +60,7 @@ pub fn tenths(length: f64) -> String {
 
 /// Marked places that belong together: one for each bat, or stretches.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct PlaceRow {
     /// What the row is called.
     pub label: String,
     /// Which bat's, and where (m).
@@ -69,7 +69,7 @@ pub struct Row {
     pub stretches: Vec<(usize, [f64; 2])>,
 }
 
-impl Row {
+impl PlaceRow {
     /// A row of places (m), each with the number of its bat.
     pub fn of_places(label: String, places: Vec<(usize, f64)>) -> Self {
         Self { label, places, stretches: vec![] }
@@ -85,7 +85,7 @@ impl Row {
 pub const ROW: f64 = 18.0;
 
 /// What rows take (px).
-pub fn height(rows: &[Row]) -> f64 {
+pub fn height(rows: &[PlaceRow]) -> f64 {
     ROW * rows.len() as f64 + if rows.is_empty() { 0.0 } else { 8.0 }
 }
 
@@ -94,7 +94,7 @@ pub type Edges = [f64; 4];
 
 /// The rows in a frame, a line each, their words where there is most room beside the marks. A place
 /// beyond the frame is an arrow at its edge. Where the words are is given back.
-pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[Row]) -> Vec<Edges> {
+pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
     let Frame { left, top, right, .. } = plane.frame;
     let mut told = vec![];
     for (k, row) in rows.iter().enumerate() {
@@ -136,7 +136,7 @@ pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
 }
 
 /// Thin lines from a height down to the marked places of the rows, but not through those words.
-pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[Row], &[Edges]), from: f64) {
+pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges]), from: f64) {
     for (k, row) in all.iter().enumerate() {
         let end = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
         for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(CM * x)) {

@@ -6,7 +6,7 @@ use crate::show::plot::axis::Axis;
 use crate::show::plot::marks::marked;
 use crate::show::plot::outline::{Lying, sections};
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM, Row};
+use crate::show::plot::place::{self, CM, PlaceRow};
 use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
 use crate::show::plot::series::{Series, bats, digits, hover, short};
 use crate::show::plot::svg::{Pen, Svg};
@@ -23,7 +23,7 @@ const THICK: [f64; 2] = [14.0, 84.0];
 /// The bats in one picture, `profile`.
 pub fn picture(subjects: &[Subject]) -> Picture {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
-    let rows: Vec<Row> = marked(subjects);
+    let rows: Vec<PlaceRow> = marked(subjects);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let ends = ends(longest, &rows);
     let [knob, tip] = place::axes(ends, &lengths);
@@ -94,7 +94,7 @@ fn words(subjects: &[Subject]) -> (String, String) {
     }
 }
 
-fn described(subjects: &[Subject], rows: &[Row]) -> String {
+fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
     let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
     let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
     format!(
@@ -153,7 +153,7 @@ fn curves(k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
 }
 
 /// The positions to be shown: the bats, and what is marked near them (m).
-fn ends(longest: f64, rows: &[Row]) -> [f64; 2] {
+fn ends(longest: f64, rows: &[PlaceRow]) -> [f64; 2] {
     /// Of the length: marks farther off are at the edge.
     const BEYOND: f64 = 0.15;
     let places = rows.iter().flat_map(|row| row.places.iter().map(|(_, x)| *x));

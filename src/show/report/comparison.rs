@@ -7,7 +7,7 @@ use crate::collision::hit::Scene;
 use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::comparison::contender::Contender;
-use crate::study::comparison::rows::{Difference, From, Row, Unit, energies_compare};
+use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use crate::study::comparison::stretches::Stretch;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::in_hit;
@@ -128,7 +128,7 @@ fn swing(first: &Contender) -> String {
 }
 
 /// Rows that say something in this comparison: places from the tip only where lengths differ.
-fn shown(comparison: &Comparison) -> impl Iterator<Item = &Row> {
+fn shown(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
     let both = !comparison.same_length();
     comparison.figures.iter().filter(move |row| {
         row.values.iter().any(Option::is_some) && (both || row.from != From::Tip)
@@ -136,7 +136,7 @@ fn shown(comparison: &Comparison) -> impl Iterator<Item = &Row> {
 }
 
 /// The name of a row with its unit; a place from the tip follows the same from the knob end.
-fn label(row: &Row, scale: &Scale) -> String {
+fn label(row: &ComparedFigure, scale: &Scale) -> String {
     match (row.from, scale.name) {
         (From::Tip, unit) => format!("    from the tip, {unit}"),
         (_, "") => row.name.clone(),
@@ -185,8 +185,9 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
     out
 }
 
-fn by_place(title: &str, rows: &[(&f64, &Row)], bat: usize, units: Units) -> String {
-    let hit = |(_, row): &&(&f64, &Row)| row.values[0].is_some() || row.values[bat].is_some();
+fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Units) -> String {
+    let hit =
+        |(_, row): &&(&f64, &ComparedFigure)| row.values[0].is_some() || row.values[bat].is_some();
     let lines: Vec<String> = rows
         .iter()
         .filter(hit)
@@ -209,7 +210,7 @@ fn by_place(title: &str, rows: &[(&f64, &Row)], bat: usize, units: Units) -> Str
 }
 
 /// A line of two values and their difference.
-fn compared(figure: &Row, bat: usize, label: &str, units: Units) -> String {
+fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> String {
     let scale_here = scale(figure.unit, units == Units::Us);
     let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
     let difference = figure.difference(bat);

@@ -9,7 +9,7 @@ use crate::show::report::hit_json::{hit, model_name, seen_from};
 use crate::show::report::json::generator;
 use crate::show::report::text::Units;
 use crate::study::comparison::contender::Contender;
-use crate::study::comparison::rows::Row;
+use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::in_hit;
 
@@ -17,8 +17,8 @@ use crate::study::ignored::in_hit;
 pub fn json(comparison: &Comparison, files: &[String]) -> Value {
     let bats = comparison.bats.iter().zip(files).enumerate();
     let bats: Vec<Value> = bats.map(|(k, (bat, file))| of_bat(comparison, k, bat, file)).collect();
-    let speeds = |distances: &[f64], rows: &[Row]| {
-        let of = |distance: &f64, row: &Row| {
+    let speeds = |distances: &[f64], rows: &[ComparedFigure]| {
+        let of = |distance: &f64, row: &ComparedFigure| {
             let mut document = json!({ "distance_m": distance });
             document["exit_speed_m_s"] = row.values.iter().map(|v| v.map(|f| f.value)).collect();
             document["error_m_s"] = row.values.iter().map(|v| v.map(|f| f.error)).collect();
@@ -97,7 +97,7 @@ pub fn csv(comparison: &Comparison) -> String {
     let mut out = String::from(
         "quantity,distance_m,bat,value,error,difference,difference_error,beyond_errors\n",
     );
-    let mut add = |name: &str, distance: &str, row: &Row| {
+    let mut add = |name: &str, distance: &str, row: &ComparedFigure| {
         for (k, figure) in row.values.iter().enumerate() {
             let Some(figure) = figure else { continue };
             let difference = row

@@ -39,7 +39,7 @@ impl Glyphs {
 
 /// Places below the bat (m), and what they are called.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct SketchRow {
     /// What stands left of the drawing, ten columns at most.
     pub label: String,
     /// What is marked below the bat.
@@ -55,14 +55,14 @@ pub enum Places {
     Zone([f64; 2]),
 }
 
-impl Row {
+impl SketchRow {
     fn points(label: impl Into<String>, places: &[f64]) -> Self {
         Self { label: label.into(), places: Places::Points(places.to_vec()) }
     }
 }
 
 /// The bat, rulers from the knob end, and the rows; 78 columns wide.
-pub fn draw(bat: &Bat, rows: &[Row], units: Units, glyphs: Glyphs) -> String {
+pub fn draw(bat: &Bat, rows: &[SketchRow], units: Units, glyphs: Glyphs) -> String {
     let mut out = outline(bat, glyphs);
     for (unit, of_a_metre, step) in [("inches", inches(1.0), 5.0), ("cm", 100.0, 10.0)] {
         let shown = match units {
@@ -82,33 +82,34 @@ pub fn draw(bat: &Bat, rows: &[Row], units: Units, glyphs: Glyphs) -> String {
 }
 
 /// The nodes of the first modes, and the balance point.
-pub fn of_modes(bat: &Bat, solution: &Solution) -> Vec<Row> {
+pub fn of_modes(bat: &Bat, solution: &Solution) -> Vec<SketchRow> {
     const MOST: usize = 5;
     let nodes = solution.modes.iter().take(MOST);
-    let nodes = nodes.map(|mode| Row::points(format!("mode {}", mode.order), &mode.nodes));
+    let nodes = nodes.map(|mode| SketchRow::points(format!("mode {}", mode.order), &mode.nodes));
     nodes.chain([balance(bat)]).collect()
 }
 
-fn balance(bat: &Bat) -> Row {
-    Row::points("balance", &[bat.inertia().balance_point])
+fn balance(bat: &Bat) -> SketchRow {
+    SketchRow::points("balance", &[bat.inertia().balance_point])
 }
 
 /// Where the ball leaves fastest, and the zone of nearly that.
-pub fn of_sweet_spot(spot: &SweetSpot) -> Vec<Row> {
-    let best = spot.exit_speed_max.map(|peak| Row::points("fastest", &[peak.x]));
-    let zone = spot.zone.map(|zone| Row { label: "within 1 %".into(), places: Places::Zone(zone) });
+pub fn of_sweet_spot(spot: &SweetSpot) -> Vec<SketchRow> {
+    let best = spot.exit_speed_max.map(|peak| SketchRow::points("fastest", &[peak.x]));
+    let zone =
+        spot.zone.map(|zone| SketchRow { label: "within 1 %".into(), places: Places::Zone(zone) });
     best.into_iter().chain(zone).collect()
 }
 
 /// What a hit tells: nodes of the barrel, balance point, centre of percussion, sweet spot.
-pub fn of_hit(bat: &Bat, spot: &SweetSpot) -> Vec<Row> {
+pub fn of_hit(bat: &Bat, spot: &SweetSpot) -> Vec<SketchRow> {
     let named = [
         ("node 1", spot.node_mode_1),
         ("node 2", spot.node_mode_2),
         ("balance", Some(bat.inertia().balance_point)),
         ("percussion", spot.center_of_percussion),
     ];
-    let known = named.into_iter().filter_map(|(label, x)| Some(Row::points(label, &[x?])));
+    let known = named.into_iter().filter_map(|(label, x)| Some(SketchRow::points(label, &[x?])));
     known.chain(of_sweet_spot(spot)).collect()
 }
 
@@ -259,7 +260,7 @@ mod tests {
     fn a_zone_covers_its_columns_and_every_row_fits() {
         let bat = bundled_bat("meshes/torpedo.json").unwrap();
         let zone = Places::Zone([0.5 * bat.length(), bat.length()]);
-        let rows = [Row { label: "within 1 %".into(), places: zone }];
+        let rows = [SketchRow { label: "within 1 %".into(), places: zone }];
         let drawn = draw(&bat, &rows, Units::Both, Glyphs::Blocks);
         let line = drawing(drawn.lines().last().unwrap());
         let begins = line.iter().position(|c| *c == '[');

@@ -53,7 +53,7 @@ pub enum From {
 
 /// One figure of all the bats.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct ComparedFigure {
     /// Key in JSON and CSV without the unit, such as `node_1_of_mode_2`.
     pub key: String,
     /// Name for people, without the unit.
@@ -82,7 +82,7 @@ impl Difference {
     }
 }
 
-impl Row {
+impl ComparedFigure {
     /// Difference of a bat from the first; None where one of them has no value.
     pub fn difference(&self, bat: usize) -> Option<Difference> {
         let (one, other) = (self.values[0]?, self.values[bat]?);
@@ -94,7 +94,7 @@ impl Row {
 const MODES: usize = 3;
 
 /// All rows, the bat's body first. Places are there twice: from the knob end and from the tip.
-pub fn figures(bats: &[Contender]) -> Vec<Row> {
+pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
     let mut rows = Rows { bats, all: vec![] };
     rows.exact("length", "length", Unit::Metres, |c| c.bat.length());
     rows.exact("mass", "mass", Unit::Kilograms, |c| c.inertia.mass);
@@ -139,13 +139,13 @@ pub fn energies_compare(bats: &[Contender]) -> bool {
 }
 
 /// The exit speeds at the same distances (m) from the tip, or from the knob end.
-pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<Row> {
+pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<ComparedFigure> {
     let row = |distance: &f64| {
         let place = |c: &Contender| match from {
             From::Tip => c.bat.length() - distance,
             _ => *distance,
         };
-        Row {
+        ComparedFigure {
             key: "exit_speed".into(),
             name: "exit speed".into(),
             unit: Unit::MetresPerSecond,
@@ -158,7 +158,7 @@ pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<Row> {
 
 struct Rows<'a> {
     bats: &'a [Contender],
-    all: Vec<Row>,
+    all: Vec<ComparedFigure>,
 }
 
 impl Rows<'_> {
@@ -171,7 +171,7 @@ impl Rows<'_> {
     ) {
         let values: Vec<_> = self.bats.iter().map(of).collect();
         let (key, name) = (key.to_owned(), name.to_owned());
-        self.all.push(Row { key, name, unit, from: From::Nowhere, values });
+        self.all.push(ComparedFigure { key, name, unit, from: From::Nowhere, values });
     }
 
     fn exact(&mut self, key: &str, name: &str, unit: Unit, of: impl Fn(&Contender) -> f64) {

@@ -1,6 +1,6 @@
 //! Which bat hits harder, where and by how much, in sentences' parts.
 
-use crate::study::comparison::rows::{Difference, Row};
+use crate::study::comparison::rows::{ComparedFigure, Difference};
 
 /// A stretch of the barrel where one bat hits harder, or neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Stretch {
 }
 
 /// Stretches of one sign, from the tip on, of one bat's speeds against the first one's.
-pub fn stretches(distances: &[f64], speeds: &[Row], bat: usize) -> Vec<Stretch> {
+pub fn stretches(distances: &[f64], speeds: &[ComparedFigure], bat: usize) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = vec![];
     for (distance, row) in distances.iter().zip(speeds) {
         let Some(most) = row.difference(bat) else { continue };
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn stretches_are_of_one_sign_and_a_difference_within_the_errors_is_none() {
-        let row = |by: f64| Row {
+        let row = |by: f64| ComparedFigure {
             key: String::new(),
             name: String::new(),
             unit: Unit::MetresPerSecond,

@@ -6,7 +6,7 @@ use crate::collision::figures::SwingLaw;
 use crate::collision::hit::Scene;
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::{Contender, Terms, multiples, places};
-use crate::study::comparison::rows::{From, Row, figures, speeds};
+use crate::study::comparison::rows::{ComparedFigure, From, figures, speeds};
 use crate::study::comparison::stretches::{Stretch, stretches};
 
 /// A bat with its own swing and its own request: theories may differ.
@@ -30,15 +30,15 @@ pub struct Comparison {
     /// The bats, the first the one the others are compared with.
     pub bats: Vec<Contender>,
     /// Everything but the exit speeds by place.
-    pub figures: Vec<Row>,
+    pub figures: Vec<ComparedFigure>,
     /// Distances from the tip (m), a quarter of the asked one apart.
     pub from_tip: Vec<f64>,
     /// The exit speeds there.
-    pub by_tip: Vec<Row>,
+    pub by_tip: Vec<ComparedFigure>,
     /// Distances from the knob end (m) where all bats have a place, the asked one apart.
     pub from_knob: Vec<f64>,
     /// The exit speeds there.
-    pub by_knob: Vec<Row>,
+    pub by_knob: Vec<ComparedFigure>,
 }
 
 /// How much of the shortest bat is compared, from the tip on.

@@ -27,7 +27,7 @@ pub struct Column {
     /// The solver.
     pub solver: Solver,
     /// Points by rising number of elements.
-    pub points: Vec<Point>,
+    pub points: Vec<MeshErrors>,
     /// Why the column ends early; None if it has as many points as were asked for.
     pub end: Option<End>,
 }
@@ -56,7 +56,7 @@ pub enum End {
 
 /// The errors on one mesh, relative, mode by mode.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct MeshErrors {
     /// Number of elements.
     pub elements: usize,
     /// Of the frequencies as the solver's own λ says them; empty for statics, which has no other.
@@ -79,7 +79,7 @@ pub enum Way {
 impl Column {
     /// Number of elements and error of one mode (from 0).
     pub fn series(&self, way: Way, mode: usize) -> Vec<(usize, f64)> {
-        let error = |point: &Point| match way {
+        let error = |point: &MeshErrors| match way {
             Way::Own => point.own.get(mode).copied(),
             Way::Recomputed => point.recomputed.get(mode).copied(),
         };
@@ -175,7 +175,7 @@ fn column(
 }
 
 /// How long so many elements should take (s), from the last point.
-fn expected(last: Option<&Point>, elements: usize, solver: Solver) -> f64 {
+fn expected(last: Option<&MeshErrors>, elements: usize, solver: Solver) -> f64 {
     let Some(last) = last else { return first_time(2 * elements, solver) };
     last.seconds * (elements as f64 / last.elements as f64).powi(order(solver))
 }
@@ -195,7 +195,7 @@ pub fn first_time(unknowns: usize, solver: Solver) -> f64 {
     rate * (unknowns as f64).powi(order(solver))
 }
 
-fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> Result<Point> {
+fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> Result<MeshErrors> {
     let modes = reference.omegas.len();
     let started = Instant::now();
     let (own, recomputed): (Vec<f64>, Vec<f64>) = match solver {
@@ -213,7 +213,7 @@ fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> R
     };
     let seconds = started.elapsed().as_secs_f64();
     let [own, recomputed] = [own, recomputed].map(|omegas| reference.errors(&omegas));
-    Ok(Point { elements, own, recomputed, seconds })
+    Ok(MeshErrors { elements, own, recomputed, seconds })
 }
 
 #[cfg(test)]

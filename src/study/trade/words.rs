@@ -124,7 +124,7 @@ fn refusal(column: &Column) -> Option<String> {
 mod tests {
     use super::*;
     use crate::study::trade::front::tests::run;
-    use crate::study::trade::u_curve::Point;
+    use crate::study::trade::u_curve::MeshErrors;
 
     #[test]
     fn the_next_digit_has_a_price() {
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_u_hurts_beyond_its_bottom_and_a_floor_does_not() {
-        let point = |elements, own, recomputed| Point {
+        let point = |elements, own, recomputed| MeshErrors {
             elements,
             own: vec![own],
             recomputed: vec![recomputed],
