@@ -6,6 +6,7 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
+use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::element::{Element, Matrix, elements};
 use crate::beam::mesh::Mesh;
 
@@ -26,36 +27,7 @@ pub struct Pencil {
 impl Pencil {
     /// The matrices of a bat on that mesh with elements of that degree.
     pub fn of(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
-        if theory.shears() {
-            return Self::sheared(bat, mesh, degree, theory);
-        }
-        match degree {
-            3 => Self::assemble::<4, 4>(&elements(bat, mesh, theory)),
-            4 => Self::assemble::<5, 5>(&elements(bat, mesh, theory)),
-            5 => Self::assemble::<6, 6>(&elements(bat, mesh, theory)),
-            6 => Self::assemble::<7, 7>(&elements(bat, mesh, theory)),
-            7 => Self::assemble::<8, 8>(&elements(bat, mesh, theory)),
-            8 => Self::assemble::<9, 9>(&elements(bat, mesh, theory)),
-            9 => Self::assemble::<10, 10>(&elements(bat, mesh, theory)),
-            10 => Self::assemble::<11, 11>(&elements(bat, mesh, theory)),
-            11 => Self::assemble::<12, 12>(&elements(bat, mesh, theory)),
-            _ => Self::assemble::<13, 13>(&elements(bat, mesh, theory)),
-        }
-    }
-
-    fn sheared(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
-        match degree {
-            3 => Self::assemble::<4, 6>(&elements(bat, mesh, theory)),
-            4 => Self::assemble::<5, 8>(&elements(bat, mesh, theory)),
-            5 => Self::assemble::<6, 10>(&elements(bat, mesh, theory)),
-            6 => Self::assemble::<7, 12>(&elements(bat, mesh, theory)),
-            7 => Self::assemble::<8, 14>(&elements(bat, mesh, theory)),
-            8 => Self::assemble::<9, 16>(&elements(bat, mesh, theory)),
-            9 => Self::assemble::<10, 18>(&elements(bat, mesh, theory)),
-            10 => Self::assemble::<11, 20>(&elements(bat, mesh, theory)),
-            11 => Self::assemble::<12, 22>(&elements(bat, mesh, theory)),
-            _ => Self::assemble::<13, 24>(&elements(bat, mesh, theory)),
-        }
+        of_degree(degree, theory, Assembly { bat, mesh, theory })
     }
 
     /// The matrices of elements from knob to tip.
@@ -105,4 +77,19 @@ pub fn write_matrix_market(matrix: &CscMatrix<f64>, out: &mut impl Write) -> io:
     )?;
     writeln!(out, "{} {} {}", matrix.nrows(), matrix.ncols(), lower.len())?;
     lower.into_iter().try_for_each(|(i, j, v)| writeln!(out, "{} {} {v:e}", i + 1, j + 1))
+}
+
+/// The assembly of a bat's elements.
+struct Assembly<'a> {
+    bat: &'a Bat,
+    mesh: &'a Mesh,
+    theory: Theory,
+}
+
+impl OfDegree for Assembly<'_> {
+    type Output = Pencil;
+
+    fn with<const N: usize, const W: usize>(self) -> Pencil {
+        Pencil::assemble(&elements::<N, W>(self.bat, self.mesh, self.theory))
+    }
 }

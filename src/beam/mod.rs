@@ -8,6 +8,7 @@
 pub mod mesh;
 pub mod rule;
 pub mod element;
+pub mod degree;
 pub mod sweep;
 pub mod holds;
 pub mod fixed;

@@ -16,6 +16,7 @@ use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::bat::profile::{Piece, Radii};
 use crate::bat::theory::Theory;
+use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Depth;
 use crate::beam::rule::Rule;
@@ -57,6 +58,14 @@ pub enum Way {
 /// Degrees that a batch is compiled for: a program for every one would be large.
 const COMPILED: [usize; 5] = [3, 4, 6, 8, 10];
 
+const fn is_compiled(degree: usize) -> bool {
+    let mut k = 0;
+    while k < COMPILED.len() && COMPILED[k] != degree {
+        k += 1;
+    }
+    k < COMPILED.len()
+}
+
 /// Solves every bat with the statics solver and shows each result to `visit`, with its place
 /// among the bats.
 ///
@@ -87,12 +96,29 @@ fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
         Some(elements) => Plan::fixed(first, elements, degrees[0]),
         None => Plan::cheapest_among(first, &wanted(request), degrees),
     };
-    match plan.degree {
-        3 => with_degree::<4>(bats, request, way, plan, visit),
-        4 => with_degree::<5>(bats, request, way, plan, visit),
-        6 => with_degree::<7>(bats, request, way, plan, visit),
-        8 => with_degree::<9>(bats, request, way, plan, visit),
-        _ => with_degree::<11>(bats, request, way, plan, visit),
+    of_degree(plan.degree, request.theory, Alike { bats, request, way, plan, visit })
+}
+
+/// Bats that may share a plan.
+struct Alike<'a> {
+    bats: &'a [Bat],
+    request: &'a Request,
+    way: Way,
+    plan: Plan,
+    visit: Visit<'a>,
+}
+
+impl OfDegree for Alike<'_> {
+    type Output = ();
+
+    fn with<const N: usize, const W: usize>(self) {
+        let Self { bats, request, way, plan, visit } = self;
+        // Side by side for a few degrees, without shear: each takes long to compile.
+        if const { N == W && is_compiled(N - 1) } {
+            with_degree::<N>(bats, request, way, plan, visit);
+        } else {
+            all_alone(bats, request, visit);
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use crate::base::quadrature::{gauss, legendre};
 use crate::bat::body::Bat;
 use crate::bat::layup::Worth;
 use crate::bat::theory::Theory;
+use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::element::{MOST_STRAINS, losses};
 use crate::beam::fixed::{Fixed, Spring, in_grip};
 use crate::beam::mesh::Mesh;
@@ -190,36 +191,24 @@ impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
     }
 }
 
-/// Eigenpairs of that degree and theory.
-fn pairs(bat: &Bat, degree: usize, theory: Theory) -> Box<dyn Pairs> {
-    match (theory.shears(), degree) {
-        (false, 3) => Box::new(Eigenpairs::<f64, 4, 4>::new(bat, theory)),
-        (false, 4) => Box::new(Eigenpairs::<f64, 5, 5>::new(bat, theory)),
-        (false, 5) => Box::new(Eigenpairs::<f64, 6, 6>::new(bat, theory)),
-        (false, 6) => Box::new(Eigenpairs::<f64, 7, 7>::new(bat, theory)),
-        (false, 7) => Box::new(Eigenpairs::<f64, 8, 8>::new(bat, theory)),
-        (false, 8) => Box::new(Eigenpairs::<f64, 9, 9>::new(bat, theory)),
-        (false, 9) => Box::new(Eigenpairs::<f64, 10, 10>::new(bat, theory)),
-        (false, 10) => Box::new(Eigenpairs::<f64, 11, 11>::new(bat, theory)),
-        (false, 11) => Box::new(Eigenpairs::<f64, 12, 12>::new(bat, theory)),
-        (false, _) => Box::new(Eigenpairs::<f64, 13, 13>::new(bat, theory)),
-        (true, 3) => Box::new(Eigenpairs::<f64, 4, 6>::new(bat, theory)),
-        (true, 4) => Box::new(Eigenpairs::<f64, 5, 8>::new(bat, theory)),
-        (true, 5) => Box::new(Eigenpairs::<f64, 6, 10>::new(bat, theory)),
-        (true, 6) => Box::new(Eigenpairs::<f64, 7, 12>::new(bat, theory)),
-        (true, 7) => Box::new(Eigenpairs::<f64, 8, 14>::new(bat, theory)),
-        (true, 8) => Box::new(Eigenpairs::<f64, 9, 16>::new(bat, theory)),
-        (true, 9) => Box::new(Eigenpairs::<f64, 10, 18>::new(bat, theory)),
-        (true, 10) => Box::new(Eigenpairs::<f64, 11, 20>::new(bat, theory)),
-        (true, 11) => Box::new(Eigenpairs::<f64, 12, 22>::new(bat, theory)),
-        (true, _) => Box::new(Eigenpairs::<f64, 13, 24>::new(bat, theory)),
+/// Eigenpairs of a bat.
+struct Empty<'a> {
+    bat: &'a Bat,
+    theory: Theory,
+}
+
+impl OfDegree for Empty<'_> {
+    type Output = Box<dyn Pairs>;
+
+    fn with<const N: usize, const W: usize>(self) -> Box<dyn Pairs> {
+        Box::new(Eigenpairs::<f64, N, W>::new(self.bat, self.theory))
     }
 }
 
 impl Flexible {
     /// The bat on that mesh, with elements of that degree.
     pub fn new(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
-        let mut pairs = pairs(bat, degree, theory);
+        let mut pairs = of_degree(degree, theory, Empty { bat, theory });
         pairs.assemble(bat, mesh);
         let Place { dimension, energy_unit, mass, inertia, balance, .. } = pairs.place();
         let mut free = vec![[1.0, 0.0], [0.0, 1.0]];

@@ -12,6 +12,7 @@ use crate::base::lanes::WIDTH;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::count;
+use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::element;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::{Depth, Motion};
@@ -388,40 +389,24 @@ struct Task<'a> {
     residual: f64,
 }
 
+/// A task and the time that its parts take.
+struct Timed<'a> {
+    task: &'a Task<'a>,
+    timing: &'a mut Timing,
+}
+
+impl OfDegree for Timed<'_> {
+    type Output = Result<Answer>;
+
+    fn with<const N: usize, const W: usize>(self) -> Result<Answer> {
+        self.task.of_degree::<N, W>(self.timing)
+    }
+}
+
 impl Task<'_> {
     /// The modes on the mesh, whatever accuracy that gives.
     fn run(&self, timing: &mut Timing) -> Result<Answer> {
-        if self.request.theory.shears() { self.sheared(timing) } else { self.unsheared(timing) }
-    }
-
-    fn unsheared(&self, timing: &mut Timing) -> Result<Answer> {
-        match self.plan.degree {
-            3 => self.of_degree::<4, 4>(timing),
-            4 => self.of_degree::<5, 5>(timing),
-            5 => self.of_degree::<6, 6>(timing),
-            6 => self.of_degree::<7, 7>(timing),
-            7 => self.of_degree::<8, 8>(timing),
-            8 => self.of_degree::<9, 9>(timing),
-            9 => self.of_degree::<10, 10>(timing),
-            10 => self.of_degree::<11, 11>(timing),
-            11 => self.of_degree::<12, 12>(timing),
-            _ => self.of_degree::<13, 13>(timing),
-        }
-    }
-
-    fn sheared(&self, timing: &mut Timing) -> Result<Answer> {
-        match self.plan.degree {
-            3 => self.of_degree::<4, 6>(timing),
-            4 => self.of_degree::<5, 8>(timing),
-            5 => self.of_degree::<6, 10>(timing),
-            6 => self.of_degree::<7, 12>(timing),
-            7 => self.of_degree::<8, 14>(timing),
-            8 => self.of_degree::<9, 16>(timing),
-            9 => self.of_degree::<10, 18>(timing),
-            10 => self.of_degree::<11, 20>(timing),
-            11 => self.of_degree::<12, 22>(timing),
-            _ => self.of_degree::<13, 24>(timing),
-        }
+        of_degree(self.plan.degree, self.request.theory, Timed { task: self, timing })
     }
 
     fn of_degree<const N: usize, const W: usize>(&self, timing: &mut Timing) -> Result<Answer> {
