@@ -460,7 +460,7 @@ mod tests {
         {
             assert!(parse(text, Quantity::Length).is_err(), "{text}");
         }
-        // `5/s` divides a unit: it is not a fraction.
+        // `5/s` divides by a unit: it is not a fraction of numbers.
         assert!(
             same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
         );

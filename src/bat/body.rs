@@ -94,8 +94,8 @@ impl Bat {
 
     /// A bat of a shape and materials, with what is on it and what holds it.
     ///
-    /// The weighed mass includes what is attached; it sets one factor on all densities. Tapped
-    /// frequencies are kept for [`crate::study::tuned`].
+    /// The weighed mass includes what is attached; it sets one factor on all densities. A tapped
+    /// frequency is kept for [`crate::study::tuned`].
     ///
     /// # Errors
     ///

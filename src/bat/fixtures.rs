@@ -119,7 +119,7 @@ pub struct Grip {
 
 impl Fixtures {
     /// Whether the bat moves as a bare one: it may have tape and regions of other materials, but no
-    /// attachments, absorbers, joints, supports or hands.
+    /// attachments, absorbers, joints or supports, and no hands with a stiffness.
     pub fn none_moving(&self) -> bool {
         self.attachments.is_empty()
             && self.absorbers.is_empty()

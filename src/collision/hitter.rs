@@ -287,7 +287,7 @@ impl<'a> Hitter<'a> {
         Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
     }
 
-    /// The force at `x` (m) in time, by the contact model; None with other models and without a hit.
+    /// The force at `x` (m) in time, by the contact model; None where that model has no answer.
     pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
@@ -296,7 +296,7 @@ impl<'a> Hitter<'a> {
     }
 
     /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants
-    /// in every piece of the force; None with other models and without a hit.
+    /// in every piece of the force; None where that model has no answer.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
         let modes: Vec<[f64; 2]> =

@@ -311,7 +311,7 @@ where
     }
 
     /// What the iteration left, `½ residual²/gap`, and what near twins share, as
-    /// [`crate::modes::certificate::add_neighbours`]; a near twin beyond the list is not looked for.
+    /// [`crate::modes::certificate::add_neighbours`]; a bat with one beyond the list is solved alone.
     fn add_residuals(&mut self, modes: usize) {
         let lanczos = &self.pairs.lanczos;
         for k in 0..modes {

@@ -75,10 +75,10 @@ pub struct Dashpot {
     pub strains: Drawn,
 }
 
-/// How far strains draw a dashpot out.
+/// How far strains draw a dashpot or a spring out.
 #[derive(Debug, Clone)]
 pub enum Drawn {
-    /// Only the strain of the spring beside the dashpot: its index, and metres for a strain of 1.
+    /// One strain alone, that of a spring: its index, and metres for a strain of 1.
     Spring(usize, f64),
     /// All strains.
     All(Vec<f64>),

@@ -47,7 +47,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
-        // Adding 0 turns a length of −0 at round-off level into 0.
+        // Adding 0 turns a length of −0 into 0.
         format!("{:.2}", value + 0.0)
     };
     let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
