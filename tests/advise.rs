@@ -317,7 +317,7 @@ fn the_damping_of_materials_is_half_their_loss_factor_or_between_bounds() {
     let other = json!({ "density": 700, "youngs_modulus": 14e9, "loss_factor": 0.06 });
     let two = damped(json!({ "regions": [{ "from": 0, "to": 0.2, "material": other }] }));
     assert_eq!(two.material, [0.01, 0.03]);
-    // A core in a solid bat is none.
+    // A core has no effect in a solid bat.
     let core = damped(json!({ "regions": [{ "from": 0, "to": 0.2, "core": other }] }));
     assert_eq!(core.material, [0.01, 0.01]);
     // A joint bends without loss.

@@ -405,7 +405,7 @@ fn options_that_do_not_fit_are_refused() {
         ),
         (&["--to", "vtu", "--reproducible"], "--reproducible: found it with --to vtu"),
         (&["--to", "vtu", "--surface", "2"], "2 is not in 3..=360"),
-        (&["--to", "npz", "--out", "-"], "a file: an archive is no text"),
+        (&["--to", "npz", "--out", "-"], "a file: an archive is not text"),
         (&["--to", "csv", "--out", "a.pvd"], "found a .pvd file with --to csv"),
         (&["--to", "csv", "--out", "a.PVD"], "found a .pvd file with --to csv"),
         (&["--to", "xls"], "possible values: uff, vtu, csv, npz"),

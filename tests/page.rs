@@ -46,7 +46,7 @@ impl Tag {
     }
 }
 
-/// The tags of a page; what is within scripts and styles is none.
+/// The tags of a page, those within scripts and styles left out.
 fn tags(page: &str) -> Vec<Tag> {
     const VOID: [&str; 5] = ["meta", "input", "br", "img", "link"];
     let mut all = vec![];
@@ -251,7 +251,7 @@ fn equal_input_gives_equal_bytes() {
 fn what_there_is_not_is_told() {
     let folder = Folder::new("page-missing");
     let (page, _) = made(&folder, &mesh("dowel"), &["--model", "rigid", "--modes", "0"]);
-    for told in ["knows no force in time", "No bending modes were asked for", "does not bend"] {
+    for told in ["gives no force over time", "No bending modes were asked for", "does not bend"] {
         assert!(page.contains(told), "{told}");
     }
     assert!(!page.contains("id=\"modes-player\"") && !page.contains("id=\"moment-player\""));
@@ -263,7 +263,7 @@ fn what_there_is_not_is_told() {
     let (page, _) = made(&folder, &mesh("dowel"), &["--model", "pulse", "--ball", "softball"]);
     assert!(page.contains("softball") && page.contains("id=\"plot-exit_speed\""));
     assert!(
-        page.contains("half sine of given duration") && !page.contains("knows no force in time")
+        page.contains("half sine of given duration") && !page.contains("gives no force over time")
     );
 }
 

@@ -171,8 +171,8 @@ fn a_linear_ball_returns_what_its_dashpot_leaves() {
     }
 }
 
-/// A wall that hardly gives way is none; one without mass is a spring in series; the trampoline: a
-/// soft one that loses nothing gives the ball more back than a stiff one does.
+/// A wall that hardly gives way acts as a rigid one; without mass it is a spring in series; the
+/// trampoline: a soft one without loss gives the ball more back than a stiff one does.
 #[test]
 fn a_wall_under_the_ball_is_a_trampoline() {
     let bat = bundled_bat("meshes/r161.json").unwrap();

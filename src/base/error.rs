@@ -76,7 +76,7 @@ pub enum Error {
     /// The iteration stopped before every wanted mode had converged.
     #[error(
         "only {converged} of {wanted} modes converged in {steps} Lanczos steps, and a list with \
-         holes is no answer; ask for fewer modes or report this bat"
+         holes would be misread; ask for fewer modes or report this bat"
     )]
     NotConverged {
         /// How many modes were asked for.
@@ -129,7 +129,7 @@ impl Error {
         Self::Value(Complaint::new(field, found, expected))
     }
 
-    /// The same, where every complaint about a value is made one about its place in a file.
+    /// This error, with every complaint about a value turned into one about its place by `place`.
     pub(crate) fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
         let one = |error| match error {
             Self::Value(complaint) => place(complaint),
@@ -157,11 +157,11 @@ fn said_together(shown: &[Error], more: usize) -> String {
 /// A place in an input file; line and column count from 1, the column in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Its name, as it was given.
+    /// Name of the file, as it was given.
     pub file: String,
-    /// From 1.
+    /// Line, counted from 1.
     pub line: usize,
-    /// From 1, in characters.
+    /// Column, counted in characters from 1.
     pub column: usize,
     /// The line itself.
     pub excerpt: Excerpt,
@@ -176,7 +176,7 @@ pub struct Excerpt {
     pub before: String,
     /// The mistake itself; nothing at the end of a file.
     pub marked: String,
-    /// What comes after it.
+    /// What comes after the mistake.
     pub after: String,
 }
 
@@ -191,16 +191,16 @@ impl fmt::Display for Place {
 pub struct Complaint {
     /// Path of the field, such as `profile.x[3]`; empty for the whole document.
     pub field: String,
-    /// What stands there.
+    /// The value found in the field.
     pub found: String,
-    /// What should stand there.
+    /// The value expected in the field.
     pub expected: String,
     /// What to do about it, such as "did you mean radius?"; empty where there is nothing to say.
     pub hint: String,
 }
 
 impl Complaint {
-    /// Of a field, what was found in it and what was expected.
+    /// A complaint about a field: what was found in it and what was expected.
     pub fn new(
         field: impl Into<String>,
         found: impl fmt::Display,
@@ -210,12 +210,12 @@ impl Complaint {
         Self { field: field.into(), found, expected: expected.into(), hint }
     }
 
-    /// The same with a word about what to do.
+    /// This complaint with a hint about what to do.
     pub fn hinted(self, hint: impl Into<String>) -> Self {
         Self { hint: hint.into(), ..self }
     }
 
-    /// The same with the nearest of `names` to a misspelt `word`, if one is near enough.
+    /// This complaint with a hint at the nearest of `names` to a misspelt `word`, if one is near enough.
     pub fn or_nearest(self, word: &str, names: &[&str]) -> Self {
         match nearest(word, names) {
             Some(name) => self.hinted(format!("did you mean {name}?")),

@@ -150,7 +150,7 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
 #[derive(Debug, PartialEq)]
 struct Descriptor<'a> {
     path: &'a Path,
-    /// Its number, where it is one of this process.
+    /// Number of the descriptor, if this process owns it.
     own: Option<i32>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::base::error::{Error, Place, Result};
 
-/// As many as a person can look at; more are counted.
+/// Mistakes that are shown: as many as a person can look at; more are only counted.
 const MOST: usize = 10;
 
 /// The mistakes found so far.

@@ -107,7 +107,7 @@ pub struct Converged<const N: usize> {
     pub error: f64,
 }
 
-/// `∫₀¹ f ds` of smooth functions that are no polynomials.
+/// `∫₀¹ f ds` of smooth functions that are not polynomials.
 ///
 /// Gauss's rules of 16 and 32 points are compared; while they differ by more than 2e-14 of
 /// `∫|f| ds`, the stretch where they differ most is cut in two, up to 100 stretches. What little
@@ -138,7 +138,7 @@ pub fn converged<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> Converged<N> {
     }
 }
 
-/// The largest difference as a share of its size; infinite where that is no number.
+/// The largest difference as a share of its size; infinite where that is NaN.
 fn share<const N: usize>(differences: &[f64; N], sizes: &[f64; N]) -> f64 {
     let shares =
         differences.iter().zip(sizes).map(|(d, size)| if *d == 0.0 { 0.0 } else { d / size });

@@ -26,15 +26,15 @@ pub trait Real:
     /// How many numbers there are side by side.
     const LANES: usize;
 
-    /// The same number in every lane.
+    /// `value` in every lane.
     fn splat(value: f64) -> Self;
     /// The number in one lane.
     fn lane(&self, lane: usize) -> f64;
     /// Sets the number in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
-    /// Of every lane.
+    /// Square root of every lane.
     fn sqrt(self) -> Self;
-    /// Without sign, of every lane.
+    /// Absolute value of every lane.
     fn abs(self) -> Self;
     /// The greater of both, lane by lane.
     fn max(self, other: Self) -> Self;
@@ -49,7 +49,7 @@ pub trait Real:
 /// The numbers in which a bat that is given in numbers `S` can move: the same, lane by lane, or
 /// several motions side by side of one bat.
 pub trait Over<S>: Real + Mul<S, Output = Self> {
-    /// The same number for every motion.
+    /// `value` for every motion.
     fn of(value: S) -> Self;
 }
 

@@ -35,44 +35,44 @@ type Dimension = [i8; 4];
 /// A physical quantity: what a value is, its dimension, its SI unit and an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// m
+    /// A length, in m.
     Length,
-    /// kg
+    /// A mass, in kg.
     Mass,
-    /// kg/m³
+    /// A density, in kg/m³.
     Density,
-    /// Pa; of a modulus, too.
+    /// A pressure, a stress or a modulus, in Pa.
     Pressure,
-    /// m/s
+    /// A speed, in m/s.
     Speed,
-    /// rad/s
+    /// An angular speed, in rad/s.
     AngularSpeed,
-    /// rad
+    /// An angle, in rad.
     Angle,
-    /// s
+    /// A time, in s.
     Time,
-    /// Hz
+    /// A frequency, in Hz.
     Frequency,
-    /// N
+    /// A force, in N.
     Force,
-    /// N/m
+    /// A stiffness, in N/m.
     Stiffness,
-    /// N m/rad
+    /// A stiffness against rotation, in N m/rad.
     RotationalStiffness,
-    /// N/m²: per length of bat.
+    /// A stiffness per length of bat, in N/m².
     BedStiffness,
-    /// N s/m
+    /// A damping constant, in N s/m.
     Damping,
-    /// N s/m²: per length of bat.
+    /// A damping constant per length of bat, in N s/m².
     BedDamping,
-    /// Of mass (kg m²).
+    /// A moment of inertia, in kg m².
     Inertia,
-    /// N s
+    /// An impulse, in N s.
     Impulse,
 }
 
 impl Quantity {
-    /// All of them, for tables and tests.
+    /// All quantities, for tables and tests.
     pub const ALL: [Self; 17] = [
         Self::Length,
         Self::Mass,
@@ -126,7 +126,7 @@ impl Quantity {
         dimension == [length, mass, time, angle] || without
     }
 
-    /// Its SI unit, and the factor to it, 1.
+    /// The SI unit of this quantity, and the factor to it, 1.
     pub(crate) fn si(self) -> (&'static str, f64) {
         (self.facts().2, 1.0)
     }
@@ -146,7 +146,7 @@ impl Quantity {
         self.expected_in(self.facts().2)
     }
 
-    /// The same where bare numbers are in that unit.
+    /// What a value of this quantity may look like where numbers without a unit are in `unit`.
     pub fn expected_in(self, unit: &str) -> String {
         let (name, _, _, example) = self.facts();
         let bare = if unit == "in" { "inches" } else { unit };
@@ -223,7 +223,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     parse_beside(text, quantity, quantity.facts().2)
 }
 
-/// The same where bare numbers, which a text is not, are in the unit `bare`.
+/// The value of a text with its unit, in SI. `bare` is the unit of plain numbers beside this text; a
+/// complaint names it.
 ///
 /// # Errors
 ///
@@ -368,7 +369,7 @@ fn split(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim())
 }
 
-/// What was found that is no unit, and what it may have been meant for.
+/// The unrecognised unit and a suggested one.
 type Unknown = (String, String);
 
 /// The factor and the dimension of a product of powers of symbols.
@@ -459,7 +460,7 @@ mod tests {
         {
             assert!(parse(text, Quantity::Length).is_err(), "{text}");
         }
-        // A division by a unit is none.
+        // `5/s` divides by a unit: it is not a fraction of numbers.
         assert!(
             same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
         );

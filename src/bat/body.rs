@@ -18,19 +18,19 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 /// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
-    /// What people call it.
+    /// Name of the bat.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the bat come from.
     pub source: String,
-    /// Its pieces end wherever a material or a fixture begins.
+    /// Shape of the bat; its pieces end wherever a material or a fixture begins.
     pub profile: Profile,
     /// What the pieces of the profile are made of; the first is the bat's own material.
     pub layups: Vec<Layup>,
     /// What is on it and what holds it.
     pub fixtures: Fixtures,
-    /// What a scale and a tap said of it.
+    /// Mass, balance point and first frequency as they were measured.
     pub weighed: Weighed,
-    /// By how much what was weighed and tapped made all densities and all moduli larger.
+    /// Factors on all densities and on all moduli that weighing and tapping led to.
     pub factors: [f64; 2],
 }
 
@@ -71,8 +71,8 @@ pub struct Inertia {
     pub balance_point: f64,
     /// The body's moment of inertia about the balance point (kg m²), as a pendulum measures it.
     pub about_balance: f64,
-    /// The same of the bat as a line of mass, without the sections' own `∫ρI dx` (kg m²):
-    /// what an Euler–Bernoulli beam swings with.
+    /// Moment of inertia about the balance point of the bat as a line of mass, without the sections' own
+    /// `∫ρI dx` (kg m²): what an Euler–Bernoulli beam swings with.
     pub line_about_balance: f64,
 }
 
@@ -92,9 +92,10 @@ impl Bat {
         Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
     }
 
-    /// The same with other materials along it, and with what is on it and holds it. The weighed
-    /// mass includes what is attached; it sets one factor on all densities. What was tapped is kept
-    /// for [`crate::study::tuned`].
+    /// A bat of a shape and materials, with what is on it and what holds it.
+    ///
+    /// The weighed mass includes what is attached; it sets one factor on all densities. A tapped
+    /// frequency is kept for [`crate::study::tuned`].
     ///
     /// # Errors
     ///
@@ -177,7 +178,7 @@ impl Bat {
         &self.layups[0].outer
     }
 
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub fn length(&self) -> f64 {
         self.profile.length()
     }

@@ -28,50 +28,50 @@ pub struct Fixtures {
 /// A stretch of other materials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// Where it begins (m).
+    /// Where the region begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the region ends (m).
     pub to: f64,
-    /// What it is made of.
+    /// Materials of the region.
     pub layup: Layup,
 }
 
 /// A point mass and springs to ground.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Attachment {
-    /// Where it is fixed (m).
+    /// Where the attachment is fixed (m).
     pub x: f64,
-    /// Mass (kg).
+    /// Mass of the attachment (kg).
     pub mass: f64,
-    /// How far beyond `x`, towards the barrel, its centre is (m).
+    /// How far beyond `x`, towards the barrel, the centre of the mass is (m).
     pub offset: f64,
-    /// Moment of inertia about its own centre (kg m²).
+    /// Moment of inertia of the mass about its own centre (kg m²).
     pub rotary_inertia: f64,
     /// Spring from the bat at `x` to the ground, against deflection (N/m).
     pub stiffness: f64,
-    /// The same against rotation (N m/rad).
+    /// Spring from the bat at `x` to the ground, against rotation (N m/rad).
     pub rotational_stiffness: f64,
 }
 
 /// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tape {
-    /// Where it begins (m).
+    /// Where the tape begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the tape ends (m).
     pub to: f64,
-    /// Mass of the whole (kg).
+    /// Mass of the whole tape (kg).
     pub mass: f64,
 }
 
 /// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Absorber {
-    /// Where it hangs (m).
+    /// Where the absorber hangs (m).
     pub x: f64,
-    /// Mass (kg).
+    /// Mass that swings on the spring (kg).
     pub mass: f64,
-    /// Spring constant (N/m).
+    /// Stiffness of the spring (N/m).
     pub stiffness: f64,
     /// Damping constant of the dashpot (N s/m).
     pub damping: f64,
@@ -80,7 +80,7 @@ pub struct Absorber {
 /// Where two parts of a bat are joined by a spring that gives way to bending.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
-    /// Where it is (m).
+    /// Where the joint is (m).
     pub x: f64,
     /// Bending moment per angle between both sides (N m/rad).
     pub rotational_stiffness: f64,
@@ -89,9 +89,9 @@ pub struct Joint {
 /// A place that is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// Where (m).
+    /// Position of the support (m).
     pub x: f64,
-    /// What it holds.
+    /// What the support holds.
     pub kind: Held,
 }
 
@@ -107,9 +107,9 @@ pub enum Held {
 /// Hands as an elastic bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// Where they begin (m).
+    /// Where the hands begin (m).
     pub from: f64,
-    /// Where they end (m).
+    /// Where the hands end (m).
     pub to: f64,
     /// Force per deflection and per length (N/m²).
     pub stiffness: f64,
@@ -118,8 +118,8 @@ pub struct Grip {
 }
 
 impl Fixtures {
-    /// Whether nothing moves otherwise than a bare bat: regions of other materials and tape may be
-    /// there.
+    /// Whether the bat moves as a bare one: it may have tape and regions of other materials, but no
+    /// attachments, absorbers, joints or supports, and no hands with a stiffness.
     pub fn none_moving(&self) -> bool {
         self.attachments.is_empty()
             && self.absorbers.is_empty()
@@ -135,7 +135,7 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
     }
 
-    /// The same without what gives way: springs to ground and hands. A hit is over before they push.
+    /// These fixtures without springs to ground and hands, which push only after a hit is over.
     pub fn without_springs(&self) -> Self {
         let mut bare = self.clone();
         for attachment in &mut bare.attachments {

@@ -145,7 +145,7 @@ impl Formula {
         &self.0.root
     }
 
-    /// Its value at `x`: not a number where it has none, such as `sqrt(-1)`.
+    /// Value of the formula at `x`; NaN where it is undefined, such as `sqrt(-1)`.
     pub fn at(&self, x: f64) -> f64 {
         self.0.root.value(x, &mut |_| {})
     }
@@ -304,7 +304,8 @@ impl Fault {
         ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
     }
 
-    /// In found and expected, with the place: `"tanhh" at character 10 of "0.0127 + tanhh(x)"`.
+    /// The fault as what was found, with its place, and what was expected: `"tanhh" at character 10 of
+    /// "0.0127 + tanhh(x)"`.
     fn complaint(self, text: &str) -> Complaint {
         let here = word(&text[self.offset..]);
         let what = match self.found {
@@ -405,7 +406,7 @@ fn power(input: &mut Input) -> ModalResult<Node, Fault> {
     })
 }
 
-/// The same one level deeper, where the levels are not too many.
+/// The parser `inner` one level of brackets or powers deeper; an error below [`DEEPEST`] levels.
 fn deeper<'a, T>(
     mut inner: impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault>,
 ) -> impl FnMut(&mut Input<'a>) -> ModalResult<T, Fault> {
@@ -450,7 +451,7 @@ fn number(input: &mut Input) -> ModalResult<Node, Fault> {
     let sign = || opt(one_of(['+', '-']));
     let exponent = (one_of(['e', 'E']), sign(), take_while(1.., '0'..='9'));
     let written = (digits(), opt(('.', digits())), opt(exponent)).take().parse_next(input)?;
-    // A point alone is no number, and the largest ones are none that a computer can hold.
+    // A point alone is not a number, and a number beyond the range of `f64` is refused.
     let value = written.parse().ok().filter(|value: &f64| value.is_finite());
     match value {
         Some(value) => {
@@ -494,7 +495,7 @@ fn named(input: &mut Input) -> ModalResult<Node, Fault> {
     Err(ErrMode::Cut(Fault { found: Some(found), expected: expected.into(), ..fault }))
 }
 
-/// A name that is none, and the nearest one that a formula may use.
+/// An unknown name, with the nearest valid one.
 fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
     let functions = FUNCTIONS.map(|(name, _)| name);
     let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();

@@ -158,7 +158,7 @@ impl Bounds<'_> {
         Some([outer, inner, outer - inner])
     }
 
-    /// By how much EI or ρA may vary on the stretch, relative.
+    /// Bound on the relative variation of EI and ρA along the stretch.
     pub(crate) fn variation(&self, core: f64) -> f64 {
         let [least, most] = self.sizes();
         let bending = most.bending(core) / least.bending(core);
@@ -188,7 +188,7 @@ mod tests {
     use crate::bat::formula::Formula;
 
     /// Terms of the Legendre series of κGA beyond degree 31, relative to its least value, by
-    /// quadrature with as many points as no bound asks for.
+    /// quadrature with more points than any bound asks for.
     fn tail(curves: &Curves, tube: &Material) -> f64 {
         const POINTS: usize = 80;
         let points = gauss(POINTS);

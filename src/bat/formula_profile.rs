@@ -34,7 +34,7 @@ impl Profile {
     ///
     /// A piece is cut where an `abs`, a `min` or a `max` in it has a corner, and halved until bounds
     /// from the parse tree leave no place for a feature between two cuts ([`crate::base::interval`]).
-    /// The same bounds show that both radii are possible everywhere.
+    /// These bounds also show that both radii are possible everywhere.
     ///
     /// # Errors
     ///

@@ -8,11 +8,11 @@ use crate::bat::profile::Section;
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layup {
-    /// What bears, from the bore to the surface.
+    /// Material of the wall, from the bore to the surface.
     pub outer: Material,
-    /// What fills the bore; nothing, if none.
+    /// Material that fills the bore, if any.
     pub core: Option<Material>,
-    /// Mass on the surface that bears nothing (kg per m of bat): tape.
+    /// Mass of tape on the surface, which adds no stiffness (kg per m of bat).
     pub tape: f64,
 }
 
@@ -103,7 +103,7 @@ impl Layup {
 
     /// The loss factors of the section in bending and in shear: those of the layers, each weighted
     /// with its share of the stiffness, for all layers have one curvature and one shear strain.
-    /// They share the strain energy likewise.
+    /// The layers share the strain energy in the proportion of their stiffness.
     ///
     /// # Source
     ///
@@ -128,7 +128,7 @@ impl Layup {
         std::iter::once(&self.outer).chain(&self.core)
     }
 
-    /// The same materials, heavier by one factor and stiffer by another; tape stays what it weighs.
+    /// Makes the materials heavier by one factor and stiffer by another; tape keeps its mass.
     pub fn scaled(&mut self, density: f64, modulus: f64) {
         for material in std::iter::once(&mut self.outer).chain(&mut self.core) {
             material.density *= density;

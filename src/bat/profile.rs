@@ -41,35 +41,35 @@ pub struct Stations {
 /// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaPiece {
-    /// Where it begins (m).
+    /// Where the piece begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the piece ends (m).
     pub to: f64,
-    /// The outer radius.
+    /// Formula of the outer radius.
     pub outer: Formula,
-    /// None where the bat is solid.
+    /// Formula of the inner radius; None where the bat is solid.
     pub inner: Option<Formula>,
 }
 
 /// A whole profile in formulas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formulas {
-    /// Touching end to end, from 0.
+    /// Pieces, touching end to end from 0.
     pub pieces: Vec<FormulaPiece>,
-    /// Whether their `x` counts from the tip.
+    /// Whether `x` in the formulas counts from the tip.
     pub from_tip: bool,
 }
 
 /// A stretch of the bat where both radii are smooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// Where it begins (m).
+    /// Where the piece begins (m).
     pub start: f64,
-    /// How long it is (m).
+    /// Length of the piece (m).
     pub length: f64,
-    /// Both radii along it.
+    /// Both radii along the piece.
     pub radii: Radii,
-    /// Which of the bat's layups it is made of; 0 is the bat's own material.
+    /// Index of the bat's layup that the piece is made of; 0 is the bat's own material.
     pub layup: usize,
 }
 
@@ -91,7 +91,7 @@ pub enum Radii {
 pub struct Cubics {
     /// Coefficients `b₀ … b₃` of the outer radius (m).
     pub outer: [f64; 4],
-    /// Those of the inner radius (m).
+    /// Coefficients of the inner radius (m).
     pub inner: [f64; 4],
     /// Degree of the radii as polynomials: 0, 1 or 3. Quadrature rules follow from it.
     pub degree: usize,
@@ -137,12 +137,12 @@ impl Section {
         self.area() * (r * r + ri * ri) / 4.0
     }
 
-    /// By how much rounding of the radii is larger in the wall, `r/(r − rᵢ)`.
+    /// Factor by which rounding of the radii grows in the wall thickness, `r/(r − rᵢ)`.
     pub fn thinness(self) -> f64 {
         if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
     }
 
-    /// What is inside the inner radius, as a section of its own.
+    /// The bore as a section of its own: what is inside the inner radius.
     #[inline]
     pub fn bore(self) -> Self {
         Self { outer: self.inner, inner: 0.0 }
@@ -189,12 +189,12 @@ impl Profile {
         Ok(Self { pieces, stations, formulas: None })
     }
 
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub fn length(&self) -> f64 {
         *self.stations.x.last().expect("a profile has stations")
     }
 
-    /// The same shape turned end for end.
+    /// This profile reversed end for end.
     pub fn reversed(mut self) -> Self {
         let length = self.length();
         let Stations { x, outer, inner, .. } = &mut self.stations;
@@ -282,7 +282,7 @@ impl Piece {
 }
 
 impl Radii {
-    /// The same seen from the other end.
+    /// Reverses the radii along their piece, as seen from its other end.
     fn reverse(&mut self) {
         match self {
             Self::Cubic(cubics) => {
@@ -299,7 +299,7 @@ impl Cubics {
         Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
     }
 
-    /// The same cubics between `s0` and `s1`, by de Casteljau's subdivision.
+    /// The part of these cubics between `s0` and `s1` in [0, 1], by de Casteljau's subdivision.
     #[inline]
     pub fn part(&self, s0: f64, s1: f64) -> Self {
         if self.degree == 0 {

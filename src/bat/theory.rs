@@ -9,13 +9,13 @@ pub enum Theory {
     /// Sections have mass but no rotary inertia and stay at right angles to the axis.
     #[default]
     EulerBernoulli,
-    /// And turn with their own inertia ρI.
+    /// Sections also turn with their own inertia ρI, still at right angles to the axis.
     ///
     /// # Source
     ///
     /// Lord Rayleigh, The Theory of Sound I (1877), article 161.
     Rayleigh,
-    /// And are sheared, `w′ − θ = Q/κGA`.
+    /// Sections turn with their own inertia and are sheared, `w′ − θ = Q/κGA`.
     ///
     /// # Source
     ///

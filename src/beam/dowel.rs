@@ -186,13 +186,13 @@ fn bisect(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 /// A solid round bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dowel {
-    /// m
+    /// Length (m).
     pub length: f64,
-    /// m
+    /// Radius (m).
     pub radius: f64,
-    /// Pa
+    /// Young's modulus (Pa).
     pub youngs_modulus: f64,
-    /// kg/m³
+    /// Density (kg/m³).
     pub density: f64,
 }
 

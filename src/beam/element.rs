@@ -136,7 +136,8 @@ pub fn on_strains<R: Real, const N: usize, const W: usize>(
     on
 }
 
-/// The same for its rotation.
+/// The adjoint of [`integrated`] for its rotation: what couples on the Legendre polynomials are on the
+/// strains and, in the last place, on `theta`.
 #[inline(always)]
 pub fn turning_on_strains<R: Real, const N: usize, const W: usize>(
     h: R,

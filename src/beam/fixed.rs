@@ -26,17 +26,17 @@ use crate::beam::sweep::{Cell, Inwards, Loads, Outwards, Rigid};
 /// A bare bat as the running sums see it.
 #[derive(Debug, Clone, Copy)]
 pub struct Body<'a, S, const N: usize, const W: usize> {
-    /// Its elements, the knob side first, both sides from the root outwards.
+    /// Elements of the bat, the knob side first, both sides from the root outwards.
     pub cells: &'a [Cell<S, W>],
-    /// How many of them are on the knob side.
+    /// Number of elements on the knob side.
     pub split: usize,
-    /// Where the elements are sampled.
+    /// Gauss points at which the elements are sampled.
     pub rule: &'static Rule,
-    /// With everything attached (kg).
+    /// Mass of the bat with everything attached (kg).
     pub mass: S,
-    /// About the balance point (kg m²).
+    /// Moment of inertia about the balance point, with everything attached (kg m²).
     pub inertia: S,
-    /// The balance point from the knob end (m).
+    /// Distance of the balance point from the knob end (m).
     pub balance: S,
     /// Energy of `½ qᵀq = 1` (J).
     pub energy_unit: S,
@@ -53,7 +53,7 @@ pub struct Fixed<S> {
     pub contacts: Vec<Contact<S>>,
     /// What is met on the way outwards on the knob side and on the tip side, in this order.
     pub stops: [Vec<Stop>; 2],
-    /// How many strains springs have.
+    /// Number of strains that springs add to those of the elements.
     pub springs: usize,
     /// Where the bat is clamped (m).
     pub clamps: Vec<f64>,
@@ -76,7 +76,7 @@ pub struct Stop {
     pub what: What,
 }
 
-/// What there is, and its number among its kind.
+/// The kind of a [`Stop`], and its number among its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum What {
     /// A point mass.
@@ -90,7 +90,7 @@ pub enum What {
 /// A strain beside those of the elements.
 #[derive(Debug, Clone, Copy)]
 pub struct Spring<S> {
-    /// Its place among the strains.
+    /// Index of the spring's strain among all strains.
     pub place: usize,
     /// `√(U/k)`: displacement (m or rad) for a strain of 1.
     pub softness: S,
@@ -99,13 +99,13 @@ pub struct Spring<S> {
 /// A point mass, directly on the bat or on a spring.
 #[derive(Debug, Clone, Copy)]
 pub struct PointMass<S> {
-    /// From the balance point, outwards (m).
+    /// Distance of the point mass from the balance point, outwards (m).
     pub arm: S,
-    /// kg
+    /// Mass of the point (kg).
     pub mass: S,
-    /// How far outwards its centre is (m).
+    /// How far outwards of its place the centre of the mass is (m).
     pub offset: S,
-    /// Moment of inertia about its own centre (kg m²).
+    /// Moment of inertia of the point mass about its own centre (kg m²).
     pub inertia: S,
     /// What it hangs on; none where it sits on the bat.
     pub spring: Option<Spring<S>>,
@@ -127,7 +127,7 @@ pub struct Contact<S> {
 /// Where a contact is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
-    /// At a stop.
+    /// At the border of two cells.
     Border,
     /// A Legendre coefficient of the deflection of a cell on an elastic bed.
     Bed,

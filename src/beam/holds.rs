@@ -62,20 +62,20 @@ pub struct Crossing<S> {
     adds: Vec<[S; 2]>,
     /// How far beyond the outer end the spring acts, seen through their compliance (m).
     at: S,
-    /// By how much that is farther than without it.
+    /// How much farther [`Self::at`] is than without that compliance (m).
     shift: S,
 }
 
 /// A contact at a border.
 #[derive(Debug, Clone, Copy)]
 pub struct Border<S> {
-    /// Its number.
+    /// Number of the contact.
     pub contact: usize,
     /// Whether it holds the rotation, else the deflection.
     pub turning: bool,
     /// 1, or −1 where its rotation counts inwards.
     pub sign: S,
-    /// The place of its spring's strain and that spring's softness.
+    /// Place of the strain of the contact's spring, and the softness of that spring.
     pub spring: Option<(usize, S)>,
 }
 
@@ -138,7 +138,7 @@ struct Rest<R> {
 pub enum Given<'a, R> {
     /// Strains of the elements and of all springs.
     Strains(&'a [R]),
-    /// By how much every contact is off.
+    /// Displacement of every contact.
     Displacements(&'a [R]),
 }
 
@@ -147,15 +147,15 @@ pub enum Given<'a, R> {
 pub struct Span<S> {
     /// The place of its first strain.
     pub first: usize,
-    /// What each strain adds.
+    /// What each strain adds to deflection and rotation at the outer end.
     pub adds: Vec<[S; 2]>,
-    /// From its inner to its outer end (m).
+    /// Length of the element from its inner to its outer end (m).
     pub length: f64,
 }
 
 /// What an elastic bed is to [`Build`].
 pub struct Under<S> {
-    /// The number of its first contact and the place of its first strain.
+    /// Number of the bed's first contact.
     pub contact: usize,
     /// The place of its first strain.
     pub place: usize,
@@ -291,7 +291,7 @@ impl Footing {
 }
 
 impl<S: Real> Meeting<S> {
-    /// Of springs `½ d (α w + β θ)²`.
+    /// The meeting of springs `½ d (α w + β θ)²`.
     fn of(springs: [[f64; 2]; 4], d: [f64; 4]) -> (Self, Footing) {
         let all = 0..4;
         let alpha = springs.map(|s| s[0]);
@@ -360,7 +360,7 @@ impl<S: Real> Meeting<S> {
 }
 
 impl<S: Real> Holds<S> {
-    /// Of both sides, the knob side first.
+    /// How both sides together hold the root, the knob side first.
     pub fn of([knob, tip]: [Build<S>; 2]) -> Self {
         let [mirrored, here] = [knob.footing, tip.footing];
         let other = [mirrored.spring, -mirrored.at.value(), mirrored.turning];
@@ -519,7 +519,7 @@ impl<S: Real> Crossing<S> {
 }
 
 impl<S: Real> Bed<S> {
-    /// By how much the bed's springs are off with the inner end at rest.
+    /// Displacements of the bed's springs with the inner end at rest.
     fn off<R: Over<S>>(&self, crossing: &Crossing<S>, given: Given<R>) -> Vec<R> {
         let count = self.softness.len();
         let q = match given {

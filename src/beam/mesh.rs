@@ -65,7 +65,7 @@ impl Mesh {
         Self { elements }
     }
 
-    /// The same mesh with element `k` cut into `parts(k)` equal parts.
+    /// A finer mesh: this one with element `k` cut into `parts(k)` equal parts.
     pub fn refined(&self, parts: impl Fn(usize) -> usize) -> Self {
         let mut elements = Vec::with_capacity(self.len());
         for (k, e) in self.elements.iter().enumerate() {

@@ -44,24 +44,25 @@ pub struct Motion<R> {
     pub shape: Vec<R>,
     /// Rotation of every cell, outwards (rad); empty where it is the slope of the deflection.
     pub turns: Vec<R>,
-    /// The deflection at the points of every cell.
+    /// Deflection at the Gauss points of every cell (m).
     pub deflections: Vec<R>,
-    /// By how much the deflection that the motion's inertia makes is less, at the same points.
+    /// Amount by which the inertial deflection falls short of [`Self::deflections`] (m), at its points.
     pub changes: Vec<R>,
-    /// Deflection and change at the outer ends of both sides: knob end, tip.
+    /// Deflection (m) and its change (m) at the outer ends of both sides: knob end, tip.
     pub ends: [[R; 2]; 2],
-    /// `∫ρA w² dx`, `∫ρI θ² dx` and what is attached (kg m²).
+    /// Kinetic energy over ω²/2: `∫ρA w² dx`, `∫ρI θ² dx` and what is attached (kg m²).
     pub kinetic: R,
-    /// The same of the motion with its change.
+    /// Product of the motion and its [`Self::changes`] `c` in the bat's mass: `∫ρA w c dx`,
+    /// `∫ρI θ c_θ dx` and what is attached (kg m²).
     pub work: R,
     /// ω (rad/s): its square, Rayleigh's quotient, is strain energy over kinetic energy, both from
     /// the strains.
     pub omega: R,
     /// `‖q − ω² A q‖/‖q‖`: how far the strains are from an eigenvector of the compliance.
     pub residual: R,
-    /// `η` above; half of it is the relative error of the frequency.
+    /// `η` of this module; half of it is the relative error of the frequency.
     pub defect: R,
-    /// Every cell's part of it.
+    /// Part of [`Self::defect`] of every cell.
     pub defects: Vec<R>,
     /// Rotation and its change at the points, where it has inertia.
     rotations: Vec<R>,
@@ -81,11 +82,11 @@ pub struct Motion<R> {
 /// How closely a motion is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// Its shape and energies.
+    /// Shape and energies of the motion.
     Shape,
-    /// Its defect too.
+    /// Shape, energies and defect.
     Defect,
-    /// And by how much the shape may be off.
+    /// Shape, energies, defect, and how far the shape may be off.
     Changes,
 }
 

@@ -15,9 +15,9 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 pub struct Rule {
     /// The points, from left to right.
     pub points: Vec<GaussPoint>,
-    /// `P_0 … P_{N−1}` at the points, `N` the degree plus 1: point by point.
+    /// `P_0 … P_{N−1}` at the points, point by point; `N` is the degree plus 1.
     legendre: Vec<f64>,
-    /// The same polynomial by polynomial.
+    /// `P_0 … P_{N−1}` at the points, polynomial by polynomial.
     by_term: Vec<f64>,
     /// `∫₀^{s_j} (s_j − s) ℓ_i(s) ds`, `[i][j]`: twice integrated from the left end, for a
     /// function given at the points (`ℓ_i` the polynomial that is 1 at point `i`, 0 at the others).
@@ -39,11 +39,11 @@ pub const MOST_POINTS: usize = 32;
 /// One Gauss point.
 #[derive(Debug, Clone, Copy)]
 pub struct GaussPoint {
-    /// In (0, 1).
+    /// Position along the element, in (0, 1).
     pub s: f64,
-    /// Of sum 1.
+    /// Weight of the point; all weights of a rule add up to 1.
     pub weight: f64,
-    /// The cubic Bernstein polynomials there.
+    /// Values of the four cubic Bernstein polynomials at the point.
     pub bernstein: [f64; 4],
 }
 

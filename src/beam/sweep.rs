@@ -7,11 +7,11 @@ use crate::beam::element::{Link, Matrix, Vector, over_strains};
 /// An element on one side of the root, seen in that direction.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell<R, const W: usize> {
-    /// What it stores and how far it carries its outer end.
+    /// Mass matrix of the element and how its strains move its outer end.
     pub link: Link<R, W>,
     /// `L⁻¹` of the stiffness of its strains.
     pub inverse: Matrix<R, W>,
-    /// Distance of its inner end from the balance point, counted outwards (m).
+    /// Distance of the inner end of the element from the balance point, counted outwards (m).
     pub arm: R,
 }
 
@@ -24,7 +24,7 @@ impl<S: Real, const W: usize> Default for Cell<S, W> {
 }
 
 impl<S: Real, const W: usize> Cell<S, W> {
-    /// The same without its size in its type.
+    /// A view of this cell without its size in its type.
     #[inline(always)]
     pub fn view(&self) -> CellView<'_, S> {
         CellView {
@@ -48,7 +48,7 @@ pub struct CellView<'a, S> {
     pub turn: &'a [S],
     /// h (m).
     pub length: S,
-    /// Distance of its inner end from the balance point, counted outwards (m).
+    /// Distance of the inner end of the element from the balance point, counted outwards (m).
     pub arm: S,
 }
 
@@ -108,7 +108,7 @@ impl<R: Real> Rigid<R> {
         self.push + self.turn * arm
     }
 
-    /// The same seen from the other side: what turns outwards there turns inwards here.
+    /// The motion seen from the other side: what turns outwards there turns inwards here.
     pub fn mirrored(self) -> Self {
         Self { turn: -self.turn, ..self }
     }
@@ -145,7 +145,7 @@ pub struct Outwards<R, const KEEP: bool> {
     pub theta: RunningSum<R, KEEP>,
     /// Force of the inertia so far, over ω².
     pub force: RunningSum<R, KEEP>,
-    /// Its moment about the balance point, over ω².
+    /// Moment of the inertia about the balance point so far, over ω².
     pub moment: RunningSum<R, KEEP>,
 }
 

@@ -211,15 +211,15 @@ fn advice(analysis: &Analysis) -> String {
     }
 }
 
-/// The same solver on the uniform dowel, whose frequencies are known in closed form.
+/// Accuracy of the solver on the uniform dowel, whose frequencies are known in closed form.
 fn proof(analysis: &Analysis) -> String {
     let Proof { modes, truth, stated } = analysis.proof;
     let here = match analysis.solution.modes.is_empty() {
         true => String::new(),
-        false => format!("; on this bat it says {:.1e}", analysis.solution.worst()),
+        false => format!("; on this bat it states {:.1e}", analysis.solution.worst()),
     };
     format!(
-        "Proof: on the uniform dowel the same solver misses the exact modes 1 to {modes} by\n       \
-         {truth:.1e} at most and says {stated:.1e}{here}\n"
+        "Proof: on the uniform dowel the solver finds the exact modes 1 to {modes} within\n       \
+         {truth:.1e} and states {stated:.1e}{here}\n"
     )
 }

@@ -17,7 +17,7 @@ pub struct Dialogue<R> {
     answers: R,
 }
 
-/// What an answer means, or why it is none.
+/// What an answer means, or why it is invalid.
 pub type Read<T> = std::result::Result<T, Complaint>;
 
 impl<R: BufRead> Dialogue<R> {
@@ -25,7 +25,7 @@ impl<R: BufRead> Dialogue<R> {
         Self { answers }
     }
 
-    /// Says something that is no question.
+    /// Prints a line that asks nothing.
     pub fn say(&self, text: &str) {
         // Without standard error the questions are not seen; the answers may come all the same.
         let _ = writeln!(std::io::stderr(), "{text}");

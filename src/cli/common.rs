@@ -177,12 +177,12 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
     }
 
-    /// The same with the theory chosen for this bat, and the bat as stiff as it was tapped.
+    /// Prepares a bat to be solved: chooses the theory for it and makes it as stiff as it was tapped.
     pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<Prepared> {
         prepare(bat, self.theory, self.request(modes), output.quiet)
     }
 
-    /// A time for the modes alone says nothing of a whole hit.
+    /// Refuses `--budget`: a time for the modes alone does not limit a whole hit.
     ///
     /// # Errors
     ///
@@ -304,7 +304,7 @@ pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
     read_with_text(path, quiet).map(|(bat, _)| bat)
 }
 
-/// The same, and what its file says.
+/// Reads a bat, passes its warnings on, and returns the text of its file too.
 pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
     let Named { bat, text, columns_outside } = Bat::named_by_a_person(path)?;
     let file = path.display();
@@ -316,14 +316,14 @@ pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
     Ok((bat, text))
 }
 
-/// A bat to be solved, and what is to be said of it in the end.
+/// A bat to be solved, how, and the warning to print at the end.
 pub struct Prepared {
     pub bat: Bat,
     pub request: Request,
     pub warning: Option<String>,
 }
 
-/// The same solved.
+/// A solved bat, and the warning to print at the end.
 pub struct Solved {
     pub bat: Bat,
     pub solution: Solution,

@@ -24,11 +24,11 @@ use crate::cli::value::quantity;
 /// Swings two to six bats alike and says what differs: size and mass, swing weight, frequencies and
 /// nodes, the best exit speed and where, the exit speed at the same places from the tip and from the
 /// knob, BBCOR, vibration. The first bat is the one the others are measured by. Every difference
-/// stands beside how far it may be off, and one that is no more than that is said to be none.
+/// stands beside how far it may be off; one within that is shown as none.
 ///
 /// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
-/// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, what they
-/// have in common in the bat's mass, and what the few points cost.
+/// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, their mass
+/// orthogonality, and what the few points cost.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -69,7 +69,7 @@ pub struct Args {
 
     /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences,
     /// energies (ledger_A and so on), force and compression, the hands' motion; of measured modes the
-    /// MAC, what shapes have in common, and the shapes on each other
+    /// MAC, the mass orthogonality, and the shapes on each other
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
@@ -157,7 +157,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         return Err(Error::value("--csv", "- beside --json -", expected));
     }
     if !(2..=MOST).contains(&args.bats.len()) {
-        let found = format!("{} bat", args.bats.len());
+        let found = format!("{} bat file(s)", args.bats.len());
         return Err(Error::value("compare", found, format!("2 to {MOST} bat files")));
     }
     let model = args.scene.model()?;

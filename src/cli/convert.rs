@@ -125,7 +125,7 @@ fn check(args: &Args) -> Result<()> {
     }
     let out = args.out.as_deref().unwrap_or(Path::new(""));
     if args.to == Format::Npz && out.as_os_str() == "-" {
-        return Err(Error::value("--out", "- with --to npz", "a file: an archive is no text"));
+        return Err(Error::value("--out", "- with --to npz", "a file: an archive is not text"));
     }
     if args.to != Format::Vtu && is_collection(args) {
         let found = format!("a .pvd file with --to {format}");

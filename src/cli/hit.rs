@@ -171,8 +171,8 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
         let limit = match sweep.settles {
             true => "",
             false => {
-                ": ball and bat meet there in a way that magnifies what is small, and neither more \
-                      modes nor finer steps settle it"
+                ": the hit there magnifies small changes, and neither more modes nor finer \
+                 steps settle it"
             }
         };
         let place = format!("{:.1} cm ({:.1} in)", 100.0 * impact.x, inches(impact.x));

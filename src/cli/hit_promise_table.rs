@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary};
 
-const TITLE: &str = "The same of exit speeds, relative to the closing speed, on random hits:
+const TITLE: &str = "Errors of exit speeds on random hits, relative to the closing speed:
 
 hits                       n  true/stated    close  met
 ";

@@ -11,7 +11,7 @@ use crate::cli::done::Done;
 
 /// Print a manual page, or write all of them
 ///
-/// The same words as --help, for the pager of your system.
+/// The words of --help as a manual page, for the pager of your system.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {

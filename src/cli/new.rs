@@ -30,7 +30,7 @@ pub struct Args {
     /// Where to write it (- = standard output) [default: after the name]
     file: Option<PathBuf>,
 
-    /// Ask even if standard input is no terminal: an answer per line
+    /// Read answers from standard input, one per line, even when it is not a terminal
     #[arg(long)]
     ask: bool,
 
@@ -96,7 +96,7 @@ pub fn run(args: &Args) -> Result<Done> {
         if ask { asked(args, &mut Dialogue::new(stdin().lock()))? } else { given(args)? };
     let text = bat_text::text(&measured);
     made(args, &measured, &text).inspect_err(|_| {
-        // What was answered is not lost with the file; without standard error there is nobody.
+        // Print the answers, so that they are not lost with the file, unless standard error is closed.
         let _ =
             if ask { write!(stderr(), "The bat, which was not written:\n{text}") } else { Ok(()) };
     })
@@ -236,7 +236,7 @@ fn stations(args: &Args, unit: &str) -> Result<Vec<[f64; 2]>> {
     for text in &args.stations {
         let end = length.unwrap_or(f64::INFINITY);
         let measured = ask::station(text, None, &stations, end, unit);
-        // An empty one is no station.
+        // An empty text is not a station.
         let missing = || Error::value("--station", "nothing", "a place and its diameter");
         stations.push(measured.map_err(of_option("--station"))?.ok_or_else(missing)?);
     }

@@ -69,7 +69,7 @@ impl Drop for Progress {
         let Some((bar, waiting)) = &mut self.bar else { return };
         waiting.stop.take();
         if let Some(thread) = waiting.thread.take() {
-            // It only draws; that it may have failed is no reason to.
+            // The thread only draws: its failure is ignored.
             let _ = thread.join();
         }
         *last() = None;

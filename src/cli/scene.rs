@@ -278,7 +278,7 @@ pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
     }
 }
 
-/// What is wrong with a ball: a word that is near a known one is no file's name.
+/// The error for an unreadable ball: a name near a known one is a misspelling, not a file.
 fn unknown_ball(name: &str, error: Error) -> Error {
     let known = BALLS.map(|(name, _)| name);
     match error {

@@ -40,7 +40,7 @@ pub fn cleanly() {
     }
 }
 
-/// Signals that were ignored when the program began, a bit for each; none where nobody tells.
+/// Signals that were ignored when the program began, a bit for each; 0 where the system does not tell.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -45,9 +45,9 @@ struct Rung<'a> {
 /// One instant: displacement, velocity and acceleration of every rigid motion and of every mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Since the first touch (s).
+    /// Time since the first touch (s).
     pub time: f64,
-    /// What the ball pushes with (N).
+    /// Force of the ball on the bat (N).
     pub force: f64,
     rigid: Vec<[f64; 3]>,
     modes: Vec<[f64; 3]>,
@@ -56,20 +56,20 @@ pub struct Instant {
 /// The largest strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strained {
-    /// Where (m).
+    /// Place of the largest strain (m).
     pub x: f64,
-    /// When (s).
+    /// Time of the largest strain (s).
     pub time: f64,
-    /// At the outermost fibre, its size without sign.
+    /// Absolute value of the strain at the outermost fibre.
     pub strain: f64,
-    /// Stress there (Pa).
+    /// Stress at that place and time (Pa).
     pub stress: f64,
 }
 
 /// How one mode rings where it is looked at, just after the ball has left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Hz, of the undamped mode.
+    /// Frequency of the undamped mode (Hz).
     pub frequency: f64,
     /// Amplitudes of displacement (m), velocity (m/s) and acceleration (m/s²).
     pub amplitude: [f64; 3],

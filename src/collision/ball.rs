@@ -5,9 +5,9 @@ use crate::base::error::{Error, Result};
 /// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ball {
-    /// What people call it.
+    /// Name of the ball.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the ball come from.
     pub source: String,
     /// Mass (kg).
     pub mass: f64,
@@ -19,7 +19,8 @@ pub struct Ball {
     pub exponent: Option<f64>,
     /// Coefficient of restitution on a rigid wall, e₀.
     pub cor: f64,
-    /// The same at rising speeds (m/s), in place of it where there are any.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed; replaces `cor`
+    /// where it is not empty.
     pub cor_by_speed: Vec<[f64; 2]>,
 }
 

@@ -21,9 +21,9 @@ use crate::modes::solve::Request;
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
-/// From one place to the next, counted from the tip: half an inch (m).
+/// Distance from one place of the scan to the next, counted from the tip: half an inch (m).
 pub const STEP: f64 = 0.0127;
-/// What a bat may have at most.
+/// Largest BBCOR that the rules allow.
 ///
 /// # Source
 ///
@@ -44,11 +44,11 @@ const SCAN: [f64; 2] = [12.0 * 0.0254, 0.0254];
 pub struct Protocol {
     /// What is shot at the bat.
     pub ball: Ball,
-    /// Its speed (m/s).
+    /// Speed of the ball (m/s).
     pub ball_speed: f64,
-    /// Its restitution on a rigid wall, unless its own depends on the speed.
+    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
     pub cor: f64,
-    /// From where to where the bat is scanned (m from the knob end).
+    /// First and last place of the scan (m from the knob end).
     pub scan: [f64; 2],
 }
 
@@ -59,14 +59,14 @@ pub struct Place {
     pub impact: Impact,
     /// BBCOR about the pivot; None where ball and bat do not meet.
     pub bbcor: Option<f64>,
-    /// How far it may be off.
+    /// Error bound of [`Self::bbcor`].
     pub error: Option<f64>,
 }
 
 /// A bat that was tested.
 #[derive(Debug, Clone)]
 pub struct Tested {
-    /// The bat as it was held.
+    /// The bat as it was held in the test.
     pub bat: Bat,
     /// What was done.
     pub protocol: Protocol,
@@ -87,7 +87,7 @@ impl Protocol {
         Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan }
     }
 
-    /// The same with its force law and its places checked, before anything is computed.
+    /// This protocol with its force law and its places checked, before anything is computed.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl Protocol {
 
     /// The places (m from the knob end), whole half inches from the tip.
     fn places(&self, length: f64) -> Vec<f64> {
-        /// Of a step, so that a rounding does not lose the ends.
+        /// Share of a step, so that a rounding does not lose the ends.
         const ROUNDING: f64 = 1e-9;
         let [first, last] = self.scan.map(|x| (length - x) / STEP);
         let [most, least] = [(first + ROUNDING).floor(), (last - ROUNDING).ceil()];

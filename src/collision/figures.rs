@@ -16,11 +16,11 @@ use crate::modes::solve::Solution;
 /// measured of batters lies between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SwingLaw {
-    /// n.
+    /// Exponent n of the law.
     pub exponent: f64,
-    /// I_ref (kg m²).
+    /// Moment of inertia I_ref of the reference bat (kg m²).
     pub reference: f64,
-    /// Ω₀, the swing of the reference bat (rad/s).
+    /// Angular speed Ω₀ of the swing with the reference bat (rad/s).
     pub of_reference: f64,
 }
 
@@ -37,7 +37,7 @@ impl SwingLaw {
 pub struct Swung {
     /// n of the law.
     pub exponent: f64,
-    /// rad/s
+    /// Angular speed of the swing (rad/s).
     pub swing: f64,
     /// Place (m) and exit speed (m/s).
     pub best: Option<Peak>,
@@ -52,13 +52,13 @@ pub struct Figures {
     pub best: Option<Impact>,
     /// Where the same bat would be best if it did not bend.
     pub rigid_best: Option<Peak>,
-    /// What it loses to vibration there as it is (J).
+    /// Energy that the bending bat loses to vibration at [`Self::rigid_best`] (J).
     pub vibration_at_rigid_best: Option<f64>,
     /// The largest BBCOR of the outer half, as of a free bat.
     pub bbcor_max: Option<Peak>,
-    /// The same as of a bat held at the standard pivot.
+    /// The largest BBCOR of the outer half, as of a bat held at the standard pivot, 6 in from the knob.
     pub bbcor_pivoted_max: Option<Peak>,
-    /// The same batter with this bat, by several laws; empty where no reference bat was given.
+    /// Swings of one batter with this bat, by several laws; empty where no reference bat was given.
     pub swings: Vec<Swung>,
     /// The sweet spot of other scenes, each with what is different.
     pub moves: Vec<(String, SweetSpot)>,

@@ -12,11 +12,11 @@ use crate::collision::contact::touch::Felt;
 /// The ball at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Since the first touch (s).
+    /// Time since the first touch (s).
     pub time: f64,
-    /// N
+    /// Force between ball and bat (N).
     pub force: f64,
-    /// m
+    /// Compression of the ball (m).
     pub compression: f64,
 }
 

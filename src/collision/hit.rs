@@ -10,20 +10,20 @@ use crate::collision::pulse::Pulse;
 /// How the bat's bending is counted; each model is a limit of the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Model {
-    /// Not at all.
+    /// The bat does not bend.
     Rigid,
-    /// By the WPI report's empirical loss.
+    /// Bending takes the WPI report's empirical loss.
     EnergyLoss(EnergyLoss),
-    /// By a force pulse of known form.
+    /// A force pulse of known form excites the modes.
     Pulse(Pulse),
-    /// By ball and modes in contact.
+    /// Ball and modes interact while they are in contact.
     Contact,
 }
 
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// How far the steps' forces are off, relative.
+    /// Relative accuracy of the force in the steps.
     pub accuracy: f64,
     /// Whether the modes that are left out have their flexibility, the last mode as heavy as makes
     /// it right; else the modes that are taken are all there are.
@@ -101,7 +101,7 @@ impl Scene {
     }
 }
 
-/// The wall of a hollow barrel as a spring under the ball: a shell mode whose own momentum is none,
+/// The wall of a hollow barrel as a spring under the ball: a shell mode without momentum of its own,
 /// so that it disturbs neither the rigid motion nor the bending modes.
 ///
 /// A mode of mass m and `ω² = k/m` gives way by `F/k` to a slow force. Without a mass it is a
@@ -113,24 +113,24 @@ impl Scene {
 /// softball bats", Engineering of Sport 5 (2004), for ball and wall as springs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
-    /// k (N/m).
+    /// Stiffness k (N/m).
     pub stiffness: f64,
-    /// m (kg).
+    /// Mass m (kg); 0 is a spring in series with the ball.
     pub mass: f64,
 }
 
 /// One impact. What does not exist (no real solution, no contact) is None.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
-    /// From the knob end (m).
+    /// Distance of the impact point from the knob end (m).
     pub x: f64,
     /// Speed of the bat at `x` before the hit (m/s).
     pub bat_speed: f64,
-    /// What the same bat would do if it did not bend (m/s).
+    /// Exit speed of the ball if the bat did not bend (m/s).
     pub rigid_exit_speed: Option<f64>,
-    /// What came of it; None where there is no hit or no real solution.
+    /// The outcome; None where ball and bat do not meet or there is no real solution.
     pub outcome: Option<Outcome>,
-    /// What is unusual in it, and why there is no outcome where there is none.
+    /// What is unusual in this impact, or why it has no outcome.
     pub flags: Vec<&'static str>,
 }
 
@@ -139,13 +139,13 @@ pub struct Impact {
 pub struct Outcome {
     /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed: f64,
-    /// e₀ of this hit.
+    /// Coefficient of restitution e₀ of this hit.
     pub cor: f64,
-    /// `J` (N s).
+    /// Impulse `J` (N s).
     pub impulse: f64,
-    /// `e_A = (v_out − V)/(v_in + V)`.
+    /// Collision efficiency `e_A = (v_out − V)/(v_in + V)`, V the bat's speed at the impact point.
     pub collision_efficiency: f64,
-    /// Time in touch (s), all touches together, where the model has one.
+    /// Contact time (s), all touches together, where the model has one.
     pub contact_time: Option<f64>,
     /// The ball's first departure, where the model has times.
     pub first_separation: Option<Separation>,
@@ -153,57 +153,57 @@ pub struct Outcome {
     pub peak_force: Option<f64>,
     /// Largest compression of the ball (m), where the model has one.
     pub peak_compression: Option<f64>,
-    /// `e_A (1 + r) + r`, r = m/M_eff of the free bat.
+    /// BBCOR of the free bat: `e_A (1 + r) + r` with `r = m/M_eff`.
     pub bbcor: f64,
-    /// The same with `r = m Q²/I` of the bat held 6 in from the knob.
+    /// BBCOR of the bat held 6 in from the knob: `e_A (1 + r) + r` with `r = m Q²/I`.
     pub bbcor_pivoted: f64,
     /// Where the energy went.
     pub energy: Energy,
     /// Estimated error of the exit speed, relative to the closing speed: for modes left out and
     /// steps, and for the mesh.
     pub error: f64,
-    /// The part of it that more modes would mend.
+    /// Part of [`Self::error`] that more modes would remove.
     pub truncation: f64,
-    /// The part of it that shorter steps would mend.
+    /// Part of [`Self::error`] that shorter steps would remove.
     pub steps: f64,
 }
 
 /// The moment at which the ball leaves the bat for the first time. It may be caught again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Since the first touch (s).
+    /// Time since the first touch (s).
     pub time: f64,
-    /// Speed of the ball then (m/s).
+    /// Speed of the ball at that moment (m/s).
     pub exit_speed: f64,
 }
 
 /// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Energy {
-    /// Of ball and bat before the hit.
+    /// Energy of ball and bat before the hit.
     pub initial: f64,
-    /// Of the ball after it.
+    /// Energy of the ball after the hit.
     pub ball: f64,
-    /// Of the bat's rigid motion after it.
+    /// Energy of the bat's rigid motion after the hit.
     pub bat_rigid: f64,
-    /// In each bending mode after it, in their order.
+    /// Energy of each bending mode after the hit, in the order of the modes.
     pub vibration_by_mode: Vec<f64>,
-    /// Lost in the ball.
+    /// Energy lost in the ball.
     pub dissipated_ball: f64,
-    /// By the bat's own damping.
+    /// Energy lost by the bat's own damping.
     pub dissipated_damping: f64,
-    /// In the barrel's wall, where it gives way.
+    /// Energy left in the barrel's wall, where it gives way.
     pub wall: f64,
 }
 
 impl Energy {
-    /// In all bending modes (J).
+    /// Energy of all bending modes (J).
     pub fn vibration(&self) -> f64 {
         // An empty sum of floats is −0, which is no energy to print.
         self.vibration_by_mode.iter().fold(0.0, |sum, energy| sum + energy)
     }
 
-    /// What the model created (−) or lost sight of (+) (J).
+    /// Energy that the model created (−) or failed to account for (+) (J).
     pub fn imbalance(&self) -> f64 {
         let dissipated = self.dissipated_ball + self.dissipated_damping;
         self.initial - self.ball - self.bat_rigid - self.vibration() - self.wall - dissipated

@@ -70,7 +70,7 @@ struct Answer {
 }
 
 impl Answer {
-    /// Of a model without modes and times.
+    /// The answer of a model without modes and times.
     fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
         // The models' own formulas are exact to a few roundings.
         let error = 8.0 * f64::EPSILON;
@@ -96,9 +96,9 @@ impl Answer {
 /// A hit without its ledger and its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glance {
-    /// From the knob end (m).
+    /// Distance of the impact point from the knob end (m).
     pub x: f64,
-    /// m/s
+    /// Exit speed of the ball (m/s).
     pub exit_speed: f64,
     /// Energy left in vibration (J); None for a model without.
     pub vibration: Option<f64>,
@@ -214,8 +214,8 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The hit at `x` as a search for places sees it. None where there is none, and None too where the
-    /// bat ends in a point: there a ball is met by ever less of it.
+    /// The hit at `x` (m) as a search for places sees it. None where ball and bat do not meet, and
+    /// where the bat ends in a point: there a ball is met by ever less of it.
     pub fn glance(&self, x: f64) -> Option<Glance> {
         /// Of the largest radius.
         const POINTED: f64 = 0.25;
@@ -270,8 +270,8 @@ impl<'a> Hitter<'a> {
         self.strike_knowing(x, None)
     }
 
-    /// The same where the errors by truncation and by steps are known, of a contact: they are not
-    /// looked for.
+    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation and by steps
+    /// given where they are `known`: they are not estimated again.
     pub fn strike_knowing(&self, x: f64, known: Option<[f64; 2]>) -> Impact {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let rigid_exit_speed = self.rigid_exit(x);
@@ -287,7 +287,7 @@ impl<'a> Hitter<'a> {
         Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
     }
 
-    /// The force at `x` (m) in time, of a contact; None where there is none.
+    /// The force at `x` (m) in time, by the contact model; None where that model has no answer.
     pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
@@ -295,8 +295,8 @@ impl<'a> Hitter<'a> {
         resolved(SMOOTH, meet, |(met, _)| met.is_sound(&felt, closing)).map(|(_, pieces)| pieces)
     }
 
-    /// Force and compression of the ball at `x` (m) in time, of a contact, so many instants in every
-    /// piece of the force; None where there is none.
+    /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants
+    /// in every piece of the force; None where that model has no answer.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
         let modes: Vec<[f64; 2]> =
@@ -372,7 +372,7 @@ impl<'a> Hitter<'a> {
         let mut answer = Answer { impulse, ..rigid };
         answer.in_modes = loss.energies(&shapes, impulse, ball);
         let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
-        // No bound on the shapes is no bound on the loss.
+        // If the shapes cannot be bounded, neither can the loss.
         let other = of(loss.vibration(&largest)).filter(|v| v.is_finite());
         answer.error += other.map_or(1.0, |v| (v - exit).abs() / closing);
         Some(answer)
@@ -509,13 +509,14 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The bat at `x` as the effort has it.
+    /// The bat as the ball feels it at `x` (m), with as many modes as the effort takes.
     fn felt(&self, x: f64) -> Felt {
         let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
         self.felt_with(x, self.modes_used(), beyond)
     }
 
-    /// The same with so many modes, and the others if wanted.
+    /// The bat as the ball feels it at `x` (m), with `count` modes; `beyond` is the flexibility of all
+    /// modes where those beyond `count` are to be included.
     fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
         let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
         let mut felt = match beyond {
@@ -583,7 +584,7 @@ fn report_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
     modes.iter().map(scaled).collect()
 }
 
-/// The same, each as large as the errors of its mode allow.
+/// Upper bounds of the deflections of [`report_shapes`], by the stated errors of each mode.
 fn largest_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
     let with_error = |mode: &Mode| {
         let deflection = mode.shape.deflection(x).abs() + mode.error.shape;

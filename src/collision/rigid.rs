@@ -12,29 +12,29 @@
 /// What a stiff free body is, for a blow across its axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBat {
-    /// kg
+    /// Mass of the bat (kg).
     pub mass: f64,
-    /// From the knob end (m).
+    /// Distance of the balance point from the knob end (m).
     pub balance_point: f64,
-    /// About the balance point (kg m²).
+    /// Moment of inertia about the balance point (kg m²).
     pub inertia: f64,
 }
 
 /// How a rigid bat moves: its balance point across the axis (m/s), and its rotation (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidVelocity {
-    /// Of the balance point (m/s).
+    /// Velocity of the balance point across the axis (m/s).
     pub velocity: f64,
-    /// Positive where the tip goes ahead (rad/s).
+    /// Rotation, positive where the tip goes ahead (rad/s).
     pub rotation: f64,
 }
 
-/// A ball on its way.
+/// A ball before the blow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incoming {
-    /// kg
+    /// Mass of the ball (kg).
     pub mass: f64,
-    /// m/s, negative towards the bat.
+    /// Velocity of the ball, negative towards the bat (m/s).
     pub velocity: f64,
     /// Coefficient of restitution `e`: separation speed over closing speed.
     pub restitution: f64,
@@ -43,13 +43,13 @@ pub struct Incoming {
 /// What a blow left behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rebound {
-    /// `J` on the ball (N s).
+    /// Impulse `J` on the ball (N s).
     pub impulse: f64,
-    /// `v′` (m/s).
+    /// Velocity `v′` of the ball after the blow (m/s).
     pub ball_velocity: f64,
-    /// How the bat moves after it.
+    /// Motion of the bat after the blow.
     pub bat: RigidVelocity,
-    /// Kinetic energy gone, `μ u² (1 − e²)/2` (J).
+    /// Kinetic energy lost, `μ u² (1 − e²)/2` (J).
     pub dissipated: f64,
 }
 

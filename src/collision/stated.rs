@@ -1,5 +1,5 @@
 //! How far the exit speed of a contact may be off: by the modes left out, by its steps, and by how
-//! much the hit magnifies what is small.
+//! much the hit magnifies small changes.
 //!
 //! Each comes from other answers to the same hit: with fewer modes, with finer steps, a little faster.
 //! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of
@@ -12,14 +12,14 @@ use crate::collision::hit::greater;
 /// there the answer is compared with one by rougher steps.
 const FINER: f64 = 1e-2;
 const FINEST: f64 = 1e-12;
-/// Of the energy that the steps were off by, what they are taken to be off by at least: two answers may
+/// Share of the energy that the steps were off by that is taken as the least error: two answers may
 /// agree by chance.
 const CORRECTED: f64 = 0.03;
 
 /// The error falls at least as these powers of the number of modes, without and with shear, to a few
 /// modes less and to half as many; in the mean as 6.5 and 3.2.
 const FALLS: [[f64; 2]; 2] = [[4.0, 5.0], [2.5, 3.0]];
-/// Of the error that a change by fewer modes leads one to expect.
+/// Share of the error expected from a change by fewer modes.
 const LEFT_OUT: f64 = 0.6;
 
 /// A change of the closing speed that shows by how much the hit magnifies what is small, and what is
@@ -34,7 +34,7 @@ pub struct Answered<'a> {
     pub met: &'a Encounter,
     /// Number of modes.
     pub count: usize,
-    /// Of the steps.
+    /// Accuracy of the steps, relative.
     pub accuracy: f64,
 }
 
@@ -59,7 +59,7 @@ impl Answered<'_> {
         [left_out.fold(0.0, greater), steps]
     }
 
-    /// By how much the hit magnifies what is small, and what that makes of round-off, where
+    /// Factor by which the hit magnifies small changes, and the error that it makes of round-off, where
     /// `faster(by)` is how far the answer for a closing speed that is larger by that share is from this
     /// one, the share taken off.
     pub fn magnified(&self, faster: impl Fn(f64) -> f64) -> [f64; 2] {

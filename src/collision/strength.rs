@@ -15,9 +15,9 @@ use crate::modes::solve::Solution;
 /// What a strength is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
-    /// Of the stress, in slow bending (Pa).
+    /// Limit of the stress in slow bending (Pa).
     Stress,
-    /// Of the strain, in a blow.
+    /// Limit of the strain in a blow.
     Strain,
 }
 
@@ -43,7 +43,7 @@ pub struct Load {
     pub bears: f64,
     /// The largest strain at that place.
     pub at: Strained,
-    /// How much of the limit that is; 1 and more is beyond it.
+    /// Largest strain or stress as a share of the limit; 1 and more is beyond it.
     pub share: f64,
 }
 

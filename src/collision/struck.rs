@@ -55,15 +55,17 @@ impl<'a> Struck<'a> {
         [dot(&row, &row) / unit + kink, dot(&row, &self.flexible.inertia(&row)) / unit]
     }
 
-    /// All of that for a ball of that mass (kg) at `x`, with `count` modes and nothing else.
+    /// The bat as a ball of that mass (kg) feels it at `x` (m), with `count` modes and nothing else.
     pub fn with_modes(&self, x: f64, ball: f64, count: usize) -> Felt {
         let mut gains = self.gains(x);
         gains.truncate(count);
         Felt { inverse_mass: 1.0 / ball + self.recoil(x), gains, rest: 0.0 }
     }
 
-    /// The same with all modes: `count − 1` of them as they are, the last one as heavy as makes it
-    /// stand for all beyond it in a slow motion, and the flexibility that is still missing then.
+    /// The bat as a ball of that mass (kg) feels it at `x` (m), with all modes.
+    ///
+    /// Of `count` modes, `count − 1` are kept as they are; the last one gets the mass that makes it
+    /// stand for all beyond it in a slow motion. The flexibility that is still missing then is added.
     ///
     /// A mode beyond follows a slow force as `y = −c/ω² (F − F″/ω² + …)`. With `C = Σ c/ω²` and `D =
     /// Σ c/ω⁴` of all that are not taken, the gain `D ω⁴` at the first one's own ω and the
@@ -75,7 +77,7 @@ impl<'a> Struck<'a> {
         self.completed(x, self.with_modes(x, ball, count), self.flexibility(x))
     }
 
-    /// The same from [`Self::with_modes`] and [`Self::flexibility`].
+    /// What [`Self::felt`] returns, from [`Self::with_modes`] and [`Self::flexibility`] at `x` (m).
     pub fn completed(&self, x: f64, mut felt: Felt, [soft, slow]: [f64; 2]) -> Felt {
         /// What is left is known if it is so many times its error.
         const KNOWN: f64 = 10.0;

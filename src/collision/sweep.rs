@@ -17,10 +17,10 @@ pub struct Sweep {
     pub solution: Solution,
     /// The steps that were taken.
     pub effort: Effort,
-    /// One for each place, in their order.
+    /// Impacts, one for each place in the order of the places.
     pub impacts: Vec<Impact>,
-    /// How much the modes left out change an exit speed at most, by estimate, relative to the
-    /// closing speed; None where none are left out by the model.
+    /// Estimated bound on the change of an exit speed by the modes left out, relative to the closing
+    /// speed; None where the model leaves out no modes.
     pub truncation: Option<f64>,
     /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
     pub met: bool,
@@ -56,7 +56,7 @@ pub fn sweep(
     sweep_telling(bat, (model, scene), (request, exactly), places, &nobody)
 }
 
-/// The same, telling how many of the places have been struck.
+/// Strikes the bat at all places as [`sweep`] does, and tells how many of them have been struck.
 ///
 /// # Errors
 ///
@@ -77,7 +77,7 @@ pub fn sweep_telling(
     const IDLE: f64 = 0.8;
     const IDLE_DEAD: f64 = 0.3;
     const DEAD: f64 = 0.05;
-    /// Of the tolerance, the modes' own.
+    /// The modes' own tolerance as a share of the tolerance of the exit speed.
     const MODES: f64 = 3e-4;
     /// Share of a change by fewer modes that steps may make of it.
     const BLURRED: f64 = 0.003;
@@ -178,7 +178,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
     const MOST: usize = 8;
     /// Hits between two words of how many there are.
     const OFTEN: usize = 64;
-    /// Of the half-wave of the first mode left out: between two places so far apart its square is
+    /// Share of the half-wave of the first mode left out: between two places so far apart its square is
     /// nowhere twice as large as at the larger of both.
     const CLOSE: f64 = 0.5;
     let most = CLOSE * length / (hitter.modes_used() + 1) as f64;

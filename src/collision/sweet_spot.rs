@@ -9,9 +9,9 @@ use crate::modes::solve::Solution;
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// From the knob end (m).
+    /// Position from the knob end (m).
     pub x: f64,
-    /// What is largest or least there, in its own unit.
+    /// The largest or least value, found at `x`, in its own unit.
     pub value: f64,
 }
 
@@ -24,13 +24,13 @@ pub struct SweetSpot {
     pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).
     pub node_mode_1: Option<f64>,
-    /// The same node of the second mode (m).
+    /// The barrel-side node of the second bending mode (m).
     pub node_mode_2: Option<f64>,
     /// The centre of percussion for the swing's own pivot (m).
     pub center_of_percussion: Option<f64>,
     /// Where the hands feel the least velocity (m/s), as [`Glance::hands`] counts it.
     pub hands_velocity_min: Option<Peak>,
-    /// The same of the acceleration (m/s²).
+    /// Where the hands feel the least acceleration (m/s²), as [`Glance::hands`] counts it.
     pub hands_acceleration_min: Option<Peak>,
     /// Where the exit speed is within 1 % of its maximum (m).
     pub zone: Option<[f64; 2]>,
@@ -184,7 +184,7 @@ fn brent(
         let over = 2.0 * (q - r);
         let by = ((best.x - second.x) * r - (best.x - third.x) * q) / over;
         let inside = best.x + by > low + width && best.x + by < high - width;
-        // A parabola that is not a number is none.
+        // A parabola with NaN fails this test.
         if inside && by.abs() < 0.5 * before.abs() {
             (before, step) = (step, by);
         } else {

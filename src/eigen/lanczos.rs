@@ -22,12 +22,12 @@ pub struct Lanczos<R> {
     pub steps: usize,
     /// Eigenvalues, largest first in every lane.
     pub values: Vec<R>,
-    /// `‖A v − θ v‖/θ` of each.
+    /// Relative residual `‖A v − θ v‖/θ` of every eigenpair.
     pub residuals: Vec<R>,
     /// The first eigenvalue beyond them, with a residual of 100 times the wanted one at most; none
     /// if there is no other.
     pub beyond: Option<R>,
-    /// The same number of orthonormal eigenvectors, one after the other.
+    /// Orthonormal eigenvectors, one for every value, one after the other.
     pub vectors: Vec<R>,
 }
 
@@ -43,7 +43,7 @@ pub struct Wanted {
     pub residual: f64,
     /// Convergence is looked for from this many steps beyond `count` on.
     pub earliest: usize,
-    /// That many eigenvalues may lie as near to each other as to need steps of their own.
+    /// Number of eigenvalues that may lie so near to each other that they need steps of their own.
     pub clustered: usize,
 }
 

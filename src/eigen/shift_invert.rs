@@ -79,7 +79,7 @@ pub fn lowest(
 ///
 /// # Errors
 ///
-/// Those of `search`; [`Error::NotConverged`] if the space is exhausted before.
+/// The errors of `search`; [`Error::NotConverged`] if the space is exhausted before.
 pub fn every_copy(
     dimension: usize,
     count: usize,
@@ -117,7 +117,7 @@ fn sorted(all: Ritz, count: usize) -> Result<Ritz> {
     Ok(Ritz { values, vectors, steps })
 }
 
-/// From θ and unscaled `x` to λ and `xᵀMx = 1`.
+/// Turns θ and an unscaled `x` into λ and a vector with `xᵀMx = 1`.
 ///
 /// # Errors
 ///

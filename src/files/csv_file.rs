@@ -13,7 +13,7 @@ use crate::files::document::Document;
 /// with `#` are comments.
 pub(crate) struct Csv {
     columns: Vec<(&'static str, Vec<f64>)>,
-    /// The unit of each column in the words of the header, empty where there is none.
+    /// The unit of each column as the header writes it; empty for a column without a unit.
     units: Vec<String>,
     /// Byte offset of the header, and of each row.
     pub header: usize,
@@ -145,7 +145,8 @@ fn scales(
     if let Some(complaint) = not_by_commas(names) {
         return Err(document.error(line(&document.text, header), complaint));
     }
-    /// There are fewer keys, so that a mistake is among so many columns if there are more.
+    /// Columns that are checked: a header with more than this has a mistake among the first ones, since
+    /// there are fewer keys.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
     mistakes::all(names.iter().enumerate().take(LOOKED_AT).map(|(k, name)| {

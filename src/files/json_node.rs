@@ -221,7 +221,7 @@ impl<'a> Node<'a> {
         Ok(raws.iter().enumerate().map(item).collect())
     }
 
-    /// Item `k` of a list, or the list itself if there is none.
+    /// Item `k` of a list, or the list itself if it is too short.
     pub fn item(&self, k: usize) -> Self {
         let raws: Option<Vec<&'a RawValue>> = serde_json::from_str(self.raw).ok();
         raws.and_then(|raws| raws.get(k).map(|raw| raw.get())).map_or_else(
@@ -250,9 +250,9 @@ pub(crate) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// The same with all that is wrong with its keys told: those that are there twice, and those
-    /// that are neither `known` nor "comment". One that is near a known one is taken for it where
-    /// that is missing, so that nobody is told of the same slip twice.
+    /// This object, with every mistake in its keys reported: those that are there twice, and those
+    /// that are neither `known` nor "comment". A key near a known one is taken for it where that is
+    /// missing, so that one slip is reported once.
     pub fn only(mut self, known: &[&str], mistakes: &mut Mistakes) -> Self {
         let names: Vec<&str> = known.iter().copied().chain(["comment"]).collect();
         let mut seen: HashSet<String> = self.members.iter().map(|(key, _)| key.clone()).collect();

@@ -6,7 +6,7 @@ use crate::base::units::Quantity;
 use crate::bat::material::{BUILT_IN, Material};
 use crate::files::json_node::Node;
 
-/// A value to take where there is none in the file, or the words for what is expected.
+/// A default for a value that the file does not give, or the words for what is expected.
 pub(crate) type Without<'a> = std::result::Result<f64, &'a str>;
 
 /// A material by name or by numbers, and what it is without a density or without a modulus.

@@ -132,8 +132,10 @@ fn plain(bat: &Bat) -> bool {
     bat.fixtures.none_moving() && !bat.profile.pieces.iter().any(formula)
 }
 
-/// The same on all cores, each share of the bats with a first one of its own, the results gathered
-/// by `read`, in the order of the bats.
+/// Solves every bat on all cores, each share of 256 bats planned by its own first one.
+///
+/// What `read` makes of each result comes in the order of the bats; accuracy and mesh are those of
+/// [`each`].
 pub fn all<T: Send>(
     bats: &[Bat],
     request: &Request,
@@ -309,7 +311,7 @@ where
     }
 
     /// What the iteration left, `½ residual²/gap`, and what near twins share, as
-    /// [`crate::modes::certificate::add_neighbours`]; a near twin beyond the list is no lane's work.
+    /// [`crate::modes::certificate::add_neighbours`]; a bat with one beyond the list is solved alone.
     fn add_residuals(&mut self, modes: usize) {
         let lanczos = &self.pairs.lanczos;
         for k in 0..modes {

@@ -53,7 +53,7 @@ pub struct RigidMotion {
     pub turn: f64,
     /// Position of the balance point (m).
     pub balance: f64,
-    /// Its modal mass (kg, or kg m² where it is a rotation of 1 rad).
+    /// Modal mass of the rigid motion (kg, or kg m² where it is a rotation of 1 rad).
     pub mass: f64,
 }
 
@@ -69,23 +69,23 @@ impl RigidMotion {
 pub struct Dashpot {
     /// Damping constant (N s/m).
     pub constant: f64,
-    /// By the free rigid motions (m each).
+    /// How far every free rigid motion draws the dashpot out (m).
     pub rigid: Vec<f64>,
-    /// By the strains.
+    /// How far the strains draw the dashpot out.
     pub strains: Drawn,
 }
 
-/// How far strains draw a dashpot out.
+/// How far strains draw a dashpot or a spring out.
 #[derive(Debug, Clone)]
 pub enum Drawn {
-    /// It stands beside a spring: the strain's place, and metres for a strain of 1.
+    /// One strain alone, that of a spring: its index, and metres for a strain of 1.
     Spring(usize, f64),
     /// All strains.
     All(Vec<f64>),
 }
 
 impl Drawn {
-    /// How far (m).
+    /// How far the strains `q` draw it out (m).
     pub fn by(&self, q: &[f64]) -> f64 {
         match self {
             Self::Spring(place, softness) => q[*place] * softness,
@@ -133,7 +133,7 @@ impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
     }
 
     fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
-        /// As good as arithmetic allows.
+        /// Residual that is as good as arithmetic allows.
         const CONVERGED: f64 = 1e-13;
         if count == 0 {
             return Ok((vec![], vec![], 0));

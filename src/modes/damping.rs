@@ -27,11 +27,11 @@ use crate::modes::reduced::{Group, Reduced};
 /// How one mode dies out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damped {
-    /// `|s|` (rad/s); of two real s, `√(s₁ s₂)`.
+    /// Natural angular frequency `|s|` (rad/s); of two real s, `√(s₁ s₂)`.
     pub natural: f64,
-    /// ζ, `−Re s/|s|`; 1 or more where it does not swing.
+    /// Damping ratio ζ = `−Re s/|s|`; 1 or more where the mode does not swing.
     pub ratio: f64,
-    /// The part of ζ that is the materials'.
+    /// Part of ζ that comes from the materials.
     pub of_materials: f64,
     /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; the slower one of two real s.
     pub decay: f64,

@@ -3,8 +3,8 @@
 //! The engine below [`crate::solve()`] and [`crate::modes::batch`], which are what to call: it takes
 //! whatever vectors the machine has, and memory that the next bats use again.
 //!
-//! The same bits whatever the vectors and in every lane: nothing is added in another order, and no
-//! product is fused with a sum.
+//! Results are equal to the last bit with any vector width and in every lane: nothing is added in
+//! another order, and no product is fused with a sum.
 
 use pulp::{Simd, WithSimd};
 
@@ -69,8 +69,8 @@ where
         self.iterate(self.wanted(count, residual, earliest))
     }
 
-    /// The same from a start of one's own: bending moments as [`Statics::strains_of_moments`] asks
-    /// for them.
+    /// Finds the `count` slowest motions to that residual from the caller's start vector: bending
+    /// moments as [`Statics::strains_of_moments`] asks for them.
     ///
     /// # Errors
     ///
@@ -145,8 +145,8 @@ where
         self.look_closely(Some(values), depth);
     }
 
-    /// The same with the motions of these scaled strains, one after the other, their frequencies
-    /// from both energies.
+    /// Looks at the motions of these scaled strains, which come one after the other, from number `first`
+    /// on; their frequencies are taken from both energies.
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
         self.gather(vectors, first);
         self.look_closely(None, depth);

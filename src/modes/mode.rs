@@ -13,11 +13,11 @@ use crate::beam::statics::View;
 /// One bending mode of a bat.
 #[derive(Debug, Clone)]
 pub struct Mode {
-    /// 1 for the lowest bending mode.
+    /// Number of the mode: 1 for the lowest bending mode.
     pub order: usize,
     /// Angular frequency ω (rad/s).
     pub omega: f64,
-    /// `∫ρA φ² dx`, with rotary inertia and what is attached (kg), with the largest |φ| = 1.
+    /// Modal mass `∫ρA φ² dx`, with rotary inertia and what is attached, for a largest |φ| of 1 (kg).
     pub modal_mass: f64,
     /// Where the deflection is zero, from the knob end (m).
     pub nodes: Vec<f64>,
@@ -30,22 +30,22 @@ pub struct Mode {
 /// How far a mode's numbers may be off.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ModeError {
-    /// Of the frequency, relative, for the mesh being finite.
+    /// Relative error of the frequency because the mesh is finite.
     pub discretization: f64,
-    /// Of the frequency, relative, for numbers having 53 bits.
+    /// Relative error of the frequency because numbers have 53 bits.
     pub round_off: f64,
     /// `‖u − λ K⁻¹ M u‖ / ‖u‖` of the computed pair, in the strain energy norm.
     pub residual: f64,
-    /// Of the nodes (m).
+    /// Error of the node positions (m).
     pub nodes: f64,
-    /// Of the modal mass, relative.
+    /// Relative error of the modal mass.
     pub modal_mass: f64,
-    /// Of the deflection φ anywhere on the bat, the largest being 1.
+    /// Error of the deflection φ anywhere on the bat, the largest |φ| being 1.
     pub shape: f64,
 }
 
 impl ModeError {
-    /// Of the frequency, relative, for both reasons.
+    /// Relative error of the frequency by mesh and round-off together.
     pub fn total(&self) -> f64 {
         self.discretization + self.round_off
     }
@@ -146,7 +146,7 @@ impl Track {
     }
 }
 
-/// A deflection below this share of the largest is none where something holds the bat.
+/// Where something holds the bat, a deflection below this share of the largest counts as 0.
 const STILL: f64 = 1e-12;
 /// Clamps part a bat into stretches that know nothing of each other: one that moves less than this
 /// share of another is at rest but for what the iteration left.
@@ -391,7 +391,7 @@ impl Shape {
 
     /// The isolated zeros of the deflection inside the bat (m), rising.
     ///
-    /// A deflection of at most `rest` is none: a stretch at rest has no nodes. Beside a place of
+    /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of
     /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
     /// where the deflection comes nearest to zero beyond it.
     fn zeros(&self, track: &Track, rest: f64) -> Vec<f64> {
@@ -493,7 +493,7 @@ impl Shape {
             (value, xi - step, near && (value * bend).abs() <= 4.0 * SMALL * slope * slope)
         };
         // The error is about the cube of the step, over the square of the distance to where the
-        // slope is zero: after a step of 1e-5 of both there is none left.
+        // slope is zero: after a step of 1e-5 of both it is below round-off.
         const SMALL: f64 = 1e-5;
         let start = left + (right - left) * (before / (before - after));
         // Nearly always two steps do, with nothing to decide on the way.

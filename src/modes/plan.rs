@@ -133,7 +133,7 @@ impl Plan {
         Self::cheapest_among(bat, wanted, range)
     }
 
-    /// The same with one of these degrees, which rise.
+    /// The cheapest plan within the tolerance with one of these degrees, which rise.
     pub fn cheapest_among(
         bat: &Bat,
         wanted: &Wanted,
@@ -296,7 +296,7 @@ fn of_tapers(degree: usize, tolerance: f64) -> f64 {
     let ratio: f64 = (1..degree).map(|k| 2.0 * k as f64 / (2 * k - 1) as f64).product();
     let first = (m + 1.0) * (m + 2.0) * (m + 3.0) / 6.0 * ratio;
     let root = ((2.0 * tolerance * (2.0 * m + 1.0)).sqrt() / first).powf(1.0 / m);
-    // An element that holds a point, where `t` is infinite, is none to plan.
+    // `t` stays finite: an element with an infinite `t` would reach into a point of the bat.
     4.0 * root.min(0.9).atanh()
 }
 

@@ -57,7 +57,7 @@ struct Member {
 /// A motion as `e^{st}` that goes on by itself.
 #[derive(Debug, Clone)]
 pub struct Pole {
-    /// `s` (1/s).
+    /// Complex rate `s` of `e^{st}` (1/s).
     pub s: c64,
     /// Parts of the rigid motions, where they are coupled.
     pub rigid: Vec<c64>,
@@ -65,7 +65,7 @@ pub struct Pole {
     pub parts: Vec<c64>,
     /// `vᵀ(2sM + C)v` (J s/m²): with it a unit impulse at a makes `v v(a) e^{st}/norm`.
     pub norm: c64,
-    /// How far s may be off for the motion being one on few strains, relative to |s|.
+    /// Error of s, relative to |s|, because the motion is one on few strains.
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
@@ -77,11 +77,11 @@ pub struct Pole {
 /// How a damped bat goes on by itself.
 #[derive(Debug, Clone)]
 pub struct FreeMotions {
-    /// Of rising |s|.
+    /// Groups of motions by rising |s|.
     pub groups: Vec<Group>,
-    /// Those of the rigid motions that dashpots slow down.
+    /// Motions of the rigid bat that dashpots slow down.
     pub rigid: Vec<Pole>,
-    /// What else the reduced bat does.
+    /// All other motions of the reduced bat.
     pub others: Vec<Pole>,
 }
 
@@ -145,7 +145,7 @@ impl Reduced {
         self.members.len()
     }
 
-    /// Whether there is no strain.
+    /// Whether the number of strains is 0.
     pub fn is_empty(&self) -> bool {
         self.members.is_empty()
     }
@@ -290,7 +290,7 @@ impl Reduced {
     /// # Errors
     ///
     /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
-    /// dashpots are so large that round-off leaves none that dies out.
+    /// dashpots are so large that round-off leaves no motion that dies out.
     pub fn free_motions(&mut self, wanted: usize, tolerance: f64) -> Result<FreeMotions> {
         const MOST_ROUNDS: usize = 12;
         const MOST_MEMBERS: usize = 400;

@@ -105,7 +105,7 @@ fn check<const N: usize, const W: usize>(
 
 /// What a solver makes of the assembled matrices.
 struct Pairs {
-    /// Its own λ = ω² (1/s²), rising.
+    /// The solver's own eigenvalues λ = ω² (1/s²), rising.
     values: Vec<f64>,
     vectors: Vec<Vec<f64>>,
     steps: usize,

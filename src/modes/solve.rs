@@ -36,9 +36,9 @@ pub struct Request {
     pub modes: usize,
     /// Wanted relative accuracy of every frequency; not enforced where `elements` is given.
     pub tolerance: f64,
-    /// This many elements, whatever accuracy that gives.
+    /// Fixed number of elements, whatever accuracy that gives; None plans it from the tolerance.
     pub elements: Option<usize>,
-    /// Elements of this degree; with `elements` alone it is 3.
+    /// Fixed degree of the elements; None plans it, or takes 3 where `elements` is given.
     pub degree: Option<usize>,
     /// How the eigenvalues are found.
     pub solver: Solver,
@@ -60,12 +60,12 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Whether that can be asked of so many bats side by side.
+    /// Checks that this request is possible for `bats` bats side by side.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a tolerance, a degree or a number of elements that is none, for too
-    /// many modes, and for a mesh that would not fit into memory.
+    /// [`Error::Value`] for an invalid tolerance, degree or element count, for too many modes, and
+    /// for a mesh that would not fit into memory.
     pub fn check(&self, bats: usize) -> Result<()> {
         if self.modes > MOST_MODES {
             return Err(Error::value("modes", self.modes, format!("0 to {MOST_MODES}")));
@@ -153,7 +153,7 @@ pub struct Solution {
 impl Solution {
     /// The largest relative error of a frequency, by its own estimate.
     pub fn worst(&self) -> f64 {
-        // No number is no bound, which a maximum would pass over.
+        // NaN must count as unbounded; `f64::max` would drop it.
         let known = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
         self.modes.iter().map(|mode| known(mode.error.total())).fold(0.0, f64::max)
     }
@@ -198,7 +198,7 @@ pub struct Timing {
     pub solve: Duration,
 }
 
-/// More are no bending modes of a bat.
+/// Upper limit on requested modes; beam theory has no meaning beyond it.
 const MOST_MODES: usize = 2000;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;
@@ -565,7 +565,7 @@ impl<'a> Moments<'a> {
         Some(Self { bat, sum: Shape::sum(&parts) })
     }
 
-    /// From places, 0 to 1 along the bat, to the moments there.
+    /// Replaces places, 0 to 1 along the bat, by the bending moments there.
     fn at(&self, places: &mut [f64]) {
         let length = self.bat.length();
         for place in places {

@@ -14,7 +14,7 @@ const THIN: f64 = 1e-3;
 /// One place of a piece.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sample {
-    /// From 0 to 1 along the piece.
+    /// Position from 0 to 1 along the piece.
     pub s: f64,
     /// `∫k dx/√ω` from the piece's left end, with the wave number `k` at the angular frequency ω:
     /// for the Euler–Bernoulli beam `∫(ρA/EI)^¼ dx`, whatever ω.

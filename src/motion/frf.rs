@@ -70,7 +70,7 @@ impl Kind {
 /// The receptance at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Hz.
+    /// Frequency (Hz).
     pub frequency: f64,
     /// Deflection per force (m/N).
     pub receptance: c64,

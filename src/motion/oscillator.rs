@@ -26,7 +26,7 @@ use crate::base::quadrature::gauss;
 pub struct Oscillator {
     /// Undamped angular frequency (rad/s); 0 is a rigid motion, which nothing slows down.
     pub omega: f64,
-    /// `ζ = c/(2 m ω)`, with `c` the modal damping (kg/s). Any value from 0; 1 is critical.
+    /// Damping ratio `ζ = c/(2 m ω)`, with `c` the modal damping (kg/s); 0 or more, 1 is critical.
     pub damping_ratio: f64,
     /// Modal mass (kg) of the shape this goes with: `∫ρA φ² dx`.
     pub mass: f64,

@@ -47,13 +47,13 @@ pub struct Ringing {
 /// One motion: how it goes in time, and the deflections that go with it.
 struct ModeInTime {
     clock: Clock,
-    /// Real part, and imaginary part of a complex one.
+    /// Real part of the deflections, and the imaginary part of a complex motion.
     forms: Vec<Form>,
 }
 
 enum Clock {
     Oscillator(Oscillator),
-    /// Of a complex pair the one with `Im s > 0`.
+    /// One of a complex pair of motions, the one with `Im s > 0`.
     Pole(Pole),
 }
 

@@ -92,13 +92,13 @@ impl Course {
 /// One hit: what was promised and what is true.
 #[derive(Debug, Clone)]
 pub struct CheckedHit {
-    /// Where in the file, from 0.
+    /// Position of the hit in the file, from 0.
     pub number: usize,
-    /// What bat.
+    /// Name of the bat.
     pub bat: String,
-    /// What happens.
+    /// How ball and bat meet.
     pub course: Course,
-    /// Of the exit speed, relative to the closing speed.
+    /// Wanted accuracy of the exit speed, relative to the closing speed.
     pub tolerance: f64,
     /// Whether the tolerance is claimed.
     pub met: bool,
@@ -106,11 +106,11 @@ pub struct CheckedHit {
     pub truth: f64,
     /// The stated error; infinite where there is no answer.
     pub stated: f64,
-    /// What the reference may be off by.
+    /// Error bound of the reference.
     pub known_to: f64,
-    /// What it says the closing speed's own changes are magnified by.
+    /// Factor by which the answer says that changes of the closing speed are magnified.
     pub sensitivity: f64,
-    /// By how much of the closing speed later touches changed the exit speed.
+    /// Change of the exit speed by later touches, relative to the closing speed.
     pub later: f64,
 }
 
@@ -132,7 +132,7 @@ impl CheckedHit {
         self.stated <= MOSTLY * self.truth
     }
 
-    /// Whether nothing false is said.
+    /// Whether every stated error and every claim of the tolerance is true.
     pub fn holds(&self) -> bool {
         self.ratio() <= ALWAYS && !(self.met && self.stated > self.tolerance)
     }
@@ -141,22 +141,22 @@ impl CheckedHit {
 /// The promise over several hits.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Summary {
-    /// How many.
+    /// Number of hits.
     pub hits: usize,
     /// The worst true over stated error.
     pub ratio: f64,
     /// Hits whose true error is visible.
     pub visible: usize,
-    /// Those of the visible ones stated within 30 times.
+    /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
     /// Hits that claim their tolerance.
     pub met: usize,
-    /// Hits of which something false is said.
+    /// Hits with a false claim.
     pub broken: usize,
 }
 
 impl Summary {
-    /// Over those rows.
+    /// The summary of those rows.
     pub fn of<'a>(rows: impl IntoIterator<Item = &'a CheckedHit>) -> Self {
         rows.into_iter().fold(Self::default(), |sum, row| Self {
             hits: sum.hits + 1,

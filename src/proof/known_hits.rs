@@ -48,29 +48,29 @@ pub struct Throw {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seen {
-    /// m/s
+    /// Speed of the ball off the bat (m/s).
     ExitSpeedMPerS,
-    /// The same, if the bat did not bend.
+    /// Speed of the ball off the bat if the bat did not bend (m/s).
     RigidExitSpeedMPerS,
-    /// By how much of the rigid one the exit speed is below it.
+    /// Loss of exit speed to bending, as a share of the rigid exit speed.
     ShareBelowRigid,
     /// `e_eff` in `v′ = [(e_eff − r) v + (1 + e_eff) V]/(1 + r)`: BBCOR of the free bat.
     EffectiveRestitution,
-    /// Of all energy there was, the bat's own included, as seen from the ground: the ball's.
+    /// Share of the ball afterwards in all energy before the hit (ball and bat, seen from the ground).
     BallShare,
-    /// The same of what the ball loses in itself.
+    /// Share of the energy lost inside the ball in all energy before the hit (seen from the ground).
     LostInBallShare,
-    /// The same of the bat's rigid motion.
+    /// Share of the bat's rigid motion afterwards in all energy before the hit (seen from the ground).
     RecoilShare,
-    /// The same of the bending modes.
+    /// Share of the bending modes afterwards in all energy before the hit (seen from the ground).
     VibrationShare,
-    /// Where the exit speed is largest, from the knob end.
+    /// Place of the largest exit speed, from the knob end (m).
     BestPlaceM,
-    /// The largest exit speed, m/s.
+    /// Largest exit speed along the bat (m/s).
     BestExitSpeedMPerS,
-    /// On a wall, to 99 % of the impulse (ms).
+    /// Time until 99 % of the impulse on a wall is done (ms).
     WallTimeMs,
-    /// Until the force ends (ms).
+    /// Contact time on a wall, until the force ends (ms).
     WallContactMs,
     /// Largest compression on a wall (mm).
     WallCompressionMm,

@@ -98,9 +98,9 @@ pub const BATS: &[(&str, &[&str])] = &[
 /// One bat solved for one tolerance: what was promised and what is true.
 #[derive(Debug, Clone)]
 pub struct CheckedBat {
-    /// Its name in the table.
+    /// Name of the bat in the table.
     pub bat: &'static str,
-    /// Relative, of every frequency.
+    /// Wanted relative accuracy of every frequency.
     pub tolerance: f64,
     /// How many modes were asked for.
     pub modes: usize,
@@ -117,13 +117,13 @@ pub struct CheckedBat {
     /// Largest true over stated error of any one frequency; a ratio of 3 is the limit. Where nothing
     /// is known it is 0.
     pub frequency_ratio: f64,
-    /// The same of the nodes.
+    /// Largest true over stated error of any one node; 0 where nothing is known.
     pub node_ratio: f64,
-    /// The same of the modal masses.
+    /// Largest true over stated error of any one modal mass; 0 where nothing is known.
     pub mass_ratio: f64,
     /// Modes whose true error is above 1e-13.
     pub visible: usize,
-    /// Those of the visible ones stated within 30 times the true error.
+    /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
 }
 
@@ -144,22 +144,22 @@ impl CheckedBat {
 /// The promise over several rows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Summary {
-    /// As in [`CheckedBat`], the worst of all.
+    /// Worst of the ratios of true to stated frequency error over all rows.
     pub frequency_ratio: f64,
-    /// The worst of the nodes.
+    /// Worst of the ratios of true to stated node error over all rows.
     pub node_ratio: f64,
-    /// The worst of the modal masses.
+    /// Worst of the ratios of true to stated modal mass error over all rows.
     pub mass_ratio: f64,
-    /// All visible errors.
+    /// Number of visible errors.
     pub visible: usize,
-    /// Those of them stated within 30 times.
+    /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
     /// Rows with an error beyond three times the stated one.
     pub broken: usize,
 }
 
 impl Summary {
-    /// Over those rows.
+    /// The summary of those rows.
     pub fn of(rows: &[CheckedBat]) -> Self {
         let worst = |ratio: fn(&CheckedBat) -> f64| rows.iter().map(ratio).fold(0.0, f64::max);
         Self {
@@ -264,7 +264,7 @@ fn node_ratio(mode: &Mode, exact: &[f64], length: f64) -> f64 {
     ratio(largest(off), mode.error.nodes, NODE_KNOWN_TO)
 }
 
-/// The maximum, for which a number that is none is as bad as can be.
+/// The maximum of the values, or infinity if one of them is NaN.
 pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(|v| if v.is_nan() { f64::INFINITY } else { v }).fold(0.0, f64::max)
 }

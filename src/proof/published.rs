@@ -14,11 +14,11 @@ use crate::proof::validation::{CASES, Case, Check, Kind, Known, KnownNumber, run
 /// A case with its rows, one for each check.
 #[derive(Debug)]
 pub struct Answer {
-    /// Its file in `validation/`, without the ending.
+    /// Name of the case: its file in `validation/`, without the ending.
     pub name: &'static str,
     /// The case.
     pub case: Case,
-    /// One for each check.
+    /// Rows, one for each check.
     pub rows: Vec<KnownNumber>,
 }
 

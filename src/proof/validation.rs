@@ -72,7 +72,7 @@ struct Solve {
     modes: usize,
     tolerance: Option<f64>,
     elements: Option<usize>,
-    /// A name; the plain beam if there is none.
+    /// Name of the beam theory; the plain beam if absent.
     theory: Option<String>,
 }
 
@@ -82,9 +82,9 @@ struct Solve {
 pub struct Check {
     /// What is known.
     pub quantity: Known,
-    /// Of which mode, from 1.
+    /// Number of the mode, from 1.
     pub mode: Option<usize>,
-    /// Of which of its nodes, from 1 at the knob.
+    /// Number of the node of that mode, from 1 at the knob.
     pub node: Option<usize>,
     /// Where a ball hits, or a force acts and its deflection is seen (m), and how fast it swings
     /// (Hz).
@@ -112,20 +112,20 @@ pub struct Check {
 pub enum Known {
     /// Natural frequency (Hz).
     FrequencyHz,
-    /// To the first frequency.
+    /// Ratio of a frequency to the first one.
     FrequencyRatio,
-    /// A node from the knob end (m).
+    /// Position of a node from the knob end (m).
     NodeM,
-    /// For a largest deflection of 1 (kg).
+    /// Modal mass for a largest deflection of 1 (kg).
     ModalMassKg,
     /// How fast a damped mode dies out and how fast it swings.
     #[serde(rename = "decay_1_per_s")]
     Decay,
     /// How fast a damped mode swings (Hz).
     DampedFrequencyHz,
-    /// Deflection per force at a frequency, with time as `e^{+iωt}`.
+    /// Real part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
     ReceptanceRealMPerN,
-    /// The same, imaginary part.
+    /// Imaginary part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
     ReceptanceImaginaryMPerN,
     /// Deflection after an impulse of 1 N s, by the rigid motions and the modes of the case.
     DeflectionAfterBlowM,
@@ -135,12 +135,12 @@ pub enum Known {
     BalancePointM,
     /// Moment of inertia about the balance point (kg m²).
     InertiaBalanceKgM2,
-    /// The same about the point 6 in from the knob (kg m²).
+    /// Moment of inertia about the point 6 in from the knob (kg m²).
     #[serde(rename = "inertia_pivot_kg_m2")]
     InertiaPivotKgM2,
-    /// For a pivot 6 in from the knob, from the knob end (m).
+    /// Centre of percussion for a pivot 6 in from the knob, from the knob end (m).
     CenterOfPercussionM,
-    /// Swing weight: about the point 6 in from the knob (oz in²).
+    /// Swing weight: moment of inertia about the point 6 in from the knob (oz in²).
     InertiaPivotOzIn2,
     /// Something of a hit.
     #[serde(untagged)]
@@ -166,7 +166,7 @@ pub struct KnownNumber {
     pub relative: bool,
     /// For information only: neither passed nor missed.
     pub information: bool,
-    /// Why the tolerance is what it is, or why there is none.
+    /// Why the tolerance is what it is, or why the check has no tolerance.
     pub note: Option<String>,
 }
 
@@ -181,8 +181,8 @@ impl KnownNumber {
         !self.information && !self.passes()
     }
 
-    /// The error in units of the tolerance. A missing value is infinitely far, not NaN, which a
-    /// maximum would pass over; what is for information is no distance at all.
+    /// The error in units of the tolerance. A missing value gives infinity, because a maximum would
+    /// drop NaN; a check for information gives 0.
     pub fn share(&self) -> f64 {
         let share = if self.information { 0.0 } else { self.error / self.tolerance };
         if share.is_nan() { f64::INFINITY } else { share }
@@ -354,13 +354,13 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
 pub struct Truth {
     /// The bat.
     pub bat: Bat,
-    /// By which theory.
+    /// Beam theory of the known numbers.
     pub theory: Theory,
-    /// Of mode 1, 2, … (Hz).
+    /// Frequencies of modes 1, 2, … (Hz).
     pub frequencies: Vec<f64>,
-    /// From the knob end (m), of the lowest modes; empty where they are not known.
+    /// Nodes of the lowest modes from the knob end (m); empty where they are not known.
     pub nodes: Vec<Vec<f64>>,
-    /// In kg, of the lowest modes, where they are known.
+    /// Modal masses of the lowest modes (kg), where they are known.
     pub modal_masses: Vec<Option<f64>>,
 }
 
@@ -369,7 +369,7 @@ impl Truth {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where there is no case of that name or its bat is none.
+    /// [`Error::Value`] for an unknown case, or one without a valid bat.
     pub fn of_cases(names: &[&str]) -> Result<Self> {
         let mut truth: Option<Self> = None;
         for name in names {
@@ -478,7 +478,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] if there is none of that name, and whatever its file raises.
+    /// [`Error::Value`] for an unknown name, and whatever its file raises.
     pub fn bat(&self) -> Result<Bat> {
         match &self.bat {
             Value::String(path) => bundled_bat(path),
@@ -500,7 +500,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where its theory is none.
+    /// [`Error::Value`] for an unknown theory.
     pub fn request(&self) -> Result<Request> {
         let known = |name: &String| Theory::ALL.into_iter().find(|theory| theory.name() == name);
         let theory = match &self.solve.theory {
@@ -678,7 +678,7 @@ mod tests {
                 let tolerances = [check.relative, check.absolute];
                 let given = tolerances.iter().flatten().filter(|t| **t > 0.0).count();
                 assert_eq!(given, usize::from(!check.information), "{name}: {check:?}");
-                // A reason to count is none not to, and the other way round.
+                // A case either counts or has a reason not to, never both.
                 assert!(check.note.is_some() || check.information == information, "{name}");
                 information = check.information;
             }

@@ -29,14 +29,14 @@ pub struct Task {
     pub proof: Request,
 }
 
-/// The same solver where the truth is known.
+/// Accuracy of the solver on the uniform dowel, where the truth is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proof {
-    /// So many modes of the uniform dowel.
+    /// Number of modes of the uniform dowel that were compared.
     pub modes: usize,
-    /// The largest relative error of a frequency.
+    /// The largest true relative error of a frequency.
     pub truth: f64,
-    /// The largest relative error that the solver states of them.
+    /// The largest relative error of a frequency that the solver states.
     pub stated: f64,
 }
 
@@ -45,7 +45,7 @@ pub struct Proof {
 pub struct Analysis {
     /// The bat that is analysed.
     pub bat: Bat,
-    /// Its bending modes.
+    /// Bending modes of the bat.
     pub solution: Solution,
     /// What was asked.
     pub task: Task,
@@ -53,10 +53,10 @@ pub struct Analysis {
     pub hits: Sweep,
     /// The figures by which bats are compared, and the sweet spot.
     pub figures: Figures,
-    /// What hits at the sweet spot and five inches inside of it ask of the bat; empty where the model
-    /// has no force in time.
+    /// What hits at the sweet spot and five inches closer to the handle ask of the bat; empty where
+    /// the model has no force in time.
     pub strength: Vec<Strength>,
-    /// The same solver on a dowel, whose frequencies are known.
+    /// Accuracy of the solver on a dowel, whose frequencies are known.
     pub proof: Proof,
     /// What the model needs; None for a bat of so many pieces that it would take long, and where
     /// there is none to give.
@@ -73,7 +73,7 @@ impl Analysis {
         Self::telling(bat, solution, task, &nobody)
     }
 
-    /// The same, telling how far it is.
+    /// Analyses a solved bat and tells how far the work has come.
     ///
     /// # Errors
     ///

@@ -16,9 +16,9 @@ use crate::modes::solve::{Request, Solution, solve};
 /// Relative change of a mode's frequency by effects that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shift {
-    /// By the sections' own rotary inertia.
+    /// Relative shift of the frequency by the sections' own rotary inertia.
     pub rotary_inertia: f64,
-    /// By shear, if the material's shear modulus is known.
+    /// Relative shift of the frequency by shear; None if the material's shear modulus is not known.
     pub shear: Option<f64>,
 }
 
@@ -66,8 +66,8 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
     }
 }
 
-/// The same of the lowest modes: of a bare bat by [`shift`], of any other by the theories
-/// themselves, solved to that tolerance.
+/// Frequency shifts of the lowest modes by rotary inertia and shear: of a bare bat by [`shift`], of any
+/// other by solving with each theory, to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
     match bat.fixtures.none_moving() {
@@ -76,7 +76,8 @@ pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     }
 }
 
-/// The same by the theories themselves, solved to that tolerance; None where one has no solution.
+/// Frequency shifts of the lowest modes by rotary inertia and shear, by solving with each theory to
+/// that tolerance; None where a solve fails.
 pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shift>> {
     let all = |theory| {
         let request = Request { modes, tolerance, theory, ..Request::default() };
@@ -163,7 +164,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         );
     }
     if bat.fixtures.grip.is_none() {
-        ignored.push("hands: nothing of them; a \"grip\" in the bat file puts them on".to_owned());
+        ignored.push("hands: not modelled (add a \"grip\" to the bat file)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
         Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),
@@ -178,7 +179,7 @@ pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
     const STRETCHES: usize = 200;
     let half = 0.5 * bat.length();
     let wall = |k: usize| {
-        // Between the stations too, and not at the tip, where a cap is no wall.
+        // Between the stations too, and not at the tip, where a cap is not a wall.
         let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
         let section = bat.profile.at(x);
         (section.inner > 0.0).then_some([section.outer - section.inner, x])

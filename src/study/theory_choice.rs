@@ -11,9 +11,9 @@ use crate::study::ignored::{Shift, shifts, solved_shifts, with_typical_shear};
 /// A theory, and what a person should know about the choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// The theory.
+    /// The chosen theory.
     pub theory: Theory,
-    /// That shear matters and is not known, if so.
+    /// A warning that shear matters but no shear modulus is known; None otherwise.
     pub warning: Option<String>,
 }
 

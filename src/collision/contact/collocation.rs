@@ -7,7 +7,7 @@ pub const POINTS: usize = 5;
 /// Lobatto's points in [0, 1] and the polynomials that are 1 at one of them and 0 at the others.
 #[derive(Debug, Clone)]
 pub struct Lobatto {
-    /// From 0 to 1.
+    /// Lobatto's points, from 0 to 1.
     pub at: [f64; POINTS],
     /// `[j][k]`: the coefficient of `s^k` in the polynomial of point j.
     pub powers: [[f64; POINTS]; POINTS],

@@ -43,15 +43,15 @@ use crate::collision::contact::touch::{Felt, State, Touch};
 /// What a meeting of ball and bat left behind.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Encounter {
-    /// `J` (N s).
+    /// Impulse `J` of all touches (N s).
     pub impulse: f64,
-    /// In touch, all touches together (s).
+    /// Contact time, all touches together (s).
     pub time: f64,
     /// When the ball leaves for good, since the first touch (s).
     pub end: f64,
-    /// When it leaves for the first time, since the first touch (s).
+    /// When the ball leaves for the first time, since the first touch (s).
     pub first_end: f64,
-    /// J of the first touch (N s).
+    /// Impulse of the first touch (N s).
     pub first_impulse: f64,
     /// How many times they touch.
     pub touches: usize,
@@ -249,7 +249,7 @@ struct Run {
     top: Option<Top>,
     /// The last step's compression.
     last: Option<Course>,
-    /// Of the next step.
+    /// Level of the next step, whose length is `longest/2^level`.
     level: usize,
     /// Whether the force has almost gone.
     faint: bool,
@@ -259,11 +259,11 @@ struct Run {
 
 /// What became of a step.
 enum Taken {
-    /// It is to be shorter.
+    /// The step failed and is repeated, shorter.
     Finer,
-    /// The next one follows.
+    /// The step is done and the next one follows.
     On,
-    /// It is the last: the ball has left, or its force has gone.
+    /// The step was the last: the ball has left, or its force has gone.
     Parted,
 }
 

@@ -10,9 +10,9 @@ use crate::collision::contact::touch::{State, Touch};
 pub enum Event {
     /// The compression is at its largest.
     Turned,
-    /// It is as large as its largest again.
+    /// The compression is as large as its largest again.
     Again,
-    /// It is gone.
+    /// The compression is back at 0.
     Gone,
 }
 

@@ -23,7 +23,7 @@ pub enum Landing {
     Parts,
     /// The ball is gone for good.
     Gone,
-    /// Nowhere yet, after as many looks as are taken.
+    /// The flight has no end within the number of looks that are taken.
     Open,
 }
 

@@ -119,7 +119,7 @@ impl ForceLaw {
         self.energy_of(x, self.force(x, top)[0], top)
     }
 
-    /// The same where the force (N) is known.
+    /// Energy stored and energy lost so far (J) at the compression `x` (m), from the force (N) there.
     #[inline(always)]
     pub fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2] {
         let (loading, unloading) = (1.0 / (1.0 + self.exponent), 1.0 / (1.0 + self.unloading));
@@ -142,7 +142,7 @@ impl ForceLaw {
     }
 
     /// The ball's part (m) of `x + C F(x) = whole` with a spring of that flexibility C (m/N), and the
-    /// force (N), from a guess of x; anything that is no guess is none.
+    /// force (N), by Newton's method from `guess` (m). A guess outside of 0 to `whole` is rejected.
     #[inline(always)]
     pub fn share(&self, whole: f64, flexibility: f64, top: Option<Top>, guess: f64) -> [f64; 2] {
         if flexibility == 0.0 || whole <= 0.0 {

@@ -46,7 +46,7 @@ pub struct StepTable {
     pub turns: Vec<f64>,
     /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, `[i][j][part][mode]`.
     pub kernels: Vec<f64>,
-    /// The same of the bump `s(1 − s)` over the whole step, `[part][mode]`.
+    /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part][mode]`.
     pub bump: Vec<f64>,
 }
 
@@ -106,11 +106,11 @@ impl StepTable {
 /// A step whose force is known at the points.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Step {
-    /// How long it is (s).
+    /// Length of the step (s).
     pub length: f64,
-    /// At the points (m).
+    /// Compression at the points (m).
     pub compression: [f64; POINTS],
-    /// At the points (N).
+    /// Force at the points (N).
     pub force: [f64; POINTS],
     /// The force as a polynomial of the time over the length.
     pub powers: [f64; POINTS],

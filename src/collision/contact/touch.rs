@@ -15,28 +15,28 @@ pub struct Felt {
     pub rest: f64,
 }
 
-/// One moment.
+/// Ball and bat at one moment of the contact.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Since the first touch (s).
+    /// Time since the first touch (s).
     pub time: f64,
     /// `b` of the bump `b s(1 − s)` on the force of the step that led here (N).
     pub bump: f64,
     /// Energy that is wrong and not put right yet (J).
     pub defect: f64,
-    /// `z` (m).
+    /// Approach `z` of the ball to the rigid bat (m).
     pub closing: f64,
-    /// `z′` (m/s).
+    /// Speed `z′` of the approach (m/s).
     pub speed: f64,
-    /// Real parts of every `v` (N s).
+    /// Real part of the memory `v` of every mode (N s).
     pub real: Vec<f64>,
-    /// Its imaginary parts (N s).
+    /// Imaginary part of the memory `v` of every mode (N s).
     pub imaginary: Vec<f64>,
-    /// Of the ball (m; not a number where it is still to be found).
+    /// Compression of the ball (m); NaN where it is still to be found.
     pub compression: f64,
-    /// Of the ball on the bat (N).
+    /// Force of the ball on the bat (N).
     pub force: f64,
-    /// J so far (N s).
+    /// Impulse so far (N s).
     pub impulse: f64,
     /// Energy the bat's damping has taken (J).
     pub lost: f64,
@@ -68,7 +68,7 @@ pub struct Touch<'a> {
     pub felt: &'a Felt,
     /// `c/ω_d` of every mode (s/kg).
     pub weights: Vec<f64>,
-    /// The same over ω_d once more (s²/kg), by which [`Self::in_mode`] makes energies of memories.
+    /// `c/ω_d²` of every mode (s²/kg), by which [`Self::in_mode`] makes energies of memories.
     pub masses: Vec<f64>,
     /// Whether any mode dies out.
     pub damped: bool,
@@ -106,7 +106,7 @@ impl Touch<'_> {
         state.closing - total(self.chunks(), |k, l| w[k][l] * im[k][l])
     }
 
-    /// Its rate (m/s).
+    /// Rate of [`Self::reach`] (m/s).
     #[inline(always)]
     pub fn rate(&self, state: &State) -> f64 {
         let [w, a, b] = [&self.weights, self.decay, self.swing].map(lanes);
@@ -115,7 +115,7 @@ impl Touch<'_> {
         state.speed - total(self.chunks(), part)
     }
 
-    /// `m_n (q′² + ω² q²)/2` (J).
+    /// Energy of mode n, `m_n (q′² + ω² q²)/2` (J).
     #[inline(always)]
     pub fn in_mode(&self, state: &State, n: usize) -> f64 {
         let (re, im) = (state.real[n], state.imaginary[n]);
@@ -123,7 +123,7 @@ impl Touch<'_> {
         0.5 * self.masses[n] * (rate * rate + self.square[n] * im * im)
     }
 
-    /// Of ball and bat, relative to their common motion, with what is lost (J).
+    /// Energy of ball and bat relative to their common motion, lost energy included (J).
     #[inline(always)]
     pub fn whole_energy(&self, state: &State, top: Option<Top>) -> f64 {
         let [stored, lost] = self.law.energy_of(state.compression, state.force, top);

@@ -9,7 +9,7 @@ use crate::files::document::Document;
 pub(crate) struct CellTable<'a> {
     document: &'a Document,
     pub header: CellRow,
-    /// Those below the header, as wide as it.
+    /// Rows below the header, each as wide as the header.
     pub rows: Vec<CellRow>,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct CellRow {
 }
 
 impl<'a> CellTable<'a> {
-    /// Takes the text apart; rows of nothing and comments are passed over.
+    /// Splits the text into cells; empty rows and comments are skipped.
     pub fn new(document: &'a Document) -> Result<Self> {
         let reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -36,7 +36,7 @@ impl<'a> CellTable<'a> {
             let byte = record.position().map_or(0, |p| p.byte() as usize);
             let offset = row_start(&document.text, byte);
             let cells: Vec<String> = record.iter().map(str::to_owned).collect();
-            // Spreadsheets leave lines of nothing but commas.
+            // Spreadsheets leave lines that hold only commas.
             if cells.iter().any(|cell| !cell.is_empty()) {
                 rows.push(CellRow { offset, cells });
             }

@@ -29,7 +29,7 @@ pub fn axis(at: &[Vector]) -> Vector {
     positive(axis)
 }
 
-/// The same or the opposite direction, the one with its largest part positive.
+/// This direction or its opposite, whichever has its largest component positive.
 pub fn positive(direction: Vector) -> Vector {
     let larger = |most: f64, v: f64| if v.abs() > most.abs() { v } else { most };
     let largest = direction.into_iter().fold(0.0, larger);

@@ -42,9 +42,9 @@ pub fn read(path: &Path) -> Result<Measured> {
     Ok(measured.sorted())
 }
 
-/// Hz
+/// Highest frequency that a table may have (Hz).
 const HIGHEST: f64 = 1e6;
-/// What a number without a meaning of its own may be.
+/// Range of a number that has no meaning of its own.
 const ANY: [f64; 2] = [-1e100, 1e100];
 
 /// Shapes: points downwards, modes side by side.

@@ -188,7 +188,7 @@ impl Shape<'_> {
                 "a deflection, in whatever unit",
             )),
             _ if !self.data.values.iter().any(|(_, values)| moves(values)) => Some((
-                format!("a shape at {frequency} Hz that is nothing but 0"),
+                format!("a shape at {frequency} Hz with every value 0"),
                 "a shape that moves somewhere",
             )),
             _ => None,

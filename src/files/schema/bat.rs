@@ -46,13 +46,13 @@ pub struct BatFile {
     pub regions: Option<Vec<Region>>,
     /// Weights and springs to ground.
     pub attachments: Option<Vec<Attachment>>,
-    /// Bat tape: mass that bears nothing.
+    /// Bat tape: mass without stiffness.
     pub tapes: Option<Vec<Tape>>,
     /// Masses that hang on springs.
     pub absorbers: Option<Vec<Absorber>>,
     /// Places that give way to bending, one joint at one place.
     pub joints: Option<Vec<Joint>>,
-    /// Places that are held, one support at one place; none is a free bat.
+    /// Places that are held, one support at one place; without supports the bat is free.
     pub supports: Option<Vec<Support>>,
     /// Hands that hold the bat as an elastic bed.
     pub grip: Option<Grip>,
@@ -153,17 +153,17 @@ pub enum Interpolation {
 pub struct Piece {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it begins.
+    /// Where the piece begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub from: Amount,
-    /// Where it ends.
+    /// Where the piece ends.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub to: Amount,
     /// Outer radius in m as a formula of x in m: + - * / ^ **, pi, sin cos tan exp log sqrt tanh abs
     /// min max.
     #[schemars(example = &"0.0125 + 0.02*x")]
     pub formula: String,
-    /// Inner radius in the same way; solid without it.
+    /// Inner radius in m as a formula of x in m; solid without it.
     pub inner_formula: Option<String>,
 }
 
@@ -182,7 +182,7 @@ pub struct Weighed {
     /// Mass with everything attached.
     #[schemars(transform = Measures(Quantity::Mass), extend("exclusiveMinimum" = 0))]
     pub mass: Option<Amount>,
-    /// From the knob end.
+    /// Distance of the balance point from the knob end.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub balance_point: Option<Amount>,
     /// First bending frequency of the bat as described here.

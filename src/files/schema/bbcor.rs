@@ -19,9 +19,9 @@ pub struct BbcorFile {
     pub generator: Generator,
     /// What the bat is called.
     pub bat_name: String,
-    /// Never: what is computed is no certificate.
+    /// Always false: a computed value is no certificate.
     pub certified: bool,
-    /// What was done.
+    /// The test: what was shot at the bat, and how it was held.
     pub protocol: Protocol,
     /// The scan, from the knob towards the tip.
     pub places: Vec<Place>,
@@ -33,7 +33,7 @@ pub struct BbcorFile {
     pub within_limit: Option<bool>,
     /// Whether every place is as accurate as was asked.
     pub tolerance_met: bool,
-    /// What was left out, and what that does.
+    /// Effects that were left out, and what they do.
     pub ignored: Vec<String>,
 }
 
@@ -51,17 +51,17 @@ pub enum BbcorFormat {
 pub struct Protocol {
     /// The pivot about which the bat turns (m).
     pub pivot_m: f64,
-    /// Moment of inertia of the bat about it (kg m²).
+    /// Moment of inertia of the bat about the pivot (kg m²).
     pub inertia_pivot_kg_m2: f64,
     /// Speed of the ball (m/s).
     pub ball_speed_m_s: f64,
-    /// From one place to the next (m).
+    /// Distance from one place to the next (m).
     pub step_m: f64,
     /// The ball, with its force law and its restitution.
     pub ball: Ball,
-    /// Its coefficient of restitution at the test speed, unless the ball's own depends on the speed.
+    /// Coefficient of restitution of the ball at the test speed, unless its own depends on the speed.
     pub cor: f64,
-    /// Where that is from.
+    /// Where the coefficient of restitution is from.
     pub cor_source: String,
     /// Where the limit is from.
     pub limit_source: String,
@@ -72,13 +72,13 @@ pub struct Protocol {
 pub struct Place {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
-    /// Distance of that from the tip (m).
+    /// Distance of the impact point from the tip (m).
     pub from_tip_m: f64,
     /// Speed of the ball off the bat (m/s), negative where it follows through.
     pub exit_speed_m_s: Option<f64>,
-    /// e_A, the speed off the bat over the speed onto it.
+    /// Collision efficiency e_A, the speed off the bat over the speed onto it.
     pub collision_efficiency: Option<f64>,
-    /// e_A (1 + r) + r, with r = m Q²/I about the pivot.
+    /// BBCOR, e_A (1 + r) + r with r = m Q²/I about the pivot.
     pub bbcor: Option<f64>,
     /// What is unusual in the hit, as in a hit file.
     pub flags: Vec<String>,
@@ -89,9 +89,9 @@ pub struct Place {
 /// Estimated errors of a place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PlaceError {
-    /// Of the exit speed (m/s).
+    /// Error of the exit speed (m/s).
     pub exit_speed_m_s: Option<f64>,
-    /// Of BBCOR.
+    /// Error of BBCOR.
     pub bbcor: Option<f64>,
 }
 

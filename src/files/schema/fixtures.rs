@@ -15,10 +15,10 @@ use crate::files::schema::resolved::Held;
 pub struct Region {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it begins.
+    /// Where the region begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub from: Amount,
-    /// Where it ends.
+    /// Where the region ends.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub to: Amount,
     /// What the wall is made of; the bat's own material without it.
@@ -47,17 +47,17 @@ fn whole() -> Value {
 pub struct Attachment {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it is fixed.
+    /// Where the attachment is fixed.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
-    /// How heavy it is, as a point at `x` and `offset`.
+    /// Mass of the attachment, as a point at `x` and `offset`.
     #[schemars(transform = Measures(Quantity::Mass), example = &"1 oz")]
     #[schemars(extend("minimum" = 0, "maximum" = 1e8))]
     pub mass: Option<Amount>,
     /// How far beyond `x`, towards the barrel, the centre of the mass is.
     #[schemars(transform = Measures(Quantity::Length), example = &"0.5 in")]
     pub offset: Option<Amount>,
-    /// About its own centre.
+    /// Moment of inertia of the mass about its own centre.
     #[schemars(transform = Measures(Quantity::Inertia), example = &"0.5 oz in^2")]
     #[schemars(extend("minimum" = 0, "maximum" = 1e8))]
     pub rotary_inertia: Option<Amount>,
@@ -77,13 +77,13 @@ pub struct Attachment {
 pub struct Tape {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it begins.
+    /// Where the tape begins.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub from: Amount,
-    /// Where it ends.
+    /// Where the tape ends.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub to: Amount,
-    /// Of the whole.
+    /// Mass of the whole tape.
     #[schemars(transform = Measures(Quantity::Mass), example = &"0.7 oz")]
     #[schemars(extend("minimum" = 0, "maximum" = 1e8))]
     pub mass: Amount,
@@ -96,21 +96,21 @@ pub struct Tape {
 pub struct Absorber {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it hangs.
+    /// Where the absorber hangs.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
-    /// How heavy what swings is.
+    /// Mass that swings on the spring.
     #[schemars(transform = Measures(Quantity::Mass), example = &"1 oz")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1e8))]
     pub mass: Amount,
-    /// Of its spring.
+    /// Stiffness of the spring.
     #[schemars(transform = Measures(Quantity::Stiffness))]
     #[schemars(extend("minimum" = 1e-12, "exclusiveMaximum" = 1e100))]
     pub stiffness: Option<Amount>,
-    /// How fast it swings alone, in place of the stiffness.
+    /// Frequency of the absorber on a fixed bat, in place of the stiffness.
     #[schemars(transform = Measures(Quantity::Frequency), extend("exclusiveMinimum" = 0))]
     pub frequency: Option<Amount>,
-    /// Of its dashpot.
+    /// Damping constant of the dashpot.
     #[schemars(transform = Measures(Quantity::Damping))]
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1e100))]
     pub damping: Option<Amount>,
@@ -122,7 +122,7 @@ pub struct Absorber {
 pub struct Joint {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it gives way.
+    /// Where the joint is.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub x: Amount,
     /// Bending moment per angle between both sides.
@@ -137,10 +137,10 @@ pub struct Joint {
 pub struct Support {
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
-    /// Where it is held.
+    /// Where the support is.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub x: Amount,
-    /// pinned: it does not move but may turn; clamped: neither.
+    /// pinned: the bat does not move there but may turn; clamped: neither.
     #[schemars(rename = "type")]
     pub kind: Held,
 }
@@ -155,7 +155,7 @@ pub struct Grip {
     /// Where the hands begin.
     #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
     pub from: Amount,
-    /// Where they end.
+    /// Where the hands end.
     #[schemars(transform = Measures(Quantity::Length), extend("exclusiveMinimum" = 0))]
     pub to: Amount,
     /// Force per deflection and per length: 0, or 1e-12 N/m^2 and more.

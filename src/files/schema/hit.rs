@@ -20,11 +20,11 @@ pub struct HitFile {
     pub model: String,
     /// How the bat is swung, and what ball it meets.
     pub scene: Scene,
-    /// As many as places were asked for, in their order.
+    /// Impacts, one for each place that was asked for, in the order of the places.
     pub impacts: Vec<Impact>,
     /// The sweet spot of this scene, by each of its definitions.
     pub sweet_spot: SweetSpot,
-    /// What was left out of these hits, and what that does; empty where nothing is known to be.
+    /// Effects that were left out of these hits, and what they do; empty where none is known.
     #[serde(default)]
     pub ignored: Vec<String>,
     /// The figures by which bats are compared; left out where they were not asked for.
@@ -69,7 +69,7 @@ pub struct Scene {
 pub struct Ball {
     /// What the ball is called.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the ball come from.
     pub source: String,
     /// Mass (kg).
     pub mass_kg: f64,
@@ -77,11 +77,11 @@ pub struct Ball {
     pub radius_m: f64,
     /// Stiffness (N/m^exponent); null where no force law is known.
     pub stiffness: Option<f64>,
-    /// Exponent of the force law; null where none is known.
+    /// Exponent of the force law; null where no force law is known.
     pub exponent: Option<f64>,
     /// Coefficient of restitution on a rigid wall.
     pub cor: f64,
-    /// The same by speed: pairs of a speed (m/s) and the restitution at it, rising.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cor_by_speed: Vec<[f64; 2]>,
 }
@@ -101,42 +101,42 @@ pub struct Wall {
 pub struct Impact {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
-    /// The same from the tip (m).
+    /// Distance of the impact point from the tip (m).
     pub from_tip_m: f64,
-    /// Speed of the bat there before the hit (m/s).
+    /// Speed of the bat at the impact point before the hit (m/s).
     pub bat_speed_m_s: f64,
     /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed_m_s: Option<f64>,
-    /// The same if the bat did not bend (m/s).
+    /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Option<f64>,
     /// Coefficient of restitution of this hit.
     pub cor: Option<f64>,
     /// Impulse (N s).
     pub impulse_n_s: Option<f64>,
-    /// Time in touch (s), all touches together, where the model has it.
+    /// Contact time (s), all touches together, where the model has one.
     pub contact_time_s: Option<f64>,
     /// The ball's first departure, where the model has times; the ball may be caught again.
     #[serde(default)]
     pub first_separation: Option<FirstSeparation>,
-    /// Largest force (N), where the model has it.
+    /// Largest force (N), where the model has one.
     pub peak_force_n: Option<f64>,
-    /// Largest compression of the ball (m), where the model has it.
+    /// Largest compression of the ball (m), where the model has one.
     #[serde(default)]
     pub peak_compression_m: Option<f64>,
-    /// e_A = (v_out − V)/(v_in + V), V the bat's speed there.
+    /// Collision efficiency e_A = (v_out − V)/(v_in + V), V the bat's speed at the impact point.
     pub collision_efficiency: Option<f64>,
     /// Bat-ball coefficient of restitution of the free bat: e_A (1 + r) + r, r the ball's mass over
     /// the bat's effective mass there.
     pub bbcor: Option<f64>,
-    /// The same of a bat held 6 in from the knob.
+    /// Bat-ball coefficient of restitution of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
-    /// How many bending modes took part.
+    /// Number of bending modes that took part.
     pub modes_used: Option<usize>,
-    /// Why there is no outcome: no_contact, no_section, no_real_solution, unresolved (the steps came
-    /// to no end, or the energies do not close). Or what makes it delicate: reload (the ball was
+    /// Why the impact has no outcome: no_contact, no_section, no_real_solution, unresolved (the steps
+    /// came to no end, or the energies do not close). Or what makes it delicate: reload (the ball was
     /// pressed further after it had begun to spring back), late_contact (the bat caught up when the
     /// force had almost gone), second_contact (the bat caught the ball again after it left; it is
-    /// followed). There may come others.
+    /// followed). Later versions may have more.
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
     pub energy_j: Option<Energy>,
@@ -147,33 +147,33 @@ pub struct Impact {
 /// The moment at which the ball leaves the bat for the first time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FirstSeparation {
-    /// Since the first touch (s).
+    /// Time since the first touch (s).
     pub time_s: f64,
-    /// Speed of the ball then (m/s).
+    /// Speed of the ball at that moment (m/s).
     pub exit_speed_m_s: f64,
 }
 
 /// Energies (J): the initial one is the sum of all others, each computed on its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Energy {
-    /// Of ball and bat before the hit (J).
+    /// Energy of ball and bat before the hit (J).
     pub initial: f64,
-    /// Of the ball after it (J).
+    /// Energy of the ball after the hit (J).
     pub ball: f64,
-    /// Of the bat's rigid motion after it (J).
+    /// Energy of the bat's rigid motion after the hit (J).
     pub bat_rigid: f64,
-    /// Of all bending modes (J).
+    /// Energy of all bending modes after the hit (J).
     pub vibration: f64,
-    /// Of each of them (J).
+    /// Energy of each bending mode after the hit (J).
     pub vibration_by_mode: Vec<f64>,
-    /// Lost in the ball (J).
+    /// Energy lost in the ball (J).
     pub dissipated_ball: f64,
-    /// Lost in the bat's own damping (J).
+    /// Energy lost in the bat's own damping (J).
     pub dissipated_damping: f64,
-    /// Left in the barrel's wall (J), where it gives way.
+    /// Energy left in the barrel's wall (J), where it gives way.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wall: f64,
-    /// What the model created (−) or lost sight of (+) (J).
+    /// Energy that the model created (−) or failed to account for (+) (J).
     pub imbalance: f64,
 }
 
@@ -185,7 +185,7 @@ fn is_zero(value: &f64) -> bool {
 /// Estimated errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HitError {
-    /// Of the exit speed, relative to the closing speed.
+    /// Error of the exit speed, relative to the closing speed.
     pub exit_speed: Option<f64>,
 }
 
@@ -225,23 +225,23 @@ pub struct SweetSpot {
 /// The figures by which bats are compared, computed from this model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Figures {
-    /// Never: these are no certificate of any standard.
+    /// Always false: these figures are no certificate of any standard.
     pub certified: bool,
     /// Exit speed at the sweet spot (m/s).
     pub bat_ball_speed_m_s: Option<f64>,
-    /// Collision efficiency there.
+    /// Collision efficiency at the sweet spot.
     pub collision_efficiency: Option<f64>,
-    /// BBCOR there, of the free bat.
+    /// BBCOR at the sweet spot, of the free bat.
     pub bbcor: Option<f64>,
-    /// BBCOR there, of a bat held 6 in from the knob.
+    /// BBCOR at the sweet spot, of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
     /// Largest BBCOR of the outer half, of the free bat.
     pub bbcor_max: Option<Peak>,
     /// Largest BBCOR of the outer half, of a bat held 6 in from the knob.
     pub bbcor_pivoted_max: Option<Peak>,
-    /// Where the same bat would be best if it did not bend, and its exit speed there (m/s).
+    /// Place and exit speed (m/s) of the fastest ball if the bat did not bend.
     pub rigid_exit_speed_max: Option<Peak>,
-    /// The same batter with this bat, by several laws of swing; empty without a reference inertia.
+    /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
     /// The sweet spot of scenes that differ in one thing each.
     pub moves: Vec<Moved>,
@@ -250,20 +250,20 @@ pub struct Figures {
 /// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Swung {
-    /// 0 for the same angular speed, 0.5 for the same energy.
+    /// Exponent of the law: 0 for the same angular speed, 0.5 for the same energy.
     pub exponent: f64,
-    /// The swing of this bat (rad/s).
+    /// Angular speed of the swing with this bat (rad/s).
     pub swing_rad_s: f64,
-    /// Where the ball leaves fastest (m/s).
+    /// Place and exit speed (m/s) of the fastest ball.
     pub exit_speed_max: Option<Peak>,
 }
 
 /// The sweet spot of another scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Moved {
-    /// The sweet spot where that is different.
+    /// Sweet spot of the changed scene.
     #[serde(flatten)]
     pub sweet_spot: SweetSpot,
-    /// What is different there, in words.
+    /// What differs in the scene, in words.
     pub change: String,
 }

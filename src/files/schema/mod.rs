@@ -3,7 +3,7 @@
 //! The documents that are written, [`modes::ModesFile`], [`hit::HitFile`] and
 //! [`bbcor::BbcorFile`], are these types themselves. They may grow: who reads them passes over members he does not know. The file that
 //! is read, [`bat::BatFile`], has no members but its own, as its reader. A document whose name ends
-//! in another number than `/1` is none of them.
+//! in another number than `/1` fits none of these types.
 //!
 //! # Source
 //!

@@ -61,11 +61,11 @@ impl Generator {
 /// everything attached, as a pendulum measures them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Summary {
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub length_m: f64,
     /// Mass (kg) with everything attached.
     pub mass_kg: f64,
-    /// Centre of mass (m).
+    /// Distance of the centre of mass from the knob end (m).
     pub balance_point_m: f64,
     /// Moment of inertia about the balance point (kg m²).
     pub inertia_balance_kg_m2: f64,
@@ -75,7 +75,7 @@ pub struct Summary {
     pub inertia_pivot_kg_m2: f64,
     /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
     pub center_of_percussion_m: Option<f64>,
-    /// What the weighed and tapped values changed; only of a bat of which something was.
+    /// What the weighed and tapped values changed; absent for a bat without such values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<WeighedFactors>,
 }
@@ -83,14 +83,14 @@ pub struct Summary {
 /// What came of what was weighed and tapped; only of a bat of which something was.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WeighedFactors {
-    /// By how much the weighed mass made all densities larger.
+    /// Factor on all densities that the weighed mass led to.
     pub density_factor: f64,
-    /// By how much the tapped frequency made all moduli larger.
+    /// Factor on all moduli that the tapped frequency led to.
     pub modulus_factor: f64,
     /// The balance point that was measured (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub balance_point_m: Option<f64>,
-    /// The computed balance point less that one (m).
+    /// Computed balance point less the measured one (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub balance_point_difference_m: Option<f64>,
 }
@@ -103,7 +103,7 @@ pub struct Model {
     pub theory: String,
     /// Number of finite elements.
     pub elements: usize,
-    /// Degree of the deflection in each.
+    /// Degree of the deflection in each element.
     pub degree: usize,
     /// How the eigenvalues were found.
     #[schemars(extend("enum" = ["statics", "dense", "shift-invert", "arpack"]))]
@@ -118,7 +118,7 @@ pub struct Model {
     pub tolerance_met: bool,
     /// Whether it is certain that no mode is missing from the list.
     pub no_mode_missing: bool,
-    /// What was left out and what it costs, a sentence each.
+    /// Effects that were left out and what they cost, a sentence each.
     pub ignored: Vec<String>,
     /// How the damping was found; only of a damped bat.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,7 +128,7 @@ pub struct Model {
 /// How the damping was found; only of a damped bat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Damping {
-    /// In words.
+    /// How the damping was found, in words.
     pub method: String,
     /// Decay rates (1/s) of rigid motions that only dashpots hold.
     pub rigid_decay_1_per_s: Vec<f64>,
@@ -138,12 +138,12 @@ pub struct Damping {
 /// barrel end, or at the knob end if the barrel end is at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Mode {
-    /// From 1.
+    /// Number of the mode, from 1.
     #[schemars(range(min = 1))]
     pub order: usize,
     /// Undamped natural frequency (Hz).
     pub frequency_hz: f64,
-    /// The same as angular frequency (rad/s).
+    /// Undamped natural angular frequency (rad/s).
     pub omega_rad_s: f64,
     /// Damping ratio, half the loss factor; 0 without damping.
     pub damping_ratio: f64,
@@ -163,28 +163,28 @@ pub struct Mode {
 /// Estimated errors; null where none could be made. Those of the frequency are relative to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModeError {
-    /// Of the frequency, by the finite elements.
+    /// Relative error of the frequency, by the finite elements.
     pub discretization: Option<f64>,
-    /// Of the frequency, by arithmetic.
+    /// Relative error of the frequency, by arithmetic.
     pub round_off: Option<f64>,
-    /// Of the eigenpair, relative.
+    /// Relative residual of the eigenpair.
     pub residual: Option<f64>,
-    /// Of a node's position (m).
+    /// Error of a node's position (m).
     pub nodes_m: Option<f64>,
-    /// Of the modal mass, relative.
+    /// Relative error of the modal mass.
     pub modal_mass: Option<f64>,
-    /// Of the shape, where its largest deflection is 1.
+    /// Error of the shape, where its largest deflection is 1.
     pub shape: Option<f64>,
 }
 
 /// Samples of a shape; as many places as deflections and rotations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Shape {
-    /// Places (m).
+    /// Places at which the shape is sampled (m).
     pub x_m: Vec<f64>,
-    /// Deflection there, 1 at the largest.
+    /// Deflection at each place, 1 at the largest.
     pub deflection: Vec<f64>,
-    /// Rotation of the section there (rad per m of deflection).
+    /// Rotation of the section at each place (rad per m of deflection).
     pub rotation: Vec<f64>,
 }
 
@@ -193,17 +193,17 @@ pub struct Shape {
 pub struct Damped {
     /// Modulus of the damped motion's pole (Hz).
     pub natural_frequency_hz: f64,
-    /// How fast it swings (Hz).
+    /// Frequency of the damped motion (Hz).
     pub damped_frequency_hz: f64,
-    /// Rate at which its amplitude falls (1/s).
+    /// Rate at which the amplitude falls (1/s).
     pub decay_1_per_s: f64,
     /// Twice the damping ratio.
     pub loss_factor: f64,
     /// Sharpness of the resonance, 1/(2 ratio); null without damping.
     pub q_half_power: Option<f64>,
-    /// As papers on bats count it, 1/ratio; null without damping.
+    /// Quality factor as papers on bats count it, 1/ratio; null without damping.
     pub q_amplitude: Option<f64>,
-    /// The part of the ratio that is the materials'.
+    /// Part of the damping ratio that comes from the materials.
     pub material_damping_ratio: f64,
     /// Whether it is a complex mode, not one mode by itself.
     pub complex: bool,
@@ -214,10 +214,10 @@ pub struct Damped {
 /// Where the time went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Timing {
-    /// Planning (s).
+    /// Time for planning (s).
     pub plan_s: f64,
-    /// Assembling (s).
+    /// Time for assembling (s).
     pub assemble_s: f64,
-    /// Solving (s).
+    /// Time for solving (s).
     pub solve_s: f64,
 }

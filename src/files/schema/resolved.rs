@@ -11,9 +11,9 @@ pub struct ResolvedBat {
     pub format: BatFormat,
     /// What the bat is called.
     pub name: String,
-    /// Where its numbers come from.
+    /// Where the numbers of the bat come from.
     pub source: String,
-    /// What it is made of where no region says otherwise.
+    /// What the bat is made of where no region says otherwise.
     pub material: Material,
     /// Outer and inner radius along the bat.
     pub profile: Profile,
@@ -23,7 +23,7 @@ pub struct ResolvedBat {
     /// Weights and springs to ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attachments: Vec<Attachment>,
-    /// Mass that is spread and bears nothing.
+    /// Bat tape: mass without stiffness.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tapes: Vec<Tape>,
     /// Masses that hang on springs.
@@ -38,7 +38,7 @@ pub struct ResolvedBat {
     /// Hands that hold the bat as an elastic bed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip: Option<Grip>,
-    /// What a scale and a tap said of it.
+    /// Mass, balance point and first frequency as they were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<Weighed>,
 }
@@ -97,7 +97,7 @@ pub struct Columns {
     pub unit: String,
     /// Positions (m). Equal neighbours are a step: the value to its left, then to its right.
     pub x: Vec<f64>,
-    /// Outer radius (m) at each of them.
+    /// Outer radius (m) at each position.
     pub radius: Vec<f64>,
     /// Radius of the bore (m); without it the bat is solid.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -120,7 +120,7 @@ pub enum Interpolation {
 pub struct Pieces {
     /// The end from which the formulas' `x` counts.
     pub measured_from: End,
-    /// One after the other.
+    /// Formulas, one piece after the other.
     pub pieces: Vec<Piece>,
 }
 
@@ -129,18 +129,18 @@ pub struct Pieces {
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
 pub enum End {
-    /// From the knob end to the tip.
+    /// `x` counts from the knob end to the tip.
     Knob,
-    /// From the tip to the knob end.
+    /// `x` counts from the tip to the knob end.
     Tip,
 }
 
 /// A stretch whose radii are formulas.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Piece {
-    /// Where it begins (m).
+    /// Where the piece begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the piece ends (m).
     pub to: f64,
     /// Outer radius in m of x in m.
     pub formula: String,
@@ -152,9 +152,9 @@ pub struct Piece {
 /// A stretch of other materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Region {
-    /// Where it begins (m).
+    /// Where the region begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the region ends (m).
     pub to: f64,
     /// What the wall is made of.
     pub material: Material,
@@ -166,11 +166,11 @@ pub struct Region {
 /// A point mass and springs to ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Attachment {
-    /// Where it is fixed (m).
+    /// Where the attachment is fixed (m).
     pub x: f64,
-    /// Mass (kg).
+    /// Mass of the attachment (kg).
     pub mass: f64,
-    /// Moment of inertia about its own centre (kg m²).
+    /// Moment of inertia of the mass about its own centre (kg m²).
     pub rotary_inertia: f64,
     /// How far beyond `x`, towards the barrel, the centre of the mass is (m).
     pub offset: f64,
@@ -183,20 +183,20 @@ pub struct Attachment {
 /// A mass spread evenly on a stretch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Tape {
-    /// Where it begins (m).
+    /// Where the tape begins (m).
     pub from: f64,
-    /// Where it ends (m).
+    /// Where the tape ends (m).
     pub to: f64,
-    /// Mass of the whole (kg).
+    /// Mass of the whole tape (kg).
     pub mass: f64,
 }
 
 /// A mass on a spring and a dashpot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Absorber {
-    /// Where it hangs (m).
+    /// Where the absorber hangs (m).
     pub x: f64,
-    /// Mass (kg).
+    /// Mass that swings on the spring (kg).
     pub mass: f64,
     /// Stiffness of the spring (N/m).
     pub stiffness: f64,
@@ -207,7 +207,7 @@ pub struct Absorber {
 /// A place that gives way to bending.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Joint {
-    /// Where it is (m).
+    /// Where the joint is (m).
     pub x: f64,
     /// Bending moment per angle between both sides (N m/rad).
     pub rotational_stiffness: f64,
@@ -216,9 +216,9 @@ pub struct Joint {
 /// A place that is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Support {
-    /// Where (m).
+    /// Where the support is (m).
     pub x: f64,
-    /// What is held there.
+    /// What the support holds.
     #[serde(rename = "type")]
     pub kind: Held,
 }
@@ -228,18 +228,18 @@ pub struct Support {
 #[serde(rename_all = "lowercase")]
 #[schemars(inline)]
 pub enum Held {
-    /// It does not move but may turn.
+    /// The bat does not move at the support but may turn.
     Pinned,
-    /// It neither moves nor turns.
+    /// The bat neither moves nor turns at the support.
     Clamped,
 }
 
 /// Hands as an elastic bed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grip {
-    /// Where they begin (m).
+    /// Where the hands begin (m).
     pub from: f64,
-    /// Where they end (m).
+    /// Where the hands end (m).
     pub to: f64,
     /// Force per deflection and per length (N/m²).
     pub stiffness: f64,

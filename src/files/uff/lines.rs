@@ -47,7 +47,7 @@ impl<'a> Lines<'a> {
         Some(line)
     }
 
-    /// The next line, which must be there and be no fence.
+    /// The next line, which must exist and must not be a fence.
     pub fn record(&mut self, what: &str) -> Result<Line<'a>> {
         match self.peek() {
             Some(line) if line.is_fence() => Err(line.wrong("the end of the dataset", what)),
@@ -59,7 +59,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line of text, which may be any but a fence in its very columns; none if there is no such.
+    /// A line of text: any line but a fence in its exact columns; None at a fence and at the end.
     pub fn text(&mut self) -> Option<Line<'a>> {
         self.peek().filter(|line| line.bytes.trim_ascii_end() != b"    -1")?;
         self.next()

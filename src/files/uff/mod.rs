@@ -56,7 +56,7 @@ pub type Complex = [f64; 2];
 /// A universal file that was read, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Universal {
-    /// In the order of the file.
+    /// Datasets, in the order of the file.
     pub datasets: Vec<Dataset>,
     /// Datasets that this module does not know.
     pub skipped: Vec<Skipped>,
@@ -114,22 +114,22 @@ pub struct Header {
 /// Dataset 2411, or 15 with six digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nodes {
-    /// In the order of the file.
+    /// Nodes, in the order of the file.
     pub nodes: Vec<Node>,
-    /// 15 in place of 2411: obsolete, and the one that older programs read.
+    /// Whether this is dataset 15, obsolete and read by older programs, in place of 2411.
     pub legacy: bool,
 }
 
 /// A node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Node {
-    /// Its number, by which the other datasets name it.
+    /// Number of the node, by which other datasets name it.
     pub label: i64,
     /// Coordinate system in which `at` is given and that of displacements; 0 is the global one.
     pub systems: [i64; 2],
     /// Number of a colour; programs differ in which.
     pub color: i64,
-    /// Where it is (m).
+    /// Position of the node (m).
     pub at: [f64; 3],
 }
 
@@ -163,7 +163,7 @@ impl TraceLine {
 pub struct NodalData {
     /// Five lines of text.
     pub ids: [String; 5],
-    /// 0 unknown, 1 structural.
+    /// Type of the model: 0 unknown, 1 structural.
     pub model: i64,
     /// Of which mode, frequency or step the values are.
     pub analysis: Analysis,
@@ -197,9 +197,10 @@ pub enum Analysis {
         load_case: i64,
         /// Number of the mode.
         mode: i64,
-        /// Hz.
+        /// Frequency (Hz).
         frequency: f64,
-        /// Of the shape as it stands in the file (kg m², or kg where displacements are numbers).
+        /// Modal mass of the shape as it stands in the file (kg m², or kg where displacements are
+        /// numbers).
         modal_mass: f64,
         /// Damping ratio of dashpots.
         viscous: f64,
@@ -214,7 +215,7 @@ pub enum Analysis {
         load_case: i64,
         /// Number of the mode.
         mode: i64,
-        /// rad/s.
+        /// Eigenvalue (rad/s).
         eigenvalue: Complex,
         /// Modal A of the state space, as it stands in the file but for units.
         modal_a: Complex,
@@ -227,16 +228,16 @@ pub enum Analysis {
         load_case: i64,
         /// Number of the frequency.
         step: i64,
-        /// Hz.
+        /// Frequency (Hz).
         frequency: f64,
     },
     /// Any other type: its integers and reals as they stand.
     Other {
         /// Number of the type.
         kind: i64,
-        /// Its integers, the load case first.
+        /// Integers of the record, the load case first.
         integers: Vec<i64>,
-        /// Its reals.
+        /// Reals of the record.
         reals: Vec<f64>,
     },
 }
@@ -261,11 +262,11 @@ pub struct Function {
     pub reference: Dof,
     /// Where its values are, such as frequencies (Hz) or times (s).
     pub abscissa: Abscissa,
-    /// As many as the abscissa has places.
+    /// Values, as many as the abscissa has places.
     pub values: Values,
-    /// Values in 13 digits, else in six.
+    /// Whether values have 13 digits in the file, else six.
     pub double: bool,
-    /// Of the third axis.
+    /// Value on the third axis.
     pub z: f64,
     /// Abscissa, ordinate (numerator), denominator of the ordinate, third axis.
     pub axes: [Axis; 4],
@@ -289,7 +290,7 @@ pub enum Abscissa {
     Even {
         /// The first place, in the unit of its axis.
         start: f64,
-        /// From one place to the next.
+        /// Distance from one place to the next, in the unit of the axis.
         step: f64,
     },
     /// Each place by itself.
@@ -297,7 +298,7 @@ pub enum Abscissa {
 }
 
 impl Abscissa {
-    /// Where value `k` is.
+    /// Place of value `k` on the axis.
     pub fn at(&self, k: usize) -> f64 {
         match self {
             Self::Even { start, step } => start + k as f64 * step,
@@ -316,7 +317,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// How many there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Real(values) => values.len(),
@@ -324,7 +325,7 @@ impl Values {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

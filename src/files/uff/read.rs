@@ -29,7 +29,7 @@ pub fn read(path: &Path) -> Result<Universal> {
 ///
 /// # Errors
 ///
-/// [`Error::Input`] with line and column of what is no number where one must be, of a dataset that
+/// [`Error::Input`] with line and column of text in place of a number, of a dataset that
 /// ends too early, and of anything outside a dataset.
 pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
     let mut lines = Lines::new(file, bytes);

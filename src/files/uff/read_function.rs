@@ -220,7 +220,7 @@ fn bytes(lines: &mut Lines, form: &Form, binary: &Binary) -> Result<Vec<f64>> {
         let value = float(number, binary.little_endian);
         let Some(value) = value.filter(|v| v.is_finite()) else {
             let line = lines.peek().expect("the bytes are there");
-            return Err(line.wrong(format!("number {k} that is none"), "finite numbers"));
+            return Err(line.wrong(format!("number {k}, which is not finite"), "finite numbers"));
         };
         numbers.push(value);
     }

@@ -26,7 +26,7 @@ pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
 
 /// A difference that must not be more than asked.
 pub fn difference(asked: f64, found: f64, stated: f64) -> Outcome {
-    // A difference that is no number is none that is small.
+    // NaN fails the comparison: an unknown difference counts as too large.
     let verdict = match found <= asked {
         true => Verdict::Right,
         false => Verdict::Wrong("more than asked".into()),

@@ -1,4 +1,4 @@
-//! Is what no bat is solved rightly, or refused with the reason?
+//! Are bats beyond any real one solved rightly, or refused with the reason?
 //!
 //! [`EXTREMES`] are the rows, each to be run by itself.
 //!
@@ -19,9 +19,9 @@ use crate::base::error::Result;
 pub enum Verdict {
     /// Right, within three times the stated error.
     Right,
-    /// With the reason that a user is told.
+    /// Refused, with the reason that a user is told.
     Refused(String),
-    /// With what is wrong.
+    /// Wrong, with what is wrong.
     Wrong(String),
 }
 
@@ -34,7 +34,7 @@ pub struct Outcome {
     pub found: f64,
     /// The worst error that the answers state.
     pub stated: f64,
-    /// What follows.
+    /// Verdict on the row.
     pub verdict: Verdict,
     /// Time and memory, where they are the point.
     pub note: String,

@@ -20,7 +20,7 @@ pub fn known(case: &str, modes: usize, asked: f64) -> Result<Outcome> {
     Ok(against(asked, &solve(&truth.bat, &request(modes, asked))?, &truth.frequencies))
 }
 
-/// The same turned end for end: the same frequencies, every known node mirrored.
+/// The case with the bat reversed: equal frequencies, mirrored nodes.
 pub fn turned(case: &str, modes: usize, asked: f64) -> Result<Outcome> {
     let truth = Truth::of_cases(&[case])?;
     let bat = Bat { profile: truth.bat.profile.clone().reversed(), ..truth.bat.clone() };

@@ -2,7 +2,7 @@
 //! JSON read back.
 //!
 //! In all of them the bat lies along the global x axis, knob at 0; it deflects along y, and its
-//! sections turn about z, right-handed, so that a rotation is dw/dx where shear is none. Lengths
+//! sections turn about z, right-handed, so that without shear a rotation is dw/dx. Lengths
 //! are in m, masses in kg, frequencies in Hz. Shapes have their largest deflection 1, and modal
 //! masses are those of that scale.
 

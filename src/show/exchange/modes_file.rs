@@ -26,15 +26,15 @@ pub struct ModeTable {
 /// A mode at the places of its table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SampledMode {
-    /// 1 for the first elastic mode.
+    /// Number of the mode: 1 for the first elastic mode.
     pub order: u32,
-    /// Hz.
+    /// Frequency (Hz).
     pub frequency: f64,
     /// Share of critical damping; 0 without damping.
     pub damping_ratio: f64,
-    /// Of the shape as it is here (kg).
+    /// Modal mass of the shape as it is scaled here (kg).
     pub modal_mass: f64,
-    /// Where the deflection is 0 (m).
+    /// Nodes, where the deflection is 0 (m).
     pub nodes: Vec<f64>,
     /// Deflections, the largest of the whole shape 1.
     pub deflection: Vec<f64>,

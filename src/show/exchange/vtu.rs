@@ -132,7 +132,7 @@ fn put_cells(out: &mut String, grid: &Grid) {
     *out += "</Cells>\n";
 }
 
-/// Numbers that belong to the whole file; nothing where there is none.
+/// Numbers that belong to the whole file; empty if there are no such numbers.
 fn field(out: &mut String, name: &str, values: &[f64]) {
     if values.is_empty() {
         return;

@@ -76,11 +76,11 @@ const STRANGE: &str = "This is unusual for a bat. If it is a slip, mend the bat 
 const NOTHING: &str = "Without a hit there is nothing to show here.";
 const HELD: &str = "The bat is held: energies are as its hands see them, the bat at rest before the \
                     hit, and swinging in what holds it counts as vibration.";
-const NO_FORCE: &str = "This model knows no force in time, so there is no moment to look at; the \
-                        model \"contact\" has one.";
-const NO_CONTACT: &str = "This model has a half sine of given duration for a force and no ball that \
-                          is squeezed by it, so there is no moment to look at; the model \
-                          \"contact\" has one.";
+const NO_FORCE: &str = "This model gives no force over time, so the moment of the hit cannot be \
+                        shown; the model \"contact\" gives one.";
+const NO_CONTACT: &str = "This model takes a half sine of given duration as the force and does not \
+                          squeeze the ball, so the moment of the hit cannot be shown; the model \
+                          \"contact\" gives one.";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {

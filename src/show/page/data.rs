@@ -46,7 +46,7 @@ pub struct Curve {
     pub x_m: Vec<f64>,
     /// Speed of the ball off the bat (m/s).
     pub exit_speed_m_s: Vec<Option<f64>>,
-    /// The same if the bat did not bend (m/s).
+    /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Vec<Option<f64>>,
     /// What stays in the bat's bending (J).
     pub vibration_j: Vec<Option<f64>>,
@@ -103,7 +103,7 @@ impl<'a> Data<'a> {
 
 impl Outline {
     fn new(profile: &Profile) -> Self {
-        /// More are no steps of a bat that are seen.
+        /// Steps that are drawn: more than this could not be told apart.
         const MOST: usize = 100;
         let length = profile.length();
         let even = (0..POINTS).map(|k| length * k as f64 / (POINTS - 1) as f64);

@@ -38,7 +38,7 @@ pub fn markdown(text: &str) -> String {
     out
 }
 
-/// The same at the beginning of a line, where more signs mean something: headings, lists.
+/// For the beginning of a line of Markdown, where the signs of headings and lists are escaped too.
 pub fn markdown_line(text: &str) -> String {
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
     let (first, rest) = text.split_at(digits);

@@ -18,13 +18,13 @@ use crate::show::report::text::rounded;
 /// A hit in time, as numbers for drawing: rounded to what a picture shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Moment {
-    /// What place it is.
+    /// Name of the place of the hit.
     pub label: String,
     /// Where the ball meets the bat (m from the knob end).
     pub x_m: f64,
-    /// From the first touch to the last (ms).
+    /// Time from the first touch to the last (ms).
     pub contact_ms: f64,
-    /// How many times too large the bending should be drawn.
+    /// How many times larger than it is the bending should be drawn.
     pub factor: u32,
     /// Instants (ms), 0 at the first touch.
     pub times_ms: Vec<f64>,
@@ -48,8 +48,8 @@ const PARTS: usize = 24;
 /// How far inside the sweet spot the other hit is (m).
 const INSIDE: f64 = 0.1;
 
-/// The hits at the sweet spot and 10 cm inside of it; none where the model knows no force in time or
-/// no ball is hit.
+/// The hits at the sweet spot and 10 cm closer to the handle; empty where the model has no force in
+/// time or no ball is hit.
 ///
 /// # Errors
 ///
@@ -61,12 +61,12 @@ pub fn moments(analysis: &Analysis) -> Result<Vec<Moment>> {
     };
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
     let inside = best.x - INSIDE;
-    let places = [("at the sweet spot", best.x), ("10 cm inside of it", inside)];
+    let places = [("at the sweet spot", best.x), ("10 cm closer to the handle", inside)];
     let places = places.into_iter().filter(|(_, x)| *x >= 0.0);
     Ok(places.filter_map(|(label, x)| moment(analysis, &hitter, label, x)).collect())
 }
 
-/// One hit; None if there is none.
+/// One hit in time; None where ball and bat do not meet.
 fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<Moment> {
     let Analysis { bat, task, hits, .. } = analysis;
     let after = Aftermath::new(bat, &hits.solution, x, hitter.force(x)?);
@@ -101,9 +101,9 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
 struct Flight<'a> {
     after: &'a Aftermath<'a>,
     touch: Vec<Squeezed>,
-    /// Its mass (kg).
+    /// Mass of the ball (kg).
     ball: f64,
-    /// m/s
+    /// Closing speed of ball and bat (m/s).
     closing: f64,
 }
 
@@ -112,7 +112,7 @@ impl Flight<'_> {
     /// (m).
     fn gaps(&self, times: &[f64]) -> Vec<f64> {
         let end = self.after.end();
-        // What wall and ball keep at the end of the touch is no way that the ball flies.
+        // The squeeze that wall and ball keep at the end of the touch is not part of the ball's flight.
         let kept = self.apart(&[end])[0] + squeezed(&self.touch, end);
         let gap = |(time, apart): (&f64, f64)| match *time {
             time if time < 0.0 => apart,

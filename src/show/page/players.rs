@@ -18,8 +18,8 @@ pub fn modes(analysis: &Analysis) -> String {
     let names = modes.map(|mode| format!("{} · {} Hz", mode.order, decimals(mode.frequency(), 0)));
     let names: Vec<String> = names.collect();
     let choice = choice("mode", "Mode", &names);
-    let note = "The bending is drawn far too large and far too slow; dots are the nodes, which stay at \
-                rest.";
+    let note = "The bending is drawn much larger and slower than it is; dots are the nodes, which \
+                stay at rest.";
     player("modes-player", "The bat bending in the chosen mode", &choice, note)
 }
 

@@ -191,10 +191,10 @@
     const span = () => hit.times_ms.at(-1) - hit.times_ms[0];
     const say = (share, seconds) => {
       const time = at(hit.times_ms, share), gap = at(hit.gap_mm, share);
-      const state = time < 0 ? "the ball comes" : time > hit.contact_ms ? "the ball is gone"
+      const state = time < 0 ? "the ball is coming in" : time > hit.contact_ms ? "the ball is gone"
         : `the ball is squeezed by ${Math.max(0, -gap).toFixed(1)} mm`;
       return `${time.toFixed(2)} ms: force ${at(hit.force_kn, share).toFixed(1)} kN, ${state}. ` +
-        `Bending ${hit.factor} times too large, ${Math.round(1000 * seconds / span())} times slower than life`;
+        `Bending drawn ${hit.factor} times larger than it is, ${Math.round(1000 * seconds / span())} times slower than life`;
     };
     // Until it is played, the instant of the largest force is shown.
     const first = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);

@@ -6,12 +6,12 @@ use crate::show::report::text::rounded;
 /// What there is no number for.
 pub const NONE: &str = "–";
 
-/// A length along the bat: cm.
+/// A length along the bat in centimetres, for a sentence or a table; `x` in metres.
 pub fn centimetres(x: f64) -> String {
     format!("{:.2}", rounded(100.0 * x, 2))
 }
 
-/// The same: in.
+/// Length in inches, for a sentence or a table; `x` in metres.
 pub fn in_inches(x: f64) -> String {
     format!("{:.2}", rounded(inches(x), 2))
 }
@@ -104,7 +104,7 @@ pub fn typeset(text: &str) -> String {
     parts.map(part).collect()
 }
 
-/// The same as a sentence of its own.
+/// A text of this program typeset as a sentence: a capital first, a full stop last.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();

@@ -6,20 +6,20 @@ use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown;
 
-/// The numbers of the summary, in SI, as they stand in the page's data; None where there is none.
+/// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
-    /// From the knob end to the tip (m).
+    /// Length from the knob end to the tip (m).
     pub length_m: f64,
     /// Mass with everything attached (kg).
     pub mass_kg: f64,
     /// Centre of mass, from the knob end (m).
     pub balance_point_m: f64,
-    /// About the point 6 in from the knob end.
+    /// Swing weight: moment of inertia about the point 6 in from the knob end (kg m²).
     pub inertia_pivot_kg_m2: f64,
-    /// For a pivot there.
+    /// Centre of percussion for a pivot 6 in from the knob end (m).
     pub center_of_percussion_m: Option<f64>,
-    /// Of the first modes, three at most.
+    /// Frequencies of the first modes, three at most (Hz).
     pub frequencies_hz: Vec<f64>,
     /// Where the ball leaves fastest (m from the knob end).
     pub sweet_spot_m: Option<f64>,
@@ -29,7 +29,7 @@ pub struct Summary {
     pub zone_m: Option<[f64; 2]>,
     /// Bat-ball coefficient of restitution at the sweet spot, of the free bat.
     pub bbcor: Option<f64>,
-    /// The same of a bat held 6 in from the knob.
+    /// Bat-ball coefficient of restitution at the sweet spot, of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,

@@ -24,7 +24,7 @@ impl Table {
         Self { caption: caption.into(), head, ..Self::default() }
     }
 
-    /// The same with columns of words.
+    /// A table without rows whose columns hold words.
     pub fn of_words(caption: impl Into<String>, head: &[&str]) -> Self {
         Self { words: true, ..Self::new(caption, head) }
     }

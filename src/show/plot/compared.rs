@@ -19,12 +19,12 @@ use crate::study::comparison::table::Comparison;
 
 /// Modes that are drawn of every bat.
 const MODES: usize = 3;
-/// Of the diagram (px).
+/// Height of the diagram (px).
 const DIAGRAM: f64 = 230.0;
 
-/// The same pictures as of one bat, with all bats in them: `profile`, `shapes`, `exit_speed`, `contact`,
-/// `hysteresis`, `hands`. A `ledger_A` of each bat, all to the same scale, and the `difference` of exit
-/// speeds to those of the first.
+/// Pictures of several bats: all bats in each of `profile`, `shapes`, `exit_speed`, `contact`,
+/// `hysteresis` and `hands`; a `ledger_A` of each bat, all to the same scale; and the `difference` of
+/// exit speeds to those of the first bat.
 ///
 /// # Errors
 ///

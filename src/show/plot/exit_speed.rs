@@ -16,18 +16,18 @@ use crate::show::plot::theme::{SERIES, series};
 pub struct Subject<'a> {
     /// What the bat is called.
     pub name: &'a str,
-    /// m
+    /// Length of the bat (m).
     pub length: f64,
-    /// By rising place.
+    /// Impacts, by rising place.
     pub impacts: &'a [Impact],
-    /// Its sweet spot by every definition.
+    /// Sweet spot by every definition.
     pub spot: &'a SweetSpot,
 }
 
-/// Of the curves' diagram (px).
+/// Height of the curves' diagram (px).
 const DIAGRAM: f64 = 230.0;
 
-/// Exit speed against place, the same of bats that do not bend, and rows of sweet spots; picture
+/// Exit speed against place, exit speed of bats that do not bend, and rows of sweet spots; picture
 /// `exit_speed`. None without two places.
 pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let places = subjects.iter().flat_map(|s| s.impacts.iter().map(|i| i.x));

@@ -13,7 +13,7 @@ use crate::show::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
 
 /// Modes that have a layer each.
 const MODES: usize = 3;
-/// Of the diagram (px).
+/// Height of the diagram (px).
 const DIAGRAM: f64 = 300.0;
 /// Part of the energy below which a layer is not seen anywhere.
 const UNSEEN: f64 = 1e-4;
@@ -21,9 +21,9 @@ const UNSEEN: f64 = 1e-4;
 /// A part of the energy along the bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// What the energy is in.
+    /// Name of the part of the energy.
     pub name: String,
-    /// J, one for each impact; None where there was no hit.
+    /// Energy at each impact (J); None where ball and bat did not meet.
     pub energies: Vec<Option<f64>>,
     look: (Ink, f64),
 }

@@ -50,8 +50,8 @@ pub fn marked(subjects: &[Subject]) -> Vec<PlaceRow> {
     rows
 }
 
-/// Other materials, weights, joints, supports and hands, as rows; more than a dozen would be no
-/// picture.
+/// Other materials, weights, joints, supports and hands, as rows; more than a dozen would
+/// crowd the picture.
 fn fastened(bat: &Bat) -> Vec<PlaceRow> {
     const MOST: usize = 12;
     let fixtures = &bat.fixtures;

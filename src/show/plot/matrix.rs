@@ -21,7 +21,7 @@ pub struct Matrix {
     pub rows: Vec<String>,
     /// Names of the columns, from the left.
     pub columns: Vec<String>,
-    /// From 0 to 1, row by row; None where there is none.
+    /// Values from 0 to 1, row by row; None for an empty cell.
     pub values: Vec<Vec<Option<f64>>>,
     /// What the scale says, such as `MAC`.
     pub scale: String,

@@ -68,7 +68,7 @@ fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>
     let numbered = |(number, name)| format!("{number}: {name}");
     matrix::picture(&Matrix {
         name: "mass_orthogonality".into(),
-        title: "What two shapes have in common in the bat's mass".into(),
+        title: "Mass orthogonality of the measured shapes".into(),
         second: format!("{bat}: measured below the diagonal, computed at the same points above it"),
         sides: ["mode".into(), "mode".into()],
         rows: numbers().zip(names(study)).map(numbered).collect(),

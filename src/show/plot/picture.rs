@@ -29,7 +29,7 @@ impl Picture {
     }
 }
 
-/// Writes every picture into that folder, which is made if there is none: as SVG, and as PNG of
+/// Writes every picture into that folder, which is made if it does not exist: as SVG, and as PNG of
 /// twice the size where the crate has its feature `png`. The names of others that were drawn there
 /// before are given back: they stay.
 ///

@@ -12,7 +12,7 @@ pub const WIDTH: f64 = 760.0;
 pub const LEFT: f64 = 74.0;
 /// From a frame to the right edge, where nothing else stands there (px).
 pub const RIGHT: f64 = 28.0;
-/// The same where a second axis stands (px).
+/// From a frame to the right edge where a second axis stands (px).
 pub const SECOND: f64 = 86.0;
 /// What numbers and label of an axis take beside a frame (px).
 pub const NUMBERS: f64 = 42.0;
@@ -22,24 +22,24 @@ pub const HEAD: f64 = 60.0;
 /// A rectangle of the picture (px).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Its left side (pixels, as the others).
+    /// Left edge of the frame (px).
     pub left: f64,
-    /// Its upper side.
+    /// Upper edge of the frame (px).
     pub top: f64,
-    /// Its right side.
+    /// Right edge of the frame (px).
     pub right: f64,
-    /// Its lower side.
+    /// Lower edge of the frame (px).
     pub bottom: f64,
 }
 
 /// A diagram.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plane {
-    /// Where it is on the paper.
+    /// Frame of the diagram on the paper.
     pub frame: Frame,
-    /// From left to right.
+    /// Horizontal axis, from left to right.
     pub x: Axis,
-    /// Upwards.
+    /// Vertical axis, upwards.
     pub y: Axis,
 }
 

@@ -45,7 +45,7 @@ fn distance([x, y]: Point, [a, b]: Point, [c, d]: Point) -> f64 {
     (x - a - share * along).hypot(y - b - share * up)
 }
 
-/// A coordinate to a tenth of a pixel, as short as it can be; what is none is at 0.
+/// A coordinate to a tenth of a pixel, as short as it can be; a missing coordinate is drawn at 0.
 pub fn px(value: f64) -> String {
     if !value.is_finite() {
         return "0".into();

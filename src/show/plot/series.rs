@@ -32,12 +32,12 @@ impl Series {
         Self { name, pen, joined: true, mark: None, error: 0.0, points, units: None }
     }
 
-    /// The same drawn with that pen.
+    /// This series drawn with that pen.
     pub fn pen(self, pen: Pen) -> Self {
         Self { pen, ..self }
     }
 
-    /// The same with the units of its points, for those who read them off.
+    /// This series with the units of its points, for those who read them off.
     pub fn units(self, x: &'static str, y: &'static str) -> Self {
         Self { units: Some([x, y]), ..self }
     }

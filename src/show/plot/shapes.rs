@@ -22,7 +22,7 @@ pub struct Subject<'a> {
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
-    /// Its modes.
+    /// Modes of the bat.
     pub solution: &'a Solution,
 }
 

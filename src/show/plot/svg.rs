@@ -16,9 +16,9 @@ pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"s
 /// A picture in the making.
 #[derive(Debug, Clone)]
 pub struct Svg {
-    /// Of the paper (pixels).
+    /// Width of the paper (px).
     pub width: f64,
-    /// Of the paper (pixels).
+    /// Height of the paper (px).
     pub height: f64,
     /// Left, upper, right and lower edge (px) of the frame in which places along the bat can be read
     /// off, from the first place to the last, for a page that does so.
@@ -29,11 +29,11 @@ pub struct Svg {
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
-    /// Its colour.
+    /// Colour of the line.
     pub ink: Ink,
-    /// Of the line (pixels).
+    /// Width of the line (px).
     pub width: f64,
-    /// Strokes and gaps (px); "" for a whole line.
+    /// Strokes and gaps (px); "" draws a whole line.
     pub dash: &'static str,
 }
 
@@ -49,7 +49,7 @@ impl Pen {
         Self { ink, width: 2.0, dash }
     }
 
-    /// The same in dashes, given as SVG has them.
+    /// This pen with dashes, given as SVG has them.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Self { dash, ..self }
     }

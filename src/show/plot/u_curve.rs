@@ -11,7 +11,7 @@ use crate::study::trade::u_curve::{Column, Way};
 
 /// Height of the diagram (px).
 const DIAGRAM: f64 = 320.0;
-/// An error of nothing is drawn as this one.
+/// An error of 0 is drawn as this one.
 const NOTHING: f64 = 1e-17;
 
 /// The error of one mode (from 0), as the solver's own eigenvalue says and as recomputed from its

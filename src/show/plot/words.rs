@@ -16,15 +16,15 @@ pub enum Anchor {
 /// How words look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Type {
-    /// Its colour.
+    /// Colour of the words.
     pub ink: Ink,
-    /// px
+    /// Height of the letters (px).
     pub size: f64,
-    /// Whether it is bold.
+    /// Whether the words are bold.
     pub bold: bool,
-    /// Which end of the words is at their place.
+    /// Which end of the words stands at their place.
     pub anchor: Anchor,
-    /// Turned to run upwards.
+    /// Whether the words run upwards.
     pub upwards: bool,
 }
 
@@ -37,17 +37,17 @@ pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
-    /// The same with that end of the words at their place.
+    /// This type with `anchor`, the end of the words that stands at their place.
     pub const fn at(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
-    /// The same in that colour.
+    /// This type in that colour.
     pub const fn ink(self, ink: Ink) -> Self {
         Self { ink, ..self }
     }
 
-    /// The same in that size (pixels).
+    /// This type in that size (pixels).
     pub const fn sized(self, size: f64) -> Self {
         Self { size, ..self }
     }

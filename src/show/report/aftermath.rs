@@ -193,7 +193,7 @@ pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
     let swing = match swing {
         Some(0.0) => "reached by the pitch alone, without a swing".to_owned(),
         Some(swing) => format!("reached at a swing of about {swing:.1} rad/s"),
-        None => "reached by no swing up to 200 rad/s".to_owned(),
+        None => "not reached by any swing up to 200 rad/s".to_owned(),
     };
     format!(
         "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
@@ -219,7 +219,7 @@ pub fn strengths(all: &[Strength], units: Units) -> String {
     out
 }
 
-/// The same for a file.
+/// What hits at some places ask of the bat, as JSON.
 pub fn strengths_json(all: &[Strength]) -> Value {
     let at = |at: &Strength| {
         let loads: Vec<Value> = at.loads.iter().map(strength_json).collect();

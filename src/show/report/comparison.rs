@@ -107,7 +107,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
     out += &wrapped(&scene, 5);
     out += &wrapped(&swing(first), 5);
     let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
-                  with a smaller --tol. What is no more than that is none.";
+                  with a smaller --tol. A difference within it is shown as none.";
     out + &wrapped(within, 5)
 }
 
@@ -115,7 +115,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
 fn swing(first: &Contender) -> String {
     match first.law {
         None => format!(
-            "     All are swung at {:.1} rad/s, the lighter as the heavier; --reference-inertia and \
+            "     All are swung at {:.1} rad/s, whatever they weigh; --reference-inertia and \
              --swing-exponent have one batter swing each",
             first.scene.swing
         ),
@@ -276,7 +276,9 @@ fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     let name = letter(bat);
     let row = comparison.figures.iter().find(|row| row.key == "best_exit_speed");
     let Some(difference) = row.and_then(|row| row.difference(bat)) else {
-        return format!("{name} beside A: one of them hits no ball.");
+        return format!(
+            "{name} and A cannot be compared at their best: one of them does not hit the ball."
+        );
     };
     let speed = |v: f64| by_speed(v, units);
     if !difference.is_real() {
@@ -307,7 +309,7 @@ fn stretch(s: &Stretch, name: char, place: &dyn Fn(f64) -> String, units: Units)
         false => format!("from {} to {}", place(s.from), place(s.to)),
     };
     match s.harder {
-        0 => format!("{at} no difference beyond the errors"),
+        0 => format!("no significant difference {at}"),
         harder => format!(
             "{at} {} is faster, by up to {} at {}",
             if harder > 0 { name } else { 'A' },

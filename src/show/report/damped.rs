@@ -62,7 +62,7 @@ pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
     })
 }
 
-/// How the damping was found; None where there is none.
+/// How the damping was found; None for a bat without damping.
 pub fn of_model(solution: &Solution) -> Option<file::Damping> {
     let damping = &solution.damping;
     (!damping.modes.is_empty()).then(|| file::Damping {

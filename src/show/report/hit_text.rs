@@ -47,7 +47,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
-        // A rounding of nothing is no length.
+        // Adding 0 turns a length of −0 into 0.
         format!("{:.2}", value + 0.0)
     };
     let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
@@ -144,7 +144,9 @@ pub fn meaning(model: Model) -> &'static str {
         Model::Pulse(_) => {
             "     the force is a half sine of a given duration, and the ball's loss a given share\n"
         }
-        Model::Contact => "     ball and modes in contact; the ball returns less than it takes\n",
+        Model::Contact => {
+            "     ball and modes in contact; the ball gives back less energy than it absorbs\n"
+        }
     }
 }
 

@@ -28,7 +28,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
     schema::value(&modes_file(bat, solution, points, timing))
 }
 
-/// The same as plain data.
+/// The `sweetspot-modes/1` document as plain data.
 pub fn modes_file(
     bat: &Bat,
     solution: &Solution,
@@ -72,7 +72,7 @@ pub fn generator() -> Value {
 fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {
     let mode = &solution.modes[k];
     let along = |f: &dyn Fn(f64) -> f64| places.iter().map(|x| f(*x)).collect::<Vec<f64>>();
-    // What is no number is no estimate.
+    // NaN and infinity stand for an unknown error.
     let known = |error: f64| Some(error).filter(|error| error.is_finite());
     file::Mode {
         order: mode.order,

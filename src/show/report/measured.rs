@@ -158,7 +158,7 @@ fn of_shapes(study: &Study, shapes: &Shapes) -> String {
     }
     if shapes.common.is_none() {
         let why = "  an absorber moves more than the bat beneath it, and was not measured: what rigid \
-                   motion the shapes carry, and what they have in common, cannot be told";
+                   motion the shapes carry, and their mass orthogonality, cannot be told";
         out += &wrapped(why, 2);
     } else if shapes.rigid_share.is_none() {
         out += "  what holds the bat pushes it: its shapes may carry rigid motion\n";
@@ -195,12 +195,12 @@ fn mac(study: &Study, shapes: &Shapes) -> String {
     out
 }
 
-/// What every two shapes have in common in the bat's mass.
+/// Mass orthogonality of every two shapes.
 fn common(study: &Study, shapes: &Shapes) -> String {
     let count = study.bending.len().min(COLUMNS);
     let Some(own) = shapes.common.as_ref().filter(|_| count > 1) else { return String::new() };
     let mut out = wrapped(
-        "In the bat's mass two modes have nothing in common (0; the same: 1). Below the diagonal the \
+        "Mass orthogonality: 0 between two modes, 1 for a mode with itself. Below the diagonal the \
          measured shapes; above it the computed ones they are paired with, from these points alone",
         2,
     );

@@ -16,7 +16,7 @@ pub fn resolved(bat: &Bat) -> Value {
     schema::value(&resolved_bat(bat))
 }
 
-/// The same as plain data.
+/// The bat as it was understood, as plain data: SI, defaults filled in, materials as they were weighed.
 pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
     let fixtures = &bat.fixtures;
     ResolvedBat {

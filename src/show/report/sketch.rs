@@ -142,9 +142,10 @@ fn outline(bat: &Bat, glyphs: Glyphs) -> String {
     out
 }
 
-/// A line with every `step` written where it begins; a bat that is no bat has other steps.
+/// A line with the number of every `step` where it begins; `step` is doubled or halved until the
+/// numbers fit a very long or very short bat.
 fn ruler(length: f64, step: f64, glyphs: Glyphs) -> String {
-    /// Of the drawing, so that the numbers are apart.
+    /// Share of the drawing's length, so that the numbers are apart.
     const LEAST: f64 = 0.09;
     let mut step = step;
     while step < LEAST * length {

@@ -54,7 +54,7 @@ impl Units {
         self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
     }
 
-    /// The same in running text: `0.0635 m (2.50 in)`.
+    /// A quantity of this type's other functions as running text: `0.0635 m (2.50 in)`.
     pub fn inline(self, value: String) -> String {
         match (self, value.split_once("   ")) {
             (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),
@@ -182,9 +182,9 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     let oscillates = bat.fixtures.none_moving() && !solution.theory.turns();
     let by_nodes = oscillates && solution.modes.iter().all(Mode::has_its_nodes);
     let count = match (solution.complete(), by_nodes) {
-        (true, true) => "none is missing: mode n has its n + 1 nodes",
-        (true, false) => "none is missing: as many motions are slower",
-        (false, _) => "A MODE MAY BE MISSING: the number of slower motions is another",
+        (true, true) => "no mode is missing: mode n has its n + 1 nodes",
+        (true, false) => "no mode is missing (inertia count)",
+        (false, _) => "A MODE MAY BE MISSING: the inertia count differs from the modes found",
     };
     let plan = format!(
         "  why: {}; every frequency within {:.0e}; {count}",

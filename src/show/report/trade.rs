@@ -25,7 +25,7 @@ pub fn text(bat: &Bat, trade: &Trade) -> String {
         1 => "the only way".to_owned(),
         runs => format!("of {runs} ways"),
     };
-    let _ = writeln!(out, "Front: {ways} measured, none is both faster and more accurate");
+    let _ = writeln!(out, "Front: {ways} measured, no other is both faster and more accurate");
     let _ = writeln!(
         out,
         "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planned for"

@@ -74,7 +74,7 @@ pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
     advise_telling(bat, modes, tolerance, &nobody)
 }
 
-/// The same, telling how many of the smaller models have been tried.
+/// Advises as [`advise`] does, and tells how many of the smaller models have been tried.
 ///
 /// # Errors
 ///

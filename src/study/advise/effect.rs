@@ -50,22 +50,22 @@ pub struct Effect {
     pub with: Rc<Solved>,
     /// The bat that does not.
     pub without: Rc<Solved>,
-    /// By how much it changes every mode; None where the modes are others altogether.
+    /// Change of every mode by the effect; None where the modes are others altogether.
     pub shifts: Option<Vec<Shift>>,
-    /// By how much it changes mass (kg), balance point (m) and inertia 6 in from the knob (kg m²).
+    /// Change of mass (kg), balance point (m) and inertia 6 in from the knob (kg m²) by the effect.
     pub body: [f64; 3],
 }
 
-/// By how much something changes a mode.
+/// Relative change of a mode's frequency, and the shift of its nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shift {
-    /// Of the frequency, relative to the one without it; negative where it is lower with it.
+    /// Change of the frequency, relative to the one without the effect; negative where that lowers it.
     pub frequency: f64,
-    /// How far that may be off.
+    /// Error bound of [`Self::frequency`], relative.
     pub error: f64,
-    /// Of every node, towards the tip (m); None where their number changes.
+    /// Shift of every node towards the tip (m); None where their number changes.
     pub nodes: Option<Vec<f64>>,
-    /// How far those may be off (m).
+    /// Error bound of [`Self::nodes`] (m).
     pub node_error: f64,
 }
 

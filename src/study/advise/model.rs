@@ -25,13 +25,13 @@ impl Model {
         Self { theory, parts }
     }
 
-    /// The same without some parts.
+    /// This model without some parts.
     pub fn without(&self, parts: &[Part]) -> Self {
         let kept = self.parts.iter().copied().filter(|part| !parts.contains(part));
         Self { theory: self.theory, parts: kept.collect() }
     }
 
-    /// The same by another theory.
+    /// This model by another theory.
     pub fn by(&self, theory: Theory) -> Self {
         Self { theory, ..self.clone() }
     }
@@ -53,11 +53,11 @@ impl Model {
 /// A model and its modes.
 #[derive(Debug, Clone)]
 pub struct Solved {
-    /// What of the bat is in it.
+    /// The model: a theory and the parts of the bat it includes.
     pub model: Model,
     /// The bat as the model sees it.
     pub bat: Bat,
-    /// Its modes.
+    /// Modes of the model.
     pub solution: Solution,
 }
 

@@ -12,8 +12,8 @@ pub fn outside(bat: &Bat) -> Vec<String> {
         match hollow {
             true => {
                 "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-                 the ball (trampoline effect); sections stay round here, and a hit knows of that \
-                 wall what --wall-stiffness says"
+                 the ball (trampoline effect); sections stay round here, and a hit models that \
+                 wall by --wall-stiffness alone"
             }
             false => {
                 "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
@@ -23,7 +23,7 @@ pub fn outside(bat: &Bat) -> Vec<String> {
          off the axis, or bends differently along and across the rings, is not modelled",
         "motion in other directions: the bat bends in one plane; twist and axial waves are left out",
         "hands as a person: a grip is a bed of springs and dashpots; arms, their mass and muscles \
-         are not there",
+         are not modelled",
         "large motion: bending is linear in small deflections; the pull of the swing, which would \
          change ω² by the order of the swing's own rate squared, is left out",
         "contact: how knob and hand touch, and how wood dents under the ball, is not modelled",

@@ -68,7 +68,7 @@ pub struct Terms {
 pub struct Contender {
     /// The bat.
     pub bat: Bat,
-    /// Its mass, balance point and inertia.
+    /// Mass, balance point and inertia of the bat.
     pub inertia: Inertia,
     /// The scene with this bat's own swing.
     pub scene: Scene,
@@ -80,15 +80,15 @@ pub struct Contender {
     pub spot: SweetSpot,
     /// The fastest ball (m/s).
     pub best_speed: Option<Figure>,
-    /// Where it is hit (m from the knob end).
+    /// Where the fastest ball is hit (m from the knob end).
     pub best_place: Option<Figure>,
-    /// What that hit leaves in vibration (J).
+    /// Energy that the fastest hit leaves in vibration (J).
     pub vibration: Option<Figure>,
     /// Where the exit speed is within 1 % of the best (m).
     pub zone: Option<[Figure; 2]>,
     /// Where the least energy stays in vibration (m).
     pub least_place: Option<Figure>,
-    /// How much that is (J).
+    /// Least energy that stays in vibration (J).
     pub least_vibration: Option<Figure>,
     /// The largest BBCOR of the outer half, of the free bat and of one held at the standard pivot.
     pub bbcor: [Option<Figure>; 2],

@@ -1,7 +1,7 @@
 //! Two or more bats in the same scene: what differs, and whether that is more than the errors.
 //!
 //! The first bat is the reference. What the others have more or less of anything stands beside how
-//! far that may be off, which is the sum of both errors; a difference within it is none.
+//! far that may be off, which is the sum of both errors; a difference within it is not significant.
 
 pub mod contender;
 pub mod rows;

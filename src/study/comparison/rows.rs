@@ -6,19 +6,19 @@ use crate::study::comparison::contender::{Contender, Figure};
 /// What a row is measured in, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// m
+    /// Metres (m).
     Metres,
-    /// kg
+    /// Kilograms (kg).
     Kilograms,
-    /// kg m²
+    /// Kilograms times square metres (kg m²).
     KilogramSquareMetres,
-    /// Hz
+    /// Hertz (Hz).
     Hertz,
-    /// rad/s
+    /// Radians per second (rad/s).
     RadiansPerSecond,
-    /// m/s
+    /// Metres per second (m/s).
     MetresPerSecond,
-    /// J
+    /// Joules (J).
     Joules,
     /// A pure number.
     One,
@@ -43,7 +43,7 @@ impl Unit {
 /// Where a place is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
-    /// It is no place.
+    /// The value is not a position.
     Nowhere,
     /// The knob end.
     Knob,
@@ -54,13 +54,13 @@ pub enum From {
 /// One figure of all the bats.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedFigure {
-    /// Such as `node_1_of_mode_2`, without the unit.
+    /// Key in JSON and CSV without the unit, such as `node_1_of_mode_2`.
     pub key: String,
-    /// For people, without the unit.
+    /// Name for people, without the unit.
     pub name: String,
-    /// What its values are in.
+    /// Unit of the values.
     pub unit: Unit,
-    /// Where its places are measured from.
+    /// Where places are measured from, if the values are places.
     pub from: From,
     /// A value for each bat that has one.
     pub values: Vec<Option<Figure>>,
@@ -71,19 +71,19 @@ pub struct ComparedFigure {
 pub struct Difference {
     /// The other value less the first.
     pub by: f64,
-    /// How far that may be off: both errors.
+    /// Error bound of the difference: the errors of both values added.
     pub within: f64,
 }
 
 impl Difference {
-    /// Whether it is more than the errors.
+    /// Whether the difference exceeds the errors.
     pub fn is_real(&self) -> bool {
         self.by.abs() > self.within
     }
 }
 
 impl ComparedFigure {
-    /// That bat less the first.
+    /// Difference of a bat from the first; None where one of them has no value.
     pub fn difference(&self, bat: usize) -> Option<Difference> {
         let (one, other) = (self.values[0]?, self.values[bat]?);
         Some(Difference { by: other.value - one.value, within: one.error + other.error })

@@ -10,7 +10,7 @@ pub struct Stretch {
     /// Where it ends, farther from the tip (m).
     pub to: f64,
     /// 1 where the bat hits harder than the first one, −1 where the first does, 0 where the
-    /// difference is no more than the errors.
+    /// difference is within the errors.
     pub harder: i8,
     /// Where the difference is largest (m from the tip).
     pub most_at: f64,

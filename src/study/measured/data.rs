@@ -7,7 +7,7 @@ use faer::c64;
 pub struct Measured {
     /// The file they are from, for people.
     pub source: String,
-    /// By rising frequency.
+    /// Measured modes, by rising frequency.
     pub modes: Vec<MeasuredMode>,
     /// Where the points are along the bat's axis (m), rising, in the file's own direction and from
     /// its own origin; empty where frequencies are all there is.
@@ -25,9 +25,9 @@ pub struct MeasuredMode {
     pub name: String,
     /// The number of the bending mode, where the file says so.
     pub order: Option<usize>,
-    /// Hz
+    /// Measured frequency (Hz).
     pub frequency: f64,
-    /// Of critical damping.
+    /// Damping ratio, as a share of critical damping.
     pub damping_ratio: Option<f64>,
     /// Deflection at every point, in a unit of the laboratory's; empty where it was not measured.
     pub shape: Vec<c64>,

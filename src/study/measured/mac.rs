@@ -28,7 +28,7 @@ pub fn unit(shape: &[c64]) -> Vec<c64> {
     }
 }
 
-/// The modal assurance criterion; 0 where a shape is nothing at all.
+/// The modal assurance criterion of two shapes; 0 where one of them is zero.
 pub fn mac(a: &[c64], b: &[c64]) -> f64 {
     let (a, b) = (unit(a), unit(b));
     let sizes = product(&a, &a).re * product(&b, &b).re;

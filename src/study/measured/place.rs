@@ -13,7 +13,7 @@ use crate::study::measured::data::Measured;
 /// An end of the bat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// Where the hands are.
+    /// The knob end, where the hands are.
     Knob,
     /// The end of the barrel.
     Tip,
@@ -41,7 +41,7 @@ pub struct Told {
 /// The points on the bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
-    /// From the knob end (m), rising.
+    /// Positions of the points from the knob end (m), rising.
     pub x: Vec<f64>,
     /// The measured shapes at these points; empty for a mode without one.
     pub shapes: Vec<Vec<c64>>,

@@ -37,15 +37,15 @@ pub struct Study {
 /// A measured and a computed mode that are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// The measured one's number, from 0.
+    /// Number of the measured mode, from 0.
     pub measured: usize,
-    /// The computed one's, from 0.
+    /// Number of the computed mode, from 0.
     pub computed: usize,
-    /// None where there are no shapes.
+    /// MAC of both shapes; None without measured shapes.
     pub mac: Option<f64>,
     /// Computed over measured frequency, less 1; None for a measured 0 Hz.
     pub difference: Option<f64>,
-    /// What is stated of the computed frequency, relative.
+    /// Stated relative error of the computed frequency.
     pub within: f64,
     /// The factor from the computed shape (largest deflection 1) to the measured one.
     pub scale: Option<c64>,
@@ -54,7 +54,7 @@ pub struct Pair {
 /// A measured mode too slow to bend the bat: the bat on its supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMode {
-    /// Its number, from 0.
+    /// Number of the measured mode, from 0.
     pub measured: usize,
     /// How far from a straight line its shape is, as a share of its size (root of the squares at
     /// the points).
@@ -66,26 +66,27 @@ pub struct RigidMode {
 pub struct Shapes {
     /// The points on the bat, and the shapes there.
     pub placed: Placed,
-    /// Rows: measured bending modes; columns: computed modes.
+    /// MAC of measured bending modes (rows) with computed modes (columns).
     pub mac: Vec<Vec<f64>>,
-    /// The computed modes among themselves at the measured points.
+    /// MAC of the computed modes among themselves, at the measured points.
     pub own_mac: Vec<Vec<f64>>,
-    /// The same at many points.
+    /// MAC of the computed modes among themselves, at many points.
     pub dense_mac: Vec<Vec<f64>>,
     /// Phase collinearity of every measured bending mode.
     pub collinearity: Vec<f64>,
-    /// Its share out of phase.
+    /// Share out of phase of every measured bending mode.
     pub out_of_phase: Vec<f64>,
-    /// What every two measured bending modes have in common in the bat's mass, 1 for the same. None
-    /// for a bat with absorbers, whose motion was not measured.
+    /// Mass orthogonality of every two measured bending modes, 1 for the same mode. None for a bat with
+    /// absorbers, whose motion was not measured.
     pub common: Option<Vec<Vec<f64>>>,
-    /// The same of the computed partners, taken from the same points only; None without a partner,
-    /// and with absorbers.
+    /// Mass orthogonality of the computed partners, taken from the measured points only; None without a
+    /// partner, and with absorbers.
     pub sampled_common: Vec<Vec<Option<f64>>>,
     /// Rigid motion in every measured bending mode, as a share of its size. None for a bat with
     /// absorbers, and for one that something holds.
     pub rigid_share: Option<Vec<f64>>,
-    /// The same in its computed partner, taken from the same points.
+    /// Rigid motion in the computed partner of every measured bending mode, as a share of its size;
+    /// taken from the measured points.
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
@@ -95,7 +96,7 @@ const RIGID_BELOW: f64 = 0.5;
 const STRAIGHT: f64 = 0.5;
 /// Computed modes go up to this times the highest measured frequency.
 const ABOVE: f64 = 1.25;
-/// And are no more than so many.
+/// Computed modes are at most this many.
 const MOST: usize = 100;
 /// Even steps along a bat that hide no shape.
 const MANY: usize = 400;

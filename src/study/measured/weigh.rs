@@ -1,4 +1,4 @@
-//! What curves along a bat have in common in the bat's mass: `φᴴMψ`.
+//! Mass orthogonality of curves along a bat: their product `φᴴMψ` in its mass.
 //!
 //! `M` is `∫ρA φ*ψ dx`, with `∫ρI φ*′ψ′ dx` where the theory turns the sections, and whatever is
 //! attached. A curve is given by its values at points, the spline through them between. Absorbers

@@ -2,17 +2,17 @@
 
 use crate::study::measured::study::{RigidMode, Shapes, Study};
 
-/// A MAC below this is worth a word, of two shapes that should be the same.
+/// A MAC below this between two shapes that should be equal is reported.
 const ALIKE: f64 = 0.9;
 /// Frequencies that differ by less are the same, as far as a laboratory can tell.
 const SAME: f64 = 5e-4;
-/// And above this of two computed shapes, which should not, if it is twice that at many points: in
-/// the points' plain sum even the shapes of a smooth curve have something in common.
+/// MAC above which two computed shapes, which should differ, are taken as alike, if it is more than
+/// twice the MAC at many points: in a plain sum over points even smooth shapes have a MAC above 0.
 const CONFUSED: f64 = 0.1;
-/// Shares of rigid motion, or of what two shapes have in common, above this are worth a word where
+/// Shares of rigid motion, or mass orthogonality between two shapes, above this are reported where
 /// the points alone do not explain half of it.
 const MUCH: f64 = 0.1;
-/// A share out of phase above this too.
+/// Shares out of phase above this are reported.
 const WHIRLING: f64 = 0.05;
 
 /// All of it; warnings first.
@@ -77,7 +77,7 @@ fn slow(study: &Study) -> Option<String> {
     let list: Vec<String> = crooked.map(name).collect();
     (!list.is_empty()).then(|| {
         format!(
-            "A bat that moves so slowly moves as a straight line, and these do not, {}: is every \
+            "Shapes of modes this slow should be straight lines, and these are not, {}: is every \
              sensor's calibration right, and the order of the points?",
             list.join(", ")
         )
@@ -88,7 +88,7 @@ fn alike(study: &Study) -> Vec<String> {
     let poor = study.pairs.iter().filter(|pair| pair.mac.is_some_and(|mac| mac < ALIKE));
     poor.map(|pair| {
         format!(
-            "{} and computed mode {} are alike to {:.2} only.",
+            "{} and computed mode {} have a MAC of {:.2} only.",
             study.name(pair.measured),
             pair.computed + 1,
             pair.mac.unwrap_or(0.0)
@@ -152,8 +152,8 @@ fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// The two measured shapes that have most in common, of those whose computed partners tell what the
-/// points do to them.
+/// The two measured shapes that are the least orthogonal in the bat's mass, of those whose computed
+/// partners tell what the points do to them.
 fn common(study: &Study, shapes: &Shapes) -> Option<String> {
     let (own, sampled) = (shapes.common.as_ref()?, &shapes.sampled_common);
     let pairs = (0..study.bending.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -162,12 +162,12 @@ fn common(study: &Study, shapes: &Shapes) -> Option<String> {
     let names = [j, i].map(|row| study.name(study.bending[row]));
     let verdict = match worst {
         w if w <= MUCH => "they are sound in this",
-        w if w <= 2.0 * points => "with so few points that says nothing",
+        w if w <= 2.0 * points => "with so few points that proves nothing",
         _ => "the shapes, or the masses in the bat file, are off",
     };
     Some(format!(
-        "In the bat's mass {} and {} have most in common, {worst:.3}, their computed partners at these \
-         points {points:.3}: {verdict}.",
+        "{} and {} are the least orthogonal in the bat's mass, {worst:.3}, their computed partners at \
+         these points {points:.3}: {verdict}.",
         names[0], names[1]
     ))
 }

@@ -95,7 +95,7 @@ struct Bench<'a> {
     bat: &'a Bat,
     reference: Reference,
     started: Instant,
-    /// s
+    /// Time that may be spent (s).
     budget: f64,
     runs: Vec<Measured>,
 }

@@ -26,9 +26,9 @@ pub const SOLVERS: &[Solver] = &[
 pub struct Column {
     /// The solver.
     pub solver: Solver,
-    /// By rising number of elements.
+    /// Points by rising number of elements.
     pub points: Vec<MeshErrors>,
-    /// Why there are no more points; none if there are as many as were asked for.
+    /// Why the column ends early; None if it has as many points as were asked for.
     pub end: Option<End>,
 }
 
