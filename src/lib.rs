@@ -161,8 +161,11 @@
 //!
 //! # Features
 //!
-//! `cli` (default): the command-line program. `png` (default): pictures as PNG beside SVG.
-//! `arpack`: the solver ARPACK as an outside referee; it needs a C compiler and the library.
+//! `cli` (default): the command-line program. `show`: known answers, reports, pictures, schemas and
+//! files for other programs. `parallel`: work on all processors. `png` (default): pictures as PNG
+//! beside SVG. `arpack`: the solver ARPACK as an outside referee; it needs a C compiler and the
+//! library. With none of them there is the physics and the reader of bat files, which also run in a
+//! browser (`wasm32-unknown-unknown`); [`proof`] and [`show`] are left out then.
 
 #![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.
@@ -180,7 +183,9 @@ pub mod motion;
 pub mod collision;
 pub mod study;
 pub mod files;
+#[cfg(feature = "show")]
 pub mod proof;
+#[cfg(feature = "show")]
 pub mod show;
 
 pub use base::error::{Error, Result};

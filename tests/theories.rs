@@ -164,3 +164,29 @@ fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
         assert!((mode.frequency() / exact - 1.0).abs() < 3e-12, "{k}");
     }
 }
+
+/// κGA of a tapered tube is no polynomial (Cowper's κ goes with the ratio of the radii), so that points
+/// miss a part of it, less of shorter elements; EI and ρA are polynomials, and so is all of a straight
+/// tube.
+#[test]
+fn points_miss_the_shear_of_a_tapered_tube_and_nothing_else() {
+    let missed = |inner: [f64; 2], elements, theory| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "white-ash", "profile": {{
+                "interpolation": "linear", "x": [0, 0.8], "radius": [0.02, 0.03],
+                "inner_radius": [{}, {}] }} }}"#,
+            inner[0], inner[1]
+        );
+        let bat = Bat::from_text("tube.json", &text, "".as_ref()).unwrap();
+        let mesh = sweetspot::beam::mesh::Mesh::along(&bat, elements);
+        let rule = sweetspot::beam::rule::Rule::of(&bat, 3);
+        let of = |e| sweetspot::beam::element::missed(&bat, e, rule, theory);
+        mesh.elements.iter().map(of).fold(0.0, f64::max)
+    };
+    let tapered = [0.019, 0.01];
+    let coarse = missed(tapered, 1, Theory::Timoshenko);
+    let fine = missed(tapered, 8, Theory::Timoshenko);
+    assert!(coarse > 1e-9 && coarse < 1.0 && fine < 0.01 * coarse, "{coarse:e} {fine:e}");
+    assert_eq!(missed(tapered, 1, Theory::EulerBernoulli), 0.0);
+    assert_eq!(missed([0.01, 0.015], 1, Theory::Timoshenko), 0.0);
+}

@@ -181,7 +181,7 @@ impl<'a> Descriptor<'a> {
     }
 
     /// Linux opens the file anew, at its beginning; only a duplicate goes on where it stands.
-    #[cfg(target_os = "linux")]
+    #[cfg(all(target_os = "linux", feature = "show"))]
     fn open(&self) -> io::Result<File> {
         use rustix::process::{PidfdFlags, PidfdGetfdFlags, getpid, pidfd_getfd, pidfd_open};
         let duplicate = |number| {
@@ -195,7 +195,7 @@ impl<'a> Descriptor<'a> {
         }
     }
 
-    #[cfg(not(target_os = "linux"))]
+    #[cfg(not(all(target_os = "linux", feature = "show")))]
     fn open(&self) -> io::Result<File> {
         OpenOptions::new().append(true).open(self.path)
     }
@@ -203,7 +203,7 @@ impl<'a> Descriptor<'a> {
 
 /// Whether a descriptor was open when the program began: what it has opened since, under a number
 /// that was free, is closed on exec.
-#[cfg(target_os = "linux")]
+#[cfg(all(target_os = "linux", feature = "show"))]
 fn inherited(number: i32) -> bool {
     const CLOSED_ON_EXEC: u32 = 0o2_000_000;
     let told = fs::read_to_string(format!("/proc/self/fdinfo/{number}")).unwrap_or_default();

@@ -6,7 +6,7 @@
 //! | file | question |
 //! |---|---|
 //! | [`error`], [`mistakes`] | what was wrong, where, what was expected; several mistakes at once |
-//! | [`telling`], [`threads`] | how far is a long computation; on how many threads |
+//! | [`telling`], `clock`, `threads` | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
 //! | [`units`] | what is a number with a unit in SI |
 //! | [`real`], [`lanes`] | one number or several side by side |
@@ -16,6 +16,7 @@
 pub mod error;
 pub(crate) mod mistakes;
 pub mod telling;
+pub(crate) mod clock;
 pub(crate) mod threads;
 pub mod file;
 pub mod units;

@@ -1,26 +1,38 @@
 //! How is work shared among the processors?
 //!
-//! [`map`] asks rayon's pool, and does everything itself where no thread may be started.
-
-use std::error::Error;
-use std::sync::LazyLock;
-
-use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
-
-/// Whether there are threads to share work with: a user's processes may be limited.
-static SHARED: LazyLock<bool> = LazyLock::new(|| {
-    let built = ThreadPoolBuilder::new().build_global();
-    // The only error without a cause is that somebody has built the pool before.
-    built.map_or_else(|error| error.source().is_none(), |()| true)
-});
+//! [`map`] asks rayon's pool, and does everything itself where no thread may be started or there is no
+//! pool.
 
 /// What `of` makes of 0, 1, … below `count`, in that order.
 pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    if rayon::current_thread_index().is_some() || *SHARED {
+    #[cfg(feature = "parallel")]
+    if pool::is_there() {
+        return pool::map(count, of);
+    }
+    (0..count).map(of).collect()
+}
+
+#[cfg(feature = "parallel")]
+mod pool {
+    use std::error::Error;
+    use std::sync::LazyLock;
+
+    use rayon::ThreadPoolBuilder;
+    use rayon::prelude::*;
+
+    /// Whether there are threads to share work with: a user's processes may be limited.
+    static SHARED: LazyLock<bool> = LazyLock::new(|| {
+        let built = ThreadPoolBuilder::new().build_global();
+        // The only error without a cause is that somebody has built the pool before.
+        built.map_or_else(|error| error.source().is_none(), |()| true)
+    });
+
+    pub fn is_there() -> bool {
+        rayon::current_thread_index().is_some() || *SHARED
+    }
+
+    pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
         (0..count).into_par_iter().map(&of).collect()
-    } else {
-        (0..count).map(of).collect()
     }
 }
 

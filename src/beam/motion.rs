@@ -589,3 +589,24 @@ fn inner<S: Real, R: Over<S>>(q: &[R], a: &[S]) -> R {
     q.iter().zip(a).for_each(|(q, a)| sum += *q * *a);
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Elements of two points each, the knob's side first and from its end inwards.
+    #[test]
+    fn a_deflection_crosses_zero_as_often_as_its_sign_changes() {
+        let motion = |knob: &[f64], tip: &[f64], ends: [f64; 2]| Motion {
+            deflections: [knob, tip].concat(),
+            defects: vec![0.0; (knob.len() + tip.len()) / 2],
+            ends: ends.map(|end| [end, 0.0]),
+            ..Motion::default()
+        };
+        let crossings =
+            |knob: &[f64], tip: &[f64], ends| motion(knob, tip, ends).crossings(knob.len() / 2);
+        assert_eq!(crossings(&[1.0, 2.0], &[1.0, 1.0], [1.0, 1.0]), 0.0);
+        assert_eq!(crossings(&[-1.0, 2.0], &[-1.0, -2.0], [1.0, 1.0]), 2.0);
+        assert_eq!(crossings(&[1.0, -1.0, -1.0, 1.0], &[-2.0, 3.0], [-1.0, -1.0]), 6.0);
+    }
+}

@@ -23,6 +23,9 @@ pub mod bat_file;
 pub mod ball_file;
 pub mod shape_file;
 pub mod force_file;
+#[cfg(feature = "show")]
 pub mod schema;
+#[cfg(feature = "show")]
 pub mod uff;
+#[cfg(feature = "show")]
 pub mod measured;

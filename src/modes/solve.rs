@@ -5,8 +5,9 @@
 //! and how far to trust it.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::base::clock::Clock;
 use crate::base::error::{Error, Result};
 use crate::base::lanes::WIDTH;
 use crate::bat::body::Bat;
@@ -222,7 +223,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
         let expected = "\"shear_modulus\" or \"poisson_ratio\" there, or a theory without shear";
         return Err(Error::value("theory", found, expected));
     }
-    let started = Instant::now();
+    let started = Clock::start();
     let mut timing = Timing::default();
     let mut plan = match request.elements {
         Some(elements) => Plan::fixed(bat, elements, request.degree.unwrap_or(3)),
@@ -316,10 +317,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
 ///
 /// As [`solve`].
 pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<Solution> {
-    let started = Instant::now();
+    let started = Clock::start();
     let (mut best, mut first) = (None::<Solution>, Duration::ZERO);
     for digits in 1..=14 {
-        let begun = Instant::now();
+        let begun = Clock::start();
         let digit = Request { tolerance: 10f64.powi(-digits), elements: None, ..*request };
         let solution = match solve(bat, &digit) {
             Ok(solution) => solution,
@@ -411,11 +412,11 @@ impl Task<'_> {
 
     fn of_degree<const N: usize, const W: usize>(&self, timing: &mut Timing) -> Result<Answer> {
         let Self { bat, plan, request, .. } = *self;
-        let started = Instant::now();
+        let started = Clock::start();
         let mut pairs = Eigenpairs::<f64, N, W>::new(bat, request.theory);
         pairs.assemble(&[bat], &[&plan.mesh]);
-        let assembled = Instant::now();
-        timing.assemble += assembled - started;
+        let assembled = Clock::start();
+        timing.assemble += started.elapsed();
         if pairs.statics.freedom() < request.modes {
             let least = request.modes.div_ceil(W - 2) + 1;
             let found = plan.mesh.len();
