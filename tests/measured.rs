@@ -296,13 +296,13 @@ fn what_shapes_have_in_common_is_judged_by_what_the_points_do() {
     let verdict = |measured: Measured| {
         let study = study(&dowel(), measured, Told::default());
         let said = words(&study);
-        said.iter().find(|line| line.starts_with("In the bat's mass")).unwrap().clone()
+        said.iter().find(|line| line.contains("orthogonal in the bat's mass")).unwrap().clone()
     };
     let right = verdict(free(4, &points(20), |_, _, v| v));
     assert!(right.ends_with("they are sound in this."), "{right}");
     // At four points even the exact shapes have much in common, the computed ones as much.
     let few = verdict(free(3, &points(4), |_, _, v| v));
-    assert!(few.ends_with("with so few points that says nothing."), "{few}");
+    assert!(few.ends_with("with so few points that proves nothing."), "{few}");
     // Three tenths of another mode: 0.3/√1.09 in common with it.
     let x = points(20);
     let first = exact(Ends::FreeFree, 1, &x);
