@@ -194,7 +194,7 @@ fn planted_uses_of_later_modules_are_found() {
     let first = "use crate::{other, second::Thing};\nuse super::{last::Thing, last};\n";
     folder.write("room/inner/first.rs", first);
     let last = "fn f() { crate::room::late::g() }\nuse super::super::late::Thing;\n";
-    folder.write("room/inner/last.rs", &format!("{last}use super::first;\n// crate::second\n"));
+    folder.write("room/inner/last.rs", format!("{last}use super::first;\n// crate::second\n"));
     let complaints = reaching_back(&folder.0, &folder.0, "lib.rs");
     let expected = [
         "first.rs uses second::Thing",
