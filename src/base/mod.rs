@@ -8,7 +8,7 @@
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, `threads` | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
-//! | [`units`] | what is a number with a unit in SI |
+//! | [`units`], [`number`] | what is a number with a unit in SI; how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
 //! | [`xml`] | how is a text written into XML |
@@ -20,6 +20,7 @@ pub(crate) mod clock;
 pub(crate) mod threads;
 pub mod file;
 pub mod units;
+pub mod number;
 pub mod real;
 pub mod lanes;
 pub mod quadrature;

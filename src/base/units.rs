@@ -435,6 +435,11 @@ pub fn miles_per_hour(speed: f64) -> f64 {
     speed / (MILE / 3600.0)
 }
 
+/// An acceleration (m/s²) in standard gravities, of 9.80665 m/s² each.
+pub fn gravities(acceleration: f64) -> f64 {
+    acceleration / 9.806_65
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::show::report::text::rounded;
+use sweetspot::base::number::rounded;
 
 /// What a bat maker measures; lengths in `unit`.
 #[derive(Debug, Clone, PartialEq)]

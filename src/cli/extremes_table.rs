@@ -4,12 +4,20 @@ use std::fmt::Write;
 
 use sweetspot::base::telling::Tell;
 use sweetspot::proof::extremes::{EXTREMES, Outcome, Verdict};
+use sweetspot::show::report::columns::{Columns, first, labels, numbers};
 
 /// Every row, and whether all are right or refused with a reason.
 pub fn table(tell: Tell) -> (String, bool) {
     let mut out = String::from("Right within three times the stated error, or refused");
     out += " with the reason:\n\n";
-    let _ = writeln!(out, "{:<40}{:>8}{:>9}{:>9}  verdict", "what", "asked", "found", "stated");
+    let columns = Columns::new([
+        first(40, "what"),
+        numbers(8, "asked"),
+        numbers(9, "found"),
+        numbers(9, "stated"),
+        labels(7, "verdict"),
+    ]);
+    out += &columns.heads();
     // Right, refused, wrong.
     let mut counts = [0; 3];
     for (k, extreme) in EXTREMES.iter().enumerate() {
@@ -21,8 +29,8 @@ pub fn table(tell: Tell) -> (String, bool) {
             Verdict::Wrong(reason) => (2, "WRONG", reason),
         };
         counts[which] += 1;
-        let (asked, found, stated) = (asking(asked), number(found), number(stated));
-        let _ = writeln!(out, "{:<40}{asked:>8}{found:>9}{stated:>9}  {word}", extreme.what);
+        let [asked, found, stated] = [asking(asked), number(found), number(stated)];
+        out += &columns.row([extreme.what, &asked, &found, &stated, word]);
         wrapped(&remark, &mut out);
     }
     let [right, refused, wrong] = counts;

@@ -17,7 +17,9 @@ use sweetspot::show::report::text::wrapped;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
-use crate::cli::value::{named, number, quantity, shown_length};
+use crate::cli::value::{named, quantity, shown_length};
+use sweetspot::show::csv::Csv;
+use sweetspot::show::report::columns::{Columns, numbers};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///
@@ -290,24 +292,27 @@ fn rising(args: &Args, frequencies: &mut [f64]) -> Result<()> {
 
 fn csv(kind: Kind, samples: &[Sample]) -> String {
     let unit = kind.unit();
-    let mut out = format!(
-        "frequency_hz,real_{unit},imaginary_{unit},magnitude_{unit},phase_deg,truncation_{unit}\n"
-    );
+    let mut table = Csv::new([
+        "frequency_hz".to_owned(),
+        format!("real_{unit}"),
+        format!("imaginary_{unit}"),
+        format!("magnitude_{unit}"),
+        "phase_deg".to_owned(),
+        format!("truncation_{unit}"),
+    ]);
     for sample in samples {
         let factor = kind.of(sample.frequency);
         let value = sample.receptance * factor;
-        let cells = [
-            sample.frequency,
-            value.re,
-            value.im,
-            value.norm(),
-            phase(value.re, value.im),
-            sample.truncation * factor.norm(),
-        ];
-        out += &cells.map(number).join(",");
-        out.push('\n');
+        table.row([
+            sample.frequency.into(),
+            value.re.into(),
+            value.im.into(),
+            value.norm().into(),
+            phase(value.re, value.im).into(),
+            (sample.truncation * factor.norm()).into(),
+        ]);
     }
-    out
+    table.text()
 }
 
 fn place(x: f64) -> String {
@@ -330,18 +335,20 @@ fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> Strin
     let title =
         format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
     let mut out = wrapped(&title, 4);
-    let _ = writeln!(
-        out,
-        "  {:>14} {:>18} {:>14}",
-        "frequency, Hz",
-        format!("size, {unit}"),
-        "phase, deg"
-    );
+    let columns = Columns::new([
+        numbers(16, "frequency, Hz"),
+        numbers(19, format!("size, {unit}")),
+        numbers(15, "phase, deg"),
+    ]);
+    out += &columns.heads();
     for sample in samples {
         let value = sample.receptance * kind.of(sample.frequency);
         let phase = phase(value.re, value.im);
-        let _ =
-            writeln!(out, "  {:>14.3} {:>18.5e} {:>14.2}", sample.frequency, value.norm(), phase);
+        out += &columns.row([
+            format!("{:.3}", sample.frequency),
+            format!("{:.5e}", value.norm()),
+            format!("{phase:.2}"),
+        ]);
     }
     let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
     let missing = samples.iter().map(share).fold(0.0, f64::max);

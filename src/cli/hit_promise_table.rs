@@ -2,16 +2,17 @@
 
 use std::fmt::Write;
 
+use sweetspot::base::number::percent;
 use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary};
+use sweetspot::show::report::columns::{Columns, first, labels, numbers};
 
 const TITLE: &str = "Errors of exit speeds on random hits, relative to the closing speed:
 
-hits                       n  true/stated    close  met
 ";
 
 /// A line for every kind of bat and for what happens in a hit, and one for all.
 pub fn summary(rows: &[CheckedHit]) -> String {
-    let mut out = TITLE.to_owned();
+    let mut out = TITLE.to_owned() + &columns().heads();
     let mut bats: Vec<&str> = rows.iter().map(|row| row.bat.as_str()).collect();
     bats.sort_unstable();
     bats.dedup();
@@ -25,15 +26,29 @@ pub fn summary(rows: &[CheckedHit]) -> String {
     out
 }
 
+fn columns() -> Columns {
+    Columns::new([
+        first(22, "hits"),
+        numbers(6, "n"),
+        numbers(13, "true/stated"),
+        numbers(9, "close"),
+        labels(3, "met"),
+    ])
+}
+
 fn line<'a>(out: &mut String, name: &str, rows: impl Iterator<Item = &'a CheckedHit>) {
     let summary = Summary::of(rows);
-    let Summary { hits, ratio, met, .. } = summary;
-    let close = 100.0 * summary.share_close();
-    let _ = write!(out, "{name:<22} {hits:>5}  {ratio:>11.2}  {close:>5.1} %  {met}");
-    let _ = match summary.broken {
-        0 => writeln!(out),
-        broken => writeln!(out, "; {broken} BROKEN"),
+    let met = match summary.broken {
+        0 => summary.met.to_string(),
+        broken => format!("{}; {broken} BROKEN", summary.met),
     };
+    *out += &columns().row([
+        name,
+        &summary.hits.to_string(),
+        &format!("{:.2}", summary.ratio),
+        &percent(summary.share_close(), 1),
+        &met,
+    ]);
 }
 
 /// One line per hit.

@@ -1,6 +1,5 @@
 //! `sweetspot materials`: the built-in list with its sources.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
@@ -13,6 +12,7 @@ use sweetspot::show::report::text::{Units, wrapped};
 use crate::cli::done::Done;
 use crate::cli::style;
 use crate::cli::value::unit_system;
+use sweetspot::show::report::columns::{Columns, first, numbers};
 
 /// The built-in materials with their sources
 ///
@@ -74,16 +74,12 @@ fn table(units: Units) -> String {
             m.shear_modulus.map_or("-".to_owned(), |g| format!("{:.3}", g / MPSI)),
         ],
     };
+    let columns = Columns::new([first(20, "")].into_iter().chain((0..6).map(|_| numbers(10, ""))));
     let line = |m: Option<&BuiltIn>| {
-        let mut out = format!("{:<20}", m.map_or("Material", |m| m.name));
-        for (system, cells) in [(Units::Us, si(m)), (Units::Si, us(m))] {
-            if units != system {
-                cells.iter().for_each(|cell| {
-                    let _ = write!(out, " {cell:>9}");
-                });
-            }
-        }
-        out + "\n"
+        let systems = [(Units::Us, si(m)), (Units::Si, us(m))].into_iter();
+        let cells = systems.filter(|(other, _)| units != *other).flat_map(|(_, cells)| cells);
+        let name = m.map_or("Material", |m| m.name).to_owned();
+        columns.row([name].into_iter().chain(cells))
     };
     let mut out = line(None);
     for material in BUILT_IN {

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
+use sweetspot::base::number::percent;
 use sweetspot::proof::promise::{BATS, CheckedBat, DIGITS, Summary};
+use sweetspot::show::report::columns::{Columns, first, labels, numbers};
 
 const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
 30 times the true ones in nine of ten above 1e-13. Worst true/stated error:
 
-bat                 modes  frequency  nodes  masses    close  1e-2..1e-12
 ";
 const LEGEND: &str =
     "+ met; ~ met by the estimate, not quite by the truth; - out of reach, and said
@@ -16,7 +17,7 @@ so; ! an error beyond three times the stated one
 
 /// One line per bat: the worst ratios of true to stated errors, and what became of every tolerance.
 pub fn summary(rows: &[CheckedBat]) -> String {
-    let mut out = TITLE.to_owned();
+    let mut out = TITLE.to_owned() + &columns().heads();
     for (bat, _) in BATS {
         let of_bat: Vec<CheckedBat> = rows.iter().filter(|row| row.bat == *bat).cloned().collect();
         let modes = of_bat.iter().map(|row| row.modes).max().unwrap_or(0);
@@ -28,15 +29,28 @@ pub fn summary(rows: &[CheckedBat]) -> String {
     out + LEGEND
 }
 
+fn columns() -> Columns {
+    Columns::new([
+        first(19, "bat"),
+        numbers(6, "modes"),
+        numbers(11, "frequency"),
+        numbers(7, "nodes"),
+        numbers(8, "masses"),
+        numbers(9, "close"),
+        labels(11, "1e-2..1e-12"),
+    ])
+}
+
 fn line(out: &mut String, bat: &str, modes: &str, summary: &Summary, marks: &str) {
-    let _ = writeln!(
-        out,
-        "{bat:<19} {modes:>5}  {:>9}  {:>5}  {:>6}  {:>5.1} %  {marks}",
-        ratio(summary.frequency_ratio),
-        ratio(summary.node_ratio),
-        ratio(summary.mass_ratio),
-        100.0 * summary.share_close(),
-    );
+    *out += &columns().row([
+        bat,
+        modes,
+        &ratio(summary.frequency_ratio),
+        &ratio(summary.node_ratio),
+        &ratio(summary.mass_ratio),
+        &percent(summary.share_close(), 1),
+        marks,
+    ]);
 }
 
 /// One line per bat and tolerance.

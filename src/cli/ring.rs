@@ -24,7 +24,8 @@ use sweetspot::study::ignored;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
 use crate::cli::done::Done;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{number, quantity, shown_length};
+use crate::cli::value::{quantity, shown_length};
+use sweetspot::show::csv::{Cell, Csv};
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///
@@ -302,13 +303,11 @@ fn times(args: &Args, solution: &Solution) -> Vec<f64> {
 }
 
 fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {
-    let mut out = String::from("x_m");
-    times.iter().for_each(|t| out += &format!(",w_m_at_{t}_s"));
-    out.push('\n');
+    let names = times.iter().map(|t| format!("w_m_at_{t}_s"));
+    let mut table = Csv::new(["x_m".to_owned()].into_iter().chain(names));
     for (k, x) in x.iter().enumerate() {
-        out += &number(*x);
-        frames.iter().for_each(|frame| out += &format!(",{}", number(frame[k])));
-        out.push('\n');
+        let moved = frames.iter().map(|frame| frame[k]);
+        table.row([*x].into_iter().chain(moved).map(Cell::from));
     }
-    out
+    table.text()
 }

@@ -17,6 +17,7 @@ use sweetspot::show::report::text::wrapped;
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
 use crate::cli::{extremes_table, hit_promise_table, promise_table};
+use sweetspot::show::report::columns::{Columns, first, numbers};
 
 /// Every known answer beside ours
 ///
@@ -124,7 +125,7 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
     let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let (mut cases, mut counted, mut information, mut misses) = (0, 0, 0, 0);
     if args.summary {
-        *out += "case                               rows  missed  worst error/tolerance\n";
+        *out += &of_cases().heads();
     }
     for (k, (name, text)) in CASES.iter().enumerate().filter(|(_, (name, _))| asked(name)) {
         tell(k as f64 / CASES.len() as f64, name);
@@ -137,7 +138,8 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
         misses += missed;
         if args.summary {
             let worst = rows.iter().map(KnownNumber::share).fold(0.0, f64::max);
-            let _ = writeln!(out, "{name:<33} {:>5}  {missed:>6}  {worst:>8.3}", rows.len());
+            let [rows, missed] = [rows.len(), missed].map(|count| count.to_string());
+            *out += &of_cases().row([name.to_string(), rows, missed, format!("{worst:.3}")]);
         } else {
             let _ = writeln!(out, "{} ({name})", case.name);
             *out += "  quantity                expected            got     error  tolerance\n";
@@ -151,6 +153,15 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
     }
     out.push('\n');
     Ok(misses == 0)
+}
+
+fn of_cases() -> Columns {
+    Columns::new([
+        first(33, "case"),
+        numbers(6, "rows"),
+        numbers(8, "missed"),
+        numbers(23, "worst error/tolerance"),
+    ])
 }
 
 fn line(row: &KnownNumber, out: &mut String) {

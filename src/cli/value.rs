@@ -8,11 +8,6 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::Solver;
 use sweetspot::show::report::text::Units;
 
-/// A number as JSON writes it: the shortest that reads back to the same bits.
-pub fn number(value: f64) -> String {
-    serde_json::Value::from(value).to_string()
-}
-
 /// A length as it is said in messages, whichever unit it came in.
 pub fn shown_length(length: f64) -> String {
     let inches: f64 = format!("{:.5e}", units::inches(length)).parse().unwrap_or(f64::NAN);

@@ -3,12 +3,13 @@
 //! | file | question |
 //! |---|---|
 //! | [`analysis`] | everything there is to say of one bat and its hits |
-//! | [`report`] | tables for people, JSON for programs |
+//! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
 //! | [`exchange`] | files for other programs |
 //! | [`plot`] | pictures |
 //! | [`page`] | all of it on one page |
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
 
+pub mod csv;
 pub mod analysis;
 pub mod report;
 pub mod exchange;

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
+use crate::base::number::rounded;
 use crate::bat::profile::{Piece, Profile};
 use crate::collision::hit::{Energy, Impact};
 use crate::show::analysis::Analysis;
 use crate::show::page::moment::Moment;
 use crate::show::page::summary::Summary;
-use crate::show::report::text::rounded;
 
 /// Everything that the script needs.
 #[derive(Debug, Clone, Serialize)]

@@ -7,13 +7,13 @@
 use serde::Serialize;
 
 use crate::base::error::Result;
+use crate::base::number::rounded;
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant};
 use crate::collision::history::Moment as Squeezed;
 use crate::collision::hit::Model;
 use crate::collision::hitter::Hitter;
 use crate::show::analysis::Analysis;
-use crate::show::report::text::rounded;
 
 /// A hit in time, as numbers for drawing: rounded to what a picture shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,7 +1,7 @@
 //! Numbers as a person reads them: in SI and in US units, errors as powers of ten.
 
+use crate::base::number::rounded;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use crate::show::report::text::rounded;
 
 /// What there is no number for.
 pub const NONE: &str = "–";

@@ -2,16 +2,15 @@
 
 use std::f64::consts::TAU;
 
+use crate::base::number;
+use crate::base::units::gravities;
 use crate::collision::figures::Swung;
 use crate::collision::hit::Outcome;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, centimetres, decimals, in_inches, inline, speed};
 use crate::show::page::table::Table;
-use crate::show::report::text::rounded;
 
-/// m/s².
-const STANDARD_GRAVITY: f64 = 9.806_65;
 /// So many modes have their nodes listed, and so many their energies.
 const LISTED: usize = 6;
 const LARGEST: usize = 3;
@@ -80,7 +79,7 @@ pub fn sweet_spots(analysis: &Analysis) -> Table {
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
     peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
     peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
-        format!("{:.0} times gravity", a / STANDARD_GRAVITY)
+        format!("{:.0} times gravity", gravities(a))
     });
     line("node of mode 1", spot.node_mode_1, NONE.to_owned());
     line("node of mode 2", spot.node_mode_2, NONE.to_owned());
@@ -195,9 +194,8 @@ fn signed(change: f64) -> [String; 2] {
 }
 
 /// A change, to so many decimals.
-fn with_sign(value: f64, decimals: i32) -> String {
-    let shown = format!("{:+.*}", decimals.max(0) as usize, rounded(value, decimals));
-    shown.replace('-', "−")
+fn with_sign(value: f64, decimals: usize) -> String {
+    number::signed(value, decimals).replace('-', "−")
 }
 
 /// How the sweet spots and the best speed move with the scene; empty where no ball is hit.

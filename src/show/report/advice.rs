@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::base::units::{inches, ounce_square_inches, ounces};
 use crate::bat::theory::Theory;
 use crate::modes::damping::Damped;
+use crate::show::report::columns::{Columns, labels, numbers};
 use crate::show::report::json::generator;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::advise::advice::Advice;
@@ -124,8 +125,9 @@ fn tables(
 }
 
 fn row(name: &str, cells: impl Iterator<Item = String>) -> String {
-    let line = cells.fold(format!("  {name:<NAME$}"), |line, cell| format!("{line}{cell:>CELL$}"));
-    format!("{}\n", line.trim_end())
+    let columns =
+        Columns::new([labels(NAME, "")].into_iter().chain((0..ABREAST).map(|_| numbers(CELL, ""))));
+    columns.row([name.to_owned()].into_iter().chain(cells))
 }
 
 fn frequency(solved: &Solved, k: usize) -> String {

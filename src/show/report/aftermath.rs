@@ -4,11 +4,13 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::base::units::{inches, miles_per_hour};
+use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
 use crate::collision::hit::Impact;
 use crate::collision::strength::{Limit, Load, Strength, nearest};
+use crate::show::csv::{Cell, Csv};
+use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::json::generator;
 use crate::show::report::text::{Units, wrapped};
 
@@ -97,60 +99,70 @@ pub fn text(report: &AfterHit, units: Units) -> String {
         1e3 * report.until
     );
     for (x, sting, _) in &report.watched {
-        let [moved, speed, acceleration] = sting.peak;
-        let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
-        let speed = units.inline(
-            units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed))),
-        );
-        let _ = writeln!(
-            out,
-            "  at {}, which begins to move after {:.2} ms",
-            place(*x, units),
-            1e3 * sting.begins
-        );
-        let moved = units.inline(
-            units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved))),
-        );
-        let _ = writeln!(out, "    {:<36} {moved} {a}", "largest displacement");
-        let _ = writeln!(out, "    {:<36} {speed} {b}", "largest velocity");
-        let shaken = format!("{:.0} m/s² ({:.0} g)", acceleration, acceleration / 9.806_65);
-        let _ = writeln!(out, "    {:<36} {shaken} {c}", "largest acceleration");
+        out += &motion(*x, sting, units);
     }
-    if let (Some(during), Some(after)) = (report.during, report.after) {
-        let _ = writeln!(
-            out,
-            "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)",
-            (100.0 * report.strain_error).max(1.0)
-        );
-        for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
-            let _ = writeln!(
-                out,
-                "  {what:<24} {:.3} %, {:.1} MPa at {}, {:.2} ms",
-                100.0 * worst.strain,
-                1e-6 * worst.stress,
-                place(worst.x, units),
-                1e3 * worst.time
-            );
-        }
-    }
+    out += &strains(report, units);
     out += &strength(report, units);
-    let Some((x, _, lines)) = report.watched.first() else { return out };
-    let _ = writeln!(
-        out,
-        "\nSpectrum at {} when the ball has left: amplitude of every mode\n       Hz        mm       \
-         m/s         g",
-        place(*x, units)
+    out +=
+        &report.watched.first().map_or(String::new(), |(x, _, lines)| spectrum(*x, lines, units));
+    out
+}
+
+/// When a place begins to move, and its largest displacement, velocity and acceleration.
+fn motion(x: f64, sting: &Sting, units: Units) -> String {
+    let [moved, speed, acceleration] = sting.peak;
+    let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
+    let (place, begins) = (place(x, units), 1e3 * sting.begins);
+    let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
+    let mut line = |what: &str, size: String, when: String| {
+        let _ = writeln!(out, "    {what:<36} {size} {when}");
+    };
+    let moved = units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved)));
+    line("largest displacement", units.inline(moved), a);
+    let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
+    line("largest velocity", units.inline(speed), b);
+    let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
+    line("largest acceleration", shaken, c);
+    out
+}
+
+/// The largest bending strain while the ball is there and in the whole time.
+fn strains(report: &AfterHit, units: Units) -> String {
+    let (Some(during), Some(after)) = (report.during, report.after) else { return String::new() };
+    let mut out = format!(
+        "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)\n",
+        (100.0 * report.strain_error).max(1.0)
     );
+    for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
+        let _ = writeln!(
+            out,
+            "  {what:<24} {:.3} %, {:.1} MPa at {}, {:.2} ms",
+            100.0 * worst.strain,
+            1e-6 * worst.stress,
+            place(worst.x, units),
+            1e3 * worst.time
+        );
+    }
+    out
+}
+
+/// The modes that a place hears, once the ball has left.
+fn spectrum(x: f64, lines: &[Line], units: Units) -> String {
+    let place = place(x, units);
+    let mut out =
+        format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
+    let columns =
+        Columns::new([numbers(9, "Hz"), numbers(10, "mm"), numbers(10, "m/s"), numbers(10, "g")]);
+    out += &columns.heads();
     let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
     for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
         let [moved, speed, acceleration] = line.amplitude;
-        let _ = writeln!(
-            out,
-            "{:>9.1} {:>9.3} {speed:>9.3} {:>9.0}",
-            line.frequency,
-            1e3 * moved,
-            acceleration / 9.806_65
-        );
+        out += &columns.row([
+            format!("{:.1}", line.frequency),
+            format!("{:.3}", 1e3 * moved),
+            format!("{speed:.3}"),
+            format!("{:.0}", gravities(acceleration)),
+        ]);
     }
     out
 }
@@ -230,24 +242,21 @@ pub fn strengths_json(all: &[Strength]) -> Value {
 
 /// Force, and motion and strain at the watched places, in time.
 pub fn history(after: &Aftermath, report: &AfterHit) -> String {
-    let mut out = String::from("t_s,force_n");
-    for (x, ..) in &report.watched {
-        for what in ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"] {
-            let _ = write!(out, ",{what}_at_{x}_m");
-        }
-    }
-    out.push('\n');
     let places: Vec<f64> = report.watched.iter().map(|(x, ..)| *x).collect();
+    let columns = places.iter().flat_map(|x| {
+        ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"]
+            .map(|what| format!("{what}_at_{x}_m"))
+    });
+    let mut table = Csv::new(["t_s", "force_n"].map(str::to_owned).into_iter().chain(columns));
     for now in &report.instants {
-        let _ = write!(out, "{},{}", now.time, now.force);
         let strains = after.strains(&places, now, after.count());
-        for (x, strain) in places.iter().zip(strains) {
+        let at_places = places.iter().zip(strains).flat_map(|(x, strain)| {
             let [moved, speed, acceleration] = after.motion(*x, now);
-            let _ = write!(out, ",{moved},{speed},{acceleration},{strain}");
-        }
-        out.push('\n');
+            [moved, speed, acceleration, strain]
+        });
+        table.row([now.time, now.force].into_iter().chain(at_places).map(Cell::from));
     }
-    out
+    table.text()
 }
 
 /// The `sweetspot-ring/1` document of a hit.

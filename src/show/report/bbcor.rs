@@ -10,6 +10,8 @@ use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Test
 use crate::files::schema;
 use crate::files::schema::bbcor as file;
 use crate::files::schema::modes::Generator;
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::hit_json::ball_out;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::ignored;
@@ -49,17 +51,19 @@ pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
 fn table(tested: &Tested, units: Units) -> String {
     let us = units == Units::Us;
     let (near, fast) = if us { ("in", "mph") } else { ("cm", "m/s") };
-    let row = |cells: [String; 7]| {
-        let [knob, tip, exit, second, efficiency, bbcor, error] = cells;
-        let line = format!(
-            "{knob:>9} {tip:>9} {exit:>9} {second:>9} {efficiency:>8} {bbcor:>9} {error:>9}"
-        );
-        format!("{}\n", line.trim_end())
-    };
+    let columns = Columns::new([
+        numbers(9, "knob"),
+        numbers(10, "tip"),
+        numbers(10, "rebound"),
+        numbers(10, ""),
+        numbers(9, "e_A"),
+        numbers(10, "BBCOR"),
+        numbers(10, "within"),
+    ]);
     let [tip, second] = if units == Units::Both { ["in", "mph"] } else { [near, ""] };
     let mut out = String::from("\n");
-    out += &row(["knob", "tip", "rebound", "", "e_A", "BBCOR", "within"].map(str::to_owned));
-    out += &row([near, tip, fast, second, "", "", ""].map(str::to_owned));
+    out += &columns.heads();
+    out += &columns.row([near, tip, fast, second, "", "", ""]);
     let length = |x: f64, unit: &str| {
         format!("{:.2}", if unit == "in" { inches(x) } else { 100.0 * x } + 0.0)
     };
@@ -69,7 +73,7 @@ fn table(tested: &Tested, units: Units) -> String {
         let shown = |v: f64| format!("{:.2}", if us { miles_per_hour(v) } else { v });
         let mph = |v: f64| format!("{:.1}", miles_per_hour(v));
         let both = units == Units::Both;
-        let line = row([
+        let line = columns.row([
             length(x, near),
             length(tested.bat.length() - x, tip),
             outcome.map_or("no value".to_owned(), |o| shown(o.exit_speed)),
@@ -104,22 +108,26 @@ fn verdict(tested: &Tested, units: Units) -> String {
 
 /// A line for each place, SI.
 pub fn csv(tested: &Tested) -> String {
-    let mut out =
-        String::from("x_m,from_tip_m,exit_speed_m_s,collision_efficiency,bbcor,bbcor_error\n");
-    let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
+    let mut table = Csv::new([
+        "x_m",
+        "from_tip_m",
+        "exit_speed_m_s",
+        "collision_efficiency",
+        "bbcor",
+        "bbcor_error",
+    ]);
     for place in &tested.places {
         let (x, outcome) = (place.impact.x, place.impact.outcome.as_ref());
-        let _ = writeln!(
-            out,
-            "{x},{},{},{},{},{}",
-            tested.bat.length() - x,
-            cell(outcome.map(|o| o.exit_speed)),
-            cell(outcome.map(|o| o.collision_efficiency)),
-            cell(place.bbcor),
-            cell(place.error)
-        );
+        table.row([
+            x.into(),
+            (tested.bat.length() - x).into(),
+            outcome.map(|o| o.exit_speed).into(),
+            outcome.map(|o| o.collision_efficiency).into(),
+            place.bbcor.into(),
+            place.error.into(),
+        ]);
     }
-    out
+    table.text()
 }
 
 /// The `sweetspot-bbcor/1` document.

@@ -1,9 +1,8 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
-use std::fmt::Write;
-
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
+use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::comparison::contender::Contender;
@@ -147,20 +146,17 @@ fn label(row: &ComparedFigure, scale: &Scale) -> String {
 /// The values of all bats.
 fn overview(comparison: &Comparison, units: Units) -> String {
     let us = units == Units::Us;
-    let mut out = format!("\n{:32}", "All (places from the knob end)");
     let width = (48 / comparison.bats.len()).min(10);
-    (0..comparison.bats.len()).for_each(|k| {
-        let _ = write!(out, "{:>width$}", letter(k));
-    });
-    out.push('\n');
+    let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
+    let columns =
+        Columns::new([first(32, "All (places from the knob end)")].into_iter().chain(bats));
+    let mut out = format!("\n{}", columns.heads());
     for row in shown(comparison) {
         let scale = scale(row.unit, us);
-        let mut line = format!("  {:30}", label(row, &scale));
-        for value in &row.values {
-            let cell = value.map_or(String::new(), |figure| scale.value(figure.value));
-            let _ = write!(line, "{cell:>width$}");
-        }
-        let _ = writeln!(out, "{}", line.trim_end());
+        let values = row.values.iter();
+        let values = values.map(|v| v.map_or(String::new(), |figure| scale.value(figure.value)));
+        let label = format!("  {}", label(row, &scale));
+        out += &columns.row([label].into_iter().chain(values));
     }
     out
 }
@@ -170,8 +166,9 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
     let (us, name) = (units == Units::Us, letter(bat));
     let less = format!("{name} less A");
     let title = format!("{name} beside A");
-    let cells = [title, "A".into(), name.to_string(), less.clone(), "within".into()];
-    let mut out = format!("\n{}", row(&cells, if units == Units::Both { &less } else { "" }));
+    let in_us = if units == Units::Both { less.clone() } else { String::new() };
+    let heads = [title, "A".into(), name.to_string(), less, "within".into(), in_us];
+    let mut out = format!("\n{}", columns(heads).heads());
     for figure in shown(comparison) {
         let scale = scale(figure.unit, us);
         out += &compared(figure, bat, &format!("  {}", label(figure, &scale)), units);
@@ -230,14 +227,22 @@ fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> S
         value(bat),
         difference.map_or(String::new(), |d| scale_here.difference(d)),
         difference.map_or(String::new(), |d| scale_here.within(d, size)),
+        in_us,
     ];
-    row(&cells, &in_us)
+    columns(Default::default()).row(cells)
 }
 
 /// 80 columns.
-fn row([label, a, b, difference, within]: &[String; 5], us: &str) -> String {
-    let line = format!("{label:32}{a:>9}{b:>9}{difference:>10}{within:>8}{us:>12}");
-    format!("{}\n", line.trim_end())
+fn columns(heads: [String; 6]) -> Columns {
+    let [label, a, b, difference, within, us] = heads;
+    Columns::new([
+        first(32, label),
+        numbers(9, a),
+        numbers(9, b),
+        numbers(10, difference),
+        numbers(8, within),
+        numbers(12, us),
+    ])
 }
 
 /// A sentence or two about each bat beside the first.

@@ -1,9 +1,8 @@
 //! Several bats side by side: JSON and CSV, in SI.
 
-use std::fmt::Write;
-
 use serde_json::{Map, Value, json};
 
+use crate::show::csv::Csv;
 use crate::show::report::comparison::{letter, words};
 use crate::show::report::hit_json::{hit, model_name, seen_from};
 use crate::show::report::json::generator;
@@ -94,34 +93,40 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> Val
 
 /// All figures and speeds, a line for each bat's: SI, the unit at the end of the quantity.
 pub fn csv(comparison: &Comparison) -> String {
-    let mut out = String::from(
-        "quantity,distance_m,bat,value,error,difference,difference_error,beyond_errors\n",
-    );
-    let mut add = |name: &str, distance: &str, row: &ComparedFigure| {
+    let mut table = Csv::new([
+        "quantity",
+        "distance_m",
+        "bat",
+        "value",
+        "error",
+        "difference",
+        "difference_error",
+        "beyond_errors",
+    ]);
+    let mut add = |name: &str, distance: Option<f64>, row: &ComparedFigure| {
         for (k, figure) in row.values.iter().enumerate() {
             let Some(figure) = figure else { continue };
-            let difference = row
-                .difference(k)
-                .filter(|_| k > 0)
-                .map_or(",,".to_owned(), |d| format!("{},{},{}", d.by, d.within, d.is_real()));
-            let _ = writeln!(
-                out,
-                "{name}{},{distance},{},{},{},{difference}",
-                row.unit.suffix(),
-                letter(k),
-                figure.value,
-                figure.error
-            );
+            let difference = row.difference(k).filter(|_| k > 0);
+            table.row([
+                format!("{name}{}", row.unit.suffix()).into(),
+                distance.into(),
+                letter(k).to_string().into(),
+                figure.value.into(),
+                figure.error.into(),
+                difference.map(|d| d.by).into(),
+                difference.map(|d| d.within).into(),
+                difference.map(|d| d.is_real()).into(),
+            ]);
         }
     };
     for row in &comparison.figures {
-        add(&row.key, "", row);
+        add(&row.key, None, row);
     }
     for (d, row) in comparison.from_tip.iter().zip(&comparison.by_tip) {
-        add("exit_speed_from_tip", &d.to_string(), row);
+        add("exit_speed_from_tip", Some(*d), row);
     }
     for (d, row) in comparison.from_knob.iter().zip(&comparison.by_knob) {
-        add("exit_speed_from_knob", &d.to_string(), row);
+        add("exit_speed_from_knob", Some(*d), row);
     }
-    out
+    table.text()
 }

@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use crate::base::number::significant;
 use crate::files::schema::modes as file;
 use crate::modes::damping::Kind;
 use crate::modes::solve::Solution;
+use crate::show::report::columns::{Columns, numbers};
 
 /// A row for each mode; nothing for a bat without damping.
 pub fn table(solution: &Solution) -> String {
@@ -16,34 +18,31 @@ pub fn table(solution: &Solution) -> String {
     let mut out = String::from(
         "Damping (Q, width: 1/(2 ratio); Q, amplit., as papers on bats have it: 1/ratio)\n",
     );
-    out += "  mode  damped frequency      ratio       decay    Q, width  Q, amplit.\n";
-    let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| digits(q, 4));
+    let columns = Columns::new([
+        numbers(6, "mode"),
+        numbers(18, "damped frequency"),
+        numbers(11, "ratio"),
+        numbers(12, "decay"),
+        numbers(12, "Q, width"),
+        numbers(12, "Q, amplit."),
+    ]);
+    out += &columns.heads();
+    let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| significant(q, 4));
     for (mode, damped) in solution.modes.iter().zip(&damping.modes) {
-        let _ = writeln!(
-            out,
-            "  {:>4} {:>14.2} Hz {:>10} {:>9}/s {:>11} {:>11}",
-            mode.order,
-            damped.swinging() / TAU,
-            digits(damped.ratio, 3),
-            digits(damped.decay, 3),
+        out += &columns.row([
+            mode.order.to_string(),
+            format!("{:.2} Hz", damped.swinging() / TAU),
+            significant(damped.ratio, 3),
+            format!("{}/s", significant(damped.decay, 3)),
             q(damped.q_half_power()),
-            q(damped.q_amplitude())
-        );
+            q(damped.q_amplitude()),
+        ]);
     }
     if !damping.rigid.is_empty() {
-        let rates: Vec<String> = damping.rigid.iter().map(|rate| digits(*rate, 3)).collect();
+        let rates: Vec<String> = damping.rigid.iter().map(|rate| significant(*rate, 3)).collect();
         let _ = writeln!(out, "  rigid motions decay at {}/s", rates.join("/s and "));
     }
     out
-}
-
-/// So many digits, with a power of ten where the plain number would be long.
-fn digits(value: f64, count: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", count - 1).parse().unwrap_or(value);
-    match rounded.abs() {
-        0.0 | 1e-3..1e5 => rounded.to_string(),
-        _ => format!("{rounded:e}"),
-    }
 }
 
 /// What a mode's damping is; None where nothing damps it.

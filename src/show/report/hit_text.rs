@@ -2,14 +2,15 @@
 
 use std::fmt::Write;
 
-use crate::base::units::{inches, miles_per_hour};
+use crate::base::number::signed;
+use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::figures::Figures;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::report::curve;
-use crate::show::report::text::{Units, rounded, wrapped};
+use crate::show::report::text::{Units, wrapped};
 use crate::study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.
@@ -189,7 +190,7 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     peak("fastest ball", spot.exit_speed_max, &speed);
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
     peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
-    let shaken = |a: f64| format!("{:.0} g", a / STANDARD_GRAVITY);
+    let shaken = |a: f64| format!("{:.0} g", gravities(a));
     peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
     line("node of mode 1", spot.node_mode_1, None);
     line("node of mode 2", spot.node_mode_2, None);
@@ -200,9 +201,6 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     }
     out
 }
-
-/// m/s².
-const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// What is stated of a bat: efficiency, BBCOR, what an inch costs, swings.
 pub fn figures(figures: &Figures, units: Units) -> String {
@@ -261,17 +259,15 @@ pub fn moves(figures: &Figures, units: Units) -> String {
     let spot = &figures.spot;
     for (what, moved) in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            (Some(before), Some(after)) => {
-                format!("{:+.1}", rounded(1e3 * (after.x - before.x), 1))
-            }
+            (Some(before), Some(after)) => signed(1e3 * (after.x - before.x), 1),
             _ => String::new(),
         };
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
             (Some(before), Some(after)) => {
                 let change = after.value - before.value;
                 match units {
-                    Units::Us => format!("{:+.1} mph", rounded(miles_per_hour(change), 1)),
-                    _ => format!("{:+.2} m/s", rounded(change, 2)),
+                    Units::Us => format!("{} mph", signed(miles_per_hour(change), 1)),
+                    _ => format!("{} m/s", signed(change, 2)),
                 }
             }
             _ => String::new(),

@@ -5,10 +5,12 @@ use std::fmt::Write;
 use faer::c64;
 use serde_json::{Value, json};
 
+use crate::base::number::{percent, signed};
 use crate::base::units::inches;
 use crate::bat::body::Bat;
+use crate::show::report::columns::{Columns, labels, numbers};
 use crate::show::report::json::generator;
-use crate::show::report::text::{Units, rounded, wrapped};
+use crate::show::report::text::{Units, wrapped};
 use crate::study::measured::pairing::{LEAST, octaves};
 use crate::study::measured::study::{Pair, Shapes, Study};
 use crate::study::measured::words::words;
@@ -60,10 +62,6 @@ fn cut(name: &str, width: usize) -> String {
     }
 }
 
-fn percent(share: f64, decimals: usize) -> String {
-    format!("{:.decimals$} %", 100.0 * share)
-}
-
 /// Frequencies and damping side by side.
 fn modes(study: &Study) -> String {
     let theory = study.solution.theory.name();
@@ -72,17 +70,28 @@ fn modes(study: &Study) -> String {
         None => "paired by their numbers".to_owned(),
     };
     let mut out = format!("Modes ({theory}; {by})\n");
-    out += "  measured       frequency  damping  mode     computed  damping  computed    MAC\n";
-    out += "                                                                   off by\n";
+    let own = || [labels(12, "measured"), numbers(12, "frequency"), numbers(9, "damping")];
+    let computed = [
+        numbers(6, "mode"),
+        numbers(13, "computed"),
+        numbers(9, "damping"),
+        numbers(10, "computed"),
+        numbers(7, "MAC"),
+    ];
+    let (beside, alone) = (
+        Columns::new(own().into_iter().chain(computed)),
+        Columns::new(own().into_iter().chain([labels(0, "")])),
+    );
+    out += &beside.heads();
+    out += &beside.row(["", "", "", "", "", "", "off by"]);
     for (k, mode) in study.measured.modes.iter().enumerate() {
         let damping = mode.damping_ratio.map_or(String::new(), |ratio| percent(ratio, 2));
-        let name = cut(&mode.name, 12);
-        let mut line = format!("  {name:<12}{:>9.2} Hz{damping:>9}", mode.frequency);
-        match study.pairs.iter().find(|pair| pair.measured == k) {
-            Some(pair) => line += &computed(study, pair),
-            None => line += &format!("  {}", alone(study, k)),
-        }
-        let _ = writeln!(out, "{}", line.trim_end());
+        let own = [cut(&mode.name, 12), format!("{:.2} Hz", mode.frequency), damping];
+        let own = own.into_iter();
+        out += &match study.pairs.iter().find(|pair| pair.measured == k) {
+            Some(pair) => beside.row(own.chain(partner(study, pair))),
+            None => alone.row(own.chain([without_partner(study, k)])),
+        };
     }
     let errors = study.pairs.iter().map(|pair| pair.within).fold(0.0, f64::max);
     if !study.pairs.is_empty() {
@@ -101,17 +110,18 @@ fn modes(study: &Study) -> String {
     out
 }
 
-fn computed(study: &Study, pair: &Pair) -> String {
+/// A computed mode beside the measured one it is paired with.
+fn partner(study: &Study, pair: &Pair) -> [String; 5] {
     let mode = &study.solution.modes[pair.computed];
     let damping = study.solution.damping.modes.get(pair.computed);
     let damping = damping.map_or(String::new(), |damped| percent(damped.ratio, 2));
-    let off = pair.difference.map_or(String::new(), |d| format!("{:+.2} %", rounded(100.0 * d, 2)));
+    let off = pair.difference.map_or(String::new(), |d| format!("{} %", signed(100.0 * d, 2)));
     let mac = pair.mac.map_or(String::new(), |mac| format!("{mac:.3}"));
-    format!("{:>6}{:>10.2} Hz{damping:>9}{off:>10}{mac:>7}", mode.order, mode.frequency())
+    [mode.order.to_string(), format!("{:.2} Hz", mode.frequency()), damping, off, mac]
 }
 
 /// Why a measured mode has no computed partner.
-fn alone(study: &Study, k: usize) -> String {
+fn without_partner(study: &Study, k: usize) -> String {
     if let Some(mode) = study.rigid.iter().find(|mode| mode.measured == k) {
         return format!("rigid on its supports, {} off a straight line", percent(mode.bent, 1));
     }
@@ -147,7 +157,7 @@ fn of_shapes(study: &Study, shapes: &Shapes) -> String {
     );
     for (row, k) in study.bending.iter().enumerate() {
         let pair = study.pairs.iter().find(|pair| pair.measured == *k);
-        let scale = pair.and_then(|pair| pair.scale).map_or(String::new(), signed);
+        let scale = pair.and_then(|pair| pair.scale).map_or(String::new(), factor);
         let phase = percent(1.0 - shapes.out_of_phase[row], 1);
         let share = |list: Option<f64>| list.map_or(String::new(), |share| percent(share, 1));
         let own = share(shapes.rigid_share.as_ref().map(|list| list[row]));
@@ -167,7 +177,7 @@ fn of_shapes(study: &Study, shapes: &Shapes) -> String {
 }
 
 /// A factor as a size with a sign: that of the nearer of in phase and against it.
-fn signed(scale: c64) -> String {
+fn factor(scale: c64) -> String {
     let size = if scale.re < 0.0 { -scale.norm() } else { scale.norm() };
     match size.abs() {
         0.01..1e4 => format!("{size:+.4}"),

@@ -3,6 +3,7 @@
 //! [`text`] and [`hit_text`] make tables, [`json`] and [`hit_json`] documents;
 //! nothing here computes physics.
 
+pub mod columns;
 pub mod curve;
 pub mod resolved;
 pub mod damped;

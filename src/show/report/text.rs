@@ -2,11 +2,13 @@
 
 use std::fmt::Write;
 
+use crate::base::number::rounded;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
+use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::damped;
 use crate::study::ignored::ignored;
 use crate::study::trade::reference::solver_name;
@@ -101,12 +103,6 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
-/// The value to so many decimals; nothing is 0, not −0.
-pub fn rounded(value: f64, decimals: i32) -> f64 {
-    let scale = 10.0_f64.powi(decimals);
-    (scale * value).round() / scale + 0.0
-}
-
 /// So many decimals, or a power of ten where that would be all zeros or very long.
 fn fixed(value: f64, decimals: usize) -> String {
     match value.abs() {
@@ -124,18 +120,25 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     if solution.modes.is_empty() {
         return out;
     }
-    out += "  mode    frequency    f/f1   relative error   modal mass (largest |w| = 1)\n";
-    let first = solution.modes.first().map_or(1.0, |mode| mode.omega);
+    let columns = Columns::new([
+        numbers(6, "mode"),
+        numbers(13, "frequency"),
+        numbers(8, "f/f1"),
+        numbers(3, ""),
+        first(15, "relative error"),
+        numbers(10, "modal mass (largest |w| = 1)"),
+    ]);
+    out += &columns.heads();
+    let lowest = solution.modes.first().map_or(1.0, |mode| mode.omega);
     for mode in &solution.modes {
-        let _ = writeln!(
-            out,
-            "  {:>4} {:>9} Hz {:>7}   within {:<8} {:>8} g",
-            mode.order,
-            fixed(mode.frequency(), 2),
-            fixed(mode.omega / first, 3),
-            format!("{:.0e}", mode.error.total()),
-            fixed(1e3 * mode.modal_mass, 1),
-        );
+        out += &columns.row([
+            mode.order.to_string(),
+            format!("{} Hz", fixed(mode.frequency(), 2)),
+            fixed(mode.omega / lowest, 3),
+            String::new(),
+            format!("within {:.0e}", mode.error.total()),
+            format!("{} g", fixed(1e3 * mode.modal_mass, 1)),
+        ]);
     }
     out += &damped::table(solution);
     if with_nodes > 0 {

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use crate::bat::body::Bat;
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, labels, numbers};
 use crate::show::report::json::generator;
 use crate::show::report::text::wrapped;
 use crate::show::report::u_curve::{columns, heading, of_choice, of_reference};
@@ -26,24 +28,28 @@ pub fn text(bat: &Bat, trade: &Trade) -> String {
         runs => format!("of {runs} ways"),
     };
     let _ = writeln!(out, "Front: {ways} measured, no other is both faster and more accurate");
-    let _ = writeln!(
-        out,
-        "        time  error 1-{modes:<3} degree  elements  unknowns  solver        planned for"
-    );
+    let columns = Columns::new([
+        numbers(12, "time"),
+        numbers(11, format!("error 1-{modes}")),
+        numbers(8, "degree"),
+        numbers(10, "elements"),
+        numbers(10, "unknowns"),
+        labels(12, "solver"),
+        labels(11, "planned for"),
+    ]);
+    out += &columns.heads();
     let good = front(&trade.runs).any(|run| run.error() <= COARSEST);
     for run in front(&trade.runs).filter(|run| !good || run.error() <= COARSEST) {
         let (choice, floor) = (&run.choice, reference.floor());
-        let line = format!(
-            "  {:>10}  {:>9} {:>7} {:>9} {:>9}  {:<12}  {}",
+        out += &columns.row([
             time(run.seconds),
             error(run.error(), floor),
-            choice.degree,
-            choice.elements,
-            choice.degrees_of_freedom,
-            solver_name(choice.solver),
-            run.planned_for.map_or(String::new(), |tolerance| format!("{tolerance:.0e}"))
-        );
-        let _ = writeln!(out, "{}", line.trim_end());
+            choice.degree.to_string(),
+            choice.elements.to_string(),
+            choice.degrees_of_freedom.to_string(),
+            solver_name(choice.solver).to_owned(),
+            run.planned_for.map_or(String::new(), |tolerance| format!("{tolerance:.0e}")),
+        ]);
     }
     out += &planner(trade);
     out += "In words\n";
@@ -65,28 +71,32 @@ fn planned(trade: &Trade) -> Vec<(f64, &Run)> {
 
 fn planner(trade: &Trade) -> String {
     let floor = trade.reference.floor();
-    let mut out = String::from(
-        "The planner's choices, beside the fastest run within the same tolerance\n  asked      \
-         time     error   stated  degree elements    fastest, n x degree\n",
-    );
+    let columns = Columns::new([
+        numbers(7, "asked"),
+        numbers(10, "time"),
+        numbers(10, "error"),
+        numbers(9, "stated"),
+        numbers(8, "degree"),
+        numbers(9, "elements"),
+        labels(21, "  fastest, n x degree"),
+    ]);
+    let mut out =
+        "The planner's choices, beside the fastest run within the same tolerance\n".to_owned();
+    out += &columns.heads();
     for (tolerance, run) in planned(trade) {
         let best = fastest(&trade.runs, tolerance);
-        let _ = writeln!(
-            out,
-            "  {:>5}{:>10}{:>10}{:>9}{:>8}{:>9}  {}",
+        out += &columns.row([
             format!("{tolerance:.0e}"),
             time(run.seconds),
             error(run.error(), floor),
             format!("{:.1e}", run.stated),
-            run.choice.degree,
-            run.choice.elements,
-            best.map_or(String::new(), |best| format!(
-                "{:>9}, {} x {}",
-                time(best.seconds),
-                best.choice.elements,
-                best.choice.degree
-            ))
-        );
+            run.choice.degree.to_string(),
+            run.choice.elements.to_string(),
+            best.map_or(String::new(), |best| {
+                let (time, choice) = (time(best.seconds), &best.choice);
+                format!("{time:>9}, {} x {}", choice.elements, choice.degree)
+            }),
+        ]);
     }
     out
 }
@@ -121,24 +131,30 @@ fn of_run(run: &Run) -> Value {
 
 /// Every run as a line of CSV, fastest first.
 pub fn csv(trade: &Trade) -> String {
-    let mut out = String::from(
-        "degree,elements,solver,degrees_of_freedom,seconds,error,stated_error,on_front,planned_for\n",
-    );
+    let mut table = Csv::new([
+        "degree",
+        "elements",
+        "solver",
+        "degrees_of_freedom",
+        "seconds",
+        "error",
+        "stated_error",
+        "on_front",
+        "planned_for",
+    ]);
     for run in &trade.runs {
         let choice = &run.choice;
-        let _ = writeln!(
-            out,
-            "{},{},{},{},{},{},{},{},{}",
-            choice.degree,
-            choice.elements,
-            solver_name(choice.solver),
-            choice.degrees_of_freedom,
-            run.seconds,
-            run.error(),
-            run.stated,
-            run.on_front,
-            run.planned_for.map_or(String::new(), |tolerance| tolerance.to_string())
-        );
+        table.row([
+            choice.degree.into(),
+            choice.elements.into(),
+            solver_name(choice.solver).into(),
+            choice.degrees_of_freedom.into(),
+            run.seconds.into(),
+            run.error().into(),
+            run.stated.into(),
+            run.on_front.into(),
+            run.planned_for.into(),
+        ]);
     }
-    out
+    table.text()
 }

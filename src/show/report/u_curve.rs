@@ -6,6 +6,8 @@ use serde_json::{Value, json};
 
 use crate::bat::body::Bat;
 use crate::modes::solve::Solver;
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, labels, numbers};
 use crate::show::report::json::generator;
 use crate::show::report::text::wrapped;
 use crate::study::trade::reference::{Choice, Reference, solver_name};
@@ -82,23 +84,18 @@ fn name(column: &Column, way: Way) -> String {
 
 fn table(columns: &[Column], mode: usize) -> String {
     let ways = ways(columns);
-    let line = |first: &str, cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>10}")).collect();
-        format!("{}\n", format!("{first:>9}{cells}").trim_end())
-    };
     let second = ways.iter().map(|(column, way)| match (column.solver, way) {
         (Solver::Statics, _) => "",
         (_, Way::Own) => "own λ",
         (_, Way::Recomputed) => "again",
     });
-    let mut out = format!("{:>9}", "");
-    for column in columns {
-        // Over both of its columns, if it has two.
-        let width = 10 * column.ways().len();
-        let _ = write!(out, "{:>width$}", solver_name(column.solver));
-    }
-    out.push('\n');
-    out += &line("elements", second.map(str::to_owned).collect());
+    // Over both of its columns, if it has two.
+    let over = |column: &Column| numbers(10 * column.ways().len(), solver_name(column.solver));
+    let mut out =
+        Columns::new([numbers(9, "")].into_iter().chain(columns.iter().map(over))).heads();
+    let columns_below = second.map(|head| numbers(10, head));
+    let table = Columns::new([numbers(9, "elements")].into_iter().chain(columns_below));
+    out += &table.heads();
     let mut counts: Vec<usize> =
         columns.iter().flat_map(|column| column.points.iter().map(|p| p.elements)).collect();
     counts.sort_unstable();
@@ -109,7 +106,7 @@ fn table(columns: &[Column], mode: usize) -> String {
             let here = series.iter().find(|(elements, _)| *elements == n);
             here.map_or("-".to_owned(), |(_, error)| format!("{error:.1e}"))
         };
-        out += &line(&n.to_string(), ways.iter().map(cell).collect());
+        out += &table.row([n.to_string()].into_iter().chain(ways.iter().map(cell)));
     }
     out
 }
@@ -118,18 +115,22 @@ fn table(columns: &[Column], mode: usize) -> String {
 fn losses(columns: &[Column]) -> String {
     let mut out =
         String::from("Where frequency 1 is lost: the first n beyond the best with such an error\n");
-    let row = |cells: [&str; 6]| {
-        let [name, best, error, eight, four, none] = cells;
-        format!("  {name:<19} {best:>7} {error:>8}{eight:>14}{four:>14}{none:>14}\n")
-    };
-    out += &row(["", "best n", "error", "1e-8", "1e-4", "1"]);
-    out += &row(["", "", "", "8 digits left", "4 left", "none"]);
+    let table = Columns::new([
+        labels(19, ""),
+        numbers(8, "best n"),
+        numbers(9, "error"),
+        numbers(14, "1e-8"),
+        numbers(14, "1e-4"),
+        numbers(14, "1"),
+    ]);
+    out += &table.heads();
+    out += &table.row(["", "", "", "8 digits left", "4 left", "none"]);
     for (column, way) in ways(columns) {
         let series = column.series(way, 0);
         let Some((least, error)) = best(&series) else { continue };
         let [eight, four, none] = THRESHOLDS.map(|threshold| lost(column, &series, threshold));
         let (name, least) = (name(column, way), least.to_string());
-        out += &row([&name, &least, &format!("{error:.1e}"), &eight, &four, &none]);
+        out += &table.row([&name, &least, &format!("{error:.1e}"), &eight, &four, &none]);
     }
     out
 }
@@ -223,16 +224,21 @@ fn of_losses(column: &Column, way: Way) -> Value {
 
 /// A line for every solver, way, number of elements and mode.
 pub fn csv(columns: &[Column]) -> String {
-    let mut out = String::from("solver,frequency,elements,mode,error\n");
+    let mut table = Csv::new(["solver", "frequency", "elements", "mode", "error"]);
     for (column, way) in ways(columns) {
         let whose = if way == Way::Own { "own" } else { "recomputed" };
         for point in &column.points {
             let errors = if way == Way::Own { &point.own } else { &point.recomputed };
             for (k, error) in errors.iter().enumerate() {
-                let (name, n) = (solver_name(column.solver), point.elements);
-                let _ = writeln!(out, "{name},{whose},{n},{},{error}", k + 1);
+                table.row([
+                    solver_name(column.solver).into(),
+                    whose.into(),
+                    point.elements.into(),
+                    (k + 1).into(),
+                    (*error).into(),
+                ]);
             }
         }
     }
-    out
+    table.text()
 }

@@ -1,0 +1,48 @@
+//! From a number to text.
+
+/// As few digits as read back to the same bits, as JSON has them; "null" for what is no number.
+pub fn shortest(value: f64) -> String {
+    serde_json::Value::from(value).to_string()
+}
+
+/// So many significant digits, without zeros at the end; with a power of ten where the plain number
+/// would be long.
+pub fn significant(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    match rounded.abs() {
+        0.0 | 1e-3..1e5 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// The value to so many decimals; nothing is 0, not −0.
+pub fn rounded(value: f64, decimals: i32) -> f64 {
+    let scale = 10.0_f64.powi(decimals);
+    (scale * value).round() / scale + 0.0
+}
+
+/// A change to so many decimals, with its sign; none is +0.
+pub fn signed(value: f64, decimals: usize) -> String {
+    format!("{:+.decimals$}", rounded(value, decimals as i32))
+}
+
+/// A share in per cent.
+pub fn percent(share: f64, decimals: usize) -> String {
+    format!("{:.decimals$} %", 100.0 * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_as_many_as_asked_for() {
+        assert_eq!(significant(174.512_3, 4), "174.5");
+        assert_eq!(significant(0.020_000_01, 3), "0.02");
+        assert_eq!(significant(-1.234_56e-7, 3), "-1.23e-7");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(shortest(1e-7), "1e-7");
+        assert_eq!((signed(-0.001, 2), signed(1.005, 1)), ("+0.00".into(), "+1.0".into()));
+        assert_eq!(percent(0.123, 1), "12.3 %");
+    }
+}
