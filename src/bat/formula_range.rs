@@ -4,7 +4,8 @@
 //! or a `max` takes one side all along the interval, that side continues beyond it.
 
 use crate::base::interval::{Interval, Jet, Rectangle};
-use crate::bat::formula::{Formula, Function, Node};
+use crate::bat::formula::Formula;
+use crate::bat::formula_tree::{Function, Node};
 
 /// Whether a number that chooses a branch is taken as positive; `None` where that is not known.
 type Side<'a> = &'a mut dyn FnMut(Jet) -> Option<bool>;

@@ -6,7 +6,8 @@
 //! | file | question |
 //! |---|---|
 //! | [`material`], [`theory`] | how stiff and heavy is the wood; which beam theory |
-//! | `pchip`, [`formula`], `formula_range` | how does the radius go between stations; as a formula of x |
+//! | `pchip` | how does the radius go between stations |
+//! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
 //! | [`layup`] | what is the section worth: stiffness and mass per length |
 //! | [`fixtures`], `fixtures_check` | masses, springs, supports, grips, joints; are they possible |
@@ -15,6 +16,8 @@
 pub mod material;
 pub mod theory;
 pub(crate) mod pchip;
+pub(crate) mod formula_tree;
+mod formula_text;
 pub mod formula;
 pub(crate) mod formula_range;
 pub(crate) mod tip;

@@ -125,8 +125,8 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
         numbers(13, "frequency"),
         numbers(8, "f/f1"),
         numbers(3, ""),
-        first(15, "relative error"),
-        numbers(10, "modal mass (largest |w| = 1)"),
+        first(17, "relative error"),
+        numbers(9, "modal mass (largest |w| = 1)"),
     ]);
     out += &columns.heads();
     let lowest = solution.modes.first().map_or(1.0, |mode| mode.omega);
