@@ -344,7 +344,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
     let everything = json!({ "grip": { "from": 0, "to": 0.15, "stiffness": 4e5, "damping": 300 },
         "absorbers": [{ "x": 0.1, "mass": 0.03, "frequency": 170, "damping": 2 }] });
     let resolved = sweetspot::show::report::resolved::resolved(&dowel("timo_dowel", everything));
-    folder.write("held.json", resolved.to_string());
+    folder.write("held.json", sweetspot::files::schema::text(&resolved));
     let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let bats = ["dowel", "r161", "corked", "two_piece"]
         .map(mesh)

@@ -10,7 +10,10 @@ use common::folder::Folder;
 use jsonschema::Validator;
 use serde_json::{Value, json};
 use sweetspot::Bat;
-use sweetspot::files::schema::File;
+use sweetspot::collision::ball::Ball;
+use sweetspot::files::schema::ball::BallFile;
+use sweetspot::files::schema::bat::BatFile;
+use sweetspot::files::schema::of;
 
 /// A bat with everything on it and under it.
 const FULL: &str = r#"{
@@ -48,7 +51,7 @@ const CSV: &str = r#"{
 }"#;
 
 fn validator() -> Validator {
-    jsonschema::draft202012::new(&File::Bat.schema()).unwrap()
+    jsonschema::draft202012::new(&of::<BatFile>()).unwrap()
 }
 
 /// The reader of bat files, in a folder with the CSV file of [`CSV`].
@@ -273,7 +276,7 @@ fn definition<'a>(schema: &'a Value, name: &str) -> &'a Value {
 #[test]
 fn reader_and_schema_know_the_same_members() {
     let reader = Reader::new("members");
-    let schema = File::Bat.schema();
+    let schema = of::<BatFile>();
     for (name, place) in PLACES {
         let mut bat = parsed(if name == "Piece" { FORMULAS } else { FULL });
         bat.pointer_mut(place).unwrap()["qqqqqqqqqqqq"] = json!(1);
@@ -317,7 +320,7 @@ fn a_remark_is_a_text_or_a_list_of_texts() {
 #[test]
 fn every_bound_of_the_schema_is_the_readers() {
     let reader = Reader::new("bounds");
-    let (schema, validator) = (File::Bat.schema(), validator());
+    let (schema, validator) = (of::<BatFile>(), validator());
     let mut tried = 0;
     let mut agree = |bat: &Value, path: &str, value: f64, right: bool| {
         // A member that the bat has not, in place of the other one.
@@ -364,4 +367,59 @@ fn every_bound_of_the_schema_is_the_readers() {
         }
     }
     assert!(tried > 60, "{tried}");
+}
+
+#[test]
+fn the_schema_of_a_ball_says_what_the_reader_of_balls_does() {
+    let folder = Folder::new("ball-schema");
+    let validator = jsonschema::draft202012::new(&of::<BallFile>()).unwrap();
+    let ball = json!({ "format": "sweetspot-ball/1", "comment": "made up", "name": "ball",
+        "source": "nowhere", "mass": "5.1 oz", "radius": 0.0366, "stiffness": 6.5e7,
+        "exponent": 1.8, "cor": 0.5, "cor_by_speed": [["58 mph", 0.5], [40, 0.45]] });
+    let agree = |ball: &Value, right: bool| {
+        folder.write("ball.json", ball.to_string());
+        let read = Ball::from_file(folder.0.join("ball.json"));
+        assert_eq!(read.is_ok(), right, "reader, {ball}: {read:?}");
+        assert_eq!(validator.is_valid(ball), right, "schema, {ball}");
+    };
+    agree(&ball, true);
+    let linear = json!({ "format": "sweetspot-ball/1", "mass": 0.1, "radius": 0.03,
+        "stiffness": 1e6, "exponent": 1, "damping_ratio": 0.1 });
+    agree(&linear, true);
+    for (of, key, value, right) in [
+        (&ball, "format", Value::Null, false),
+        (&ball, "format", json!("sweetspot-bat/1"), false),
+        (&ball, "mass", Value::Null, false),
+        (&ball, "mass", json!(0), false),
+        (&ball, "mass", json!("5"), false),
+        (&ball, "radius", Value::Null, false),
+        (&ball, "radius", json!(-0.03), false),
+        (&ball, "stiffness", Value::Null, true),
+        (&ball, "stiffness", json!(0), false),
+        (&ball, "exponent", json!("1.8"), false),
+        (&ball, "cor", Value::Null, true),
+        (&ball, "cor", json!(0), true),
+        (&ball, "cor", json!(1.01), false),
+        (&ball, "cor_by_speed", Value::Null, true),
+        (&ball, "cor_by_speed", json!([]), false),
+        (&ball, "cor_by_speed", json!([[-1, 0.5]]), false),
+        (&ball, "cor_by_speed", json!([[1, 1.5]]), false),
+        (&ball, "cor_by_speed", json!([[1]]), false),
+        (&ball, "cor_by_speed", json!([[1, 0.5, 2]]), false),
+        (&ball, "damping_ratio", json!(0.1), false),
+        (&ball, "colour", json!("red"), false),
+        (&linear, "exponent", json!(1.8), false),
+        (&linear, "exponent", Value::Null, true),
+        (&linear, "damping_ratio", json!(1), false),
+        (&linear, "damping_ratio", json!(0), true),
+        (&linear, "damping_ratio", Value::Null, false),
+    ] {
+        let mut changed = of.clone();
+        let members = changed.as_object_mut().unwrap();
+        match value {
+            Value::Null => _ = members.shift_remove(key),
+            value => _ = members.insert(key.to_owned(), value),
+        }
+        agree(&changed, right);
+    }
 }

@@ -219,6 +219,7 @@ fn the_bat_in_a_report_is_a_bat_file_of_the_same_bat() {
         ] }));
         let solution = solve(&original, &REQUEST).unwrap();
         let report = modes(&original, &solution, ShapePoints::Even(0), false);
+        let report = sweetspot::files::schema::value(&report);
         assert_eq!(report["bat"]["profile"]["measured_from"], from);
         assert_eq!(report["bat"]["profile"]["pieces"][0]["inner_formula"], "0.01");
         let again = Bat::from_text("echo", &report["bat"].to_string(), Path::new("")).unwrap();

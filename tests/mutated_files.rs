@@ -13,6 +13,7 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::files::schema;
 use sweetspot::modes::solve::{self, Request, Solution};
 use sweetspot::show::report::hit_json;
 use sweetspot::show::report::json::{self, ShapePoints};
@@ -222,8 +223,9 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
             [error.discretization, error.round_off, error.residual, error.nodes, error.modal_mass];
         holds(&format!("{error:?}"), errors.iter().all(|e| *e >= 0.0 && e.is_finite()))?;
     }
-    let document = json::modes(bat, &solution, ShapePoints::Even(5), false).to_string();
-    holds(&document, !document.contains("null") || document.contains("_percussion_m\":null"))?;
+    let document = json::modes(bat, &solution, ShapePoints::Even(5), false);
+    let document = schema::text(&document);
+    holds(&document, !document.contains("null") || document.contains("_percussion_m\": null"))?;
     for damped in &solution.damping.modes {
         let numbers = [damped.natural, damped.ratio, damped.decay, damped.error];
         holds(&format!("{damped:?}"), numbers.iter().all(|v| *v >= 0.0 && v.is_finite()))?;
@@ -254,7 +256,7 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
         impacts.push(impact);
     }
     let peak = spot.exit_speed_max.map_or(0.0, |peak| peak.value);
-    let text = hit_json::hit(bat, model, &scene, &impacts, &spot).to_string();
+    let text = schema::text(&hit_json::hit(bat, model, &scene, &impacts, &spot));
     if peak.is_finite() && !text.is_empty() { Ok(()) } else { Err(format!("{spot:?}")) }
 }
 

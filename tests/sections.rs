@@ -434,7 +434,10 @@ fn the_disagreement_of_a_weighed_balance_point_is_a_number_in_table_and_json() {
         json!({ "interpolation": "linear", "x": [0, LENGTH], "radius": [RADIUS, RADIUS] }),
         json!({ "weighed": { "mass": 0.9, "balance_point": balance } }),
     );
-    folder.write("bat.json", sweetspot::show::report::resolved::resolved(&bat).to_string());
+    folder.write(
+        "bat.json",
+        sweetspot::files::schema::text(&sweetspot::show::report::resolved::resolved(&bat)),
+    );
     let document = folder.json(&["modes", "bat.json", "--json", "-"]);
     let weighed = &document["summary"]["weighed"];
     let difference = weighed["balance_point_difference_m"].as_f64().unwrap();

@@ -53,7 +53,7 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     let code = verdict(args, &advice);
     let table = advice::text(&advice, args.output.units);
-    Ok(Done::new(args.output.deliver(table, || advice::json(&advice))?, code))
+    Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
 }
 
 /// The exit code, after a word about frequencies that are less accurate than the tolerance.

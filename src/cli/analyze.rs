@@ -2,9 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
+use serde::Serialize;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
+use sweetspot::files::schema;
+use sweetspot::files::schema::hit::HitFile;
+use sweetspot::files::schema::modes::ModesFile;
+use sweetspot::files::schema::ring::Strength;
 use sweetspot::modes::solve::Request;
 use sweetspot::show::analysis::{Analysis, Proof, Task};
 use sweetspot::show::page;
@@ -79,6 +83,14 @@ Examples:
   sweetspot analyze meshes/r161.json --out r161 --plots r161
       and modes.json, hit.json, curve.csv and pictures in the folder r161";
 
+/// Both documents and the strength, which have no format of their own together.
+#[derive(Serialize)]
+struct AnalysisFile {
+    modes: ModesFile,
+    hit: HitFile,
+    strength: Vec<Strength>,
+}
+
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     // A report that cannot be written is told before it is computed.
@@ -108,17 +120,15 @@ pub fn run(args: &Args) -> Result<Done> {
         let report = Report { us_first, ..Report::new(&analysis, command(), inputs)? };
         page::file::write(path, &report)?;
     }
-    let both = || {
-        json!({
-            "modes": modes_json(args, &analysis),
-            "hit": hit_json(&analysis),
-            "strength": aftermath::strengths_json(&analysis.strength),
-        })
+    let all = || AnalysisFile {
+        modes: modes_file(args, &analysis),
+        hit: hit_file(&analysis),
+        strength: aftermath::strengths_file(&analysis.strength),
     };
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = table(&analysis, &args.output) + &written(args);
-    let text = args.output.deliver(table, both)?;
+    let text = args.output.deliver(table, all)?;
     Ok(Done::new(text, code).with(warning))
 }
 
@@ -182,24 +192,25 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
     )
 }
 
-fn modes_json(args: &Args, analysis: &Analysis) -> Value {
+fn modes_file(args: &Args, analysis: &Analysis) -> ModesFile {
     let shapes = ShapePoints::Even(101);
     json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible)
 }
 
-fn hit_json(analysis: &Analysis) -> Value {
+fn hit_file(analysis: &Analysis) -> HitFile {
     let Analysis { bat, task, hits, figures, .. } = analysis;
-    let mut hit = hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot);
-    hit["figures"] = hit_json::figures(figures);
-    hit
+    HitFile {
+        figures: Some(hit_json::figures(figures)),
+        ..hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot)
+    }
 }
 
 fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
     let failed = |source| Error::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
-    let [modes, hit] = [modes_json(args, analysis), hit_json(analysis)];
-    file::write(&folder.join("modes.json"), format!("{modes:#}\n").as_bytes())?;
-    file::write(&folder.join("hit.json"), format!("{hit:#}\n").as_bytes())?;
+    let modes = schema::text(&modes_file(args, analysis));
+    file::write(&folder.join("modes.json"), modes.as_bytes())?;
+    file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
     file::write(&folder.join("curve.csv"), curve_csv(&analysis.hits.impacts).as_bytes())
 }
 

@@ -106,7 +106,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let source = report::cor_source(&tested, args.cor.is_some());
     let code = verdict(&args.solve, &tested.sweep, &args.output);
     let table = report::text(&tested, &source, args.output.units);
-    let out = args.output.deliver(table, || report::json(&tested, &source))?;
+    let out = args.output.deliver(table, || report::document(&tested, &source))?;
     let text = match &args.csv {
         Some(path) if path == Path::new("-") => report::csv(&tested),
         Some(path) => file::write(path, report::csv(&tested).as_bytes()).map(|()| out)?,

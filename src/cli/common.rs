@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde_json::Value;
+use serde::Serialize;
 use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::base::file;
 use sweetspot::base::units::Quantity;
@@ -12,6 +12,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::Impact;
 use sweetspot::files::bat_file::Named;
+use sweetspot::files::schema;
 use sweetspot::modes::solve::{self, Request, Solution, Solver};
 use sweetspot::modes::up_to::modes_up_to;
 use sweetspot::show::report::sketch::{self, Glyphs, SketchRow};
@@ -260,8 +261,12 @@ pub struct OutputArgs {
 
 impl OutputArgs {
     /// Writes the JSON where it was asked for; what is left for standard output.
-    pub fn deliver(&self, table: String, document: impl FnOnce() -> Value) -> Result<String> {
-        let text = || format!("{:#}\n", document());
+    pub fn deliver<D: Serialize>(
+        &self,
+        table: String,
+        document: impl FnOnce() -> D,
+    ) -> Result<String> {
+        let text = || schema::text(&document());
         match &self.json {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
             Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(&table)),

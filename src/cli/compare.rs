@@ -145,7 +145,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     }
     let text = report::measured::text(&bat, &study, args.output.units);
     let name = path.display().to_string();
-    let text = args.output.deliver(text, || report::measured::json(&bat, &name, &study))?;
+    let text = args.output.deliver(text, || report::measured::document(&bat, &name, &study))?;
     let code = args.solve.verdict(&study.solution, &args.output);
     Ok(Done::new(text, code).with(warning))
 }
@@ -186,7 +186,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         None => comparison::text(&compared, args.output.units),
     };
     let files: Vec<String> = args.bats.iter().map(|path| path.display().to_string()).collect();
-    let text = args.output.deliver(text, || comparison_data::json(&compared, &files))?;
+    let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
 }

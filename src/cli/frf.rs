@@ -3,16 +3,16 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
 use sweetspot::base::units::{Quantity, inches};
 use sweetspot::bat::body::Bat;
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::files::schema::frf::{Answer, FrfFile};
 use sweetspot::files::uff::{self, Stamp, six_digits};
 use sweetspot::modes::solve::{self, Request};
 use sweetspot::motion::frf::{Frf, Kind, Sample};
 use sweetspot::show::exchange::frf_uff::{self, Measured};
-use sweetspot::show::report::json;
 use sweetspot::show::report::text::wrapped;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
@@ -131,7 +131,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let measured = Measured { bat: &bat.name, kind: args.kind, at, to, even };
     let table = || table(args.kind, [at, to], &frf, &samples);
     let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
-    let document = || document(&measured, &frequencies, &samples, &frf);
+    let document = || document(&measured, &samples, &frf);
     let code = match frf.solution.worst() <= args.solve.tol {
         true => 0,
         false => args.solve.verdict(&frf.solution, &args.output),
@@ -140,30 +140,31 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 /// The `sweetspot-frf/1` document.
-fn document(measured: &Measured, frequencies: &[f64], samples: &[Sample], frf: &Frf) -> Value {
+fn document(measured: &Measured, samples: &[Sample], frf: &Frf) -> FrfFile {
     let kind = measured.kind;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
-    let unit = kind.unit();
-    let mut document = json!({
-        "format": "sweetspot-frf/1",
-        "generator": json::generator(),
-        "kind": kind.name(),
-        "at_m": measured.at,
-        "to_m": measured.to,
-        "theory": frf.solution.theory.name(),
-        "modes": frf.solution.modes.len(),
-        "strains": frf.strains(),
-        "static_compliance_m_per_n": frf.static_compliance(),
-        "rigid_modes": frf.solution.rigid_modes,
-        "frequency_hz": frequencies,
-    });
-    document[format!("real_{unit}")] = json!(of(&|s| value(s).re));
-    document[format!("imaginary_{unit}")] = json!(of(&|s| value(s).im));
-    document[format!("truncation_{unit}")] =
-        json!(of(&|s| s.truncation * kind.of(s.frequency).norm()));
-    document["frequencies_within"] = json!(frf.solution.worst());
-    document
+    let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
+    let truncation = of(&|s| s.truncation * kind.of(s.frequency).norm());
+    FrfFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        kind: kind.name(),
+        at_m: measured.at,
+        to_m: measured.to,
+        theory: frf.solution.theory.name(),
+        modes: frf.solution.modes.len(),
+        strains: frf.strains(),
+        static_compliance_m_per_n: frf.static_compliance(),
+        rigid_modes: frf.solution.rigid_modes,
+        frequency_hz: of(&|s| s.frequency),
+        answer: match kind {
+            Kind::Receptance => Answer::Receptance { real, imaginary, truncation },
+            Kind::Mobility => Answer::Mobility { real, imaginary, truncation },
+            Kind::Accelerance => Answer::Accelerance { real, imaginary, truncation },
+        },
+        frequencies_within: frf.solution.worst(),
+    }
 }
 
 /// Standard output is for one document.

@@ -7,6 +7,7 @@ use sweetspot::base::units::{Quantity, inches};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Sweep, sweep_telling};
+use sweetspot::files::schema::hit::HitFile;
 use sweetspot::show::plot::profile;
 use sweetspot::show::plot::sets::Hits;
 use sweetspot::show::report::{hit_json, hit_text, sketch};
@@ -151,10 +152,9 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::figures(&figures, units),
         hit_text::moves(&figures, units),
     );
-    let document = || {
-        let mut hit = hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot);
-        hit["figures"] = hit_json::figures(&figures);
-        hit
+    let document = || HitFile {
+        figures: Some(hit_json::figures(&figures)),
+        ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
     };
     let code = verdict(&args.solve, &sweep, &args.output);
     Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))

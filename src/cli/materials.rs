@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
 use sweetspot::base::error::Result;
 use sweetspot::base::file;
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
-use sweetspot::show::report::json;
+use sweetspot::files::schema;
+use sweetspot::files::schema::materials::MaterialsFile;
 use sweetspot::show::report::text::{Units, wrapped};
 
 use crate::cli::done::Done;
@@ -48,7 +48,7 @@ const MPSI: f64 = 6.894_757_293_168_361e9;
 
 pub fn run(args: &Args) -> Result<Done> {
     let table = || style::table(&table(args.units));
-    let document = || format!("{:#}\n", document());
+    let document = || schema::text(&MaterialsFile::built_in());
     let text = match &args.json {
         Some(path) if path.as_os_str() == "-" => document(),
         Some(path) => file::write(path, document().as_bytes()).map(|()| table())?,
@@ -102,24 +102,4 @@ fn strength(material: &BuiltIn, units: Units) -> String {
         true => "  no strength found\n".to_owned(),
         false => wrapped(&format!("  {}: {}", known.join(", "), material.strength_source), 4),
     }
-}
-
-fn document() -> Value {
-    let material = |m: &BuiltIn| {
-        json!({
-            "name": m.name,
-            "density_kg_m3": m.density,
-            "youngs_modulus_pa": m.youngs_modulus,
-            "shear_modulus_pa": m.shear_modulus,
-            "strength_pa": m.strength,
-            "strain_to_failure": m.strain_to_failure,
-            "strength_source": m.strength_source,
-            "source": m.source,
-        })
-    };
-    json!({
-        "format": "sweetspot-materials/1",
-        "generator": json::generator(),
-        "materials": BUILT_IN.iter().map(material).collect::<Vec<_>>(),
-    })
 }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use serde_json::json;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
 use sweetspot::base::units::Quantity;
@@ -12,13 +11,15 @@ use sweetspot::collision::hit::{Effort, Model};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::breaking_swing;
 use sweetspot::files::force_file;
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::files::schema::ring::{Motion, RingFile};
 use sweetspot::files::shape_file;
 use sweetspot::modes::solve::{Solution, solve};
 use sweetspot::motion::force::ForceHistory;
 use sweetspot::motion::ringing::Ringing;
 use sweetspot::motion::shape::InitialShape;
 use sweetspot::show::report::aftermath::{self, AfterHit};
-use sweetspot::show::report::{hit_json, hit_text, json};
+use sweetspot::show::report::{hit_json, hit_text};
 use sweetspot::study::ignored;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
@@ -162,17 +163,17 @@ pub fn run(args: &Args) -> Result<Done> {
         .collect();
     let table = csv(&x, &times, &frames);
     let document = || {
-        json!({
-        "format": "sweetspot-ring/1",
-        "generator": json::generator(),
-        "modes": solution.modes.len(),
-        "theory": solution.theory.name(),
-        "rigid_motion": !args.bending_only && solution.rigid_modes > 0,
-        "at_m": args.at,
-        "impulse_n_s": args.impulse,
-        "x_m": x,
-        "times_s": times,
-        "deflection_m": frames,
+        RingFile::Motion(Motion {
+            format: Format::new(),
+            generator: Generator::this(),
+            modes: solution.modes.len(),
+            theory: solution.theory.name(),
+            rigid_motion: !args.bending_only && solution.rigid_modes > 0,
+            at_m: args.at,
+            impulse_n_s: args.impulse,
+            x_m: x,
+            times_s: times,
+            deflection_m: frames,
         })
     };
     let code = args.solve.verdict(&solution, &args.output);
@@ -278,10 +279,8 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let code = args.solve.verdict(&solution, &args.output);
     let document = || {
-        let mut document = aftermath::json(&after, &report);
-        document["impact"] = hit_json::impact(&bat, &impact);
-        document["ignored"] = json!(ignored::in_hit(&bat, scene.wall.is_some()));
-        document
+        let ignored = ignored::in_hit(&bat, scene.wall.is_some());
+        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }

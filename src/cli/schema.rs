@@ -1,22 +1,23 @@
-//! `sweetspot schema [bat|modes|hit|bbcor]`: what the files look like.
+//! `sweetspot schema [FILE]`: what the files look like.
 
 use sweetspot::base::error::Result;
-use sweetspot::files::schema::{self, File};
+use sweetspot::show::formats::{self, FileKind};
 
 use crate::cli::done::Done;
 use crate::cli::value::named;
 
-/// JSON Schema of a bat file, and of what modes, hit and bbcor write
+/// JSON Schema of a bat file, of a ball file, and of what the program writes
 ///
 /// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
 /// of them, which tells them apart by their "format".
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Which file: bat, modes, hit or bbcor [default: all of them in one schema]
-    #[arg(value_name = "FILE", value_parser = named(File::ALL, File::name),
+    /// Which file: the word in its "format", such as bat, ball, modes or hit [default: all of them in
+    /// one schema]
+    #[arg(value_name = "FILE", value_parser = named(FileKind::ALL, FileKind::name),
           hide_possible_values = true)]
-    file: Option<File>,
+    file: Option<FileKind>,
 }
 
 const EXAMPLES: &str = "\
@@ -28,6 +29,6 @@ Examples:
       that of all files in one";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let schema = args.file.map_or_else(schema::all, File::schema);
+    let schema = args.file.map_or_else(formats::all, FileKind::schema);
     Ok(Done::new(format!("{schema:#}\n"), 0))
 }

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde_json::Value;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
+use sweetspot::files::schema;
 use sweetspot::modes::solve::Request;
 use sweetspot::show::plot::{front, sets};
 use sweetspot::show::report::{trade, u_curve};
@@ -103,25 +103,29 @@ pub fn run(args: &Args) -> Result<Done> {
         let reference = Reference::of(&bat, modes, theory)?;
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
-        let document = u_curve::json(&bat, &reference, &columns);
+        let document = schema::text(&u_curve::document(&bat, &reference, &columns));
         let pictures = sets::of_u_curve(&bat.name, &columns, modes);
         (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns), pictures)
     } else {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         let pictures = front::picture(&bat.name, &trade).into_iter().collect();
-        (trade::text(&bat, &trade), trade::json(&bat, &trade), trade::csv(&trade), pictures)
+        (
+            trade::text(&bat, &trade),
+            schema::text(&trade::document(&bat, &trade)),
+            trade::csv(&trade),
+            pictures,
+        )
     };
     if let Some(folder) = &args.plots {
         pictures::write(folder, &pictures, args.quiet)?;
     }
-    Ok(Done::new(deliver(args, table, &document, rows)?, 0).with(warning))
+    Ok(Done::new(deliver(args, table, document, rows)?, 0).with(warning))
 }
 
 /// Writes the files; what is left for standard output.
-fn deliver(args: &Args, table: String, document: &Value, rows: String) -> Result<String> {
-    let text = format!("{document:#}\n");
+fn deliver(args: &Args, table: String, document: String, rows: String) -> Result<String> {
     let mut out = style::table(&table);
-    for (path, contents) in [(&args.csv, rows), (&args.json, text)] {
+    for (path, contents) in [(&args.csv, rows), (&args.json, document)] {
         match path {
             Some(path) if path == Path::new("-") => out = contents,
             Some(path) => file::write(path, contents.as_bytes())?,

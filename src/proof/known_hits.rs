@@ -4,6 +4,7 @@
 //!
 //! What a case of `validation/` says of them, and what the contact finds.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::base::error::{Error, Result};
@@ -21,21 +22,24 @@ use crate::collision::sweet_spot::SweetSpot;
 use crate::modes::solve::Solution;
 
 /// A ball thrown at a free bat, or at a wall.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Throw {
+    /// Mass of the ball (kg).
     mass_kg: f64,
-    /// `k` (N/m^α) and `α` of its force.
+    /// Stiffness `k` of its force (N/m^α).
     stiffness: f64,
+    /// Exponent `α` of its force.
     exponent: f64,
-    /// On a rigid wall.
+    /// Coefficient of restitution on a rigid wall.
     cor: f64,
-    /// Towards the bat; a wall has one for every check.
+    /// Speed towards the bat (m/s); a wall has one for every check.
     #[serde(default)]
     ball_speed_m_per_s: f64,
-    /// Of the bat's balance point, and of its rotation.
+    /// Speed of the bat's balance point (m/s).
     #[serde(default)]
     balance_speed_m_per_s: f64,
+    /// Rotation of the bat (rad/s).
     #[serde(default)]
     rotation_rad_per_s: f64,
     /// The case's modes are all there are, as in a published model; else the flexibility of all
@@ -45,7 +49,7 @@ pub struct Throw {
 }
 
 /// What is known of a hit, with its unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Seen {
     /// Speed of the ball off the bat (m/s).

@@ -7,6 +7,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use schemars::JsonSchema;
+use schemars::generate::Contract;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -15,27 +17,33 @@ use crate::base::units::ounce_square_inches;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::beam::dowel::{Dowel, Ends, UniformMode};
+use crate::files::schema::bat::BatFile;
+use crate::files::schema::document::{Document, Format};
 use crate::modes::solve::{Request, Solution, solve};
 use crate::motion::frf::Frf;
 use crate::motion::ringing::Ringing;
 use crate::proof::known_hits::{Seen, Throw};
 use crate::study::tuned::tuned;
 
-/// One bat and what is known about it.
-#[derive(Debug, Deserialize)]
+/// One bat, or a rigid wall for a ball, and what is known about it, with the sources of the numbers and
+/// how near ours must be. SI, the unit in every name; positions count from the knob end.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Case of known answers of sweetspot, sweetspot-validation/1")]
 pub struct Case {
-    /// `sweetspot-validation/1`.
-    pub format: String,
+    /// Name of the format and its version: sweetspot-validation/1.
+    pub format: Format<Case>,
     /// What it is about.
     pub name: String,
     /// Where the expected numbers come from.
     pub source: String,
     /// Whose numbers they are; a case without it has an exact answer.
     pub published: Option<Published>,
-    /// None where a wall is hit.
+    /// The bat, or the name of a file that travels with the program; none where a wall is hit.
     #[serde(default)]
+    #[schemars(with = "Option<CaseBat>")]
     bat: Value,
+    /// What is asked of the bat's modes.
     #[serde(default)]
     solve: Solve,
     /// What is thrown at the bat, or at the wall, where all checks are of hits.
@@ -44,8 +52,24 @@ pub struct Case {
     pub checks: Vec<Check>,
 }
 
+impl Document for Case {
+    const NAME: &'static str = "validation";
+    const CONTRACT: Contract = Contract::Deserialize;
+}
+
+/// A bat in a case.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the form of a value that is read as what it turns out to be")]
+enum CaseBat {
+    /// The name of a bat file that travels with the program.
+    File(String),
+    /// A bat file in its own right.
+    Bat(Box<BatFile>),
+}
+
 /// Which published numbers a case holds, and where they stand when set side by side.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
     /// Cases of one bat stand in one table.
@@ -57,7 +81,7 @@ pub struct Published {
 }
 
 /// Where a published number is from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// By somebody, on the bat.
@@ -66,18 +90,22 @@ pub enum Kind {
     Computed,
 }
 
-#[derive(Debug, Default, Deserialize)]
+/// What is asked of the bat's modes.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Solve {
+    /// Number of modes.
     modes: usize,
+    /// Relative error of a frequency that is asked for.
     tolerance: Option<f64>,
+    /// Number of elements; the planner's own choice if absent.
     elements: Option<usize>,
     /// Name of the beam theory; the plain beam if absent.
     theory: Option<String>,
 }
 
 /// One known number.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
     /// What is known.
@@ -86,10 +114,11 @@ pub struct Check {
     pub mode: Option<usize>,
     /// Number of the node of that mode, from 1 at the knob.
     pub node: Option<usize>,
-    /// Where a ball hits, or a force acts and its deflection is seen (m), and how fast it swings
-    /// (Hz).
+    /// Where a ball hits, or a force acts (m).
     pub at: Option<f64>,
+    /// Where the deflection under the force is seen (m).
     to: Option<f64>,
+    /// How fast the force swings (Hz).
     frequency_hz: Option<f64>,
     /// How long after a blow (s).
     time_s: Option<f64>,
@@ -97,7 +126,9 @@ pub struct Check {
     speed_m_per_s: Option<f64>,
     /// The known number, in the quantity's unit.
     pub expected: f64,
+    /// How large the relative error may be.
     relative: Option<f64>,
+    /// How large the error may be, in the quantity's unit.
     absolute: Option<f64>,
     /// Shown with its difference and neither passed nor missed; the note says why.
     #[serde(default)]
@@ -107,7 +138,7 @@ pub struct Check {
 }
 
 /// What is known, with its unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
     /// Natural frequency (Hz).
@@ -465,12 +496,8 @@ fn text(name: &str) -> Result<&'static str> {
 
 /// A case.
 fn read(name: &str, text: &str) -> Result<Case> {
-    let case: Case = serde_json::from_str(text)
-        .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))?;
-    if case.format != "sweetspot-validation/1" {
-        return Err(Error::value(name, &case.format, "\"sweetspot-validation/1\""));
-    }
-    Ok(case)
+    serde_json::from_str(text)
+        .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))
 }
 
 impl Case {

@@ -8,6 +8,7 @@
 //! | [`plot`] | pictures |
 //! | [`page`] | all of it on one page |
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
+//! | [`formats`] | every format that is read or written, with its schema |
 
 pub mod csv;
 pub mod analysis;
@@ -17,3 +18,4 @@ pub mod plot;
 pub mod page;
 pub mod hit_figure;
 pub mod proof_page;
+pub mod formats;

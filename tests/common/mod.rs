@@ -3,6 +3,7 @@
 
 pub mod diagnostic;
 pub mod commands;
+pub mod documents;
 pub mod folder;
 #[cfg(feature = "png")]
 pub mod pictures;

@@ -6,13 +6,15 @@
 //! are there) a schema does not say.
 
 use schemars::JsonSchema;
+use schemars::generate::Contract;
 use serde_json::{Value, json};
 
 use crate::base::units::Quantity;
 use crate::files::schema::amount::{Amount, Measures, column};
+use crate::files::schema::document::{Document, Format};
 use crate::files::schema::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
 use crate::files::schema::material::{Comment, Material};
-use crate::files::schema::resolved::{BatFormat, End};
+use crate::files::schema::resolved::End;
 
 /// A baseball bat: its shape, what it is made of, what is on it and what holds it. A bare number is
 /// SI, a text carries its unit. Positions count from the knob end.
@@ -27,7 +29,7 @@ pub struct BatFile {
     #[serde(rename = "$schema")]
     pub schema: Option<String>,
     /// Name of the format and its version: sweetspot-bat/1.
-    pub format: BatFormat,
+    pub format: Format<BatFile>,
     /// A remark for people, which programs pass over.
     pub comment: Option<Comment>,
     /// What the bat is called in tables and plots.
@@ -56,6 +58,11 @@ pub struct BatFile {
     pub supports: Option<Vec<Support>>,
     /// Hands that hold the bat as an elastic bed.
     pub grip: Option<Grip>,
+}
+
+impl Document for BatFile {
+    const NAME: &'static str = "bat";
+    const CONTRACT: Contract = Contract::Deserialize;
 }
 
 /// Either the material has that number or something that was measured stands in for it, which is

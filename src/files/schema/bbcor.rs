@@ -4,8 +4,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::Ball;
-use crate::files::schema::modes::Generator;
 
 /// BBCOR along a bat as laboratories measure it, the bat at rest on a pivot: computed, and no
 /// certificate. SI, the unit in every name; positions count from the knob end; what does not exist is
@@ -14,7 +14,7 @@ use crate::files::schema::modes::Generator;
 #[schemars(title = "BBCOR file of sweetspot, sweetspot-bbcor/1")]
 pub struct BbcorFile {
     /// Name of the format and its version: sweetspot-bbcor/1.
-    pub format: BbcorFormat,
+    pub format: Format<BbcorFile>,
     /// The program that wrote the file.
     pub generator: Generator,
     /// What the bat is called.
@@ -37,13 +37,8 @@ pub struct BbcorFile {
     pub ignored: Vec<String>,
 }
 
-/// Name of the format and its version.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(inline)]
-pub enum BbcorFormat {
-    /// Version 1.
-    #[serde(rename = "sweetspot-bbcor/1")]
-    One,
+impl Document for BbcorFile {
+    const NAME: &'static str = "bbcor";
 }
 
 /// What was shot at the bat, and how it was held.

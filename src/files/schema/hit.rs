@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::files::schema::modes::Generator;
+use crate::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
 /// positions count from the knob end; what does not exist is null. The bat moves in the direction
@@ -12,7 +12,7 @@ use crate::files::schema::modes::Generator;
 #[schemars(title = "Hit file of sweetspot, sweetspot-hit/1")]
 pub struct HitFile {
     /// Name of the format and its version: sweetspot-hit/1.
-    pub format: HitFormat,
+    pub format: Format<HitFile>,
     /// The program that wrote the file.
     pub generator: Generator,
     /// How the bat's bending is counted.
@@ -32,13 +32,8 @@ pub struct HitFile {
     pub figures: Option<Figures>,
 }
 
-/// Name of the format and its version.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(inline)]
-pub enum HitFormat {
-    /// Version 1.
-    #[serde(rename = "sweetspot-hit/1")]
-    One,
+impl Document for HitFile {
+    const NAME: &'static str = "hit";
 }
 
 /// A swing meets a pitch.

@@ -1,9 +1,9 @@
 //! What the files look like: each a type whose JSON Schema follows from it (draft 2020-12).
 //!
-//! The documents that are written, [`modes::ModesFile`], [`hit::HitFile`] and
-//! [`bbcor::BbcorFile`], are these types themselves. They may grow: who reads them passes over members he does not know. The file that
-//! is read, [`bat::BatFile`], has no members but its own, as its reader. A document whose name ends
-//! in another number than `/1` fits none of these types.
+//! The documents that are written, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types
+//! themselves. They may grow: who reads them passes over members he does not know. The files that are
+//! read, [`bat::BatFile`] and [`ball::BallFile`], have no members but their own, as their readers. A
+//! document whose name ends in another number than `/1` fits none of these types.
 //!
 //! # Source
 //!
@@ -11,99 +11,46 @@
 //! document: its core, section 9.3.1 (bundling).
 
 pub mod amount;
+pub mod document;
 pub mod resolved;
 pub mod material;
 pub mod fixtures;
 pub mod bat;
+pub mod ball;
+pub mod materials;
 pub mod modes;
 pub mod hit;
 pub mod bbcor;
+pub mod compare;
+pub mod measured;
+pub mod ring;
+pub mod frf;
+pub mod advice;
+pub mod u_curve;
+pub mod trade;
 
+use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
-use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// A kind of file that has a schema.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum File {
-    /// What is read: a bat.
-    Bat,
-    /// What `sweetspot modes --json` writes.
-    Modes,
-    /// What `sweetspot hit --json` writes.
-    Hit,
-    /// What `sweetspot bbcor --json` writes.
-    Bbcor,
+use crate::files::schema::document::Document;
+
+/// The schema of a kind of document.
+pub fn of<D: Document>() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|settings| settings.contract = D::CONTRACT);
+    finished(settings.into_generator().into_root_schema_for::<D>(), &id(D::NAME))
 }
 
-impl File {
-    /// Every kind, in this order.
-    pub const ALL: [Self; 4] = [Self::Bat, Self::Modes, Self::Hit, Self::Bbcor];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bat => "bat",
-            Self::Modes => "modes",
-            Self::Hit => "hit",
-            Self::Bbcor => "bbcor",
-        }
-    }
-
-    /// The `format` by which such a file is known.
-    pub fn format(self) -> String {
-        format!("sweetspot-{}/1", self.name())
-    }
-
-    /// The name of its schema, wherever that is kept.
-    pub fn id(self) -> String {
-        format!("urn:sweetspot:{}:1", self.name())
-    }
-
-    /// Its schema.
-    pub fn schema(self) -> Value {
-        let settings = SchemaSettings::draft2020_12();
-        let generated = match self {
-            // What may be read.
-            Self::Bat => {
-                settings.for_deserialize().into_generator().into_root_schema_for::<bat::BatFile>()
-            }
-            // What is written.
-            Self::Modes => written::<modes::ModesFile>(settings),
-            Self::Hit => written::<hit::HitFile>(settings),
-            Self::Bbcor => written::<bbcor::BbcorFile>(settings),
-        };
-        finished(generated, &self.id())
-    }
+/// The name of the schema of documents of that name, wherever it is kept.
+pub fn id(name: &str) -> String {
+    format!("urn:sweetspot:{name}:1")
 }
 
-fn written<T: JsonSchema>(settings: SchemaSettings) -> Schema {
-    settings.for_serialize().into_generator().into_root_schema_for::<T>()
-}
-
-/// One schema of all of them, each by its `format`, with the schema of each inside.
-pub fn all() -> Value {
-    let formats: Vec<String> = File::ALL.iter().map(|file| file.format()).collect();
-    let by_format = |file: File| {
-        json!({
-            "if": { "properties": { "format": { "const": file.format() } } },
-            "then": { "$ref": file.id() },
-        })
-    };
-    let definition = |file: File| (file.name().to_owned(), file.schema());
-    json!({
-        "$schema": DRAFT,
-        "$id": "urn:sweetspot:1",
-        "title": "A file of sweetspot",
-        "description": "A bat, its modes, its hits or its BBCOR, told apart by the member \"format\".",
-        "type": "object",
-        "properties": { "format": { "enum": formats } },
-        "required": ["format"],
-        "allOf": File::ALL.map(by_format),
-        "$defs": File::ALL.map(definition).into_iter().collect::<Map<_, _>>(),
-    })
+/// A document as it is written, in lines.
+pub fn text<T: Serialize>(document: &T) -> String {
+    format!("{:#}\n", value(document))
 }
 
 /// A document as JSON.
@@ -111,7 +58,8 @@ pub fn value<T: Serialize>(document: &T) -> Value {
     serde_json::to_value(document).expect("these types have text keys and no maps of other keys")
 }
 
-const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+/// The draft of JSON Schema that all of them follow.
+pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
 /// The schema with its name first, descriptions in whole lines, and no null where a member is left
 /// out instead.

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bat::theory::Theory;
+use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::resolved::ResolvedBat;
 
 /// The bending modes of a bat: frequencies, shapes, nodes and how far they may be trusted. SI, the
@@ -13,7 +14,7 @@ use crate::files::schema::resolved::ResolvedBat;
 #[schemars(title = "Modes file of sweetspot, sweetspot-modes/1")]
 pub struct ModesFile {
     /// Name of the format and its version: sweetspot-modes/1.
-    pub format: ModesFormat,
+    pub format: Format<ModesFile>,
     /// The program that wrote the file.
     pub generator: Generator,
     /// The bat as it was understood, a bat file in its own right.
@@ -32,29 +33,8 @@ pub struct ModesFile {
     pub timing: Option<Timing>,
 }
 
-/// Name of the format and its version.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(inline)]
-pub enum ModesFormat {
-    /// Version 1.
-    #[serde(rename = "sweetspot-modes/1")]
-    One,
-}
-
-/// Which program wrote this.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Generator {
-    /// Its name.
-    pub program: String,
-    /// Of the program, not of the format.
-    pub version: String,
-}
-
-impl Generator {
-    /// This program.
-    pub fn this() -> Self {
-        Self { program: "sweetspot".to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() }
-    }
+impl Document for ModesFile {
+    const NAME: &'static str = "modes";
 }
 
 /// The bat as a rigid body. Moments of inertia are transverse, with the sections' own and

@@ -3,12 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::files::schema::document::{Document, Format};
+
 /// The bat as it was understood: SI, defaults filled in, materials as they were weighed. A bat file
 /// in its own right, of the same bat. Positions count from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResolvedBat {
     /// Name of the format and its version: sweetspot-bat/1.
-    pub format: BatFormat,
+    pub format: Format<ResolvedBat>,
     /// What the bat is called.
     pub name: String,
     /// Where the numbers of the bat come from.
@@ -43,13 +45,8 @@ pub struct ResolvedBat {
     pub weighed: Option<Weighed>,
 }
 
-/// Name of the format and its version.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(inline)]
-pub enum BatFormat {
-    /// Version 1.
-    #[serde(rename = "sweetspot-bat/1")]
-    One,
+impl Document for ResolvedBat {
+    const NAME: &'static str = "bat";
 }
 
 /// A material, along the bat's axis where it is wood.

@@ -1,26 +1,31 @@
 //! The numbers that the page's script draws, rounded to what a picture shows; the summary is exact.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::base::number::rounded;
 use crate::bat::profile::{Piece, Profile};
 use crate::collision::hit::{Energy, Impact};
+use crate::files::schema::document::{Document, Format};
 use crate::show::analysis::Analysis;
 use crate::show::page::moment::Moment;
 use crate::show::page::summary::Summary;
 
-/// Everything that the script needs.
-#[derive(Debug, Clone, Serialize)]
+/// What the script of a report draws: the bat's outline, hits along the barrel, modes and hits in time.
+/// The unit stands in every name; positions count from the knob end; what does not exist is null.
+/// Numbers are rounded to what a picture shows, those of the summary are not.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Data of a report of sweetspot, sweetspot-page/1")]
 pub struct Data<'a> {
-    /// `sweetspot-page/1`
-    pub format: &'static str,
+    /// Name of the format and its version: sweetspot-page/1.
+    pub format: Format<Data<'a>>,
     /// The numbers at the top of the page, not rounded.
     pub summary: &'a Summary,
     /// What the bat looks like.
     pub outline: Outline,
     /// What hits along the barrel do.
     pub curve: Curve,
-    /// The first modes, [`MOVING`] at most.
+    /// The first modes, six at most.
     pub modes: Vec<MovingMode>,
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
@@ -28,8 +33,12 @@ pub struct Data<'a> {
     pub ball_radius_mm: f64,
 }
 
+impl Document for Data<'_> {
+    const NAME: &'static str = "page";
+}
+
 /// The bat's outline at rising places, a step being two at the same; shapes are told there too.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Outline {
     /// From the knob end to the tip (mm).
     pub length_mm: f64,
@@ -40,7 +49,7 @@ pub struct Outline {
 }
 
 /// Hits along the barrel; null where no ball is hit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Curve {
     /// Where the ball meets the bat (m from the knob end), rising.
     pub x_m: Vec<f64>,
@@ -59,7 +68,7 @@ pub struct Curve {
 }
 
 /// One mode: what moves, and how fast.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovingMode {
     /// Number of the bending mode, from 1.
     pub order: usize,
@@ -90,7 +99,7 @@ impl<'a> Data<'a> {
                 .collect(),
         });
         Self {
-            format: "sweetspot-page/1",
+            format: Format::new(),
             summary,
             curve: Curve::new(&analysis.hits.impacts),
             modes: modes.collect(),

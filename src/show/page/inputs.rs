@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use crate::base::error::{Error, Result};
 use crate::collision::hit::{Model, Scene};
+use crate::files::schema;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, inline, length, speed};
 use crate::show::page::table::Table;
@@ -155,7 +156,7 @@ const MOST: usize = 400;
 pub fn values(analysis: &Analysis) -> Table {
     let head = ["Key", "Value", "Unit"];
     let mut table = Table::new("The bat as it was understood, in SI", &head);
-    let bat = resolved(&analysis.bat);
+    let bat = schema::value(&resolved(&analysis.bat));
     for (key, value) in bat.as_object().into_iter().flatten() {
         if !matches!(key.as_str(), "format" | "name" | "source" | "profile") {
             flat(key, value, &mut table);

@@ -4,6 +4,7 @@
 //! bat move apart by `∫∫F dt²/m − v t − w(a)`, v their closing speed and w the bat's motion against its
 //! swing ([`crate::collision::aftermath`]).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::base::error::Result;
@@ -16,7 +17,7 @@ use crate::collision::hitter::Hitter;
 use crate::show::analysis::Analysis;
 
 /// A hit in time, as numbers for drawing: rounded to what a picture shows.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Moment {
     /// Name of the place of the hit.
     pub label: String,
@@ -32,7 +33,7 @@ pub struct Moment {
     pub force_kn: Vec<f64>,
     /// How far the ball is from the bat (mm); negative while it is squeezed, by that much.
     pub gap_mm: Vec<f64>,
-    /// At every instant the bat's bending at [`PLACES`] even places from knob to tip, in hundredths
+    /// At every instant the bat's bending at 41 even places from knob to tip, in hundredths
     /// of a millimetre, positive the way the bat swings.
     pub bending_10_um: Vec<Vec<i32>>,
 }

@@ -1,5 +1,6 @@
 //! The summary: the numbers a bat maker asks for first.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::bat::body::STANDARD_PIVOT;
@@ -7,7 +8,7 @@ use crate::show::analysis::Analysis;
 use crate::show::page::shown;
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Length from the knob end to the tip (m).
     pub length_m: f64,

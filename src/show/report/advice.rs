@@ -3,13 +3,12 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use serde_json::{Value, json};
-
 use crate::base::units::{inches, ounce_square_inches, ounces};
 use crate::bat::theory::Theory;
+use crate::files::schema::advice as file;
+use crate::files::schema::document::{BatName, Format, Generator};
 use crate::modes::damping::Damped;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::json::generator;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::advise::advice::Advice;
 use crate::study::advise::effect::{Effect, Shift, Switch};
@@ -332,66 +331,62 @@ fn percent_of(value: f64) -> String {
 }
 
 /// The `sweetspot-advice/1` document.
-pub fn json(advice: &Advice) -> Value {
-    let full = &advice.full;
-    let smallest = &advice.smallest;
+pub fn document(advice: &Advice) -> file::AdviceFile {
+    let (full, smallest) = (&advice.full, &advice.smallest);
     let damped = |of: fn(&Damped) -> f64| -> Vec<f64> {
         full.solution.damping.modes.iter().map(of).collect()
     };
-    let mut full_model = of_model(full);
-    full_model["tolerance_met"] = json!(advice.met());
-    let mut own = of_model(&smallest.solved);
-    own["left_out"] = json!(advice.left_out());
-    own["deviation"] = json!(smallest.deviation);
-    own["deviation_error"] = json!(smallest.error);
-    json!({
-        "format": "sweetspot-advice/1",
-        "generator": generator(),
-        "bat": { "name": full.bat.name },
-        "modes": full.solution.modes.len(),
-        "tolerance": advice.tolerance,
-        "full_model": full_model,
-        "effects": advice.effects.iter().map(of_effect).collect::<Vec<_>>(),
-        "damping": {
-            "material_ratio": advice.damping.material,
-            "dashpots": advice.damping.dashpots,
-            "ratio_by_mode": damped(|damped| damped.ratio),
-            "damped_frequency_hz_by_mode": damped(|damped| damped.swinging() / TAU),
+    file::AdviceFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName { name: full.bat.name.clone() },
+        modes: full.solution.modes.len(),
+        tolerance: advice.tolerance,
+        full_model: file::FullModel { model: of_model(full), tolerance_met: advice.met() },
+        effects: advice.effects.iter().map(of_effect).collect(),
+        damping: file::Damping {
+            material_ratio: advice.damping.material,
+            dashpots: advice.damping.dashpots.clone(),
+            ratio_by_mode: damped(|damped| damped.ratio),
+            damped_frequency_hz_by_mode: damped(|damped| damped.swinging() / TAU),
         },
-        "smallest_model": own,
-        "out_of_scope": advice.outside,
-    })
+        smallest_model: file::SmallestModel {
+            model: of_model(&smallest.solved),
+            left_out: advice.left_out(),
+            deviation: smallest.deviation,
+            deviation_error: smallest.error,
+        },
+        out_of_scope: advice.outside.clone(),
+    }
 }
 
-fn of_model(solved: &Solved) -> Value {
-    let model = &solved.model;
-    let modes = &solved.solution.modes;
-    json!({
-        "theory": model.theory.name(),
-        "parts": model.parts.iter().map(|part| part.name()).collect::<Vec<_>>(),
-        "rigid_modes": solved.solution.rigid_modes,
-        "frequencies_hz": solved.frequencies(),
-        "error_by_mode": modes.iter().map(|mode| mode.error.total()).collect::<Vec<_>>(),
-    })
+fn of_model(solved: &Solved) -> file::SolvedModel {
+    file::SolvedModel {
+        theory: solved.model.theory.name(),
+        parts: solved.model.parts.iter().map(|part| part.name()).collect(),
+        rigid_modes: solved.solution.rigid_modes,
+        frequencies_hz: solved.frequencies(),
+        error_by_mode: solved.solution.modes.iter().map(|mode| mode.error.total()).collect(),
+    }
 }
 
-fn of_effect(effect: &Effect) -> Value {
-    let list = |of: &dyn Fn(&Shift) -> Value| {
-        let shifts = effect.shifts.as_ref();
-        shifts.map(|shifts| shifts.iter().map(of).collect::<Vec<Value>>())
+fn of_effect(effect: &Effect) -> file::Effect {
+    let numbers = |of: fn(&Shift) -> f64| -> Option<Vec<f64>> {
+        Some(effect.shifts.as_ref()?.iter().map(of).collect())
     };
-    let [mass, balance, swing] = effect.body;
-    json!({
-        "switch": effect.switch.name(),
-        "known": effect.switch != Switch::TypicalShear,
-        "with": of_model(&effect.with),
-        "without": of_model(&effect.without),
-        "shift_by_mode": list(&|shift| json!(shift.frequency)),
-        "shift_error_by_mode": list(&|shift| json!(shift.error)),
-        "node_shift_m_by_mode": list(&|shift| json!(shift.nodes)),
-        "node_shift_error_m_by_mode": list(&|shift| json!(shift.node_error)),
-        "mass_kg": mass,
-        "balance_point_m": balance,
-        "inertia_pivot_kg_m2": swing,
-    })
+    let [mass_kg, balance_point_m, inertia_pivot_kg_m2] = effect.body;
+    file::Effect {
+        switch: effect.switch.name(),
+        known: effect.switch != Switch::TypicalShear,
+        with: of_model(&effect.with),
+        without: of_model(&effect.without),
+        shift_by_mode: numbers(|shift| shift.frequency),
+        shift_error_by_mode: numbers(|shift| shift.error),
+        node_shift_m_by_mode: (effect.shifts.as_ref())
+            .map(|shifts| shifts.iter().map(|shift| shift.nodes.clone()).collect()),
+        node_shift_error_m_by_mode: numbers(|shift| shift.node_error),
+        mass_kg,
+        balance_point_m,
+        inertia_pivot_kg_m2,
+    }
 }

@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use serde_json::{Value, json};
-
 use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
-use crate::collision::hit::Impact;
+use crate::collision::hit;
 use crate::collision::strength::{Limit, Load, Strength, nearest};
+use crate::files::schema::document::{Format, Generator};
+use crate::files::schema::hit::Impact;
+use crate::files::schema::ring as file;
 use crate::show::csv::{Cell, Csv};
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::json::generator;
 use crate::show::report::text::{Units, wrapped};
 
 /// All that is told of a hit's aftermath.
@@ -77,7 +77,7 @@ impl AfterHit {
 }
 
 /// One line of the hit itself.
-pub fn impact(impact: &Impact, units: Units) -> String {
+pub fn impact(impact: &hit::Impact, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
         "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
@@ -231,13 +231,10 @@ pub fn strengths(all: &[Strength], units: Units) -> String {
     out
 }
 
-/// What hits at some places ask of the bat, as JSON.
-pub fn strengths_json(all: &[Strength]) -> Value {
-    let at = |at: &Strength| {
-        let loads: Vec<Value> = at.loads.iter().map(strength_json).collect();
-        json!({ "x_m": at.x, "limits": loads })
-    };
-    all.iter().map(at).collect()
+/// What hits at some places ask of the bat, for a document.
+pub fn strengths_file(all: &[Strength]) -> Vec<file::Strength> {
+    let of = |at: &Strength| file::Strength { x_m: at.x, limits: loads(&at.loads) };
+    all.iter().map(of).collect()
 }
 
 /// Force, and motion and strain at the watched places, in time.
@@ -259,79 +256,80 @@ pub fn history(after: &Aftermath, report: &AfterHit) -> String {
     table.text()
 }
 
-/// The `sweetspot-ring/1` document of a hit.
-pub fn json(after: &Aftermath, report: &AfterHit) -> Value {
-    let worst = |worst: Option<Strained>| {
-        worst.map(
-            |w| json!({ "x_m": w.x, "time_s": w.time, "strain": w.strain, "stress_pa": w.stress }),
-        )
-    };
-    let watched = report.watched.iter().map(|(x, sting, lines)| {
-        let motions: Vec<[f64; 3]> =
-            report.instants.iter().map(|now| after.motion(*x, now)).collect();
-        let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
-        let strains = report.instants.iter().map(|now| after.strains(&[*x], now, after.count())[0]);
-        let lines = lines.iter().map(|line| {
-            json!({
-                "frequency_hz": line.frequency,
-                "displacement_m": line.amplitude[0],
-                "velocity_m_s": line.amplitude[1],
-                "acceleration_m_s2": line.amplitude[2],
-            })
-        });
-        json!({
-            "x_m": x,
-            "begins_s": sting.begins,
-            "peak": {
-                "displacement_m": sting.peak[0],
-                "velocity_m_s": sting.peak[1],
-                "acceleration_m_s2": sting.peak[2],
-            },
-            "spectrum": lines.collect::<Vec<_>>(),
-            "displacement_m": column(0),
-            "velocity_m_s": column(1),
-            "acceleration_m_s2": column(2),
-            "strain": strains.collect::<Vec<_>>(),
-        })
-    });
-    let along = |of: &dyn Fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
-    let times: Vec<f64> = report.instants.iter().map(|now| now.time).collect();
-    let forces: Vec<f64> = report.instants.iter().map(|now| now.force).collect();
-    json!({
-        "format": "sweetspot-ring/1",
-        "generator": generator(),
-        "modes": after.count(),
-        "at_m": after.place,
-        "contact_s": after.end(),
-        "times_s": times,
-        "force_n": forces,
-        "watched": watched.collect::<Vec<_>>(),
-        "strain_max_in_contact": worst(report.during),
-        "strain_max": worst(report.after),
-        "strain_error": report.strain_error,
-        "along": {
-            "x_m": along(&|at| at.x),
-            "strain_max": along(&|at| at.strain),
-            "stress_max_pa": along(&|at| at.stress),
+/// The `sweetspot-ring/1` document of a hit, with what was left out of it.
+pub fn document(
+    after: &Aftermath,
+    report: &AfterHit,
+    impact: Impact,
+    ignored: Vec<String>,
+) -> file::RingFile {
+    let along = |of: fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
+    file::RingFile::Hit(Box::new(file::AfterHit {
+        format: Format::new(),
+        generator: Generator::this(),
+        modes: after.count(),
+        at_m: after.place,
+        contact_s: after.end(),
+        times_s: report.instants.iter().map(|now| now.time).collect(),
+        force_n: report.instants.iter().map(|now| now.force).collect(),
+        watched: report.watched.iter().map(|seen| watched(after, report, seen)).collect(),
+        strain_max_in_contact: report.during.as_ref().map(strained),
+        strain_max: report.after.as_ref().map(strained),
+        strain_error: report.strain_error,
+        along: file::Along {
+            x_m: along(|at| at.x),
+            strain_max: along(|at| at.strain),
+            stress_max_pa: along(|at| at.stress),
         },
-        "strength": report.loads.iter().map(strength_json).collect::<Vec<_>>(),
-    })
+        strength: loads(&report.loads),
+        impact,
+        ignored,
+    }))
 }
 
-/// How near the bat comes to one limit.
-fn strength_json((load, swing): &(Load, Option<f64>)) -> Value {
-    let (limit, bears) = match load.limit {
-        Limit::Stress => ("stress", "strength_pa"),
-        Limit::Strain => ("strain", "strain_to_failure"),
+fn watched(
+    after: &Aftermath,
+    report: &AfterHit,
+    (x, sting, lines): &(f64, Sting, Vec<Line>),
+) -> file::Watched {
+    let motions: Vec<[f64; 3]> = report.instants.iter().map(|now| after.motion(*x, now)).collect();
+    let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
+    let strain = |now: &Instant| after.strains(&[*x], now, after.count())[0];
+    let [displacement_m, velocity_m_s, acceleration_m_s2] = sting.peak;
+    file::Watched {
+        x_m: *x,
+        begins_s: sting.begins,
+        peak: file::Peak { displacement_m, velocity_m_s, acceleration_m_s2 },
+        spectrum: lines.iter().map(line).collect(),
+        displacement_m: column(0),
+        velocity_m_s: column(1),
+        acceleration_m_s2: column(2),
+        strain: report.instants.iter().map(strain).collect(),
+    }
+}
+
+fn line(line: &Line) -> file::Line {
+    let [displacement_m, velocity_m_s, acceleration_m_s2] = line.amplitude;
+    file::Line { frequency_hz: line.frequency, displacement_m, velocity_m_s, acceleration_m_s2 }
+}
+
+fn strained(at: &Strained) -> file::Strained {
+    file::Strained { x_m: at.x, time_s: at.time, strain: at.strain, stress_pa: at.stress }
+}
+
+/// How near the bat comes to each limit.
+fn loads(loads: &[(Load, Option<f64>)]) -> Vec<file::Load> {
+    let bears = |load: &Load, limit: Limit| (load.limit == limit).then_some(load.bears);
+    let of = |(load, swing): &(Load, Option<f64>)| file::Load {
+        limit: match load.limit {
+            Limit::Stress => "stress",
+            Limit::Strain => "strain",
+        },
+        strength_pa: bears(load, Limit::Stress),
+        strain_to_failure: bears(load, Limit::Strain),
+        at: strained(&load.at),
+        share: load.share,
+        reached_at_swing_rad_s: *swing,
     };
-    json!({
-        "limit": limit,
-        bears: load.bears,
-        "x_m": load.at.x,
-        "time_s": load.at.time,
-        "strain": load.at.strain,
-        "stress_pa": load.at.stress,
-        "share": load.share,
-        "reached_at_swing_rad_s": swing,
-    })
+    loads.iter().map(of).collect()
 }

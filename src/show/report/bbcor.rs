@@ -2,14 +2,11 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
-
 use crate::base::units::{inches, miles_per_hour};
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Tested};
-use crate::files::schema;
 use crate::files::schema::bbcor as file;
-use crate::files::schema::modes::Generator;
+use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::hit_json::ball_out;
@@ -131,7 +128,7 @@ pub fn csv(tested: &Tested) -> String {
 }
 
 /// The `sweetspot-bbcor/1` document.
-pub fn json(tested: &Tested, cor_source: &str) -> Value {
+pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
     let (protocol, length) = (&tested.protocol, tested.bat.length());
     let largest = |place: &Place| {
         Some(file::Largest {
@@ -141,8 +138,8 @@ pub fn json(tested: &Tested, cor_source: &str) -> Value {
             error: place.error?,
         })
     };
-    schema::value(&file::BbcorFile {
-        format: file::BbcorFormat::One,
+    file::BbcorFile {
+        format: Format::new(),
         generator: Generator::this(),
         bat_name: tested.bat.name.clone(),
         certified: false,
@@ -162,7 +159,7 @@ pub fn json(tested: &Tested, cor_source: &str) -> Value {
         within_limit: tested.within(),
         tolerance_met: tested.sweep.met,
         ignored: ignored::in_hit(&tested.bat, false),
-    })
+    }
 }
 
 fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {

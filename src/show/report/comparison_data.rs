@@ -1,94 +1,101 @@
 //! Several bats side by side: JSON and CSV, in SI.
 
-use serde_json::{Map, Value, json};
-
+use crate::files::schema::compare as file;
+use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::comparison::{letter, words};
-use crate::show::report::hit_json::{hit, model_name, seen_from};
-use crate::show::report::json::generator;
+use crate::show::report::hit_json::{model_name, scene_out, seen_from};
 use crate::show::report::text::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
+use crate::study::comparison::stretches::Stretch;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::in_hit;
 
 /// The `sweetspot-compare/1` document; `files` are the names of the bats' files.
-pub fn json(comparison: &Comparison, files: &[String]) -> Value {
+pub fn document(comparison: &Comparison, files: &[String]) -> file::CompareFile {
     let bats = comparison.bats.iter().zip(files).enumerate();
-    let bats: Vec<Value> = bats.map(|(k, (bat, file))| of_bat(comparison, k, bat, file)).collect();
-    let speeds = |distances: &[f64], rows: &[ComparedFigure]| {
-        let of = |distance: &f64, row: &ComparedFigure| {
-            let mut document = json!({ "distance_m": distance });
-            document["exit_speed_m_s"] = row.values.iter().map(|v| v.map(|f| f.value)).collect();
-            document["error_m_s"] = row.values.iter().map(|v| v.map(|f| f.error)).collect();
-            document
-        };
-        distances.iter().zip(rows).map(|(d, row)| of(d, row)).collect::<Vec<_>>()
+    file::CompareFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        model: model_name(comparison.terms.model),
+        scene: scene(&comparison.bats[0]),
+        bats: bats.map(|(k, (bat, file))| of_bat(comparison, k, bat, file)).collect(),
+        exit_speed_from_tip: speeds(&comparison.from_tip, &comparison.by_tip),
+        exit_speed_from_knob: speeds(&comparison.from_knob, &comparison.by_knob),
+        words: words(comparison, Units::Si),
+    }
+}
+
+fn speeds(distances: &[f64], rows: &[ComparedFigure]) -> Vec<file::Speeds> {
+    let of = |(distance, row): (&f64, &ComparedFigure)| file::Speeds {
+        distance_m: *distance,
+        exit_speed_m_s: row.values.iter().map(|v| v.map(|f| f.value)).collect(),
+        error_m_s: row.values.iter().map(|v| v.map(|f| f.error)).collect(),
     };
-    json!({
-        "format": "sweetspot-compare/1",
-        "generator": generator(),
-        "model": model_name(comparison.terms.model),
-        "scene": scene(comparison),
-        "bats": bats,
-        "exit_speed_from_tip": speeds(&comparison.from_tip, &comparison.by_tip),
-        "exit_speed_from_knob": speeds(&comparison.from_knob, &comparison.by_knob),
-        "words": words(comparison, Units::Si),
-    })
+    distances.iter().zip(rows).map(of).collect()
 }
 
 /// What the bats have in common: all of a hit's scene but the swing and what sees the energies.
-fn scene(comparison: &Comparison) -> Value {
-    let first = &comparison.bats[0];
-    let model = comparison.terms.model;
-    let mut scene = hit(&first.bat, model, &first.scene, &[], &first.spot)["scene"].take();
-    if let Some(members) = scene.as_object_mut() {
-        members.shift_remove("swing_rad_s");
-        members.shift_remove("energies_seen_from");
+fn scene(first: &Contender) -> file::Scene {
+    let scene = scene_out(&first.bat, &first.scene);
+    file::Scene {
+        bat_pivot_m: scene.bat_pivot_m,
+        ball: scene.ball,
+        ball_speed_m_s: scene.ball_speed_m_s,
+        cor: scene.cor,
+        hands_m: scene.hands_m,
+        wall: scene.wall,
+        swing_law: first.law.map(|law| file::SwingLaw {
+            exponent: law.exponent,
+            reference_inertia_kg_m2: law.reference,
+            reference_swing_rad_s: law.of_reference,
+        }),
     }
-    scene["swing_law"] = json!(first.law.map(|law| json!({
-        "exponent": law.exponent,
-        "reference_inertia_kg_m2": law.reference,
-        "reference_swing_rad_s": law.of_reference,
-    })));
-    scene
 }
 
-fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> Value {
-    let mut figures = Map::new();
-    for row in &comparison.figures {
-        let value = row.values[k].map(|figure| {
-            let mut value = json!({ "value": figure.value, "error": figure.error });
-            if let Some(difference) = row.difference(k).filter(|_| k > 0) {
-                value["difference"] = json!(difference.by);
-                value["difference_error"] = json!(difference.within);
-                value["beyond_errors"] = json!(difference.is_real());
-            }
-            value
-        });
-        figures.insert(format!("{}{}", row.key, row.unit.suffix()), json!(value));
-    }
-    let stretches = comparison.stretches(k).into_iter().filter(|_| k > 0).map(|s| {
-        json!({
-            "from_tip_m": [s.from, s.to],
-            "harder": match s.harder { 0 => None, 1 => Some("this"), _ => Some("the first") },
-            "largest_difference_m_s": s.most.by,
-            "largest_difference_error_m_s": s.most.within,
-            "largest_at_from_tip_m": s.most_at,
+fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> file::ComparedBat {
+    let figure = |row: &ComparedFigure| {
+        let figure = row.values[k]?;
+        let difference = row.difference(k).filter(|_| k > 0);
+        Some(file::Figure {
+            value: figure.value,
+            error: figure.error,
+            difference: difference.map(|difference| difference.by),
+            difference_error: difference.map(|difference| difference.within),
+            beyond_errors: difference.map(|difference| difference.is_real()),
         })
-    });
-    json!({
-        "name": bat.bat.name,
-        "file": file,
-        "swing_rad_s": bat.scene.swing,
-        "energies_seen_from": seen_from(&bat.bat),
-        "theory": bat.sweep.solution.theory.name(),
-        "modes": bat.sweep.solution.modes.len(),
-        "tolerance_met": bat.sweep.met,
-        "ignored": in_hit(&bat.bat, bat.scene.wall.is_some()),
-        "figures": figures,
-        "harder": stretches.collect::<Vec<_>>(),
-    })
+    };
+    let figures = comparison.figures.iter();
+    let stretches = comparison.stretches(k).into_iter().filter(|_| k > 0);
+    file::ComparedBat {
+        name: bat.bat.name.clone(),
+        file: file.to_owned(),
+        swing_rad_s: bat.scene.swing,
+        energies_seen_from: seen_from(&bat.bat),
+        theory: bat.sweep.solution.theory.name(),
+        modes: bat.sweep.solution.modes.len(),
+        tolerance_met: bat.sweep.met,
+        ignored: in_hit(&bat.bat, bat.scene.wall.is_some()),
+        figures: figures
+            .map(|row| (format!("{}{}", row.key, row.unit.suffix()), figure(row)))
+            .collect(),
+        harder: stretches.map(stretch).collect(),
+    }
+}
+
+fn stretch(stretch: Stretch) -> file::Stretch {
+    file::Stretch {
+        from_tip_m: [stretch.from, stretch.to],
+        harder: match stretch.harder {
+            0 => None,
+            1 => Some("this"),
+            _ => Some("the first"),
+        },
+        largest_difference_m_s: stretch.most.by,
+        largest_difference_error_m_s: stretch.most.within,
+        largest_at_from_tip_m: stretch.most_at,
+    }
 }
 
 /// All figures and speeds, a line for each bat's: SI, the unit at the end of the quantity.

@@ -1,39 +1,32 @@
 //! The JSON file of a hit, in SI, the unit in every key's name.
 
-use serde_json::Value;
-
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::figures::{Figures, Swung};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Separation, Wall};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
-use crate::files::schema;
+use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit as file;
-use crate::files::schema::modes::Generator;
 use crate::study::ignored;
 
 /// The `sweetspot-hit/1` document, without the figures.
-pub fn hit(bat: &Bat, model: Model, scene: &Scene, impacts: &[Impact], spot: &SweetSpot) -> Value {
-    schema::value(&file::HitFile {
-        format: file::HitFormat::One,
+pub fn hit(
+    bat: &Bat,
+    model: Model,
+    scene: &Scene,
+    impacts: &[Impact],
+    spot: &SweetSpot,
+) -> file::HitFile {
+    file::HitFile {
+        format: Format::new(),
         generator: Generator::this(),
         model: model_name(model).to_owned(),
         scene: scene_out(bat, scene),
-        impacts: impacts.iter().map(|impact| impact_out(bat, impact)).collect(),
+        impacts: impacts.iter().map(|at| impact(bat, at)).collect(),
         sweet_spot: sweet_spot(spot),
         ignored: ignored::in_hit(bat, scene.wall.is_some()),
         figures: None,
-    })
-}
-
-/// The standard figures, beside the impacts in the same document.
-pub fn figures(figures: &Figures) -> Value {
-    schema::value(&figures_out(figures))
-}
-
-/// One impact.
-pub fn impact(bat: &Bat, impact: &Impact) -> Value {
-    schema::value(&impact_out(bat, impact))
+    }
 }
 
 /// The name that the command line and the files use.
@@ -51,7 +44,8 @@ pub fn seen_from(bat: &Bat) -> &'static str {
     if bat.fixtures.holding() { "hands" } else { "ground" }
 }
 
-fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
+/// Swing, pitch and ball.
+pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
     let wall = |wall: Wall| file::Wall { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
     file::Scene {
         bat_pivot_m: scene.pivot,
@@ -97,7 +91,8 @@ fn peak(peak: Peak) -> file::Peak {
     file::Peak { x_m: peak.x, value: peak.value }
 }
 
-fn figures_out(figures: &Figures) -> file::Figures {
+/// The standard figures, beside the impacts in the same document.
+pub fn figures(figures: &Figures) -> file::Figures {
     let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let swung = |swung: &Swung| file::Swung {
         exponent: swung.exponent,
@@ -122,7 +117,8 @@ fn figures_out(figures: &Figures) -> file::Figures {
     }
 }
 
-fn impact_out(bat: &Bat, impact: &Impact) -> file::Impact {
+/// One impact.
+pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
     let outcome = impact.outcome.as_ref();
     let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
     file::Impact {

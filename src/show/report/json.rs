@@ -3,14 +3,12 @@
 //! Numbers are written in the shortest form that reads back to the same bits; there is never a
 //! NaN or an infinity. What does not exist is null.
 
-use serde_json::Value;
-
 use crate::bat::body::{Bat, STANDARD_PIVOT, Weighed};
-use crate::files::schema;
+use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::modes as file;
 use crate::modes::solve::Solution;
 use crate::show::report::damped;
-use crate::show::report::resolved::resolved_bat;
+use crate::show::report::resolved::resolved;
 use crate::study::ignored::ignored;
 use crate::study::trade::reference::solver_name;
 
@@ -24,22 +22,12 @@ pub enum ShapePoints {
 }
 
 /// The `sweetspot-modes/1` document; `timing` only if wanted.
-pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) -> Value {
-    schema::value(&modes_file(bat, solution, points, timing))
-}
-
-/// The `sweetspot-modes/1` document as plain data.
-pub fn modes_file(
-    bat: &Bat,
-    solution: &Solution,
-    points: ShapePoints,
-    timing: bool,
-) -> file::ModesFile {
+pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) -> file::ModesFile {
     let places = places(bat, solution, points);
     file::ModesFile {
-        format: file::ModesFormat::One,
-        generator: file::Generator::this(),
-        bat: resolved_bat(bat),
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: resolved(bat),
         summary: summary(bat),
         model: file::Model {
             theory: solution.theory.name().to_owned(),
@@ -62,11 +50,6 @@ pub fn modes_file(
             solve_s: solution.timing.solve.as_secs_f64(),
         }),
     }
-}
-
-/// Which program wrote this.
-pub fn generator() -> Value {
-    schema::value(&file::Generator::this())
 }
 
 fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use faer::c64;
-use serde_json::{Value, json};
 
 use crate::base::number::{percent, signed};
 use crate::base::units::inches;
 use crate::bat::body::Bat;
+use crate::files::schema::document::{Format, Generator};
+use crate::files::schema::measured as file;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::json::generator;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::measured::pairing::{LEAST, octaves};
 use crate::study::measured::study::{Pair, Shapes, Study};
@@ -233,72 +233,75 @@ fn common(study: &Study, shapes: &Shapes) -> String {
 }
 
 /// The `sweetspot-measured/1` document; `file` is the name of the bat's file.
-pub fn json(bat: &Bat, file: &str, study: &Study) -> Value {
+pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
     let solution = &study.solution;
-    let measured = study.measured.modes.iter().enumerate().map(|(k, mode)| {
-        let row = study.bending.iter().position(|bending| *bending == k);
-        let of = |list: &dyn Fn(&Shapes, usize) -> Option<f64>| {
-            study.shapes.as_ref().zip(row).and_then(|(shapes, row)| list(shapes, row))
-        };
-        let rigid = study.rigid.iter().find(|rigid| rigid.measured == k);
-        json!({
-            "name": mode.name,
-            "frequency_hz": mode.frequency,
-            "damping_ratio": mode.damping_ratio,
-            "kind": if rigid.is_some() { "rigid" } else { "bending" },
-            "off_a_straight_line": rigid.map(|rigid| rigid.bent),
-            "phase_collinearity": of(&|shapes, row| Some(shapes.collinearity[row])),
-            "out_of_phase": of(&|shapes, row| Some(shapes.out_of_phase[row])),
-            "rigid_share": of(&|shapes, row| Some(shapes.rigid_share.as_ref()?[row])),
-            "rigid_share_of_computed": of(&|shapes, row| shapes.sampled_rigid_share.as_ref()?[row]),
-        })
+    let computed = solution.modes.iter().enumerate().map(|(k, mode)| file::ComputedMode {
+        order: mode.order,
+        frequency_hz: mode.frequency(),
+        damping_ratio: solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
+        error: Some(mode.error.total()),
     });
-    let computed = solution.modes.iter().enumerate().map(|(k, mode)| {
-        json!({
-            "order": mode.order,
-            "frequency_hz": mode.frequency(),
-            "damping_ratio": solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
-            "error": mode.error.total(),
-        })
-    });
-    let name = |k: &usize| study.name(*k);
-    let mut document = json!({
-        "format": "sweetspot-measured/1",
-        "generator": generator(),
-        "bat": { "name": bat.name, "file": file, "theory": solution.theory.name() },
-        "source": study.measured.source,
-        "assumed": study.measured.assumed,
-        "measured": measured.collect::<Vec<_>>(),
-        "computed": computed.collect::<Vec<_>>(),
-        "pairs": study.pairs.iter().map(|pair| of_pair(study, pair)).collect::<Vec<_>>(),
-        "least_mac": LEAST,
-        "unpaired_measured": study.lone_measured.iter().map(name).collect::<Vec<_>>(),
-        "unpaired_computed": study.lone_computed.iter().map(|k| k + 1).collect::<Vec<_>>(),
-        "words": words(study),
-    });
-    if let Some(shapes) = &study.shapes {
-        document["shapes"] = json!({
-            "assumed": shapes.placed.assumed,
-            "first_end": shapes.placed.first.name(),
-            "x_m": shapes.placed.x,
-            "rows": study.bending.iter().map(name).collect::<Vec<_>>(),
-            "mac": shapes.mac,
-            "mac_of_computed": shapes.own_mac,
-            "common_in_mass": shapes.common,
-            "common_in_mass_of_computed": shapes.sampled_common,
-        });
+    file::MeasuredFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: file::ComputedBat {
+            name: bat.name.clone(),
+            file: file.to_owned(),
+            theory: solution.theory.name(),
+        },
+        source: study.measured.source.clone(),
+        assumed: study.measured.assumed.clone(),
+        measured: (0..study.measured.modes.len()).map(|k| of_measured(study, k)).collect(),
+        computed: computed.collect(),
+        pairs: study.pairs.iter().map(|pair| of_pair(study, pair)).collect(),
+        least_mac: LEAST,
+        unpaired_measured: names(study, &study.lone_measured),
+        unpaired_computed: study.lone_computed.iter().map(|k| k + 1).collect(),
+        words: words(study),
+        shapes: study.shapes.as_ref().map(|shapes| file::Shapes {
+            assumed: shapes.placed.assumed.clone(),
+            first_end: shapes.placed.first.name(),
+            x_m: shapes.placed.x.clone(),
+            rows: names(study, &study.bending),
+            mac: shapes.mac.clone(),
+            mac_of_computed: shapes.own_mac.clone(),
+            common_in_mass: shapes.common.clone(),
+            common_in_mass_of_computed: shapes.sampled_common.clone(),
+        }),
     }
-    document
 }
 
-fn of_pair(study: &Study, pair: &Pair) -> Value {
-    json!({
-        "measured": study.name(pair.measured),
-        "computed": pair.computed + 1,
-        "mac": pair.mac,
-        "frequency_difference": pair.difference,
-        "computed_within": pair.within,
-        "within_errors": pair.difference.map(|difference| difference.abs() <= pair.within),
-        "scale": pair.scale.map(|scale| json!({ "real": scale.re, "imaginary": scale.im })),
-    })
+fn names(study: &Study, modes: &[usize]) -> Vec<String> {
+    modes.iter().map(|k| study.name(*k).to_owned()).collect()
+}
+
+fn of_measured(study: &Study, k: usize) -> file::MeasuredMode {
+    let mode = &study.measured.modes[k];
+    let rigid = study.rigid.iter().find(|rigid| rigid.measured == k);
+    let row = study.bending.iter().position(|bending| *bending == k);
+    let shape = study.shapes.as_ref().zip(row);
+    file::MeasuredMode {
+        name: mode.name.clone(),
+        frequency_hz: mode.frequency,
+        damping_ratio: mode.damping_ratio,
+        kind: if rigid.is_some() { "rigid" } else { "bending" },
+        off_a_straight_line: rigid.map(|rigid| rigid.bent),
+        phase_collinearity: shape.map(|(shapes, row)| shapes.collinearity[row]),
+        out_of_phase: shape.map(|(shapes, row)| shapes.out_of_phase[row]),
+        rigid_share: shape.and_then(|(shapes, row)| Some(shapes.rigid_share.as_ref()?[row])),
+        rigid_share_of_computed: shape
+            .and_then(|(shapes, row)| shapes.sampled_rigid_share.as_ref()?[row]),
+    }
+}
+
+fn of_pair(study: &Study, pair: &Pair) -> file::Pair {
+    file::Pair {
+        measured: study.name(pair.measured).to_owned(),
+        computed: pair.computed + 1,
+        mac: pair.mac,
+        frequency_difference: pair.difference,
+        computed_within: pair.within,
+        within_errors: pair.difference.map(|difference| difference.abs() <= pair.within),
+        scale: pair.scale.map(|scale| file::Complex { real: scale.re, imaginary: scale.im }),
+    }
 }

@@ -1,26 +1,19 @@
 //! The bat in the JSON files: as it was understood, and a bat file in its own right.
 
-use serde_json::Value;
-
 use crate::bat::body::{Bat, Weighed};
 use crate::bat::fixtures::{Attachment, Grip, Held, Region};
 use crate::bat::material::Material;
 use crate::bat::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
-use crate::files::schema;
+use crate::files::schema::document::Format;
 use crate::files::schema::resolved as file;
-use crate::files::schema::resolved::{BatFormat, ResolvedBat};
+use crate::files::schema::resolved::ResolvedBat;
 
 /// The bat as it was understood: SI, defaults filled in, materials as they were weighed. Read as a
 /// bat file it is the same bat.
-pub fn resolved(bat: &Bat) -> Value {
-    schema::value(&resolved_bat(bat))
-}
-
-/// The bat as it was understood, as plain data: SI, defaults filled in, materials as they were weighed.
-pub fn resolved_bat(bat: &Bat) -> ResolvedBat {
+pub fn resolved(bat: &Bat) -> ResolvedBat {
     let fixtures = &bat.fixtures;
     ResolvedBat {
-        format: BatFormat::One,
+        format: Format::new(),
         name: bat.name.clone(),
         source: bat.source.clone(),
         material: material(bat.material()),

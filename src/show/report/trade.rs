@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
-use serde_json::{Value, json};
-
 use crate::bat::body::Bat;
+use crate::files::schema::document::{BatName, Format, Generator};
+use crate::files::schema::trade as file;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::json::generator;
 use crate::show::report::text::wrapped;
 use crate::show::report::u_curve::{columns, heading, of_choice, of_reference};
 use crate::study::trade::front::{Run, fastest, front};
@@ -102,31 +101,31 @@ fn planner(trade: &Trade) -> String {
 }
 
 /// The `sweetspot-trade/1` document.
-pub fn json(bat: &Bat, trade: &Trade) -> Value {
-    let planner: Vec<Value> = planned(trade).into_iter().map(|(_, run)| of_run(run)).collect();
-    json!({
-        "format": "sweetspot-trade/1",
-        "generator": generator(),
-        "bat": { "name": bat.name },
-        "modes": trade.reference.omegas.len(),
-        "reference": of_reference(&trade.reference),
-        "runs": trade.runs.iter().map(of_run).collect::<Vec<_>>(),
-        "planner": planner,
-        "more_elements": columns(&trade.columns),
-        "words": trade.words,
-    })
+pub fn document(bat: &Bat, trade: &Trade) -> file::TradeFile {
+    file::TradeFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName { name: bat.name.clone() },
+        modes: trade.reference.omegas.len(),
+        reference: of_reference(&trade.reference),
+        runs: trade.runs.iter().map(of_run).collect(),
+        planner: planned(trade).into_iter().map(|(_, run)| of_run(run)).collect(),
+        more_elements: columns(&trade.columns),
+        words: trade.words.clone(),
+    }
 }
 
-fn of_run(run: &Run) -> Value {
-    let mut document = of_choice(&run.choice);
-    document["seconds"] = json!(run.seconds);
-    document["repeats"] = json!(run.repeats);
-    document["error"] = json!(run.error());
-    document["error_by_mode"] = json!(run.errors);
-    document["stated_error"] = json!(run.stated);
-    document["planned_for"] = json!(run.planned_for);
-    document["on_front"] = json!(run.on_front);
-    document
+fn of_run(run: &Run) -> file::Run {
+    file::Run {
+        choice: of_choice(&run.choice),
+        seconds: run.seconds,
+        repeats: run.repeats,
+        error: run.error(),
+        error_by_mode: run.errors.clone(),
+        stated_error: run.stated,
+        planned_for: run.planned_for,
+        on_front: run.on_front,
+    }
 }
 
 /// Every run as a line of CSV, fastest first.

@@ -2,13 +2,12 @@
 
 use std::fmt::Write;
 
-use serde_json::{Value, json};
-
 use crate::bat::body::Bat;
+use crate::files::schema::document::{BatName, Format, Generator};
+use crate::files::schema::u_curve as file;
 use crate::modes::solve::Solver;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::json::generator;
 use crate::show::report::text::wrapped;
 use crate::study::trade::reference::{Choice, Reference, solver_name};
 use crate::study::trade::u_curve::{Column, End, Way, best, loss};
@@ -144,82 +143,77 @@ fn lost(column: &Column, series: &[(usize, f64)], threshold: f64) -> String {
     }
 }
 
-/// The document of the U-curve, in the format `sweetspot-u-curve/1`.
-pub fn json(bat: &Bat, reference: &Reference, curve: &[Column]) -> Value {
-    json!({
-        "format": "sweetspot-u-curve/1",
-        "generator": generator(),
-        "bat": { "name": bat.name },
-        "modes": reference.omegas.len(),
-        "degree": 3,
-        "reference": of_reference(reference),
-        "columns": columns(curve),
-    })
+/// The `sweetspot-u-curve/1` document.
+pub fn document(bat: &Bat, reference: &Reference, curve: &[Column]) -> file::UCurveFile {
+    file::UCurveFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName { name: bat.name.clone() },
+        modes: reference.omegas.len(),
+        degree: 3,
+        reference: of_reference(reference),
+        columns: columns(curve),
+    }
 }
 
 /// The frequencies everything is measured against, and how far they may be trusted.
-pub fn of_reference(reference: &Reference) -> Value {
-    let hertz: Vec<f64> = reference.omegas.iter().map(|w| w / std::f64::consts::TAU).collect();
-    let mut document = of_choice(&reference.choice);
-    document["theory"] = json!(reference.theory.name());
-    document["frequencies_hz"] = json!(hertz);
-    document["stated_error"] = json!(reference.stated);
-    document["floor"] = json!(reference.floor());
-    document["confirmed_by"] = of_choice(&reference.other);
-    document["confirmed_by"]["agreement"] = json!(reference.agreement);
-    document
+pub fn of_reference(reference: &Reference) -> file::Reference {
+    file::Reference {
+        choice: of_choice(&reference.choice),
+        theory: reference.theory.name(),
+        frequencies_hz: reference.omegas.iter().map(|w| w / std::f64::consts::TAU).collect(),
+        stated_error: reference.stated,
+        floor: reference.floor(),
+        confirmed_by: file::Confirmation {
+            choice: of_choice(&reference.other),
+            agreement: reference.agreement,
+        },
+    }
 }
 
 /// Degree, elements, solver, unknowns.
-pub fn of_choice(choice: &Choice) -> Value {
-    json!({
-        "degree": choice.degree,
-        "elements": choice.elements,
-        "solver": solver_name(choice.solver),
-        "degrees_of_freedom": choice.degrees_of_freedom,
-    })
+pub fn of_choice(choice: &Choice) -> file::Choice {
+    file::Choice {
+        degree: choice.degree,
+        elements: choice.elements,
+        solver: solver_name(choice.solver),
+        degrees_of_freedom: choice.degrees_of_freedom,
+    }
 }
 
 /// Points and losses of every column.
-pub fn columns(columns: &[Column]) -> Vec<Value> {
+pub fn columns(columns: &[Column]) -> Vec<file::Column> {
     columns.iter().map(of_column).collect()
 }
 
-fn of_column(column: &Column) -> Value {
-    let points = column.points.iter().map(|point| {
-        json!({
-            "elements": point.elements,
-            "seconds": point.seconds,
-            "own_error_by_mode": if point.own.is_empty() { Value::Null } else { json!(point.own) },
-            "recomputed_error_by_mode": point.recomputed,
-        })
+fn of_column(column: &Column) -> file::Column {
+    let points = column.points.iter().map(|point| file::Point {
+        elements: point.elements,
+        seconds: point.seconds,
+        own_error_by_mode: (!point.own.is_empty()).then(|| point.own.clone()),
+        recomputed_error_by_mode: point.recomputed.clone(),
     });
     let end = column.end.as_ref().map(|end| match end {
-        End::Refused { elements, reason } => json!({ "elements": elements, "reason": reason }),
-        End::TooLarge { elements } => json!({ "elements": elements, "reason": "too large" }),
-        End::NoTime { elements } => json!({ "elements": elements, "reason": "no time" }),
+        End::Refused { elements, reason } => (*elements, &**reason),
+        End::TooLarge { elements } => (*elements, "too large"),
+        End::NoTime { elements } => (*elements, "no time"),
     });
-    json!({
-        "solver": solver_name(column.solver),
-        "points": points.collect::<Vec<_>>(),
-        "end": end,
-        "own_lost_at": of_losses(column, Way::Own),
-        "recomputed_lost_at": of_losses(column, Way::Recomputed),
-    })
+    file::Column {
+        solver: solver_name(column.solver),
+        points: points.collect(),
+        end: end.map(|(elements, reason)| file::End { elements, reason: reason.to_owned() }),
+        own_lost_at: of_losses(column, Way::Own),
+        recomputed_lost_at: of_losses(column, Way::Recomputed),
+    }
 }
 
-/// The numbers of elements at which mode 1 is lost; null where it is not.
-fn of_losses(column: &Column, way: Way) -> Value {
+/// The numbers of elements at which mode 1 is lost.
+fn of_losses(column: &Column, way: Way) -> Option<file::Losses> {
     let series = column.series(way, 0);
-    let Some((least, error)) = best(&series) else { return Value::Null };
-    let [eight, four, none] = THRESHOLDS.map(|threshold| loss(&series, threshold).map(|at| at.0));
-    json!({
-        "best_elements": least,
-        "least_error": error,
-        "error_1e-8": eight,
-        "error_1e-4": four,
-        "error_1": none,
-    })
+    let (best_elements, least_error) = best(&series)?;
+    let [eight_digits, four_digits, nothing] =
+        THRESHOLDS.map(|threshold| loss(&series, threshold).map(|at| at.0));
+    Some(file::Losses { best_elements, least_error, eight_digits, four_digits, nothing })
 }
 
 /// A line for every solver, way, number of elements and mode.

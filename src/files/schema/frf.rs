@@ -1,0 +1,90 @@
+//! A frequency response, `sweetspot-frf/1`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::bat::theory::Theory;
+use crate::files::schema::document::{Document, Format, Generator};
+
+/// How a bat answers a unit force that swings at one place, seen at another, over frequency; time goes
+/// as e^(+i omega t). SI, the unit in every name; positions count from the knob end. Later versions of
+/// the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Frequency response file of sweetspot, sweetspot-frf/1")]
+pub struct FrfFile {
+    /// Name of the format and its version: sweetspot-frf/1.
+    pub format: Format<FrfFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// What is answered: deflection, velocity or acceleration.
+    #[schemars(extend("enum" = ["receptance", "mobility", "accelerance"]))]
+    pub kind: &'static str,
+    /// Where the force is (m).
+    pub at_m: f64,
+    /// Where the answer is seen (m).
+    pub to_m: f64,
+    /// Beam theory.
+    #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
+    pub theory: &'static str,
+    /// Number of bending modes.
+    pub modes: usize,
+    /// Number of shapes in the answer, those of the modes and those that stand for all above.
+    pub strains: usize,
+    /// Deflection under a constant unit force (m/N); of a free bat that of bending alone.
+    pub static_compliance_m_per_n: f64,
+    /// How many motions are rigid.
+    pub rigid_modes: usize,
+    /// Frequencies (Hz).
+    pub frequency_hz: Vec<f64>,
+    /// The answer at every frequency.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// Largest relative error of a mode's frequency.
+    pub frequencies_within: f64,
+}
+
+impl Document for FrfFile {
+    const NAME: &'static str = "frf";
+}
+
+/// The answer at every frequency, in the unit of its kind.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Answer {
+    /// Deflection per force.
+    Receptance {
+        /// Real part (m/N).
+        #[serde(rename = "real_m_per_n")]
+        real: Vec<f64>,
+        /// Imaginary part (m/N).
+        #[serde(rename = "imaginary_m_per_n")]
+        imaginary: Vec<f64>,
+        /// How much the modes left out may be (m/N).
+        #[serde(rename = "truncation_m_per_n")]
+        truncation: Vec<f64>,
+    },
+    /// Velocity per force.
+    Mobility {
+        /// Real part (m/(s N)).
+        #[serde(rename = "real_m_per_s_n")]
+        real: Vec<f64>,
+        /// Imaginary part (m/(s N)).
+        #[serde(rename = "imaginary_m_per_s_n")]
+        imaginary: Vec<f64>,
+        /// How much the modes left out may be (m/(s N)).
+        #[serde(rename = "truncation_m_per_s_n")]
+        truncation: Vec<f64>,
+    },
+    /// Acceleration per force.
+    Accelerance {
+        /// Real part (1/kg).
+        #[serde(rename = "real_1_per_kg")]
+        real: Vec<f64>,
+        /// Imaginary part (1/kg).
+        #[serde(rename = "imaginary_1_per_kg")]
+        imaginary: Vec<f64>,
+        /// How much the modes left out may be (1/kg).
+        #[serde(rename = "truncation_1_per_kg")]
+        truncation: Vec<f64>,
+    },
+}

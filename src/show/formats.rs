@@ -1,0 +1,90 @@
+//! Every format that is read or written, with its schema.
+
+use serde_json::{Map, Value, json};
+
+use crate::files::schema::advice::AdviceFile;
+use crate::files::schema::ball::BallFile;
+use crate::files::schema::bat::BatFile;
+use crate::files::schema::bbcor::BbcorFile;
+use crate::files::schema::compare::CompareFile;
+use crate::files::schema::document::{Document, format};
+use crate::files::schema::frf::FrfFile;
+use crate::files::schema::hit::HitFile;
+use crate::files::schema::materials::MaterialsFile;
+use crate::files::schema::measured::MeasuredFile;
+use crate::files::schema::modes::ModesFile;
+use crate::files::schema::ring::RingFile;
+use crate::files::schema::trade::TradeFile;
+use crate::files::schema::u_curve::UCurveFile;
+use crate::files::schema::{DRAFT, id, of};
+use crate::proof::validation::Case;
+use crate::show::page::data::Data;
+
+/// A kind of file that has a schema.
+#[derive(Debug, Clone, Copy)]
+pub struct FileKind {
+    name: &'static str,
+    schema: fn() -> Value,
+}
+
+impl FileKind {
+    /// What is read first, then what is written.
+    pub const ALL: [Self; 15] = [
+        Self::of::<BatFile>(),
+        Self::of::<BallFile>(),
+        Self::of::<Case>(),
+        Self::of::<ModesFile>(),
+        Self::of::<HitFile>(),
+        Self::of::<BbcorFile>(),
+        Self::of::<CompareFile>(),
+        Self::of::<MeasuredFile>(),
+        Self::of::<RingFile>(),
+        Self::of::<FrfFile>(),
+        Self::of::<AdviceFile>(),
+        Self::of::<TradeFile>(),
+        Self::of::<UCurveFile>(),
+        Self::of::<MaterialsFile>(),
+        Self::of::<Data>(),
+    ];
+
+    const fn of<D: Document>() -> Self {
+        Self { name: D::NAME, schema: of::<D> }
+    }
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// The `format` by which such a file is known.
+    pub fn format(self) -> String {
+        format(self.name)
+    }
+
+    /// Its schema.
+    pub fn schema(self) -> Value {
+        (self.schema)()
+    }
+}
+
+/// One schema of all of them, each by its `format`, with the schema of each inside.
+pub fn all() -> Value {
+    let by_format = |file: FileKind| {
+        json!({
+            "if": { "properties": { "format": { "const": file.format() } } },
+            "then": { "$ref": id(file.name) },
+        })
+    };
+    let definition = |file: FileKind| (file.name.to_owned(), file.schema());
+    json!({
+        "$schema": DRAFT,
+        "$id": "urn:sweetspot:1",
+        "title": "A file of sweetspot",
+        "description": "A bat, a ball, or what was found of them, told apart by the member \"format\".",
+        "type": "object",
+        "properties": { "format": { "enum": FileKind::ALL.map(FileKind::format) } },
+        "required": ["format"],
+        "allOf": FileKind::ALL.map(by_format),
+        "$defs": FileKind::ALL.map(definition).into_iter().collect::<Map<_, _>>(),
+    })
+}

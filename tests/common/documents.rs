@@ -1,0 +1,111 @@
+//! A document of every format that the program writes, and the commands that make them.
+
+use serde_json::Value;
+
+use super::folder::Folder;
+
+/// How far the numbers of a document repeat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Numbers {
+    /// To what is asked of them.
+    Sharp,
+    /// To a thousandth: places of flat maxima, motions in time.
+    Rough,
+    /// They are times, and what follows from times.
+    Times,
+}
+
+/// One document: its name, that of its format, the command without where it is written, and how far
+/// its numbers repeat.
+pub type Written = (&'static str, &'static str, &'static str, Numbers);
+
+/// The formats as they are written, in the folder of [`folder`].
+pub const WRITTEN: [Written; 14] = [
+    (
+        "modes",
+        "modes",
+        "modes bat-1.json -n 2 --tol 1e-9 --theory timoshenko --shape-points 3",
+        Numbers::Sharp,
+    ),
+    (
+        "hit",
+        "hit",
+        "hit bat-1.json -n 2 --tol 1e-8 --theory timoshenko --from 0.6 --to 0.7 --points 2 --ball ball-1.json --wall-stiffness 5e6 --wall-mass 0.05 --reference-inertia 0.2 --swing-exponent 0.3",
+        Numbers::Sharp,
+    ),
+    ("bbcor", "bbcor", "bbcor dowel.json --tol 1e-4", Numbers::Rough),
+    (
+        "compare",
+        "compare",
+        "compare r161.json bat-1.json --tol 1e-3 --wall-stiffness 5e6 --reference-inertia 0.2 --swing-exponent 0.3",
+        Numbers::Rough,
+    ),
+    (
+        "measured",
+        "measured",
+        "compare r161.json --measured lab.csv -n 3 --tol 1e-6",
+        Numbers::Rough,
+    ),
+    (
+        "ring",
+        "ring",
+        "ring bat-1.json --hit 0.6 -n 3 --tol 1e-6 --ball ball-1.json",
+        Numbers::Rough,
+    ),
+    (
+        "ring-motion",
+        "ring",
+        "ring dowel.json --at 0.6 --impulse 1 -n 2 --tol 1e-8 --shape-points 3",
+        Numbers::Sharp,
+    ),
+    (
+        "frf",
+        "frf",
+        "frf dowel.json --at 0.3 --to 0.1 --frequencies 100,200 -n 2 --tol 1e-8",
+        Numbers::Sharp,
+    ),
+    (
+        "frf-mobility",
+        "frf",
+        "frf dowel.json --at 0.3 --to 0.1 --frequencies 100,200 -n 2 --tol 1e-8 --kind mobility",
+        Numbers::Sharp,
+    ),
+    (
+        "frf-accelerance",
+        "frf",
+        "frf dowel.json --at 0.3 --to 0.1 --frequencies 100,200 -n 2 --tol 1e-8 --kind accelerance",
+        Numbers::Sharp,
+    ),
+    ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
+    ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
+    ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
+    ("materials", "materials", "materials", Numbers::Sharp),
+];
+
+const MEASURED: &str = "x_in,mode_1,mode_2\nfrequency_hz,178.2,583.0\ndamping_ratio,0.004,0.005\n\
+    0,1.00,0.90\n3,0.55,0.12\n15,-0.5,0.3\n33,0.41,0.37\n";
+
+/// A folder with what the commands read.
+pub fn folder(test: &str) -> Folder {
+    let folder = Folder::new(test);
+    folder.write("bat-1.json", include_str!("../golden/bat-1.json"));
+    folder.write("ball-1.json", include_str!("../golden/ball-1.json"));
+    folder.write("dowel.json", include_str!("../../meshes/dowel.json"));
+    folder.write("r161.json", include_str!("../../meshes/r161.json"));
+    folder.write("lab.csv", MEASURED);
+    folder
+}
+
+/// What the program writes now.
+pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
+    let args: Vec<&str> = command.split(' ').chain(["--json", "-"]).collect();
+    folder.json(&args)
+}
+
+/// The data of a report, `sweetspot-page/1`.
+pub fn page(folder: &Folder) -> Value {
+    folder.text(&["analyze", "r161.json", "--tol", "1e-3", "--report", "page.html"]);
+    let page = folder.read("page.html");
+    let (_, data) = page.split_once("id=\"data\">").unwrap();
+    serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()
+}
