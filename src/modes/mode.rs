@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::base::real::Real;
 use crate::beam::motion::Motion;
-use crate::beam::statics::View;
+use crate::beam::view::View;
 
 /// One bending mode of a bat.
 #[derive(Debug, Clone)]
@@ -91,8 +91,8 @@ impl Mode {
         if let Some(fixed) = view.fixed {
             // Where a clamp holds the bat its deflection has more than a zero.
             let near = STILL.cbrt() * shape.length();
-            nodes.retain(|x| fixed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
-            shape.leave_still(&mut nodes, &fixed.clamps, &track, RESTING * largest);
+            nodes.retain(|x| fixed.placed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
+            shape.leave_still(&mut nodes, &fixed.placed.clamps, &track, RESTING * largest);
         }
         let node_error = shape.node_error(&nodes, &track);
         shape.coefficients.iter_mut().chain(&mut shape.turns).for_each(|w| *w *= scale);

@@ -12,11 +12,12 @@ use crate::base::error::{Error, Result};
 use crate::base::lanes::WIDTH;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
+use crate::beam::changes::Depth;
 use crate::beam::count;
 use crate::beam::degree::{OfDegree, of_degree};
-use crate::beam::element;
+use crate::beam::sections;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Depth, Motion};
+use crate::beam::motion::Motion;
 use crate::beam::rule::{DEGREES, Rule};
 use crate::beam::statics::Statics;
 use crate::eigen::lanczos::Lanczos;
@@ -424,9 +425,9 @@ impl Task<'_> {
         }
         let Found { strains, steps, beyond, residuals, apart } = self.strains(&mut pairs)?;
         let stretches = Arc::new(plan.mesh.stretches());
-        let missed = |e| element::missed(bat, e, pairs.statics.rule, request.theory);
+        let missed = |e| sections::missed(bat, e, pairs.statics.rule, request.theory);
         let missed = plan.mesh.elements.iter().map(missed).fold(0.0, f64::max);
-        let sections = element::round_off(bat, &plan.mesh);
+        let rounding = sections::round_off(bat, &plan.mesh);
         let factored = request.solver != Solver::Statics;
         let mut modes: Vec<Mode> = Vec::with_capacity(request.modes);
         let mut defects = vec![0.0; plan.mesh.len()];
@@ -438,7 +439,7 @@ impl Task<'_> {
             let first = modes.get(if slow { 0 } else { apart });
             let left = residuals.get(modes.len()).filter(|_| apart > 0 && !slow);
             account(&mut mode, first, plan.mesh.len(), factored, left.copied());
-            add_sections(&mut mode, sections);
+            add_sections(&mut mode, rounding);
             modes.push(mode);
         };
         let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
