@@ -7,7 +7,8 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::degree::{OfDegree, of_degree};
-use crate::beam::element::{Element, Matrix, elements};
+use crate::beam::element::{Element, Matrix};
+use crate::beam::hermite::elements;
 use crate::beam::mesh::Mesh;
 
 /// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and

@@ -16,8 +16,10 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::beam::fixed::{Fixed, What, unit};
+use crate::beam::fixed::unit;
+use crate::beam::placed::Placed;
 use crate::beam::statics::Statics;
+use crate::beam::walk::{Run, What};
 
 /// A symmetric form in unknowns of which the last two are deflection and rotation.
 #[derive(Debug, Clone, Default)]
@@ -61,7 +63,7 @@ pub fn slower<const N: usize, const W: usize>(
     }
     let mut whole = knob.beside(tip);
     count += whole.eliminate(0)? as isize;
-    let reactions = statics.fixed.as_ref().map_or(0, |fixed| fixed.contacts.len()) as isize;
+    let reactions = statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.contacts.len()) as isize;
     usize::try_from(count - reactions).ok()
 }
 
@@ -72,20 +74,16 @@ fn inwards<const N: usize, const W: usize>(
     tau: f64,
     count: &mut isize,
 ) -> Option<Form> {
-    let cells = statics.body().sides()[side].clone();
     let (mut form, mut next) = (Form::new(2), Form::default());
-    let mut stops = statics.stops(side).iter().rev().peekable();
-    let fixed = statics.fixed.as_deref();
-    for k in cells.clone().rev() {
-        while let Some(stop) = stops.next_if(|stop| cells.start + stop.after == k + 1) {
-            fixed.iter().for_each(|fixed| form.meet(fixed, stop.what, tau));
+    for Run { cells, stop } in statics.runs(side).rev() {
+        if let (Some(fixed), Some(what)) = (&statics.fixed, stop) {
+            form.meet(&fixed.placed, what, tau);
         }
-        form.behind(statics, k, tau, &mut next);
-        std::mem::swap(&mut form, &mut next);
-        *count += form.eliminate(2)? as isize;
-    }
-    for stop in stops {
-        fixed.iter().for_each(|fixed| form.meet(fixed, stop.what, tau));
+        for k in cells.rev() {
+            form.behind(statics, k, tau, &mut next);
+            std::mem::swap(&mut form, &mut next);
+            *count += form.eliminate(2)? as isize;
+        }
     }
     Some(form)
 }
@@ -125,10 +123,10 @@ impl Form {
     }
 
     /// Adds what stands at this border.
-    fn meet(&mut self, fixed: &Fixed<f64>, what: What, tau: f64) {
+    fn meet(&mut self, placed: &Placed<f64>, what: What, tau: f64) {
         match what {
             What::PointMass(k) => {
-                let point = &fixed.points[k];
+                let point = &placed.points[k];
                 if point.spring.is_some() {
                     self.extend();
                 }
@@ -142,7 +140,7 @@ impl Form {
                 self.add_square(-tau * point.inertia, &[(last, 1.0)]);
             }
             What::Joint(k) => {
-                let softness = fixed.joints[k].softness;
+                let softness = placed.joints[k].softness;
                 self.extend();
                 // The rotation beyond is the one here and that of the joint.
                 let last = self.size - 1;
@@ -154,7 +152,7 @@ impl Form {
                 self[(0, 0)] += 1.0 + softness * softness * self[(last, last)];
             }
             What::Contact(k) => {
-                let contact = &fixed.contacts[k];
+                let contact = &placed.contacts[k];
                 self.extend();
                 let last = self.size - 1;
                 let held = if contact.turning { last } else { last - 1 };
@@ -177,9 +175,10 @@ impl Form {
         let cell = &statics.cells[k];
         let link = &cell.link;
         let (strains, carried) = (W - 2, self.size - 2);
-        let beds = statics.fixed.iter().filter_map(|fixed| Some((fixed, fixed.bed(k, N)?)));
-        let beds = beds.flat_map(|(fixed, bed)| &fixed.contacts[bed]);
-        let beds: Vec<f64> = beds.filter_map(|contact| Some(contact.spring?.softness)).collect();
+        let placed = statics.fixed.iter().map(|fixed| &fixed.placed);
+        let beds = placed.filter_map(|placed| Some(&placed.contacts[placed.bed(k, N)?]));
+        let beds = beds.flatten().filter_map(|contact| Some(contact.spring?.softness));
+        let beds: Vec<f64> = beds.collect();
         let size = strains + carried + beds.len() + 2;
         let place = |i: usize| if i < strains { i } else { size - W + i };
         form.clear(size);

@@ -7,14 +7,25 @@
 
 pub mod mesh;
 pub mod rule;
+pub mod sections;
 pub mod element;
+pub mod hermite;
 pub mod degree;
+pub mod walk;
 pub mod sweep;
+pub(crate) mod footing;
+pub(crate) mod bed;
 pub mod holds;
+pub mod attached;
+pub mod placed;
 pub mod fixed;
 pub mod statics;
+pub mod start;
+pub mod view;
 pub mod count;
 pub mod motion;
+pub mod defect;
+pub mod changes;
 
 pub mod assembly;
 pub mod dowel;

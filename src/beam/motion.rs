@@ -1,38 +1,13 @@
-//! One bending motion of the bat: its shape, its energies, and how far it is from a mode.
-//!
-//! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a computed
-//! mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free ends (`M′ =
-//! −Q − ω²ρI θ` with rotary inertia), and these make the curvature `w*″ = M/EI`. The computed
-//! curvature w″ differs, because it is a polynomial in every element and because the eigensolve
-//! stops somewhere, and
-//!
-//! ```text
-//! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
-//! ```
-//!
-//! (and, of a beam that shears, `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` in the numerator, `∫κGA γ²
-//! dx` in the denominator, and likewise for every spring and joint), with `c_j` the share of the
-//! exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is
-//! `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1 − λ/λ_j`, which is 1 for the fast modes
-//! that a mesh cannot hold. So `η/2` is the relative error of the frequency, from the answer itself
-//! and no second mesh, thin ends included.
-//!
-//! # Source
-//!
-//! W. Prager, J. L. Synge, Quart. Appl. Math. 5 (1947) 241 for the comparison of a compatible with
-//! an equilibrated field; Rayleigh's, Schwarz' and Grammel's quotients in L. Collatz,
-//! Eigenwertaufgaben mit technischen Anwendungen (1963).
-
-use std::ops::Range;
+//! One bending motion of the bat: its shape and its energies.
 
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
-use crate::beam::fixed::{Stop, What};
-use crate::beam::holds::Given;
 use crate::beam::rule::MOST_POINTS;
-use crate::beam::statics::{Statics, View};
+use crate::beam::statics::Statics;
 use crate::beam::sweep::{Loads, Rigid};
+use crate::beam::view::{Located, View};
+use crate::beam::walk::{Run, What};
 use crate::eigen::lanczos::dot;
 
 /// A bending motion with the memory it was computed in.
@@ -60,34 +35,25 @@ pub struct Motion<R> {
     pub omega: R,
     /// `‖q − ω² A q‖/‖q‖`: how far the strains are from an eigenvector of the compliance.
     pub residual: R,
-    /// `η` of this module; half of it is the relative error of the frequency.
+    /// `η` of [`super::defect`]; half of it is the relative error of the frequency.
     pub defect: R,
     /// Part of [`Self::defect`] of every cell.
     pub defects: Vec<R>,
     /// Rotation and its change at the points, where it has inertia.
-    rotations: Vec<R>,
-    turn_changes: Vec<R>,
+    pub(super) rotations: Vec<R>,
+    pub(super) turn_changes: Vec<R>,
     /// The shear strain less that of the inertia's shear force, at the points.
-    slips: Vec<R>,
+    pub(super) slips: Vec<R>,
     /// Displacement and rotation of the point masses, outwards, and their changes.
-    points: Vec<[R; 2]>,
-    point_changes: Vec<[R; 2]>,
+    pub(super) points: Vec<[R; 2]>,
+    pub(super) point_changes: Vec<[R; 2]>,
+    /// `qᵀq`.
+    pub(super) strain: R,
     /// `A q`, then `q − ω² A q`.
-    image: Vec<R>,
+    pub(super) image: Vec<R>,
     /// Inertia of the point masses and reactions of the contacts.
-    forces: Vec<[R; 2]>,
-    reactions: Vec<R>,
-}
-
-/// How closely a motion is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Depth {
-    /// Shape and energies of the motion.
-    Shape,
-    /// Shape, energies and defect.
-    Defect,
-    /// Shape, energies, defect, and how far the shape may be off.
-    Changes,
+    pub(super) forces: Vec<[R; 2]>,
+    pub(super) reactions: Vec<R>,
 }
 
 /// The loads of a motion's inertia, with the memory for them.
@@ -104,6 +70,26 @@ impl<R: Real, const W: usize> Default for Applied<R, W> {
     }
 }
 
+/// What is known of a motion beside its strains.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a, R, S> {
+    /// The eigenvalue of the compliance that the strains of a bare bat belong to: the kinetic energy is
+    /// taken from it, with half the work, no residual (0), and round-off of ε times the greatest
+    /// eigenvalue over this one.
+    pub value: Option<R>,
+    /// Strains of other modes, one after the other, whose round-off is taken out.
+    pub others: &'a [S],
+}
+
+/// Memory for the numbers of one cell.
+struct OneCell<R> {
+    strains: [R; MOST_STRAINS],
+    /// Deflection and rotation at the inner end.
+    inner_end: [R; 2],
+    turn: [R; MOST_TERMS],
+    values: [R; MOST_POINTS],
+}
+
 impl<R: Real> Motion<R> {
     /// What the inertia of the motion with those scaled strains does, for [`Self::take`]; with the
     /// eigenvalue of a bare bat known, half of it.
@@ -118,6 +104,7 @@ impl<R: Real> Motion<R> {
         R: Over<S>,
     {
         if value_known {
+            self.image.clear();
             applied.rigid = statics.rigid(q, &mut applied.loads);
             return;
         }
@@ -127,45 +114,54 @@ impl<R: Real> Motion<R> {
         self.reactions.clone_from(&applied.loads.contacts);
     }
 
-    /// The motion with those scaled strains and its energies, after [`Self::apply`]; its defect too
-    /// if wanted.
-    ///
-    /// With `value`, the eigenvalue of the compliance that the strains of a bare bat belong to, the
-    /// kinetic energy is taken from it: half the work, no residual (0), and round-off of ε times
-    /// the greatest eigenvalue over this one. Strains in `known`, one motion after the other, are
-    /// other modes, whose round-off is taken out.
+    /// The motion with those scaled strains and its energies, after [`Self::apply`]; leaves the loads
+    /// `ρA w` of its inertia in [`Self::changes`].
     #[inline(always)]
-    pub fn take<S: Real>(
-        &mut self,
-        view: &View<S>,
-        rigid: Rigid<R>,
-        q: &[R],
-        value: Option<R>,
-        known: &[S],
-        with_defect: bool,
-    ) where
+    pub fn take<S: Real>(&mut self, view: &View<S>, rigid: Rigid<R>, q: &[R], known: Known<R, S>)
+    where
         R: Over<S>,
     {
-        let strain = dot(q, q);
-        match value {
+        self.strain = dot(q, q);
+        match known.value {
             Some(value) => {
-                self.kinetic = value * strain;
+                self.kinetic = value * self.strain;
                 self.residual = R::default();
             }
-            None => {
-                for known in known.chunks_exact(q.len()) {
-                    let mut part = R::default();
-                    self.image.iter().zip(known).for_each(|(y, v)| part += *y * *v);
-                    self.image.iter_mut().zip(known).for_each(|(y, v)| *y -= part * *v);
-                }
-                self.kinetic = dot(q, &self.image);
-                let scale = strain / self.kinetic;
-                self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
-                self.residual = (dot(&self.image, &self.image) / strain).sqrt();
-            }
+            None => self.take_image(q, known.others),
         }
-        let lambda = strain * view.energy_unit / self.kinetic;
-        self.omega = lambda.sqrt();
+        self.omega = (self.strain * view.energy_unit / self.kinetic).sqrt();
+        self.make_room(view);
+        for side in [0, 1] {
+            self.outwards(view, q, rigid.on_side(side), side);
+        }
+        if view.split == 0 {
+            // The root is the knob end itself: odd polynomials change sign there.
+            let mut end = R::default();
+            for (k, w) in self.shape[..view.terms].iter().enumerate() {
+                end += if k % 2 == 1 { -*w } else { *w };
+            }
+            self.ends[0][0] = end;
+        }
+    }
+
+    /// Kinetic energy and residual from `A q`, other modes taken out of that.
+    #[inline(always)]
+    fn take_image<S: Real>(&mut self, q: &[R], others: &[S])
+    where
+        R: Over<S>,
+    {
+        for other in others.chunks_exact(q.len()) {
+            let part = inner(&self.image, other);
+            self.image.iter_mut().zip(other).for_each(|(y, v)| *y -= part * *v);
+        }
+        self.kinetic = dot(q, &self.image);
+        let scale = self.strain / self.kinetic;
+        self.image.iter_mut().zip(q).for_each(|(y, q)| *y = *q - scale * *y);
+        self.residual = (dot(&self.image, &self.image) / self.strain).sqrt();
+    }
+
+    #[inline(always)]
+    fn make_room<S: Real>(&mut self, view: &View<S>) {
         let (zero, samples) = (R::default(), view.count * view.rule.count());
         let (turning, shearing) = (view.theory.turns(), view.theory.shears());
         self.terms = view.terms;
@@ -178,193 +174,83 @@ impl<R: Real> Motion<R> {
         self.turn_changes.resize(if turning { samples } else { 0 }, zero);
         self.slips.resize(if shearing { samples } else { 0 }, zero);
         self.points.resize(self.forces.len(), [zero; 2]);
-        for (side, (cells, rigid)) in view.sides(rigid).into_iter().enumerate() {
-            self.outwards(view, q, cells.clone(), rigid, side);
-            if with_defect {
-                self.inwards(view, q, cells, lambda, side);
-            }
-        }
-        if view.split == 0 {
-            // The root is the knob end itself: odd polynomials change sign there.
-            let mut end = R::default();
-            for (k, w) in self.shape[..view.terms].iter().enumerate() {
-                end += if k % 2 == 1 { -*w } else { *w };
-            }
-            self.ends[0][0] = end;
-        }
-        self.defect = R::default();
-        if !with_defect {
-            return;
-        }
-        let scale = R::splat(1.0) / (strain * view.energy_unit);
-        for defect in &mut self.defects {
-            *defect = *defect * scale;
-            self.defect += *defect;
-        }
-        // Springs and joints; the strain of one that does not give way is 0.
-        if let (None, Some(missed)) = (value, self.image.get(view.strains * view.count..)) {
-            self.defect += dot(missed, missed) / strain;
-        }
     }
 
     /// Deflections outwards from the root at rest, less a rigid motion; loads `ρA w` at the points.
     #[inline(always)]
-    fn outwards<S: Real>(
-        &mut self,
-        view: &View<S>,
-        q: &[R],
-        cells: Range<usize>,
-        rigid: Rigid<R>,
-        side: usize,
-    ) where
+    fn outwards<S: Real>(&mut self, view: &View<S>, q: &[R], rigid: Rigid<R>, side: usize)
+    where
         R: Over<S>,
     {
-        let points = view.rule.count();
+        let zero = R::default();
         let [mut w, mut theta] = [RunningSum::<R>::default(); 2];
-        self.ends[side] = [R::default(); 2];
-        let mut values = [R::default(); MOST_POINTS];
-        let (mut strains, mut turn) = ([R::default(); MOST_STRAINS], [R::default(); MOST_TERMS]);
-        let shearing = view.theory.shears();
-        let stops = view.stops(side);
-        for run in runs(&cells, stops) {
-            for k in run.cells {
-                let cell = (view.cell)(k);
-                let (h, q) = (cell.length, &q[k * view.strains..(k + 1) * view.strains]);
-                let half = S::splat(0.5) * h;
-                let strains = &mut strains[..view.strains];
-                cell.strains(q, view.terms - 2, strains);
-                let shape = &mut self.shape[k * view.terms..(k + 1) * view.terms];
-                let turn = &mut turn[..view.terms];
-                integrated(h, strains, [w.value(), theta.value()], shape, turn);
-                shape[0] -= rigid.deflection(cell.arm + half);
-                shape[1] -= rigid.turn * half;
-                turn[0] -= rigid.turn;
-                let samples = k * points..(k + 1) * points;
-                view.rule.values(shape, &mut values);
-                let line = &view.mass_per_length[samples.clone()];
-                let kept = self.deflections[samples.clone()].iter_mut();
-                let loads = self.changes[samples.clone()].iter_mut();
-                for (((kept, load), line), value) in kept.zip(loads).zip(line).zip(&values) {
-                    *kept = *value;
-                    *load = *value * *line;
-                }
-                if view.theory.turns() {
-                    view.rule.values(turn, &mut values);
-                    let line = &view.turning_per_length[samples.clone()];
-                    let kept = self.rotations[samples.clone()].iter_mut();
-                    let couples = self.turn_changes[samples].iter_mut();
-                    for (((kept, couple), line), value) in kept.zip(couples).zip(line).zip(&values)
-                    {
-                        *kept = *value;
-                        *couple = *value * *line;
-                    }
-                }
-                w.add(theta.value() * h + inner(q, cell.lift));
+        self.ends[side] = [zero; 2];
+        let mut room = OneCell {
+            strains: [zero; MOST_STRAINS],
+            inner_end: [zero; 2],
+            turn: [zero; MOST_TERMS],
+            values: [zero; MOST_POINTS],
+        };
+        for Run { cells, stop } in view.runs(side) {
+            for k in cells {
+                let at = view.at(k);
+                let (cell, q) = (&at.cell, &q[at.strains.clone()]);
+                cell.strains(q, view.terms - 2, &mut room.strains[..view.strains]);
+                room.inner_end = [w.value(), theta.value()];
+                self.ends[side][0] = self.take_cell(view, &at, rigid, &mut room);
+                w.add(theta.value() * cell.length + inner(q, cell.lift));
                 theta.add(inner(q, cell.turn));
-                self.ends[side][0] = shape.iter().fold(R::default(), |sum, w| sum + *w);
-                if shearing {
-                    self.turns[k * view.terms..(k + 1) * view.terms].copy_from_slice(turn);
-                }
             }
-            let Some(fixed) = view.fixed_for::<R>() else { continue };
-            match run.stop {
+            let Some(placed) = view.placed::<R>() else { continue };
+            match stop {
                 Some(What::Joint(k)) => {
-                    theta.add(q[fixed.joints[k].place] * fixed.joints[k].softness);
+                    theta.add(q[placed.joints[k].place] * placed.joints[k].softness);
                 }
                 Some(What::PointMass(k)) => {
-                    let point = &fixed.points[k];
+                    let point = &placed.points[k];
                     let [moved, turned] = point.displaced(w.value(), theta.value(), q);
                     let lift = rigid.deflection(point.arm + point.offset);
                     self.points[k] = [moved - lift, turned - rigid.turn];
                 }
-                _ => {}
+                Some(What::Contact(_)) | None => {}
             }
         }
     }
 
-    /// Bending moments inwards from the free end under these loads, and the other strains that they
-    /// make: leaves the differences at the points and their energy in every cell.
+    /// Deflection and rotation of one cell; the deflection at its outer end.
     #[inline(always)]
-    fn inwards<S: Real>(
+    fn take_cell<S: Real>(
         &mut self,
         view: &View<S>,
-        q: &[R],
-        cells: Range<usize>,
-        lambda: R,
-        side: usize,
-    ) where
+        at: &Located<S>,
+        rigid: Rigid<R>,
+        room: &mut OneCell<R>,
+    ) -> R
+    where
         R: Over<S>,
     {
-        let rule = view.rule;
-        let points = rule.count();
-        let (turns, shears) = (view.theory.turns(), view.theory.shears());
-        let mut strains = [R::default(); MOST_STRAINS];
-        let [mut shear, mut moment] = [RunningSum::<R>::default(); 2];
-        let [mut own, mut once, mut values_of] = [[R::default(); MOST_POINTS]; 3];
-        for run in runs(&cells, view.stops(side)).rev() {
-            if let (Some(fixed), Some(stop)) = (view.fixed_for::<R>(), run.stop) {
-                let [force, couple] = match stop {
-                    What::PointMass(k) => self.forces[k],
-                    What::Contact(k) => fixed.contacts[k].on_the_bat(self.reactions[k]),
-                    What::Joint(_) => [R::default(); 2],
-                };
-                shear.add(force);
-                moment.add(couple);
-            }
-            for k in run.cells.rev() {
-                let cell = (view.cell)(k);
-                let (h, q) = (cell.length, &q[k * view.strains..(k + 1) * view.strains]);
-                let strains = &mut strains[..view.strains];
-                cell.strains(q, view.terms - 2, strains);
-                let samples = k * points..(k + 1) * points;
-                let stiffness = &view.bending_stiffness[samples.clone()];
-                let values = &mut self.changes[samples.clone()];
-                if let Some(bed) = view.bed::<R>(k) {
-                    // Its reactions t are those of the line load `Σ (2k + 1) t_k P_k / h`.
-                    let mut load = [R::default(); MOST_TERMS];
-                    for (term, (load, t)) in load.iter_mut().zip(&self.reactions[bed]).enumerate() {
-                        *load = *t * (S::splat((2 * term + 1) as f64) / h);
-                    }
-                    rule.values(&load[..view.terms], &mut values_of);
-                    values.iter_mut().zip(&values_of).for_each(|(v, load)| *v -= *load);
-                }
-                let [force, turning] = rule.integrals(values);
-                rule.twice_from_right(values, &mut own);
-                let (v, m, square) = (shear.value() * h, moment.value(), h * h);
-                let mut energy = R::default();
-                let mut gained = v + turning * square;
-                if shears {
-                    rule.once_from_right(values, &mut once);
-                    rule.values(&strains[view.terms - 2..], &mut values_of);
-                    let stiffness = &view.shear_stiffness[samples.clone()];
-                    let slips = &mut self.slips[samples.clone()];
-                    for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
-                        let across = shear.value() + once[j] * h;
-                        let defect = values_of[j] * *stiffness - lambda * across;
-                        slips[j] = defect * (S::splat(1.0) / *stiffness);
-                        energy += defect * slips[j] * (S::splat(point.weight) * h);
-                    }
-                }
-                if turns {
-                    let couples = &self.turn_changes[samples.clone()];
-                    rule.once_from_right(couples, &mut once);
-                    gained += rule.integrals(couples)[0] * h;
-                }
-                rule.values(&strains[..view.terms - 2], &mut values_of);
-                for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
-                    let mut bending = m + v * R::splat(1.0 - point.s) + own[j] * square;
-                    if turns {
-                        bending += once[j] * h;
-                    }
-                    let defect = values_of[j] * *stiffness - lambda * bending;
-                    values[j] = defect * (S::splat(1.0) / *stiffness);
-                    energy += defect * values[j] * (S::splat(point.weight) * h);
-                }
-                moment.add(gained);
-                shear.add(force * h);
-                self.defects[k] = energy;
-            }
+        let (cell, half) = (&at.cell, S::splat(0.5) * at.cell.length);
+        let shape = &mut self.shape[at.terms.clone()];
+        let turn = &mut room.turn[..view.terms];
+        integrated(cell.length, &room.strains[..view.strains], room.inner_end, shape, turn);
+        shape[0] -= rigid.deflection(cell.arm + half);
+        shape[1] -= rigid.turn * half;
+        turn[0] -= rigid.turn;
+        let samples = at.samples.clone();
+        view.rule.values(shape, &mut room.values);
+        let line = &view.mass_per_length[samples.clone()];
+        let kept = &mut self.deflections[samples.clone()];
+        keep(&room.values, line, kept, &mut self.changes[samples.clone()]);
+        if view.theory.turns() {
+            view.rule.values(turn, &mut room.values);
+            let line = &view.turning_per_length[samples.clone()];
+            let kept = &mut self.rotations[samples.clone()];
+            keep(&room.values, line, kept, &mut self.turn_changes[samples]);
         }
+        if view.theory.shears() {
+            self.turns[at.terms.clone()].copy_from_slice(turn);
+        }
+        shape.iter().fold(R::default(), |sum, w| sum + *w)
     }
 
     /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
@@ -391,195 +277,15 @@ impl<R: Real> Motion<R> {
             (0..R::LANES).for_each(|lane| *most = most.max(defect.lane(lane)));
         }
     }
-
-    /// After [`Self::take`], leaves out what [`Self::take_changes`] would find.
-    #[inline(always)]
-    pub fn no_changes<S: Real>(&mut self, view: &View<S>) {
-        self.changes.clear();
-        self.changes.resize(view.count * view.rule.count(), R::default());
-        self.ends[0][1] = R::default();
-        self.ends[1][1] = R::default();
-        self.work = R::default();
-    }
-
-    /// After [`Self::take`], the strains' differences at the points become `w − w*`, the rigid
-    /// motions taken out.
-    #[inline(always)]
-    pub fn take_changes<S: Real>(&mut self, view: &View<S>)
-    where
-        R: Over<S>,
-    {
-        let (points, turns) = (view.rule.count(), view.theory.turns());
-        let shears = view.theory.shears();
-        let [mut own, mut once] = [[R::default(); MOST_POINTS]; 2];
-        let mut total = [R::default(); 2];
-        let contacts = view.fixed_for::<R>().map_or(0, |fixed| fixed.contacts.len());
-        let mut held = vec![R::default(); contacts];
-        self.point_changes.resize(self.points.len(), [R::default(); 2]);
-        for (side, (cells, _)) in view.sides(Rigid::<R>::default()).into_iter().enumerate() {
-            let [mut w, mut theta, mut force, mut moment] = [R::default(); 4];
-            for run in runs(&cells, view.stops(side)) {
-                for k in run.cells {
-                    let cell = (view.cell)(k);
-                    let h = cell.length;
-                    let samples = k * points..(k + 1) * points;
-                    let line = &view.mass_per_length[samples.clone()];
-                    let change = &mut self.changes[samples.clone()];
-                    let [turned, first] = view.rule.integrals(change);
-                    view.rule.twice_from_left(change, &mut own);
-                    if turns {
-                        view.rule.once_from_left(change, &mut once);
-                        let line = &view.turning_per_length[samples.clone()];
-                        let turn = &mut self.turn_changes[samples.clone()];
-                        for (j, point) in view.rule.points.iter().enumerate() {
-                            turn[j] = theta + once[j] * h;
-                            moment += turn[j] * (S::splat(point.weight) * h * line[j]);
-                        }
-                    }
-                    let mut slipped = R::default();
-                    if shears {
-                        let slips = &self.slips[samples.clone()];
-                        view.rule.once_from_left(slips, &mut once);
-                        slipped = view.rule.integrals(slips)[0] * h;
-                    }
-                    for (j, point) in view.rule.points.iter().enumerate() {
-                        let y = S::splat(point.s) * h;
-                        change[j] = w + theta * y + own[j] * (h * h);
-                        if shears {
-                            change[j] += once[j] * h;
-                        }
-                        let share = change[j] * (S::splat(point.weight) * h * line[j]);
-                        force += share;
-                        moment += share * (cell.arm + y);
-                    }
-                    if let Some(bed) = view.bed::<R>(k) {
-                        view.rule.coefficients(change, &mut held[bed]);
-                    }
-                    w += theta * h + (turned - first) * (h * h) + slipped;
-                    theta += turned * h;
-                    self.ends[side][1] = w;
-                }
-                let Some(fixed) = view.fixed_for::<R>() else { continue };
-                match run.stop {
-                    Some(What::Joint(k)) => {
-                        let joint = &fixed.joints[k];
-                        theta += self.image[joint.place] * joint.softness;
-                    }
-                    Some(What::PointMass(k)) => {
-                        let point = &fixed.points[k];
-                        let change = point.displaced(w, theta, &self.image);
-                        let [push, couple] = point.load(change);
-                        self.point_changes[k] = change;
-                        force += push;
-                        moment += push * point.arm + couple;
-                    }
-                    Some(What::Contact(k)) => {
-                        let contact = &fixed.contacts[k];
-                        held[k] = if contact.turning { theta * contact.sign } else { w };
-                    }
-                    None => {}
-                }
-            }
-            total[0] += force;
-            total[1] += if side == 0 { -moment } else { moment };
-        }
-        let rigid = match view.fixed_for::<R>() {
-            None => {
-                Rigid { push: total[0] / R::of(view.mass), turn: total[1] / R::of(view.inertia) }
-            }
-            Some(fixed) => {
-                for (held, contact) in held.iter_mut().zip(&fixed.contacts) {
-                    let given = contact.spring.map(|s| self.image[s.place] * s.softness);
-                    *held -= given.unwrap_or_default();
-                }
-                let first = fixed.rigid(Given::Displacements(&held));
-                let (mass, inertia) = (R::of(view.mass), R::of(view.inertia));
-                let left = [total[0] - first.push * mass, total[1] - first.turn * inertia];
-                let free = fixed.free_part(view.mass, view.inertia, left);
-                Rigid { push: first.push + free.push, turn: first.turn + free.turn }
-            }
-        };
-        self.work = R::default();
-        for (side, (cells, rigid)) in view.sides(rigid).into_iter().enumerate() {
-            for k in cells {
-                let cell = (view.cell)(k);
-                let h = cell.length;
-                let samples = k * points..(k + 1) * points;
-                let change = &mut self.changes[samples.clone()];
-                let mut sum = R::default();
-                for (j, point) in view.rule.points.iter().enumerate() {
-                    change[j] -= rigid.deflection(cell.arm + S::splat(point.s) * h);
-                    let line = view.mass_per_length[samples.start + j];
-                    let w = self.deflections[samples.start + j];
-                    sum += w * change[j] * (S::splat(point.weight) * line);
-                    if turns {
-                        let turn = &mut self.turn_changes[samples.start + j];
-                        *turn -= rigid.turn;
-                        let line = view.turning_per_length[samples.start + j];
-                        let theta = self.rotations[samples.start + j];
-                        sum += theta * *turn * (S::splat(point.weight) * line);
-                    }
-                }
-                self.work += sum * h;
-                if k + 1 == view.count || k + 1 == view.split {
-                    self.ends[side][1] -= rigid.deflection(cell.arm + h);
-                }
-            }
-            let Some(fixed) = view.fixed_for::<R>() else { continue };
-            for stop in &fixed.stops[side] {
-                let What::PointMass(k) = stop.what else { continue };
-                let point = &fixed.points[k];
-                let [moved, turned] = self.point_changes[k];
-                let lift = rigid.deflection(point.arm + point.offset);
-                let [push, couple] = point.load([moved - lift, turned - rigid.turn]);
-                let [at, turn] = self.points[k];
-                // The force acts at the centre of the mass, `offset` beyond its own place.
-                self.work += push * at + (couple - push * point.offset) * turn;
-            }
-        }
-    }
 }
 
-impl Motion<f64> {
-    /// One motion alone, for large meshes, few calls and bats with anything on them.
-    pub fn take_alone<const N: usize, const W: usize>(
-        &mut self,
-        statics: &Statics<f64, N, W>,
-        q: &[f64],
-        known: &[f64],
-        depth: Depth,
-    ) {
-        let mut applied = Applied::default();
-        self.apply(statics, q, false, &mut applied);
-        let cell = |k: usize| statics.cell(k);
-        self.see(&statics.view(&cell), applied.rigid, q, known, depth);
-    }
-
-    /// [`Self::take`], compiled once.
-    fn see(&mut self, view: &View<f64>, rigid: Rigid<f64>, q: &[f64], known: &[f64], depth: Depth) {
-        self.take(view, rigid, q, None, known, depth != Depth::Shape);
-        match depth {
-            Depth::Changes => self.take_changes(view),
-            _ => self.no_changes(view),
-        }
-    }
-}
-
-/// Cells in a row, and what stands at their outer end.
-struct Run {
-    cells: Range<usize>,
-    stop: Option<What>,
-}
-
-/// The cells of a side from stop to stop.
+/// Keeps a motion's values at points, and the loads that they are there.
 #[inline(always)]
-fn runs(cells: &Range<usize>, stops: &[Stop]) -> impl DoubleEndedIterator<Item = Run> {
-    let (first, last) = (cells.start, cells.end);
-    (0..=stops.len()).map(move |k| Run {
-        cells: if k == 0 { first } else { first + stops[k - 1].after }
-            ..stops.get(k).map_or(last, |stop| first + stop.after),
-        stop: stops.get(k).map(|stop| stop.what),
-    })
+fn keep<S: Real, R: Over<S>>(values: &[R], line: &[S], kept: &mut [R], loads: &mut [R]) {
+    for (((kept, load), line), value) in kept.iter_mut().zip(loads).zip(line).zip(values) {
+        *kept = *value;
+        *load = *value * *line;
+    }
 }
 
 /// `Σ q_k a_k`.

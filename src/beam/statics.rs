@@ -21,17 +21,17 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
-use std::ops::Range;
-
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
-use crate::beam::element::{self, Element, Samples};
-use crate::beam::fixed::{Body, Fixed, Stop};
+use crate::beam::element::{Element, Samples};
+use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;
-use crate::beam::rule::{MOST_POINTS, Rule};
-use crate::beam::sweep::{Cell, CellView, Inwards, Loads, Outwards, Rigid};
+use crate::beam::rule::Rule;
+use crate::beam::sections;
+use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
+use crate::beam::walk::{Run, runs, side_of};
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
@@ -125,7 +125,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
                 let e = &mesh.elements[k];
                 length.set_lane(lane, e.length);
                 start.set_lane(lane, e.start);
-                element::bending_and_mass(bat, e, self.rule, |i, [stiffness, mass]| {
+                sections::bending_and_mass(bat, e, self.rule, |i, [stiffness, mass]| {
                     bending[i].set_lane(lane, stiffness);
                     line[i].set_lane(lane, mass);
                 });
@@ -170,7 +170,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.shear_stiffness.resize(if shears { count * points } else { 0 }, R::default());
         for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
             for (k, e) in mesh.elements.iter().enumerate() {
-                element::worths(bat, e, self.rule, |i, worth| {
+                sections::worths(bat, e, self.rule, |i, worth| {
                     let place = k * points + i;
                     self.turning_per_length[place].set_lane(lane, worth.turning);
                     if shears {
@@ -255,90 +255,15 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
-    /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
-    /// the moments there.
-    #[inline(always)]
-    pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
-        out[(W - 2) * self.cells.len()..].fill(R::default());
-        let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
-        let balance = self.balance * scale;
-        for (place, (cell, q)) in self.cells.iter().zip(out.chunks_exact_mut(W - 2)).enumerate() {
-            let (first, step) = (cell.arm * scale, cell.link.length * scale);
-            let mut values = [R::default(); MOST_POINTS];
-            for (s, point) in values.iter_mut().zip(&self.rule.points) {
-                let arm = first + R::splat(point.s) * step;
-                *s = if place < self.split { balance - arm } else { balance + arm };
-            }
-            moments(&mut values[..points]);
-            let mut work = [R::default(); N];
-            for (i, (value, point)) in values.iter().zip(&self.rule.points).enumerate() {
-                let share = R::splat(point.weight) * cell.link.length * *value;
-                for (work, p) in work.iter_mut().zip(self.rule.at::<N>(i)) {
-                    *work += share * R::splat(*p);
-                }
-            }
-            q.fill(R::default());
-            for i in 0..N - 2 {
-                for j in 0..=i {
-                    q[i] += cell.inverse[i][j] * work[j];
-                }
-            }
-        }
-    }
-
-    /// Where Lanczos starts for `count` modes: bending moments with something of each wanted mode
-    /// and little of the others.
-    ///
-    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j`
-    /// Chebyshev's polynomials, so that the terms are nearly `cos jπs`: moment and shear vanish at
-    /// the free ends as a mode's do. The `a_j` are golden-ratio fractions, all different. A touch
-    /// of every unknown is added, so that no mode is ever left out.
-    #[inline(always)]
-    pub fn start(&self, count: usize, out: &mut [R]) {
-        const TOUCH: f64 = 1e-9;
-        let number = R::splat;
-        let held = self.fixed.is_some();
-        self.strains_of_moments(
-            out,
-            #[inline(always)]
-            |places| {
-                let [mut wave, mut before, mut now] = [[R::default(); MOST_POINTS]; 3];
-                for (wave, s) in wave.iter_mut().zip(places.iter()) {
-                    *wave = number(1.0) - number(2.0) * *s * *s * (number(3.0) - number(2.0) * *s);
-                }
-                // Clenshaw's recurrence, all points at once.
-                for j in (0..count + 2).rev() {
-                    let amplitude = number(0.2 + golden(j));
-                    for ((wave, before), now) in
-                        wave[..places.len()].iter().zip(&mut before).zip(&mut now)
-                    {
-                        (*now, *before) = (amplitude + (*wave + *wave) * *now - *before, *now);
-                    }
-                }
-                for (i, s) in places.iter_mut().enumerate() {
-                    // Where the bat is held there are moments at its ends too.
-                    let bump = if held { number(0.5) } else { *s * (number(1.0) - *s) };
-                    *s = bump * bump * (now[i] - wave[i] * before[i]);
-                }
-            },
-        );
-        let mut largest = R::default();
-        out.iter().for_each(|q| largest = largest.max(q.abs()));
-        for (k, q) in out.iter_mut().enumerate() {
-            *q += number(TOUCH * (golden(k) - 0.5)) * largest;
-        }
-        self.fixed.iter().for_each(|fixed| fixed.project(out));
-    }
-
-    /// What is met on one side on the way outwards.
-    pub fn stops(&self, side: usize) -> &[Stop] {
-        self.fixed.as_ref().map_or(&[], |fixed| &fixed.stops[side])
+    /// The cells of one side from stop to stop.
+    pub fn runs(&self, side: usize) -> impl DoubleEndedIterator<Item = Run> {
+        let stops = self.fixed.as_ref().map_or(&[][..], |fixed| &fixed.placed.stops[side]);
+        runs(side_of(self.split, self.cells.len(), side), stops)
     }
 
     /// Number of strains.
     pub fn dimension(&self) -> usize {
-        (W - 2) * self.cells.len() + self.fixed.as_ref().map_or(0, |fixed| fixed.springs)
+        (W - 2) * self.cells.len() + self.fixed.as_ref().map_or(0, |fixed| fixed.placed.springs)
     }
 
     /// Number of rigid motions that nothing holds.
@@ -358,7 +283,6 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
         Body {
             cells: &self.cells,
             split: self.split,
-            rule: self.rule,
             mass: self.mass,
             inertia: self.inertia,
             balance: self.balance,
@@ -421,97 +345,6 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
             turn: (tip_moment - knob_moment) / R::of(self.inertia),
         }
     }
-
-    /// A cell without its size in its type.
-    pub fn cell(&self, k: usize) -> CellView<'_, S> {
-        self.cells[k].view()
-    }
-
-    /// All but the loads, for a look at a motion; `cell` is [`Self::cell`].
-    pub fn view<'a>(&'a self, cell: &'a dyn Fn(usize) -> CellView<'a, S>) -> View<'a, S> {
-        View {
-            rule: self.rule,
-            theory: self.theory,
-            terms: N,
-            strains: W - 2,
-            count: self.cells.len(),
-            split: self.split,
-            cell,
-            bending_stiffness: &self.bending_stiffness,
-            mass_per_length: &self.mass_per_length,
-            turning_per_length: &self.turning_per_length,
-            shear_stiffness: &self.shear_stiffness,
-            mass: self.mass,
-            inertia: self.inertia,
-            energy_unit: self.energy_unit,
-            fixed: self.fixed.as_deref(),
-        }
-    }
-}
-
-/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions
-/// is then compiled once.
-#[derive(Clone, Copy)]
-pub struct View<'a, S> {
-    /// Where the elements are sampled.
-    pub rule: &'static Rule,
-    /// The beam theory.
-    pub theory: Theory,
-    /// Legendre polynomials of a deflection of an element.
-    pub terms: usize,
-    /// Strains of an element.
-    pub strains: usize,
-    /// Number of cells.
-    pub count: usize,
-    /// How many of the cells are on the knob side.
-    pub split: usize,
-    /// The cell of that number, the knob side first, both sides from the root outwards.
-    pub cell: &'a dyn Fn(usize) -> CellView<'a, S>,
-    /// EI (N m²) at the points of every cell, outwards.
-    pub bending_stiffness: &'a [S],
-    /// ρA (kg/m) likewise.
-    pub mass_per_length: &'a [S],
-    /// ρI (kg m) likewise; empty where sections do not turn.
-    pub turning_per_length: &'a [S],
-    /// κGA (N) likewise; empty without shear.
-    pub shear_stiffness: &'a [S],
-    /// Mass with everything attached (kg).
-    pub mass: S,
-    /// The theory's inertia about the balance point (kg m²).
-    pub inertia: S,
-    /// Energy of `½ qᵀq = 1` (J).
-    pub energy_unit: S,
-    /// What is on the bat and what holds it, if anything.
-    pub fixed: Option<&'a Fixed<S>>,
-}
-
-impl<'a, S: Real> View<'a, S> {
-    /// The cells of one side, the places they take among all, and a rigid motion seen from there.
-    pub fn sides<R: Real>(&self, rigid: Rigid<R>) -> [(Range<usize>, Rigid<R>); 2] {
-        [(0..self.split, rigid.mirrored()), (self.split..self.count, rigid)]
-    }
-
-    /// What is met on one side on the way outwards.
-    pub fn stops(&self, side: usize) -> &'a [Stop] {
-        self.fixed.map_or(&[], |fixed| &fixed.stops[side])
-    }
-
-    /// The contacts of the bed under a cell.
-    #[inline(always)]
-    pub fn bed<R: Real>(&self, cell: usize) -> Option<Range<usize>> {
-        self.fixed_for::<R>()?.bed(cell, self.terms)
-    }
-
-    /// What is on the bat and what holds it; then motions are looked at one by one.
-    #[inline(always)]
-    pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {
-        if R::LANES == 1 { self.fixed } else { None }
-    }
-}
-
-/// The fractional part of `(k + 1)` golden sections: numbers of no pattern in [0, 1).
-fn golden(k: usize) -> f64 {
-    ((k + 1) as f64 * 0.618_033_988_749_894_9).fract()
 }
 
 /// The greatest power of two that is not above a positive number.
@@ -527,8 +360,9 @@ mod tests {
     use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
     use crate::bat::material::Material;
     use crate::bat::profile::{Interpolation, Profile, Stations};
-    use crate::beam::element::elements;
-    use crate::beam::motion::{Depth, Motion};
+    use crate::beam::changes::Depth;
+    use crate::beam::hermite::elements;
+    use crate::beam::motion::Motion;
     use crate::eigen::lanczos::dot;
 
     fn bat(outer: [f64; 2]) -> Bat {

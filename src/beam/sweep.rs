@@ -1,8 +1,11 @@
 //! The two ways over the elements: strains integrated outwards, loads summed up inwards.
 
+use std::ops::Range;
+
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
-use crate::beam::element::{Link, Matrix, Vector, over_strains};
+use crate::beam::element::{Link, Matrix, Vector, on_strains, over_strains};
+use crate::beam::walk::side_of;
 
 /// An element on one side of the root, seen in that direction.
 #[derive(Debug, Clone, Copy)]
@@ -111,6 +114,51 @@ impl<R: Real> Rigid<R> {
     /// The motion seen from the other side: what turns outwards there turns inwards here.
     pub fn mirrored(self) -> Self {
         Self { turn: -self.turn, ..self }
+    }
+
+    /// The motion seen outwards on the knob side, 0, or on the tip side, 1.
+    #[inline(always)]
+    pub fn on_side(self, side: usize) -> Self {
+        if side == 0 { self.mirrored() } else { self }
+    }
+}
+
+/// A bare bat as the running sums see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Body<'a, S, const N: usize, const W: usize> {
+    /// Elements of the bat, the knob side first, both sides from the root outwards.
+    pub cells: &'a [Cell<S, W>],
+    /// Number of elements on the knob side.
+    pub split: usize,
+    /// Mass of the bat with everything attached (kg).
+    pub mass: S,
+    /// Moment of inertia about the balance point, with everything attached (kg m²).
+    pub inertia: S,
+    /// Distance of the balance point from the knob end (m).
+    pub balance: S,
+    /// Energy of `½ qᵀq = 1` (J).
+    pub energy_unit: S,
+}
+
+impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
+    /// The cells of the knob side, 0, or of the tip side, 1.
+    pub fn side(&self, side: usize) -> Range<usize> {
+        side_of(self.split, self.cells.len(), side)
+    }
+
+    /// The loads on a cell of a unit force where Legendre's polynomials have those values.
+    pub fn point_load(&self, cell: usize, values: &[f64; N]) -> Vector<S, W> {
+        let cell = &self.cells[cell];
+        let values = values.map(S::splat);
+        let on: Vector<S, W> = on_strains::<S, N, W>(cell.link.length, &values);
+        let mut load = on;
+        for i in 0..W - 2 {
+            load[i] = S::default();
+            for j in 0..=i {
+                load[i] += cell.inverse[i][j] * on[j];
+            }
+        }
+        load
     }
 }
 

@@ -13,14 +13,18 @@ use crate::base::quadrature::{gauss, legendre};
 use crate::bat::body::Bat;
 use crate::bat::layup::Worth;
 use crate::bat::theory::Theory;
+use crate::beam::attached::Spring;
+use crate::beam::changes::Depth;
 use crate::beam::degree::{OfDegree, of_degree};
-use crate::beam::element::{MOST_STRAINS, losses};
-use crate::beam::fixed::{Fixed, Spring, in_grip};
+use crate::beam::element::MOST_STRAINS;
+use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Depth, Motion};
+use crate::beam::motion::Motion;
+use crate::beam::placed::in_grip;
 use crate::beam::rule::{MOST_POINTS, Rule};
-use crate::beam::statics::View;
+use crate::beam::sections::losses;
 use crate::beam::sweep::Loads;
+use crate::beam::view::View;
 use crate::eigen::lanczos::dot;
 use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::mode::Shape;
@@ -233,7 +237,7 @@ impl Flexible {
             losses: vec![],
         };
         flexible.pairs.see(&mut |view| {
-            let points = view.fixed.iter().flat_map(|fixed| &fixed.points);
+            let points = view.fixed.iter().flat_map(|fixed| &fixed.placed.points);
             let springs = points.filter_map(|point| point.spring);
             flexible.hung = springs.map(|s| Drawn::Spring(s.place, s.softness)).collect();
         });
@@ -398,7 +402,7 @@ impl Flexible {
         let mut bed = vec![];
         self.pairs.see(&mut |view| {
             let Some(fixed) = view.fixed else { return };
-            let beds = fixed.contacts.iter().filter(|contact| contact.in_a_bed());
+            let beds = fixed.placed.contacts.iter().filter(|contact| contact.in_a_bed());
             bed = beds.filter_map(|contact| contact.spring).collect();
         });
         let none = vec![0.0; self.rigid.len()];

@@ -13,10 +13,12 @@ use crate::base::lanes::{Lanes, WIDTH, widest};
 use crate::base::real::{Over, Real};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
+use crate::beam::changes::Depth;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Applied, Depth, Motion};
-use crate::beam::statics::{Statics, View};
+use crate::beam::motion::{Applied, Known, Motion};
+use crate::beam::statics::Statics;
 use crate::beam::sweep::{Loads, Rigid};
+use crate::beam::view::View;
 use crate::eigen::lanczos::{Lanczos, Space, Wanted};
 
 /// Bats in the lanes of `R`, elements of degree `N − 1` with `W − 2` strains.
@@ -99,7 +101,7 @@ where
 
     /// What is asked of the iteration: every absorber may ring at nearly one frequency with others.
     fn wanted(&self, count: usize, residual: f64, earliest: usize) -> Wanted {
-        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.hung());
+        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.hung());
         Wanted { count, residual, earliest, clustered }
     }
 
@@ -342,11 +344,6 @@ impl<S: Real, R: Over<S>> WithSimd for Look<'_, S, R> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, _: V) {
         let Self { view, rigid, motions, strains, value, depth } = self;
-        motions.take(&view, rigid, strains, value, &[], depth != Depth::Shape);
-        if depth == Depth::Changes {
-            motions.take_changes(&view);
-        } else {
-            motions.no_changes(&view);
-        }
+        motions.look(&view, rigid, strains, Known { value, others: &[] }, depth);
     }
 }

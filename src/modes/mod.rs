@@ -14,6 +14,8 @@
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`compliance`], [`reduced`], [`damping`] | how the bat gives way at a place; few modes with dashpots; how motions die out |
 
+pub mod shape;
+pub(crate) mod landmarks;
 pub mod mode;
 pub mod eigenpairs;
 pub mod compliance;
@@ -24,6 +26,9 @@ pub mod referee;
 pub mod survey;
 pub mod plan;
 pub(crate) mod memory;
+pub mod request;
+pub mod solution;
+pub mod task;
 pub mod solve;
 pub mod up_to;
 pub mod batch;

@@ -36,9 +36,9 @@ use std::time::Duration;
 
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
-use crate::beam::element::missed;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
+use crate::beam::sections::missed;
 use crate::modes::survey::{Sample, Survey};
 
 /// A mesh and the degree of its elements.
@@ -175,6 +175,11 @@ impl Plan {
     /// So many elements in all, spread by length, of that degree.
     pub fn fixed(bat: &Bat, elements: usize, degree: usize) -> Self {
         Self { mesh: Mesh::along(bat, elements), degree, reason: Reason::Asked }
+    }
+
+    /// Number of strains without shear, and of unknowns that an element may bend in.
+    pub fn unknowns(&self) -> usize {
+        (self.degree - 1) * self.mesh.len()
     }
 
     /// The plan after a solve that missed, from every element's `defects` (twice the relative error

@@ -6,9 +6,11 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::assembly::{Pencil, places};
-use crate::beam::element::{self, Element};
+use crate::beam::changes::Depth;
+use crate::beam::element::Element;
+use crate::beam::hermite::elements;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Depth, Motion};
+use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
 use crate::eigen::{dense, shift_invert};
 
@@ -74,7 +76,7 @@ pub fn strains<const N: usize, const W: usize>(
     solver: Solver,
 ) -> Result<Found> {
     check(statics, solver)?;
-    let elements = element::elements::<N, W>(bat, mesh, statics.theory);
+    let elements = elements::<N, W>(bat, mesh, statics.theory);
     let pairs = of_pencil(statics, &elements, count, solver)?;
     let strains = |u: &Vec<f64>| strains_of(statics, &elements, u);
     Ok(Found {
@@ -222,7 +224,7 @@ fn both_of<const N: usize, const W: usize>(
     let mut statics = Statics::<f64, N, W>::empty(bat, theory);
     statics.assemble(&[bat], &[mesh]);
     check(&statics, solver)?;
-    let elements = element::elements::<N, W>(bat, mesh, theory);
+    let elements = elements::<N, W>(bat, mesh, theory);
     let pairs = of_pencil(&statics, &elements, modes, solver)?;
     let mut motion = Motion::default();
     let both = pairs.values.iter().zip(&pairs.vectors).take(modes).map(|(value, vector)| {

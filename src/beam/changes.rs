@@ -1,0 +1,267 @@
+//! How far may the shape of a motion be off: the deflection that its own inertia makes, less its own.
+//!
+//! The differences of the strains that [`Motion::take_defect`] leaves are integrated outwards, and the
+//! rigid motions that nothing holds are taken out, so that the change carries no momentum and moves no
+//! contact.
+
+use crate::base::real::{Over, Real};
+use crate::beam::holds::Given;
+use crate::beam::motion::{Applied, Known, Motion};
+use crate::beam::rule::MOST_POINTS;
+use crate::beam::statics::Statics;
+use crate::beam::sweep::Rigid;
+use crate::beam::view::{Located, View};
+use crate::beam::walk::{Run, What};
+
+/// How closely a motion is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// Shape and energies of the motion.
+    Shape,
+    /// Shape, energies and defect.
+    Defect,
+    /// Shape, energies, defect, and how far the shape may be off.
+    Changes,
+}
+
+/// A change on its way outwards: deflection and rotation so far, force and moment about the balance point
+/// of their inertia over ω²; memory for one cell.
+struct Way<R> {
+    w: R,
+    theta: R,
+    force: R,
+    moment: R,
+    once: [R; MOST_POINTS],
+    twice: [R; MOST_POINTS],
+}
+
+impl<R: Real> Motion<R> {
+    /// After [`Self::apply`], the motion with those scaled strains as closely as wanted.
+    #[inline(always)]
+    pub fn look<S: Real>(
+        &mut self,
+        view: &View<S>,
+        rigid: Rigid<R>,
+        q: &[R],
+        known: Known<R, S>,
+        depth: Depth,
+    ) where
+        R: Over<S>,
+    {
+        self.take(view, rigid, q, known);
+        self.defect = R::default();
+        if depth != Depth::Shape {
+            self.take_defect(view, q);
+        }
+        match depth {
+            Depth::Changes => self.take_changes(view),
+            _ => self.no_changes(view),
+        }
+    }
+
+    /// Leaves out what [`Self::take_changes`] would find.
+    #[inline(always)]
+    fn no_changes<S: Real>(&mut self, view: &View<S>) {
+        self.changes.clear();
+        self.changes.resize(view.count * view.rule.count(), R::default());
+        self.ends[0][1] = R::default();
+        self.ends[1][1] = R::default();
+        self.work = R::default();
+    }
+
+    /// The strains' differences at the points become `w − w*`, the rigid motions taken out.
+    #[inline(always)]
+    fn take_changes<S: Real>(&mut self, view: &View<S>)
+    where
+        R: Over<S>,
+    {
+        let contacts = view.placed::<R>().map_or(0, |placed| placed.contacts.len());
+        let mut held = vec![R::default(); contacts];
+        self.point_changes.resize(self.points.len(), [R::default(); 2]);
+        let mut total = [R::default(); 2];
+        for side in [0, 1] {
+            let [force, moment] = self.integrate(view, side, &mut held);
+            total[0] += force;
+            total[1] += if side == 0 { -moment } else { moment };
+        }
+        let rigid = self.rigid_change(view, total, &mut held);
+        self.work = R::default();
+        for side in [0, 1] {
+            self.take_out(view, rigid.on_side(side), side);
+        }
+    }
+
+    /// Differences of the strains outwards to those of the deflection, with the root at rest, and the
+    /// displacements of the contacts; force and moment about the balance point of their inertia.
+    #[inline(always)]
+    fn integrate<S: Real>(&mut self, view: &View<S>, side: usize, held: &mut [R]) -> [R; 2]
+    where
+        R: Over<S>,
+    {
+        let zero = R::default();
+        let [once, twice] = [[zero; MOST_POINTS]; 2];
+        let mut way = Way { w: zero, theta: zero, force: zero, moment: zero, once, twice };
+        for Run { cells, stop } in view.runs(side) {
+            for k in cells {
+                let at = view.at(k);
+                self.integrate_cell(view, &at, &mut way);
+                if let Some(bed) = view.bed::<R>(k) {
+                    view.rule.coefficients(&self.changes[at.samples], &mut held[bed]);
+                }
+                self.ends[side][1] = way.w;
+            }
+            let Some(placed) = view.placed::<R>() else { continue };
+            match stop {
+                Some(What::Joint(k)) => {
+                    let joint = &placed.joints[k];
+                    way.theta += self.image[joint.place] * joint.softness;
+                }
+                Some(What::PointMass(k)) => {
+                    let point = &placed.points[k];
+                    let change = point.displaced(way.w, way.theta, &self.image);
+                    let [push, couple] = point.load(change);
+                    self.point_changes[k] = change;
+                    way.force += push;
+                    way.moment += push * point.arm + couple;
+                }
+                Some(What::Contact(k)) => {
+                    let contact = &placed.contacts[k];
+                    held[k] = if contact.turning { way.theta * contact.sign } else { way.w };
+                }
+                None => {}
+            }
+        }
+        [way.force, way.moment]
+    }
+
+    /// One cell on the way outwards.
+    #[inline(always)]
+    fn integrate_cell<S: Real>(&mut self, view: &View<S>, at: &Located<S>, way: &mut Way<R>)
+    where
+        R: Over<S>,
+    {
+        let (rule, cell, h) = (view.rule, &at.cell, at.cell.length);
+        let shears = view.theory.shears();
+        let change = &mut self.changes[at.samples.clone()];
+        let [turned, first] = rule.integrals(change);
+        rule.twice_from_left(change, &mut way.twice);
+        if view.theory.turns() {
+            rule.once_from_left(change, &mut way.once);
+            let line = &view.turning_per_length[at.samples.clone()];
+            let turn = &mut self.turn_changes[at.samples.clone()];
+            for (j, point) in rule.points.iter().enumerate() {
+                turn[j] = way.theta + way.once[j] * h;
+                way.moment += turn[j] * (S::splat(point.weight) * h * line[j]);
+            }
+        }
+        let mut slipped = R::default();
+        if shears {
+            let slips = &self.slips[at.samples.clone()];
+            rule.once_from_left(slips, &mut way.once);
+            slipped = rule.integrals(slips)[0] * h;
+        }
+        let line = &view.mass_per_length[at.samples.clone()];
+        for (j, point) in rule.points.iter().enumerate() {
+            let y = S::splat(point.s) * h;
+            change[j] = way.w + way.theta * y + way.twice[j] * (h * h);
+            if shears {
+                change[j] += way.once[j] * h;
+            }
+            let share = change[j] * (S::splat(point.weight) * h * line[j]);
+            way.force += share;
+            way.moment += share * (cell.arm + y);
+        }
+        way.w += way.theta * h + (turned - first) * (h * h) + slipped;
+        way.theta += turned * h;
+    }
+
+    /// The rigid motion in a change that carries that force and moment and moves the contacts so far.
+    #[inline(always)]
+    fn rigid_change<S: Real>(&self, view: &View<S>, total: [R; 2], held: &mut [R]) -> Rigid<R>
+    where
+        R: Over<S>,
+    {
+        let (mass, inertia) = (R::of(view.mass), R::of(view.inertia));
+        let Some(fixed) = view.fixed_for::<R>() else {
+            return Rigid { push: total[0] / mass, turn: total[1] / inertia };
+        };
+        for (held, contact) in held.iter_mut().zip(&fixed.placed.contacts) {
+            let given = contact.spring.map(|s| self.image[s.place] * s.softness);
+            *held -= given.unwrap_or_default();
+        }
+        let first = fixed.rigid(Given::Displacements(held));
+        let left = [total[0] - first.push * mass, total[1] - first.turn * inertia];
+        let free = fixed.free_part(view.mass, view.inertia, left);
+        Rigid { push: first.push + free.push, turn: first.turn + free.turn }
+    }
+
+    /// Takes a rigid motion out of the change of one side, and adds the side's part of
+    /// [`Self::work`].
+    #[inline(always)]
+    fn take_out<S: Real>(&mut self, view: &View<S>, rigid: Rigid<R>, side: usize)
+    where
+        R: Over<S>,
+    {
+        for k in view.side(side) {
+            let Located { cell, samples, .. } = view.at(k);
+            let change = &mut self.changes[samples.clone()];
+            let mut sum = R::default();
+            for (j, point) in view.rule.points.iter().enumerate() {
+                let place = samples.start + j;
+                change[j] -= rigid.deflection(cell.arm + S::splat(point.s) * cell.length);
+                let line = view.mass_per_length[place];
+                sum += self.deflections[place] * change[j] * (S::splat(point.weight) * line);
+                if view.theory.turns() {
+                    let turn = &mut self.turn_changes[place];
+                    *turn -= rigid.turn;
+                    let line = view.turning_per_length[place];
+                    sum += self.rotations[place] * *turn * (S::splat(point.weight) * line);
+                }
+            }
+            self.work += sum * cell.length;
+            if k + 1 == view.count || k + 1 == view.split {
+                self.ends[side][1] -= rigid.deflection(cell.arm + cell.length);
+            }
+        }
+        let Some(placed) = view.placed::<R>() else { return };
+        for stop in &placed.stops[side] {
+            let What::PointMass(k) = stop.what else { continue };
+            let point = &placed.points[k];
+            let [moved, turned] = self.point_changes[k];
+            let lift = rigid.deflection(point.arm + point.offset);
+            let [push, couple] = point.load([moved - lift, turned - rigid.turn]);
+            let [at, turn] = self.points[k];
+            // The force acts at the centre of the mass, `offset` beyond its own place.
+            self.work += push * at + (couple - push * point.offset) * turn;
+        }
+    }
+}
+
+impl Motion<f64> {
+    /// One motion alone, for large meshes, few calls and bats with anything on them.
+    pub fn take_alone<const N: usize, const W: usize>(
+        &mut self,
+        statics: &Statics<f64, N, W>,
+        q: &[f64],
+        known: &[f64],
+        depth: Depth,
+    ) {
+        let mut applied = Applied::default();
+        self.apply(statics, q, false, &mut applied);
+        let cell = |k: usize| statics.cell(k);
+        let known = Known { value: None, others: known };
+        self.look_alone(&statics.view(&cell), applied.rigid, q, known, depth);
+    }
+
+    /// [`Self::look`], compiled once.
+    fn look_alone(
+        &mut self,
+        view: &View<f64>,
+        rigid: Rigid<f64>,
+        q: &[f64],
+        known: Known<f64, f64>,
+        depth: Depth,
+    ) {
+        self.look(view, rigid, q, known, depth);
+    }
+}

@@ -1,0 +1,222 @@
+//! Where on the mesh is what is on the bat, and what holds it?
+
+use std::ops::Range;
+
+use crate::base::real::Real;
+use crate::bat::body::Bat;
+use crate::bat::fixtures::Held;
+use crate::beam::attached::{At, Contact, PointMass, Spring};
+use crate::beam::mesh::Mesh;
+use crate::beam::sweep::Body;
+use crate::beam::walk::{Run, Stop, What, runs};
+
+/// A bat's fixtures, each at its place on the mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Placed<S> {
+    /// Masses, on the bat itself or on springs.
+    pub points: Vec<PointMass<S>>,
+    /// Places that give way to bending.
+    pub joints: Vec<Spring<S>>,
+    /// What holds a deflection or a rotation.
+    pub contacts: Vec<Contact<S>>,
+    /// What is met on the way outwards on the knob side and on the tip side, in this order.
+    pub stops: [Vec<Stop>; 2],
+    /// Number of strains that springs add to those of the elements.
+    pub springs: usize,
+    /// Where the bat is clamped (m).
+    pub clamps: Vec<f64>,
+    /// The first contact of the bed under a cell; empty without a bed.
+    beds: Vec<Option<usize>>,
+}
+
+impl<S: Real> Placed<S> {
+    /// Everything that the bat's fixtures say, on that mesh.
+    pub fn new<const N: usize, const W: usize>(
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) -> Self {
+        let clamped = bat.fixtures.supports.iter().filter(|s| s.kind == Held::Clamped);
+        let clamps = clamped.map(|support| support.x).collect();
+        let mut placed = Self { clamps, ..Self::default() };
+        placed.add_joints(body, bat, mesh);
+        placed.add_points(body, bat, mesh);
+        placed.add_holds(body, bat, mesh);
+        placed.add_grip(body, bat, mesh);
+        // Outwards; at one place the knob's part comes first from the knob and last from the tip.
+        let order = |side: usize, what: What| match what {
+            What::Joint(_) => usize::from(side == 1) * 2,
+            _ => 1,
+        };
+        for (side, stops) in placed.stops.iter_mut().enumerate() {
+            stops.sort_by_key(|stop| (stop.after, order(side, stop.what)));
+        }
+        placed
+    }
+
+    /// The cells of a side from stop to stop.
+    pub fn runs<const N: usize, const W: usize>(
+        &self,
+        body: &Body<S, N, W>,
+        side: usize,
+    ) -> impl DoubleEndedIterator<Item = Run> {
+        runs(body.side(side), &self.stops[side])
+    }
+
+    /// The contacts of the bed under a cell, one for each of `terms` Legendre polynomials.
+    pub fn bed(&self, cell: usize, terms: usize) -> Option<Range<usize>> {
+        let first = self.beds.get(cell).copied().flatten()?;
+        Some(first..first + terms)
+    }
+
+    /// How many masses hang on springs.
+    pub fn hung(&self) -> usize {
+        self.points.iter().filter(|point| point.spring.is_some()).count()
+    }
+
+    /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
+    fn spring<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        stiffness: f64,
+    ) -> Spring<S> {
+        let place = body.cells.len() * (W - 2) + self.springs;
+        self.springs += 1;
+        Spring { place, softness: (body.energy_unit / S::splat(stiffness)).sqrt() }
+    }
+
+    /// Adds a stop where node `node` is; its side, 1 for the tip's.
+    fn stop(&mut self, split: usize, node: usize, what: What) -> usize {
+        // A joint at the root gives way on the tip side, everything else there is the knob side's.
+        let tip_side = node > split || (node == split && matches!(what, What::Joint(_)));
+        let after = if tip_side { node - split } else { split - node };
+        self.stops[usize::from(tip_side)].push(Stop { after, what });
+        usize::from(tip_side)
+    }
+
+    fn add_joints<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        for joint in &bat.fixtures.joints {
+            let spring = self.spring(body, joint.rotational_stiffness);
+            self.joints.push(spring);
+            let what = What::Joint(self.joints.len() - 1);
+            self.stop(body.split, node_at(bat, mesh, joint.x), what);
+        }
+    }
+
+    fn add_points<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        let number = S::splat;
+        let masses = bat.fixtures.attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
+        let fixed = masses.map(|a| (a.x, [a.mass, a.offset, a.rotary_inertia], None));
+        let hung = bat.fixtures.absorbers.iter();
+        let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
+        for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
+            let what = What::PointMass(self.points.len());
+            let side = self.stop(body.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| self.spring(body, stiffness));
+            let outwards = if side == 1 { 1.0 } else { -1.0 };
+            self.points.push(PointMass {
+                arm: number(outwards) * (number(x) - body.balance),
+                mass: number(mass),
+                offset: number(outwards * offset),
+                inertia: number(inertia),
+                spring,
+            });
+        }
+    }
+
+    /// Adds supports and springs to ground.
+    fn add_holds<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        let mut add = |x: f64, turning: bool, stiffness: Option<f64>| {
+            let what = What::Contact(self.contacts.len());
+            let side = self.stop(body.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| self.spring(body, stiffness));
+            let sign = S::splat(if turning && side == 0 { -1.0 } else { 1.0 });
+            self.contacts.push(Contact { at: At::Border, turning, sign, spring });
+        };
+        for support in &bat.fixtures.supports {
+            add(support.x, false, None);
+            if support.kind == Held::Clamped {
+                add(support.x, true, None);
+            }
+        }
+        for a in &bat.fixtures.attachments {
+            let springs = [(false, a.stiffness), (true, a.rotational_stiffness)];
+            for (turning, stiffness) in springs.into_iter().filter(|(_, k)| *k > 0.0) {
+                add(a.x, turning, Some(stiffness));
+            }
+        }
+    }
+
+    /// Adds the elastic bed of the hands.
+    fn add_grip<const N: usize, const W: usize>(
+        &mut self,
+        body: &Body<S, N, W>,
+        bat: &Bat,
+        mesh: &Mesh,
+    ) {
+        let Some(grip) = bat.fixtures.grip.filter(|grip| grip.stiffness > 0.0) else { return };
+        self.beds = vec![None; mesh.len()];
+        for (cell, e) in in_grip(bat, mesh, body.split) {
+            self.beds[cell] = Some(self.contacts.len());
+            for term in 0..N {
+                // ∫P_k² dx.
+                let share = mesh.elements[e].length / (2 * term + 1) as f64;
+                let spring = Some(self.spring(body, grip.stiffness * share));
+                let (at, turning, sign) = (At::Bed, false, S::splat(1.0));
+                self.contacts.push(Contact { at, turning, sign, spring });
+            }
+        }
+    }
+}
+
+/// The number of the mesh's node at `x`, or nearest to it: the bat's pieces end there.
+pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
+    let pieces = &bat.profile.pieces;
+    let start = |k: usize| pieces.get(k).map_or(bat.length(), |piece| piece.start);
+    let above = pieces.partition_point(|piece| piece.start <= x).max(1);
+    let piece = if x - start(above - 1) <= start(above) - x { above - 1 } else { above };
+    mesh.elements.partition_point(|e| e.piece < piece)
+}
+
+/// The elements in the grip: the place of the cell and the number of the element.
+pub fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
+    let Some(grip) = &bat.fixtures.grip else { return vec![] };
+    let held = |e: &usize| {
+        let e = &mesh.elements[*e];
+        let middle = e.start + 0.5 * e.length;
+        middle > grip.from && middle < grip.to
+    };
+    let cell = |e: usize| if e < split { split - 1 - e } else { e };
+    (0..mesh.len()).filter(held).map(|e| (cell(e), e)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_at_the_root_is_on_the_tip_side_and_a_mass_there_on_the_knob_side() {
+        let mut placed = Placed::<f64>::default();
+        assert_eq!(placed.stop(3, 3, What::Joint(0)), 1);
+        assert_eq!(placed.stop(3, 3, What::PointMass(0)), 0);
+        assert_eq!(placed.stop(3, 1, What::PointMass(1)), 0);
+        assert_eq!(placed.stop(3, 5, What::Joint(1)), 1);
+        let after = placed.stops.map(|stops| stops.iter().map(|s| s.after).collect::<Vec<_>>());
+        assert_eq!(after, [vec![0, 2], vec![0, 2]]);
+    }
+}

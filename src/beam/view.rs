@@ -1,0 +1,131 @@
+//! A bat on its elements, whatever their degree and theory.
+
+use std::ops::Range;
+
+use crate::base::real::Real;
+use crate::bat::theory::Theory;
+use crate::beam::fixed::Fixed;
+use crate::beam::placed::Placed;
+use crate::beam::rule::Rule;
+use crate::beam::statics::Statics;
+use crate::beam::sweep::CellView;
+use crate::beam::walk::{Run, runs, side_of};
+
+/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions
+/// is then compiled once.
+#[derive(Clone, Copy)]
+pub struct View<'a, S> {
+    /// Where the elements are sampled.
+    pub rule: &'static Rule,
+    /// The beam theory.
+    pub theory: Theory,
+    /// Legendre polynomials of a deflection of an element.
+    pub terms: usize,
+    /// Strains of an element.
+    pub strains: usize,
+    /// Number of cells.
+    pub count: usize,
+    /// How many of the cells are on the knob side.
+    pub split: usize,
+    /// The cell of that number, the knob side first, both sides from the root outwards.
+    pub cell: &'a dyn Fn(usize) -> CellView<'a, S>,
+    /// EI (N m²) at the points of every cell, outwards.
+    pub bending_stiffness: &'a [S],
+    /// ρA (kg/m) likewise.
+    pub mass_per_length: &'a [S],
+    /// ρI (kg m) likewise; empty where sections do not turn.
+    pub turning_per_length: &'a [S],
+    /// κGA (N) likewise; empty without shear.
+    pub shear_stiffness: &'a [S],
+    /// Mass with everything attached (kg).
+    pub mass: S,
+    /// The theory's inertia about the balance point (kg m²).
+    pub inertia: S,
+    /// Energy of `½ qᵀq = 1` (J).
+    pub energy_unit: S,
+    /// What is on the bat and what holds it, if anything.
+    pub fixed: Option<&'a Fixed<S>>,
+}
+
+impl<'a, S: Real> View<'a, S> {
+    /// The places of the cells of one side, outwards.
+    pub fn side(&self, side: usize) -> Range<usize> {
+        side_of(self.split, self.count, side)
+    }
+
+    /// The cells of one side from stop to stop.
+    #[inline(always)]
+    pub fn runs(&self, side: usize) -> impl DoubleEndedIterator<Item = Run> + use<'a, S> {
+        let stops = self.fixed.map_or(&[][..], |fixed| &fixed.placed.stops[side]);
+        runs(self.side(side), stops)
+    }
+
+    /// The contacts of the bed under a cell.
+    #[inline(always)]
+    pub fn bed<R: Real>(&self, cell: usize) -> Option<Range<usize>> {
+        self.placed::<R>()?.bed(cell, self.terms)
+    }
+
+    /// The cell of that number, and where its numbers are.
+    #[inline(always)]
+    pub fn at(&self, number: usize) -> Located<'a, S> {
+        let of = |each: usize| number * each..(number + 1) * each;
+        let (strains, terms, samples) = (of(self.strains), of(self.terms), of(self.rule.count()));
+        Located { number, cell: (self.cell)(number), strains, terms, samples }
+    }
+
+    /// What is on the bat, and where; then motions are looked at one by one.
+    #[inline(always)]
+    pub fn placed<R: Real>(&self) -> Option<&'a Placed<S>> {
+        self.fixed_for::<R>().map(|fixed| &fixed.placed)
+    }
+
+    /// What is on the bat and what holds it; then motions are looked at one by one.
+    #[inline(always)]
+    pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {
+        if R::LANES == 1 { self.fixed } else { None }
+    }
+}
+
+/// A cell, and where among those of all cells its numbers are.
+#[derive(Debug, Clone)]
+pub struct Located<'a, S> {
+    /// Number of the cell.
+    pub number: usize,
+    /// The cell itself.
+    pub cell: CellView<'a, S>,
+    /// Places of its strains.
+    pub strains: Range<usize>,
+    /// Places of its Legendre coefficients.
+    pub terms: Range<usize>,
+    /// Places of what is known at its Gauss points.
+    pub samples: Range<usize>,
+}
+
+impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
+    /// A cell without its size in its type.
+    pub fn cell(&self, k: usize) -> CellView<'_, S> {
+        self.cells[k].view()
+    }
+
+    /// All but the loads, for a look at a motion; `cell` is [`Self::cell`].
+    pub fn view<'a>(&'a self, cell: &'a dyn Fn(usize) -> CellView<'a, S>) -> View<'a, S> {
+        View {
+            rule: self.rule,
+            theory: self.theory,
+            terms: N,
+            strains: W - 2,
+            count: self.cells.len(),
+            split: self.split,
+            cell,
+            bending_stiffness: &self.bending_stiffness,
+            mass_per_length: &self.mass_per_length,
+            turning_per_length: &self.turning_per_length,
+            shear_stiffness: &self.shear_stiffness,
+            mass: self.mass,
+            inertia: self.inertia,
+            energy_unit: self.energy_unit,
+            fixed: self.fixed.as_deref(),
+        }
+    }
+}

@@ -1,0 +1,372 @@
+//! Where is a deflection zero, where is it largest, and how far may its zeros be off?
+
+use crate::base::real::Real;
+use crate::beam::motion::Motion;
+use crate::beam::view::View;
+use crate::modes::shape::Shape;
+
+/// A motion from knob to tip in one lane, at the points of its elements.
+pub struct Track {
+    /// Deflections (m).
+    pub samples: Vec<f64>,
+    /// Their changes (m), as [`Motion::changes`].
+    pub changes: Vec<f64>,
+    /// Deflection and change at the knob end and at the tip.
+    pub ends: [[f64; 2]; 2],
+    /// Points of an element as ξ.
+    xi: Vec<f64>,
+}
+
+impl Track {
+    /// The motion in that lane.
+    pub fn new<R: Real>(view: &View<f64>, motion: &Motion<R>, lane: usize) -> Self {
+        let points = view.rule.count();
+        let split = points * view.split;
+        let along = |values: &[R]| -> Vec<f64> {
+            let (knob, tip) = values.split_at(split);
+            knob.iter().rev().chain(tip).map(|v| v.lane(lane)).collect()
+        };
+        let xi = view.rule.points.iter().map(|p| 2.0 * p.s - 1.0).collect();
+        let samples = along(&motion.deflections);
+        let changes = along(&motion.changes);
+        let mut ends = motion.ends.map(|end| end.map(|v| v.lane(lane)));
+        if view.split == 0 {
+            // The root is the knob end itself.
+            ends[0][1] = changes[0];
+        }
+        Self { samples, changes, ends, xi }
+    }
+}
+
+impl Shape {
+    /// Deflection at the left end, the points and the right end of element `k`, from its values at
+    /// the points.
+    fn places(&self, k: usize, track: &Track, places: &mut Vec<(f64, f64)>) {
+        let points = track.xi.len();
+        let own = &self.coefficients[k * self.terms..(k + 1) * self.terms];
+        let left = own.iter().enumerate().map(|(j, w)| if j % 2 == 1 { -w } else { *w }).sum();
+        let inner = track.samples[k * points..(k + 1) * points].iter();
+        places.clear();
+        places.push((-1.0, left));
+        places.extend(track.xi.iter().copied().zip(inner.copied()));
+        places.push((1.0, own.iter().sum()));
+    }
+
+    /// Largest |deflection| over the continuous shape, and the relative change there: of the ends
+    /// of every element, where joints make cusps, and of the peaks between its places.
+    pub(super) fn largest(&self, track: &Track) -> (f64, f64) {
+        // A peak is higher than the places beside it, hardly ever by more than that.
+        const LOWEST: f64 = 0.5;
+        let points = track.xi.len();
+        let [knob, tip] = track.ends;
+        let end = if knob[0].abs() > tip[0].abs() { knob } else { tip };
+        let (mut most, mut change) = (end[0].abs(), end[1] / end[0]);
+        let highest = track.samples.iter().fold(most, |most, w| most.max(w.abs()));
+        let mut places = Vec::with_capacity(points + 2);
+        for k in 0..self.stretches.len() {
+            self.places(k, track, &mut places);
+            let size = |j: usize| places.get(j).map_or(0.0, |(_, w)| w.abs());
+            for j in 0..places.len() {
+                let highest_here = size(j) >= size(j.wrapping_sub(1)) && size(j) >= size(j + 1);
+                if size(j) <= LOWEST * highest.max(most) || !highest_here {
+                    continue;
+                }
+                let peak = self.extreme(k, &places, j).1.abs().max(size(j));
+                if peak > most {
+                    let near = k * points + j.saturating_sub(1).min(points - 1);
+                    (most, change) = (peak, track.changes[near] / track.samples[near]);
+                }
+            }
+        }
+        (most, change)
+    }
+
+    /// The place ξ beside place `j` of element `k` where the slope is zero, and the deflection
+    /// there; place `j` itself if the slope has one sign up to the next places.
+    fn extreme(&self, k: usize, places: &[(f64, f64)], j: usize) -> (f64, f64) {
+        let slope = |xi: f64| self.derivatives(k, xi)[1];
+        let (at, value) = places[j];
+        let here = slope(at);
+        let beside = [j.wrapping_sub(1), j + 1].map(|j| places.get(j).map(|place| place.0));
+        let across = |xi: &f64| here * slope(*xi) < 0.0;
+        let Some(mut other) = beside.into_iter().flatten().find(across) else { return (at, value) };
+        let (mut own, mut xi) = (at, at);
+        // Newton's steps where they stay inside the shrinking bracket, halving where not.
+        for _ in 0..60 {
+            let [w, slope, bend] = self.derivatives(k, xi);
+            if slope * here > 0.0 {
+                own = xi
+            } else {
+                other = xi
+            }
+            let next = xi - slope / bend;
+            let inside = next > own.min(other) && next < own.max(other);
+            let next = if inside { next } else { 0.5 * (own + other) };
+            if (next - xi).abs() < 1e-9 {
+                return (xi, w);
+            }
+            xi = next;
+        }
+        (xi, self.derivatives(k, xi)[0])
+    }
+
+    /// The isolated zeros of the deflection inside the bat (m), rising.
+    ///
+    /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of
+    /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
+    /// where the deflection comes nearest to zero beyond it.
+    pub(super) fn zeros(&self, track: &Track, rest: f64) -> Vec<f64> {
+        let mut zeros = Vec::new();
+        let mut places = Vec::with_capacity(track.xi.len() + 2);
+        // The sign that the deflection had last, and its value at the end of the last element.
+        let (mut before, mut border) = (0.0, None);
+        for (k, (middle, length)) in self.stretches.iter().enumerate() {
+            self.places(k, track, &mut places);
+            places[0].1 = border.unwrap_or(places[0].1);
+            border = places.last().map(|place| place.1);
+            places.iter_mut().filter(|place| place.1.abs() <= rest).for_each(|at| at.1 = 0.0);
+            for j in 1..places.len() {
+                let [(left, a), (right, b)] = [places[j - 1], places[j]];
+                let signs = [
+                    self.sign(k, places[j - 1], right - left, b),
+                    self.sign(k, places[j], left - right, a),
+                ];
+                let first = if signs[0] == 0.0 { before } else { signs[0] };
+                let mut add = |xi: f64| zeros.push(middle + 0.5 * length * xi);
+                if first * before < 0.0 {
+                    add(left);
+                }
+                if first * signs[1] < 0.0 {
+                    // A zero at a place itself is not the one that is sought.
+                    let (left, a) = match a {
+                        0.0 if signs[0] != 0.0 => self.off(k, [left, right], first),
+                        _ => (left, first * a.abs()),
+                    };
+                    let (right, b) = match b {
+                        0.0 => self.off(k, [right, left], signs[1]),
+                        _ => (right, b),
+                    };
+                    add(self.zero(k, left, right, a, b));
+                } else if let Some((xi, w)) =
+                    self.dip(k, &places, j).filter(|dip| dip.1 * first < 0.0)
+                {
+                    add(self.zero(k, left, xi, a, w));
+                    add(self.zero(k, xi, right, w, b));
+                }
+                before = if signs[1] == 0.0 { first } else { signs[1] };
+            }
+        }
+        zeros
+    }
+
+    /// The first place on the way from one to another of element `k`, halving it, where the
+    /// deflection has that sign, and the deflection there.
+    fn off(&self, k: usize, [from, to]: [f64; 2], sign: f64) -> (f64, f64) {
+        let value = |xi: f64| (xi, self.derivatives(k, xi)[0]);
+        let mut halves = (1..52).map(|halvings| value(from + (to - from) * 0.5f64.powi(halvings)));
+        let found = halves.find(|(_, w)| w * sign > 0.0);
+        found.unwrap_or((from, sign * f64::MIN_POSITIVE))
+    }
+
+    /// The sign of the deflection at a place of element `k`, or just beside it on the way `to`
+    /// another where the deflection is `other`.
+    fn sign(&self, k: usize, (xi, w): (f64, f64), to: f64, other: f64) -> f64 {
+        // A slope that carries less than this of the other deflection is that of a clamp.
+        const FLAT: f64 = 1e-6;
+        if w != 0.0 {
+            return w.signum();
+        }
+        let rise = self.derivatives(k, xi)[1] * to;
+        if other != 0.0 && rise.abs() > FLAT * other.abs() { rise.signum() } else { 0.0 }
+    }
+
+    /// Where between places `j − 1` and `j` of element `k` the deflection is nearest to zero, if
+    /// it may be between them, and the deflection there.
+    fn dip(&self, k: usize, places: &[(f64, f64)], j: usize) -> Option<(f64, f64)> {
+        let size = |j: usize| places.get(j).map_or(f64::INFINITY, |(_, w)| w.abs());
+        let lowest = |j: usize| size(j) <= size(j.wrapping_sub(1)) && size(j) <= size(j + 1);
+        let nearest = [j - 1, j].into_iter().find(|j| size(*j) > 0.0 && lowest(*j))?;
+        let (xi, w) = self.extreme(k, places, nearest);
+        (xi > places[j - 1].0 && xi < places[j].0).then_some((xi, w))
+    }
+
+    /// Leaves no nodes on stretches between clamps where the deflection is nowhere above `rest`.
+    pub(super) fn leave_still(
+        &self,
+        nodes: &mut Vec<f64>,
+        clamps: &[f64],
+        track: &Track,
+        rest: f64,
+    ) {
+        let same = |a: f64, b: f64| clamps.iter().all(|clamp| (a < *clamp) == (b < *clamp));
+        let places = self
+            .stretches
+            .iter()
+            .flat_map(|(middle, length)| track.xi.iter().map(move |xi| middle + 0.5 * length * xi));
+        let ends = [(0.0, track.ends[0][0]), (self.length(), track.ends[1][0])];
+        let samples: Vec<(f64, f64)> =
+            places.zip(track.samples.iter().copied()).chain(ends).collect();
+        nodes.retain(|node| samples.iter().any(|(x, w)| w.abs() > rest && same(*x, *node)));
+    }
+
+    /// The zero between `left` and `right` on element `k`, where the deflection is of different
+    /// sign: Halley's steps `ξ − w w′/(w′² − ½ w w″)` where they stay inside the shrinking bracket,
+    /// halving where not.
+    fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
+        let halley = |xi: f64| {
+            let [value, slope, bend] = self.derivatives(k, xi);
+            let step = value * slope / (slope * slope - 0.5 * value * bend);
+            let near = value.abs() <= 2.0 * SMALL * slope.abs();
+            (value, xi - step, near && (value * bend).abs() <= 4.0 * SMALL * slope * slope)
+        };
+        // The error is about the cube of the step, over the square of the distance to where the
+        // slope is zero: after a step of 1e-5 of both it is below round-off.
+        const SMALL: f64 = 1e-5;
+        let start = left + (right - left) * (before / (before - after));
+        // Nearly always two steps do, with nothing to decide on the way.
+        let once = halley(start).1;
+        let (_, twice, small) = halley(once);
+        if small && (twice - once).abs() < SMALL && twice > left && twice < right {
+            return twice;
+        }
+        let rising = after > 0.0;
+        let mut xi = start;
+        for _ in 0..100 {
+            let (value, next, small) = halley(xi);
+            if (value > 0.0) == rising {
+                right = xi
+            } else {
+                left = xi
+            }
+            let inside = next > left && next < right;
+            let next = if inside { next } else { 0.5 * (left + right) };
+            let step = (next - xi).abs();
+            if step <= f64::EPSILON || (inside && small && step < SMALL) {
+                return next;
+            }
+            xi = next;
+        }
+        xi
+    }
+
+    /// How far nodes may be off (m): the change of the deflection around each over its slope.
+    pub(super) fn node_error(&self, nodes: &[f64], track: &Track) -> f64 {
+        let points = track.xi.len();
+        let error = |x: &f64| {
+            let (k, xi) = self.locate(*x);
+            let [_, slope, _] = self.derivatives(k, xi);
+            let near = track.xi.partition_point(|at| *at < xi);
+            let around = [near.saturating_sub(1), near.min(points - 1)];
+            let change = around.map(|i| track.changes[k * points + i].abs());
+            0.5 * self.stretches[k].1 * f64::max(change[0], change[1]) / slope.abs()
+        };
+        nodes.iter().map(error).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    const PLACES: [f64; 6] = [-0.93, -0.66, -0.24, 0.24, 0.66, 0.93];
+
+    /// What is known of a shape at the points of its elements, as if it were exact.
+    fn track(shape: &Shape) -> Track {
+        let samples = |k: usize| PLACES.map(|xi| shape.derivatives(k, xi)[0]);
+        let samples: Vec<f64> = (0..shape.stretches.len()).flat_map(samples).collect();
+        let last = shape.stretches.len() - 1;
+        let ends = [(0, -1.0), (last, 1.0)].map(|(k, xi)| [shape.derivatives(k, xi)[0], 0.0]);
+        Track { changes: vec![0.0; samples.len()], samples, ends, xi: PLACES.to_vec() }
+    }
+
+    fn zeros(shape: &Shape) -> Vec<f64> {
+        shape.zeros(&track(shape), 1e-15)
+    }
+
+    /// A shape of those Legendre coefficients on two elements, from 0 to 1 and on to 2.
+    fn on_two(coefficients: [[f64; 4]; 2]) -> Shape {
+        let stretches = Arc::new(vec![(0.5, 1.0), (1.5, 1.0)]);
+        Shape { stretches, terms: 4, coefficients: coefficients.concat(), turns: vec![] }
+    }
+
+    /// `(ξ − a)(ξ − b)` in Legendre polynomials.
+    fn parabola(a: f64, b: f64) -> [f64; 4] {
+        [1.0 / 3.0 + a * b, -(a + b), 2.0 / 3.0, 0.0]
+    }
+
+    #[test]
+    fn two_nodes_between_two_places_are_both_found() {
+        for (a, b) in [(0.01, 0.02), (-0.99, -0.95), (0.3, 0.3001), (0.94, 0.999)] {
+            let shape = on_two([parabola(a, b), [(1.0 - a) * (1.0 - b), 0.0, 0.0, 0.0]]);
+            let found = zeros(&shape);
+            assert_eq!(found.len(), 2, "{a} {b} {found:?}");
+            for (found, exact) in found.iter().zip([a, b]) {
+                assert!((found - 0.5 - 0.5 * exact).abs() < 1e-9, "{a} {b} {found:?}");
+            }
+        }
+    }
+
+    /// A pin at the border of two elements, and another node before the next place.
+    #[test]
+    fn a_pin_with_a_node_near_it_is_two_nodes() {
+        for node in [-0.999, -0.98, -0.94] {
+            let slope = -1.0 - node;
+            // Beyond the pin (ξ + 1)(ξ − node), before it the line of that slope.
+            let before = [-slope, slope, 0.0, 0.0].map(|w: f64| w);
+            let shape = on_two([before, parabola(-1.0, node)]);
+            let found = zeros(&shape);
+            let exact = [1.0, 1.5 + 0.5 * node];
+            assert_eq!(found.len(), 2, "{node} {found:?}");
+            assert!(found.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        }
+    }
+
+    /// A cusp at a joint, higher than every sample; a peak between the end and the first sample.
+    #[test]
+    fn the_largest_deflection_is_found_at_cusps_and_beside_ends() {
+        let cusp = on_two([[0.0, 1.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0]]);
+        assert_eq!(cusp.largest(&track(&cusp)).0, 1.0);
+        // 5 − (ξ − a)², whose largest value is 5 at a.
+        for a in [-0.97, 0.96, 0.0] {
+            let parabola = parabola(a, a).map(|w| -w);
+            let beside = on_two([[parabola[0] + 5.0, parabola[1], parabola[2], 0.0], [0.0; 4]]);
+            let largest = beside.largest(&track(&beside)).0;
+            assert!((largest - 5.0).abs() < 1e-14, "{a} {largest}");
+        }
+    }
+
+    #[test]
+    fn zeros_and_extremes_of_a_cubic_are_found_wherever_they_lie() {
+        // ξ³ − ξ/4 on one element from 0 to 2: zeros at 1, 1 ± ½; extremes inside and 3/4 at the
+        // ends.
+        let stretches = Arc::new(vec![(1.0, 2.0)]);
+        let shape = Shape {
+            stretches,
+            terms: 4,
+            coefficients: vec![0.0, 0.6 - 0.25, 0.0, 0.4],
+            turns: vec![],
+        };
+        let zeros = zeros(&shape);
+        for (zero, exact) in zeros.iter().zip([0.5, 1.0, 1.5]) {
+            assert!((zero - exact).abs() < 1e-15, "{zeros:?}");
+        }
+        assert_eq!(zeros.len(), 3);
+        assert!((shape.deflection(2.0) - 0.75).abs() < 1e-15);
+        assert!((shape.rotation(1.0) + 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_zero_on_the_border_of_two_elements_is_one_node() {
+        let stretches = Arc::new(vec![(0.5, 1.0), (1.5, 1.0)]);
+        for tiny in [0.0, 1e-18, -1e-18] {
+            let coefficients = vec![-0.5, 0.5 + tiny, 0.0, 0.0, 0.5 + tiny, 0.5, 0.0, 0.0];
+            let shape =
+                Shape { stretches: Arc::clone(&stretches), terms: 4, coefficients, turns: vec![] };
+            let zeros = zeros(&shape);
+            assert_eq!(zeros.len(), 1, "{zeros:?}");
+            assert!((zeros[0] - 1.0).abs() < 1e-15);
+        }
+    }
+}

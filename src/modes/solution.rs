@@ -1,0 +1,96 @@
+//! The modes of a bat, and how far they may be trusted.
+
+use std::time::Duration;
+
+use crate::bat::theory::Theory;
+use crate::beam::mesh::Mesh;
+use crate::modes::damping::Damping;
+use crate::modes::mode::Mode;
+use crate::modes::plan::Reason;
+use crate::modes::referee::Solver;
+
+/// The modes of a bat, how they were found and how far they may be trusted.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// The bending modes, by rising frequency.
+    pub modes: Vec<Mode>,
+    /// How many motions of the bat are rigid, at frequency 0.
+    pub rigid_modes: usize,
+    /// How the eigenvalues were found.
+    pub solver: Solver,
+    /// The beam theory.
+    pub theory: Theory,
+    /// The elements.
+    pub mesh: Mesh,
+    /// Degree of the elements' deflection.
+    pub degree: usize,
+    /// Why this mesh and this degree.
+    pub reason: Reason,
+    /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
+    pub steps: usize,
+    /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
+    /// missing.
+    pub met: bool,
+    /// Whether it is certain that no mode is missing: by the number of nodes where theory demands
+    /// it, or by the number of slower motions. None where that could not be counted.
+    pub none_missing: Option<bool>,
+    /// What ended the refinement before the tolerance was met, if something did.
+    pub stopped: Option<String>,
+    /// How the modes die out.
+    pub damping: Damping,
+    /// Where the time went.
+    pub timing: Timing,
+}
+
+impl Solution {
+    /// The largest relative error of a frequency, by its own estimate.
+    pub fn worst(&self) -> f64 {
+        // NaN must count as unbounded; `f64::max` would drop it.
+        let known = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
+        self.modes.iter().map(|mode| known(mode.error.total())).fold(0.0, f64::max)
+    }
+
+    /// The largest round-off of a frequency, relative.
+    pub fn round_off(&self) -> f64 {
+        self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max)
+    }
+
+    /// Whether it is certain that no mode is missing.
+    pub fn complete(&self) -> bool {
+        self.none_missing == Some(true)
+    }
+
+    /// Why the wanted tolerance was not met, for a person; empty if it was.
+    pub fn shortfall(&self, tolerance: f64) -> String {
+        let round_off = self.round_off();
+        if self.met {
+            return String::new();
+        }
+        if round_off > tolerance {
+            return format!("round-off alone is {round_off:.1e}");
+        }
+        if !self.complete() {
+            return "the number of slower motions does not show that no mode is missing: two \
+                    frequencies are too near each other to count between them"
+                .to_owned();
+        }
+        self.stopped.clone().unwrap_or_else(|| "further refinement gained nothing".to_owned())
+    }
+
+    /// Unknowns of the assembled matrices.
+    pub fn degrees_of_freedom(&self) -> usize {
+        let strains = if self.theory.shears() { 2 } else { 1 };
+        strains * (self.degree - 1) * self.mesh.len() + 2
+    }
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Timing {
+    /// Planning.
+    pub plan: Duration,
+    /// Compliance or matrices.
+    pub assemble: Duration,
+    /// Eigenpairs, shapes and errors.
+    pub solve: Duration,
+}

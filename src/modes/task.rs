@@ -1,0 +1,290 @@
+//! The modes on one mesh, whatever accuracy that gives.
+
+use std::sync::Arc;
+
+use crate::base::clock::Clock;
+use crate::base::error::{Error, Result};
+use crate::base::lanes::WIDTH;
+use crate::bat::body::Bat;
+use crate::beam::changes::Depth;
+use crate::beam::count;
+use crate::beam::degree::{OfDegree, of_degree};
+use crate::beam::motion::Motion;
+use crate::beam::rule::Rule;
+use crate::beam::sections;
+use crate::beam::statics::Statics;
+use crate::eigen::lanczos::Lanczos;
+use crate::modes::certificate::{account, add_neighbours, add_sections, is_twin};
+use crate::modes::damping::Damping;
+use crate::modes::eigenpairs::Eigenpairs;
+use crate::modes::mode::{Mode, Shape};
+use crate::modes::plan::Plan;
+use crate::modes::referee::{self, Found, Solver};
+use crate::modes::request::{CONVERGED, LARGE, Request};
+use crate::modes::solution::{Solution, Timing};
+
+/// Modes on one mesh.
+pub struct Answer {
+    modes: Vec<Mode>,
+    steps: usize,
+    /// Each element's part in the worst mode's defect.
+    defects: Vec<f64>,
+    /// [`Solution::none_missing`].
+    pub none_missing: Option<bool>,
+    rigid_modes: usize,
+}
+
+impl Answer {
+    /// The solution, and each element's part in its worst defect.
+    pub fn solution(self, plan: Plan, request: &Request, timing: Timing) -> (Solution, Vec<f64>) {
+        let within = |mode: &Mode| mode.error.total() <= request.tolerance;
+        let solution = Solution {
+            met: self.modes.iter().all(within) && self.none_missing == Some(true),
+            none_missing: self.none_missing,
+            rigid_modes: self.rigid_modes,
+            theory: request.theory,
+            modes: self.modes,
+            solver: request.solver,
+            mesh: plan.mesh,
+            degree: plan.degree,
+            reason: plan.reason,
+            steps: self.steps,
+            stopped: None,
+            damping: Damping::default(),
+            timing,
+        };
+        (solution, self.defects)
+    }
+}
+
+/// One mesh to solve, to a residual.
+pub struct Task<'a> {
+    /// The bat.
+    pub bat: &'a Bat,
+    /// Its elements.
+    pub plan: &'a Plan,
+    /// What is asked.
+    pub request: &'a Request,
+    /// Residual of the eigenpairs.
+    pub residual: f64,
+    /// Where a large mesh starts.
+    pub coarse: Option<&'a Moments<'a>>,
+}
+
+/// A task and the time that its parts take.
+struct Timed<'a> {
+    task: &'a Task<'a>,
+    timing: &'a mut Timing,
+}
+
+impl OfDegree for Timed<'_> {
+    type Output = Result<Answer>;
+
+    fn with<const N: usize, const W: usize>(self) -> Result<Answer> {
+        self.task.of_degree::<N, W>(self.timing)
+    }
+}
+
+impl Task<'_> {
+    /// The modes on the mesh, whatever accuracy that gives.
+    pub fn run(&self, timing: &mut Timing) -> Result<Answer> {
+        of_degree(self.plan.degree, self.request.theory, Timed { task: self, timing })
+    }
+
+    fn of_degree<const N: usize, const W: usize>(&self, timing: &mut Timing) -> Result<Answer> {
+        let Self { bat, plan, request, .. } = *self;
+        let started = Clock::start();
+        let mut pairs = Eigenpairs::<f64, N, W>::new(bat, request.theory);
+        pairs.assemble(&[bat], &[&plan.mesh]);
+        let assembled = Clock::start();
+        timing.assemble += started.elapsed();
+        if pairs.statics.freedom() < request.modes {
+            let least = request.modes.div_ceil(W - 2) + 1;
+            let found = plan.mesh.len();
+            return Err(Error::TooFewElements { wanted: request.modes, least, found });
+        }
+        let found = self.strains(&mut pairs)?;
+        let (mut modes, defects) = self.modes(&mut pairs, &found);
+        let factored = request.solver != Solver::Statics;
+        add_neighbours(&mut modes, found.beyond, &found.residuals, factored);
+        let none_missing = none_missing(&pairs.statics, &modes, found.beyond, self.residual);
+        // Those beyond were looked at for their near twins' sake.
+        modes.truncate(request.modes);
+        timing.solve += assembled.elapsed();
+        let (steps, rigid_modes) = (found.steps, pairs.statics.rigid_modes());
+        Ok(Answer { modes, steps, defects, none_missing, rigid_modes })
+    }
+
+    /// Modes of strains, each with its own errors, and each element's part in the worst defect.
+    fn modes<const N: usize, const W: usize>(
+        &self,
+        pairs: &mut Eigenpairs<f64, N, W>,
+        found: &Found,
+    ) -> (Vec<Mode>, Vec<f64>) {
+        let stretches = Arc::new(self.plan.mesh.stretches());
+        let mut account = self.account(pairs.statics.rule, found);
+        let mut defects = vec![0.0; self.plan.mesh.len()];
+        let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
+        let strains = &found.strains;
+        if size > LARGE || pairs.statics.fixed.is_some() || found.apart > 0 {
+            let mut motion = Motion::<f64>::default();
+            for (k, own) in strains.chunks_exact(size).enumerate() {
+                // The compliance's rounding in the slower modes is no part of this one; of a large
+                // mesh that would cost the square of the modes.
+                let slower = if size > LARGE || k < found.apart { 0 } else { k };
+                pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, &mut motion);
+                let cell = |k: usize| pairs.statics.cell(k);
+                let view = pairs.statics.view(&cell);
+                account.add(Mode::new(k + 1, &view, &motion, 0, &stretches));
+                motion.add_defects(split, &mut defects);
+            }
+        } else {
+            let count = strains.len() / size;
+            for first in (0..count).step_by(WIDTH) {
+                pairs.look_at(strains, first, Depth::Changes);
+                let cell = |k: usize| pairs.statics.cell(k);
+                let view = pairs.statics.view(&cell);
+                for k in first..count.min(first + WIDTH) {
+                    account.add(Mode::new(k + 1, &view, &pairs.motions, k - first, &stretches));
+                }
+                pairs.motions.add_defects(split, &mut defects);
+            }
+        }
+        (account.modes, defects)
+    }
+
+    /// No mode yet, and what every mode's errors are made of.
+    fn account<'a>(&self, rule: &Rule, found: &'a Found) -> Account<'a> {
+        let Self { bat, plan, request, .. } = *self;
+        let missed = |e| sections::missed(bat, e, rule, request.theory);
+        Account {
+            modes: Vec::with_capacity(request.modes),
+            found,
+            missed: plan.mesh.elements.iter().map(missed).fold(0.0, f64::max),
+            rounding: sections::round_off(bat, &plan.mesh),
+            elements: plan.mesh.len(),
+            factored: request.solver != Solver::Statics,
+        }
+    }
+
+    /// Scaled strains of the wanted modes.
+    fn strains<const N: usize, const W: usize>(
+        &self,
+        pairs: &mut Eigenpairs<f64, N, W>,
+    ) -> Result<Found> {
+        let Self { bat, plan, request, residual, coarse } = *self;
+        if request.modes == 0 {
+            return Ok(Found::default());
+        }
+        if request.solver != Solver::Statics {
+            return referee::strains(
+                bat,
+                &plan.mesh,
+                &pairs.statics,
+                request.modes,
+                request.solver,
+            );
+        }
+        let most = (request.modes + MOST_TWINS).min(pairs.statics.freedom());
+        for count in request.modes..=most {
+            match coarse {
+                Some(coarse) => pairs.solve_from(count, residual, |places| coarse.at(places))?,
+                None => pairs.solve(count, residual)?,
+            }
+            let Lanczos { values, beyond, .. } = &pairs.lanczos;
+            let twin = |beyond: f64| is_twin(beyond / values[count - 1], count);
+            if !beyond.is_some_and(twin) {
+                break;
+            }
+        }
+        // Bats of far slower modes are stiff parts on soft ones, whose modes may be twins:
+        // these are told apart at the end of the iteration only.
+        let apart = pairs.solve_apart(CONVERGED)?;
+        let lanczos = std::mem::take(&mut pairs.lanczos);
+        let omega = |value: f64| (pairs.statics.energy_unit / value).sqrt();
+        let (steps, beyond) = (lanczos.steps, lanczos.beyond.map(omega));
+        let residuals = lanczos.residuals;
+        Ok(Found { strains: lanczos.vectors, steps, beyond, residuals, apart })
+    }
+}
+
+/// The modes so far, and what their errors are made of beside their own defects.
+struct Account<'a> {
+    modes: Vec<Mode>,
+    found: &'a Found,
+    /// What the points miss of the sections, and the sections' own round-off.
+    missed: f64,
+    rounding: f64,
+    elements: usize,
+    /// Whether the solver factored `K`.
+    factored: bool,
+}
+
+impl Account<'_> {
+    fn add(&mut self, mut mode: Mode) {
+        let Self { modes, found, .. } = self;
+        mode.error.discretization += self.missed;
+        // Round-off is that of the slowest mode that was not taken out of the others.
+        let slow = modes.len() < found.apart;
+        let first = modes.get(if slow { 0 } else { found.apart });
+        let left = found.residuals.get(modes.len()).filter(|_| found.apart > 0 && !slow);
+        account(&mut mode, first, self.elements, self.factored, left.copied());
+        add_sections(&mut mode, self.rounding);
+        modes.push(mode);
+    }
+}
+
+/// Whether no mode is missing, not even a near twin just beyond the list, which an iteration that
+/// ends at `residual` does not tell from the last mode: as many motions must be slower than a
+/// frequency in the last gap of the list that is wide enough. Where that cannot be counted, or the
+/// iteration tells as much as the count would, the nodes do: mode n of a free Euler-Bernoulli bat
+/// has n + 1.
+fn none_missing<const N: usize, const W: usize>(
+    statics: &Statics<f64, N, W>,
+    modes: &[Mode],
+    beyond: Option<f64>,
+    residual: f64,
+) -> Option<bool> {
+    const WIDE: f64 = 1e-9;
+    let oscillates = statics.fixed.is_none() && !statics.theory.turns();
+    let by_nodes = (oscillates && modes.iter().all(Mode::has_its_nodes)).then_some(true);
+    if residual < WIDE && by_nodes.is_some() {
+        return by_nodes;
+    }
+    let omegas = modes.iter().map(|mode| mode.omega).chain(beyond);
+    let omegas: Vec<f64> = omegas.collect();
+    let gap = (1..omegas.len()).rev().find(|&k| omegas[k] > (1.0 + WIDE) * omegas[k - 1]);
+    let Some(below) = gap else { return by_nodes.or(modes.is_empty().then_some(true)) };
+    let between = (omegas[below - 1] * omegas[below]).sqrt();
+    let Some(slower) = count::slower(statics, between) else { return by_nodes };
+    Some(slower == below + statics.rigid_modes())
+}
+
+/// So many motions beyond the wanted ones are looked at where they are near twins of these.
+const MOST_TWINS: usize = 4;
+
+/// Bending moments of all wanted modes together, from a coarse solution: a start from which the
+/// iteration needs as many steps as there are modes and hardly more.
+pub struct Moments<'a> {
+    bat: &'a Bat,
+    /// The sum of the shapes, each with the same strain energy.
+    sum: Shape,
+}
+
+impl<'a> Moments<'a> {
+    /// Those of a bat's coarse solution.
+    pub fn of(bat: &'a Bat, coarse: &Solution) -> Self {
+        let scale = |mode: &Mode| 1.0 / (mode.omega * mode.modal_mass.sqrt());
+        let parts: Vec<_> = coarse.modes.iter().map(|mode| (scale(mode), &mode.shape)).collect();
+        Self { bat, sum: Shape::sum(&parts) }
+    }
+
+    /// Replaces places, 0 to 1 along the bat, by the bending moments there.
+    fn at(&self, places: &mut [f64]) {
+        let length = self.bat.length();
+        for place in places {
+            let x = *place * length;
+            *place = self.bat.worth_at(x).bending * self.sum.curvature(x);
+        }
+    }
+}
