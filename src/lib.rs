@@ -89,6 +89,7 @@
 //! | [`files`] | how do people and programs write it down |
 //! | [`proof`] | is it true |
 //! | [`show`] | how is it said, drawn and exchanged |
+//! | [`cli`] | what did the user type |
 //!
 //! # What is promised
 //!
@@ -165,7 +166,7 @@
 //! files for other programs. `parallel`: work on all processors. `png` (default): pictures as PNG
 //! beside SVG. `arpack`: the solver ARPACK as an outside referee; it needs a C compiler and the
 //! library. With none of them there is the physics and the reader of bat files, which also run in a
-//! browser (`wasm32-unknown-unknown`); [`proof`] and [`show`] are left out then.
+//! browser (`wasm32-unknown-unknown`); [`proof`], [`show`] and [`cli`] are left out then.
 
 #![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.
@@ -187,6 +188,8 @@ pub mod files;
 pub mod proof;
 #[cfg(feature = "show")]
 pub mod show;
+#[cfg(feature = "cli")]
+pub mod cli;
 
 pub use base::error::{Error, Result};
 pub use bat::body::Bat;

@@ -228,7 +228,7 @@ mod tests {
         let under = Under { contact: 0, place: 0, softness, rows };
         let entry = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| &under.rows[4 * k..][..2]);
-            let own = if i == j { under.softness[i].powi(2) } else { 0.0 };
+            let own = if i == j { f64::powi(under.softness[i], 2) } else { 0.0 };
             a[0] * b[0] + a[1] * b[1] + own
         };
         let mut x = [3.0, -1.0, 2.0];

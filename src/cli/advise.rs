@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
-use sweetspot::show::report::advice;
-use sweetspot::study::advise::advice::{Advice, MOST_MODES, advise_telling};
+use crate::base::error::Result;
+use crate::show::report::advice;
+use crate::study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::cli::common::{OutputArgs, examples, read};
 use crate::cli::done::{Done, NOT_REACHED};

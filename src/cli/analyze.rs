@@ -2,23 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::files::schema;
+use crate::files::schema::hit::HitFile;
+use crate::files::schema::modes::ModesFile;
+use crate::files::schema::ring::Strength;
+use crate::modes::solve::Request;
+use crate::show::analysis::{Analysis, Proof, Task};
+use crate::show::page;
+use crate::show::page::content::Report;
+use crate::show::page::inputs::Input;
+use crate::show::plot::sets;
+use crate::show::report::json::{self, ShapePoints};
+use crate::show::report::sketch::{self, SketchRow};
+use crate::show::report::text::{self, Units};
+use crate::show::report::{advice, aftermath, hit_json, hit_text};
 use serde::Serialize;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::files::schema;
-use sweetspot::files::schema::hit::HitFile;
-use sweetspot::files::schema::modes::ModesFile;
-use sweetspot::files::schema::ring::Strength;
-use sweetspot::modes::solve::Request;
-use sweetspot::show::analysis::{Analysis, Proof, Task};
-use sweetspot::show::page;
-use sweetspot::show::page::content::Report;
-use sweetspot::show::page::inputs::Input;
-use sweetspot::show::plot::sets;
-use sweetspot::show::report::json::{self, ShapePoints};
-use sweetspot::show::report::sketch::{self, SketchRow};
-use sweetspot::show::report::text::{self, Units};
-use sweetspot::show::report::{advice, aftermath, hit_json, hit_text};
 
 use crate::cli::common::{
     BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,

@@ -2,10 +2,10 @@
 
 use std::io::{BufRead, Read as _, Write};
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::units::{self, Quantity, inches};
-use sweetspot::bat::material::BUILT_IN;
-use sweetspot::show::report::text::wrapped;
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::units::{self, Quantity, inches};
+use crate::bat::material::BUILT_IN;
+use crate::show::report::text::wrapped;
 
 /// A person gives up sooner, and a program that answers without end is stopped.
 const MOST_TRIES: usize = 50;
@@ -240,7 +240,7 @@ pub fn material(text: &str) -> Read<String> {
 
 /// The list that [`material`] counts.
 pub fn materials() -> String {
-    let line = |(k, material): (usize, &sweetspot::bat::material::BuiltIn)| {
+    let line = |(k, material): (usize, &crate::bat::material::BuiltIn)| {
         let modulus = 1e-9 * material.youngs_modulus;
         format!(
             "  {} {:<20} {:>6.0} kg/m³ {modulus:>6.1} GPa",

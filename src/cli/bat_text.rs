@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sweetspot::base::number::rounded;
+use crate::base::number::rounded;
 
 /// What a bat maker measures; lengths in `unit`.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +69,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use sweetspot::Bat;
+    use crate::Bat;
 
     #[test]
     fn the_file_reads_back_with_the_mass_that_was_weighed() {

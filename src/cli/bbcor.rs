@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::bbcor::{Protocol, TEST_SPEED};
-use sweetspot::show::plot::bbcor as plot;
-use sweetspot::show::report::bbcor as report;
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::base::units::Quantity;
+use crate::bat::body::Bat;
+use crate::collision::bbcor::{Protocol, TEST_SPEED};
+use crate::show::plot::bbcor as plot;
+use crate::show::report::bbcor as report;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;

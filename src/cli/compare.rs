@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::units::Quantity;
-use sweetspot::files::measured;
-use sweetspot::show::plot;
-use sweetspot::show::report::{self, comparison, comparison_data};
-use sweetspot::study::comparison::contender::Terms;
-use sweetspot::study::comparison::table::{Comparison, Entry};
-use sweetspot::study::measured::place::{End, Told};
-use sweetspot::study::measured::study::Study;
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::base::units::Quantity;
+use crate::files::measured;
+use crate::show::plot;
+use crate::show::report::{self, comparison, comparison_data};
+use crate::study::comparison::contender::Terms;
+use crate::study::comparison::table::{Comparison, Entry};
+use crate::study::measured::place::{End, Told};
+use crate::study::measured::study::Study;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
 use crate::cli::done::{Done, NOT_REACHED};

@@ -1,8 +1,8 @@
 //! `sweetspot completions SHELL`: what the shell needs to complete this program's words.
 
+use crate::base::error::Result;
 use clap::Command;
 use clap_complete::{Shell, generate};
-use sweetspot::base::error::Result;
 
 use crate::cli::done::Done;
 

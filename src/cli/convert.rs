@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::files::uff::{self, Stamp};
-use sweetspot::show::exchange::modes_file::{self, ModeTable};
-use sweetspot::show::exchange::{csv, modes_uff, npz, vtu};
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::files::uff::{self, Stamp};
+use crate::show::exchange::modes_file::{self, ModeTable};
+use crate::show::exchange::{csv, modes_uff, npz, vtu};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::progress::Progress;

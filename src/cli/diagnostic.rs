@@ -1,7 +1,7 @@
 //! Errors as a person at a terminal sees them: the line of the file, a caret, what to do.
 
+use crate::base::error::{Complaint, Error, Excerpt, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use sweetspot::base::error::{Complaint, Error, Excerpt, Place};
 
 use crate::cli::done::printable;
 

@@ -1,6 +1,6 @@
 //! What a verb leaves: text, exit code, warning.
 
-use sweetspot::base::xml::is_bidi;
+use crate::base::xml::is_bidi;
 
 /// What is left to do when a verb is done.
 pub struct Done {

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use sweetspot::base::telling::Tell;
-use sweetspot::proof::extremes::{EXTREMES, Outcome, Verdict};
-use sweetspot::show::report::columns::{Columns, first, labels, numbers};
+use crate::base::telling::Tell;
+use crate::proof::extremes::{EXTREMES, Outcome, Verdict};
+use crate::show::report::columns::{Columns, first, labels, numbers};
 
 /// Every row, and whether all are right or refused with a reason.
 pub fn table(tell: Tell) -> (String, bool) {

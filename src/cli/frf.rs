@@ -3,23 +3,23 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::units::{Quantity, inches};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::files::schema::frf::{Answer, FrfFile};
-use sweetspot::files::uff::{self, Stamp, six_digits};
-use sweetspot::modes::solve::{self, Request};
-use sweetspot::motion::frf::{Frf, Kind, Sample};
-use sweetspot::show::exchange::frf_uff::{self, Measured};
-use sweetspot::show::report::text::wrapped;
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::base::units::{Quantity, inches};
+use crate::bat::body::Bat;
+use crate::files::schema::document::{Format, Generator};
+use crate::files::schema::frf::{Answer, FrfFile};
+use crate::files::uff::{self, Stamp, six_digits};
+use crate::modes::solve::{self, Request};
+use crate::motion::frf::{Frf, Kind, Sample};
+use crate::show::exchange::frf_uff::{self, Measured};
+use crate::show::report::text::wrapped;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
 use crate::cli::value::{named, quantity, shown_length};
-use sweetspot::show::csv::Csv;
-use sweetspot::show::report::columns::{Columns, numbers};
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, numbers};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///

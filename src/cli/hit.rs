@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::units::{Quantity, inches};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::figures::Figures;
-use sweetspot::collision::sweep::{Sweep, sweep_telling};
-use sweetspot::files::schema::hit::HitFile;
-use sweetspot::show::plot::profile;
-use sweetspot::show::plot::sets::Hits;
-use sweetspot::show::report::{hit_json, hit_text, sketch};
+use crate::base::error::{Error, Result};
+use crate::base::units::{Quantity, inches};
+use crate::bat::body::Bat;
+use crate::collision::figures::Figures;
+use crate::collision::sweep::{Sweep, sweep_telling};
+use crate::files::schema::hit::HitFile;
+use crate::show::plot::profile;
+use crate::show::plot::sets::Hits;
+use crate::show::report::{hit_json, hit_text, sketch};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::{Done, NOT_REACHED};

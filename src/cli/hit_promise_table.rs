@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use sweetspot::base::number::percent;
-use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary};
-use sweetspot::show::report::columns::{Columns, first, labels, numbers};
+use crate::base::number::percent;
+use crate::proof::hit_promise::{CheckedHit, Course, Summary};
+use crate::show::report::columns::{Columns, first, labels, numbers};
 
 const TITLE: &str = "Errors of exit speeds on random hits, relative to the closing speed:
 

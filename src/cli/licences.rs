@@ -1,6 +1,6 @@
 //! `sweetspot licences`: whose work is in the program, and on what terms.
 
-use sweetspot::base::error::Result;
+use crate::base::error::Result;
 
 use crate::cli::done::Done;
 

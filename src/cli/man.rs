@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::base::error::{Error, Result, nearest};
+use crate::base::file;
 use clap::Command;
 use clap_mangen::Man;
-use sweetspot::base::error::{Error, Result, nearest};
-use sweetspot::base::file;
 
 use crate::cli::done::Done;
 

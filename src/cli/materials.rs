@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
-use sweetspot::bat::material::{BUILT_IN, BuiltIn};
-use sweetspot::files::schema;
-use sweetspot::files::schema::materials::MaterialsFile;
-use sweetspot::show::report::text::{Units, wrapped};
+use crate::base::error::Result;
+use crate::base::file;
+use crate::bat::material::{BUILT_IN, BuiltIn};
+use crate::files::schema;
+use crate::files::schema::materials::MaterialsFile;
+use crate::show::report::text::{Units, wrapped};
 
 use crate::cli::done::Done;
 use crate::cli::style;
 use crate::cli::value::unit_system;
-use sweetspot::show::report::columns::{Columns, first, numbers};
+use crate::show::report::columns::{Columns, first, numbers};
 
 /// The built-in materials with their sources
 ///

@@ -9,11 +9,11 @@
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
 //! | `common`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
 //! | `ask`, `*_table` | questions to the user; the promises as tables |
-//! | the rest | one verb each; `verbs` knows them all |
+//! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
-pub mod done;
-pub mod style;
-pub mod diagnostic;
+mod done;
+mod style;
+mod diagnostic;
 mod value;
 mod help;
 mod progress;
@@ -43,4 +43,7 @@ mod new;
 mod man;
 mod completions;
 mod licences;
-pub mod verbs;
+mod verbs;
+mod program;
+
+pub use program::run;

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
-use sweetspot::beam::assembly::{Pencil, write_matrix_market};
-use sweetspot::modes::solve::Solution;
-use sweetspot::show::exchange::npz;
-use sweetspot::show::plot::sets;
-use sweetspot::show::report::json::{self, ShapePoints};
-use sweetspot::show::report::{sketch, text};
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::bat::body::Bat;
+use crate::beam::assembly::{Pencil, write_matrix_market};
+use crate::modes::solve::Solution;
+use crate::show::exchange::npz;
+use crate::show::plot::sets;
+use crate::show::report::json::{self, ShapePoints};
+use crate::show::report::{sketch, text};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 use crate::cli::done::Done;

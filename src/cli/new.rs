@@ -3,14 +3,14 @@
 use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
-use sweetspot::proof::validation::bundled_bat;
-use sweetspot::show::report::sketch::{self, Places, SketchRow};
-use sweetspot::show::report::text;
-use sweetspot::show::report::text::{Units, wrapped};
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::file;
+use crate::base::units::inches;
+use crate::bat::body::Bat;
+use crate::proof::validation::bundled_bat;
+use crate::show::report::sketch::{self, Places, SketchRow};
+use crate::show::report::text;
+use crate::show::report::text::{Units, wrapped};
 
 use crate::cli::ask::{self, Dialogue};
 use crate::cli::bat_text::{self, Measured};

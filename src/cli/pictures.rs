@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use sweetspot::base::error::Result;
-use sweetspot::show::plot::picture::{self, Picture};
+use crate::base::error::Result;
+use crate::show::plot::picture::{self, Picture};
 
 use crate::cli::common::{printed, warn};
 

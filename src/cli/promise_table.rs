@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use sweetspot::base::number::percent;
-use sweetspot::proof::promise::{BATS, CheckedBat, DIGITS, Summary};
-use sweetspot::show::report::columns::{Columns, first, labels, numbers};
+use crate::base::number::percent;
+use crate::proof::promise::{BATS, CheckedBat, DIGITS, Summary};
+use crate::show::report::columns::{Columns, first, labels, numbers};
 
 const TITLE: &str = "The promise: true errors within 3 times the stated ones, always; stated within
 30 times the true ones in nine of ten above 1e-13. Worst true/stated error:

@@ -2,31 +2,31 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::aftermath::{Aftermath, Instant};
-use sweetspot::collision::hit::{Effort, Model};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::strength::breaking_swing;
-use sweetspot::files::force_file;
-use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::files::schema::ring::{Motion, RingFile};
-use sweetspot::files::shape_file;
-use sweetspot::modes::solve::{Solution, solve};
-use sweetspot::motion::force::ForceHistory;
-use sweetspot::motion::ringing::Ringing;
-use sweetspot::motion::shape::InitialShape;
-use sweetspot::show::report::aftermath::{self, AfterHit};
-use sweetspot::show::report::{hit_json, hit_text};
-use sweetspot::study::ignored;
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::base::units::Quantity;
+use crate::bat::body::Bat;
+use crate::collision::aftermath::{Aftermath, Instant};
+use crate::collision::hit::{Effort, Model};
+use crate::collision::hitter::Hitter;
+use crate::collision::strength::breaking_swing;
+use crate::files::force_file;
+use crate::files::schema::document::{Format, Generator};
+use crate::files::schema::ring::{Motion, RingFile};
+use crate::files::shape_file;
+use crate::modes::solve::{Solution, solve};
+use crate::motion::force::ForceHistory;
+use crate::motion::ringing::Ringing;
+use crate::motion::shape::InitialShape;
+use crate::show::report::aftermath::{self, AfterHit};
+use crate::show::report::{hit_json, hit_text};
+use crate::study::ignored;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
 use crate::cli::done::Done;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{quantity, shown_length};
-use sweetspot::show::csv::{Cell, Csv};
+use crate::show::csv::{Cell, Csv};
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///

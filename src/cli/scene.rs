@@ -3,14 +3,14 @@
 use std::cell::OnceCell;
 use std::path::Path;
 
-use sweetspot::base::error::{Complaint, Error, Result, nearest};
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::{Ball, restitution};
-use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Model, Scene, Wall};
-use sweetspot::collision::pulse::Pulse;
+use crate::base::error::{Complaint, Error, Result, nearest};
+use crate::base::units::Quantity;
+use crate::bat::body::Bat;
+use crate::collision::ball::{Ball, restitution};
+use crate::collision::energy_loss::EnergyLoss;
+use crate::collision::figures::SwingLaw;
+use crate::collision::hit::{Model, Scene, Wall};
+use crate::collision::pulse::Pulse;
 
 use crate::cli::common::OutputArgs;
 use crate::cli::value::{quantity, shown_length};

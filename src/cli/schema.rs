@@ -1,7 +1,7 @@
 //! `sweetspot schema [FILE]`: what the files look like.
 
-use sweetspot::base::error::Result;
-use sweetspot::show::formats::{self, FileKind};
+use crate::base::error::Result;
+use crate::show::formats::{self, FileKind};
 
 use crate::cli::done::Done;
 use crate::cli::value::named;

@@ -1,6 +1,6 @@
 //! What happens when somebody stops the program: no half file stays, and no half line on the terminal.
 
-use sweetspot::base::file;
+use crate::base::file;
 
 use crate::cli::progress;
 

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::files::schema;
-use sweetspot::modes::solve::Request;
-use sweetspot::show::plot::{front, sets};
-use sweetspot::show::report::{trade, u_curve};
-use sweetspot::study::trade::measure::measure;
-use sweetspot::study::trade::reference::Reference;
-use sweetspot::study::trade::u_curve as curve;
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::files::schema;
+use crate::modes::solve::Request;
+use crate::show::plot::{front, sets};
+use crate::show::report::{trade, u_curve};
+use crate::study::trade::measure::measure;
+use crate::study::trade::reference::Reference;
+use crate::study::trade::u_curve as curve;
 
 use crate::cli::common::{Prepared, examples, prepare, read};
 use crate::cli::done::Done;

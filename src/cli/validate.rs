@@ -3,21 +3,21 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::telling::Tell;
-use sweetspot::proof::hit_promise;
-use sweetspot::proof::promise::{self, Summary};
-use sweetspot::proof::published::Answer;
-use sweetspot::proof::validation::{CASES, KnownNumber, run as run_case};
-use sweetspot::show::hit_figure;
-use sweetspot::show::proof_page;
-use sweetspot::show::report::text::wrapped;
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::file;
+use crate::base::telling::Tell;
+use crate::proof::hit_promise;
+use crate::proof::promise::{self, Summary};
+use crate::proof::published::Answer;
+use crate::proof::validation::{CASES, KnownNumber, run as run_case};
+use crate::show::hit_figure;
+use crate::show::proof_page;
+use crate::show::report::text::wrapped;
 
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
 use crate::cli::{extremes_table, hit_promise_table, promise_table};
-use sweetspot::show::report::columns::{Columns, first, numbers};
+use crate::show::report::columns::{Columns, first, numbers};
 
 /// Every known answer beside ours
 ///

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
+use crate::base::units::{self, Quantity};
+use crate::bat::theory::Theory;
+use crate::modes::solve::Solver;
+use crate::show::report::text::Units;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::solve::Solver;
-use sweetspot::show::report::text::Units;
 
 /// A length as it is said in messages, whichever unit it came in.
 pub fn shown_length(length: f64) -> String {

@@ -3,11 +3,11 @@
 use std::ffi::OsString;
 use std::io::IsTerminal;
 
+use crate::base::error::{Error, Result};
+use crate::base::file;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
 
 use crate::cli::done::Done;
 use crate::cli::{
