@@ -7,6 +7,7 @@ use sweetspot::base::file;
 use sweetspot::base::units::Quantity;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::bbcor::{Protocol, TEST_SPEED};
+use sweetspot::collision::sweep::Asked;
 use sweetspot::show::plot::bbcor as plot;
 use sweetspot::show::report::bbcor as report;
 
@@ -96,7 +97,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);
-    let tested = protocol.test(&bat, (&request, args.bat.asked()), &tell)?;
+    let asked = Asked { request: &request, exactly: args.bat.asked() };
+    let tested = protocol.test(&bat, asked, &tell)?;
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
     if let Some(folder) = &args.plots {
