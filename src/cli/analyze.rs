@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
+use sweetspot::collision::columns;
 use sweetspot::modes::solve::Request;
 use sweetspot::show::analysis::{Analysis, Proof, Task};
 use sweetspot::show::page;
@@ -17,7 +18,7 @@ use sweetspot::show::report::text::{self, Units};
 use sweetspot::show::report::{advice, aftermath, hit_json, hit_text};
 
 use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,
+    BatArgs, OutputArgs, SolveArgs, Solved, examples, printed, read_with_text,
 };
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
@@ -200,7 +201,8 @@ fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
     let [modes, hit] = [modes_json(args, analysis), hit_json(analysis)];
     file::write(&folder.join("modes.json"), format!("{modes:#}\n").as_bytes())?;
     file::write(&folder.join("hit.json"), format!("{hit:#}\n").as_bytes())?;
-    file::write(&folder.join("curve.csv"), curve_csv(&analysis.hits.impacts).as_bytes())
+    let curve = columns::csv(&columns::CURVE, &analysis.hits.impacts);
+    file::write(&folder.join("curve.csv"), curve.as_bytes())
 }
 
 /// What the model needs, in short.

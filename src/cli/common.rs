@@ -10,7 +10,6 @@ use sweetspot::base::file;
 use sweetspot::base::units::Quantity;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::theory::Theory;
-use sweetspot::collision::hit::Impact;
 use sweetspot::files::bat_file::Named;
 use sweetspot::modes::solve::{self, Request, Solution, Solver};
 use sweetspot::modes::up_to::modes_up_to;
@@ -356,24 +355,4 @@ pub fn warn(text: &str, quiet: bool) {
             let _ = writeln!(std::io::stderr(), "{}", printable(text));
         });
     }
-}
-
-/// The curve of exit speeds as CSV.
-pub fn curve_csv(impacts: &[Impact]) -> String {
-    let mut out =
-        String::from("x_m,bat_speed_m_s,exit_speed_m_s,rigid_exit_speed_m_s,vibration_j\n");
-    let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
-    for impact in impacts {
-        let outcome = impact.outcome.as_ref();
-        let cells = [
-            impact.x.to_string(),
-            impact.bat_speed.to_string(),
-            cell(outcome.map(|o| o.exit_speed)),
-            cell(impact.rigid_exit_speed),
-            cell(outcome.map(|o| o.energy.vibration())),
-        ];
-        out += &cells.join(",");
-        out.push('\n');
-    }
-    out
 }

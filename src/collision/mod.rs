@@ -11,6 +11,7 @@
 //! | [`ball`] | what ball |
 //! | [`struck`] | how does the bat give way to a ball, anywhere |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
+//! | [`columns`] | which figures of a hit are told, and by which names |
 //! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
@@ -26,6 +27,7 @@ pub mod pulse;
 pub mod aftermath;
 pub mod history;
 pub mod hit;
+pub mod columns;
 pub mod stated;
 pub mod hitter;
 pub(crate) mod answer;

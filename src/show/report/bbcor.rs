@@ -7,6 +7,7 @@ use serde_json::Value;
 use crate::base::units::{inches, miles_per_hour};
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Tested};
+use crate::collision::columns::{BBCOR, EFFICIENCY, EXIT_SPEED, X};
 use crate::files::schema;
 use crate::files::schema::bbcor as file;
 use crate::files::schema::modes::Generator;
@@ -104,17 +105,17 @@ fn verdict(tested: &Tested, units: Units) -> String {
 
 /// A line for each place, SI.
 pub fn csv(tested: &Tested) -> String {
-    let mut out =
-        String::from("x_m,from_tip_m,exit_speed_m_s,collision_efficiency,bbcor,bbcor_error\n");
+    let [x, exit, efficiency, bbcor] = [X, EXIT_SPEED, EFFICIENCY, BBCOR].map(|c| c.name);
+    let mut out = format!("{x},from_tip_m,{exit},{efficiency},{bbcor},bbcor_error\n");
     let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
     for place in &tested.places {
-        let (x, outcome) = (place.impact.x, place.impact.outcome.as_ref());
+        let x = place.impact.x;
         let _ = writeln!(
             out,
             "{x},{},{},{},{},{}",
             tested.bat.length() - x,
-            cell(outcome.map(|o| o.exit_speed)),
-            cell(outcome.map(|o| o.collision_efficiency)),
+            cell(EXIT_SPEED.at(&place.impact)),
+            cell(EFFICIENCY.at(&place.impact)),
             cell(place.bbcor),
             cell(place.error)
         );
@@ -162,8 +163,8 @@ fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {
     file::Place {
         x_m: impact.x,
         from_tip_m: length - impact.x,
-        exit_speed_m_s: outcome.map(|o| o.exit_speed),
-        collision_efficiency: outcome.map(|o| o.collision_efficiency),
+        exit_speed_m_s: EXIT_SPEED.at(impact),
+        collision_efficiency: EFFICIENCY.at(impact),
         bbcor: place.bbcor,
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
         error: file::PlaceError {
