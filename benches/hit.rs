@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 use sweetspot::base::telling::nobody;
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
-use sweetspot::collision::contact::encounter::Collider;
+use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::{ForceLaw, Top};
+use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
@@ -27,7 +28,7 @@ const POINTS: usize = 100;
 /// The speed after the hit by the classical Runge-Kutta method with a fixed step (s): `z″ = −F/μ`,
 /// `y_n″ = −ω_n² y_n − c_n F`, `x = z + Σ y_n`. The branch is changed at the end of a step; the end
 /// is where the compression returns to zero, between two steps by a straight line.
-fn runge_kutta(modes: &[[f64; 2]], felt: &Felt, law: &ForceLaw, speed: f64, step: f64) -> f64 {
+fn runge_kutta(modes: &[[f64; 2]], felt: &Felt, law: &PowerLaw, speed: f64, step: f64) -> f64 {
     let n = felt.gains.len();
     // z, z′, impulse, then all y and all y′.
     let size = 3 + 2 * n;
@@ -144,7 +145,8 @@ impl Hit {
 type Way<'a> = (String, Box<dyn Fn() -> Vec<f64> + 'a>);
 
 fn compare(hit: &Hit) {
-    let (places, law) = (hit.places(), hit.scene.force_law(hit.scene.cor).unwrap());
+    let [k, alpha] = [hit.scene.ball.stiffness, hit.scene.ball.exponent].map(Option::unwrap);
+    let (places, law) = (hit.places(), PowerLaw::new(k, alpha, hit.scene.cor));
     let mass = hit.scene.ball.mass;
     let (ten, many, all) = (hit.solved(10), hit.solved(18), hit.solved(80));
     let (few, eighteen, finest) =

@@ -10,7 +10,7 @@ use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::sweep::sweep;
-use sweetspot::collision::{Model, Scene};
+use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Request, Result};
 
@@ -31,8 +31,8 @@ fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
     let sweep = sweep(bat, Model::Contact, &scene, &request, false, &places)?;
 
-    let how = (Model::Contact, sweep.effort);
-    let spot = Figures::new(bat, how, (&scene, None), &sweep.solution)?.spot;
+    let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
+    let spot = Figures::new(bat, &hitter, None)?.spot;
     let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
     let [from, to] = spot.zone.expect("a best place has a zone");
     let body = bat.inertia();

@@ -94,7 +94,7 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
 /// moment under a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
-    use sweetspot::collision::contact::step::Piece;
+    use sweetspot::collision::contact::table::Piece;
     let bat = bundled_bat("meshes/dowel.json").unwrap();
     let request = Request { modes: 60, tolerance: 1e-6, ..Request::default() };
     let solution = solve(&bat, &request).unwrap();

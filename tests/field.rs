@@ -13,7 +13,7 @@ use sweetspot::collision::bbcor::{Protocol, Tested};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
-use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweep::{Asked, Sweep, sweep};
 use sweetspot::collision::{Ball, SweetSpot};
 use sweetspot::proof::validation::bundled_bat;
 use sweetspot::{Bat, Request, solve};
@@ -24,7 +24,7 @@ fn asked() -> Request {
 
 fn tested(bat: &Bat) -> Tested {
     let protocol = Protocol::of(bat, Ball::baseball());
-    protocol.test(bat, (&asked(), false), &nobody).unwrap()
+    protocol.test(bat, Asked { request: &asked(), exactly: false }, &nobody).unwrap()
 }
 
 /// The corked bat of the project and the bat that it was before it was bored.

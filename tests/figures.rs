@@ -74,8 +74,8 @@ fn swing_laws_keep_what_they_say() {
         let law = SwingLaw { exponent: 0.25, reference, of_reference: 50.0 };
         let scene = Scene { swing: law.swing(&bat), ..Scene::default() };
         let effort = Effort::default();
-        let of = (&scene, Some(law));
-        let figures = Figures::new(&bat, (Model::Rigid, effort), of, &solution).unwrap();
+        let hitter = Hitter::new(Model::Rigid, &scene, &bat, &solution, effort).unwrap();
+        let figures = Figures::new(&bat, &hitter, Some(law)).unwrap();
         let [still, between, same] = &figures.swings[..] else { panic!("three laws") };
         assert_eq!((still.swing, between.swing), (50.0, scene.swing));
         let energy = |i: f64, swing: f64| 0.5 * i * swing * swing;

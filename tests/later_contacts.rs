@@ -3,8 +3,10 @@
 
 use sweetspot::beam::dowel::{Ends, beta_l};
 use sweetspot::collision::ball::Ball;
-use sweetspot::collision::contact::encounter::{Collider, Encounter};
+use sweetspot::collision::contact::collider::Collider;
+use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::force_law::ForceLaw;
+use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::energy_loss::{wpi_alpha, wpi_shape};
 use sweetspot::collision::hit::{Effort, Model, Scene};
@@ -31,7 +33,7 @@ fn dowel(first: f64, modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, Felt) 
 struct Reference<'a> {
     modes: &'a [[f64; 2]],
     felt: &'a Felt,
-    law: ForceLaw,
+    law: PowerLaw,
 }
 
 /// What it finds.
@@ -45,7 +47,7 @@ struct Found {
 
 impl Reference<'_> {
     fn force(&self, x: f64, most: f64) -> f64 {
-        let ForceLaw { stiffness, exponent, unloading } = self.law;
+        let PowerLaw { stiffness, exponent, unloading } = self.law;
         match () {
             () if x <= 0.0 => 0.0,
             () if x >= most => stiffness * x.powf(exponent),
@@ -109,11 +111,11 @@ impl Reference<'_> {
 }
 
 /// A ball of 145 g with the law of a baseball.
-fn baseball(cor: f64) -> ForceLaw {
-    ForceLaw::new(6.53e7, 1.84, cor)
+fn baseball(cor: f64) -> PowerLaw {
+    PowerLaw::new(6.53e7, 1.84, cor)
 }
 
-fn meet(modes: &[[f64; 2]], felt: &Felt, law: &ForceLaw, speed: f64, accuracy: f64) -> Encounter {
+fn meet(modes: &[[f64; 2]], felt: &Felt, law: &PowerLaw, speed: f64, accuracy: f64) -> Encounter {
     let touching = law.compression(0.5 * speed * speed / felt.inverse_mass) / speed;
     Collider::new(modes, 0.28 * touching).meet(felt, law, speed, accuracy)
 }

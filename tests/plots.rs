@@ -8,6 +8,8 @@ use common::pictures::{check, number, scale, texts, ticks};
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::roxmltree::Document;
 use sweetspot::base::xml::escaped;
+use sweetspot::collision::contact::force_law::ForceLaw;
+use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::history::loop_area;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
@@ -259,7 +261,8 @@ fn the_area_of_the_loop_is_the_energy_that_the_ball_loses() {
                     continue;
                 }
                 let falls = moments.windows(2).position(|m| m[1].force < m[0].force).unwrap();
-                let law = scene.force_law(scene.cor).unwrap();
+                let [k, alpha] = [scene.ball.stiffness, scene.ball.exponent].map(Option::unwrap);
+                let law = PowerLaw::new(k, alpha, scene.cor);
                 for m in moments[..falls].iter().filter(|m| m.force > 0.05 * moments[falls].force) {
                     let force = law.force(m.compression, None)[0];
                     assert!((m.force / force - 1.0).abs() < 1e-4, "{name} {k} {share}: {m:?}");

@@ -3,8 +3,9 @@
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::dowel::{Ends, beta_l};
-use sweetspot::collision::contact::encounter::Collider;
+use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::ForceLaw;
+use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::struck::Struck;
 use sweetspot::proof::validation::bundled_bat;
@@ -118,7 +119,7 @@ fn ten_thousand_impacts_keep_their_energy() {
         let (exponent, deep) = (random.within(1.2, 2.0), random.scaled(0.004, 0.03));
         let stiffness =
             0.5 * (1.0 + exponent) * ball * 45.0_f64.powi(2) / deep.powf(1.0 + exponent);
-        let law = ForceLaw::new(stiffness, exponent, random.scaled(0.02, 1.0));
+        let law = PowerLaw::new(stiffness, exponent, random.scaled(0.02, 1.0));
         let speed = random.scaled(1.0, 80.0);
         // Steps as long as a hit along a bat has.
         let reduced = 1.0 / (1.0 / ball + 1.0 / mass);

@@ -15,6 +15,7 @@ use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene, Wall};
+use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::sweep;
 use sweetspot::files::schema::bat::BatFile;
@@ -204,8 +205,8 @@ fn hits_of_all_models_are_valid_and_so_are_those_that_come_to_nothing() {
             let law = SwingLaw { exponent: 0.3, reference: 0.2, of_reference: 50.0 };
             let law = (model == Model::Rigid).then_some(law);
             let effort = Effort { completed: false, ..hits.effort };
-            let figures = Figures::new(&bat, (model, effort), (scene, law), &hits.solution);
-            let figures = figures.unwrap();
+            let hitter = Hitter::new(model, scene, &bat, &hits.solution, effort).unwrap();
+            let figures = Figures::new(&bat, &hitter, law).unwrap();
             let mut hit = hit_json::hit(&bat, model, scene, &hits.impacts, &figures.spot);
             let document = schema::value(&hit);
             schemas.iter().for_each(|schema| assert_valid(schema, &document, &name));

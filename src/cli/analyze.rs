@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
+use crate::collision::columns;
 use crate::files::schema;
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::Strength;
 use crate::modes::solve::Request;
 use crate::show::analysis::{Analysis, Proof, Task};
+use crate::show::csv;
 use crate::show::page;
 use crate::show::page::content::Report;
 use crate::show::page::inputs::Input;
@@ -21,7 +23,7 @@ use crate::show::report::{advice, aftermath, hit_json, hit_text};
 use serde::Serialize;
 
 use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, curve_csv, examples, printed, read_with_text,
+    BatArgs, OutputArgs, SolveArgs, Solved, examples, printed, read_with_text,
 };
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
@@ -211,7 +213,10 @@ fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
     let modes = schema::text(&modes_file(args, analysis));
     file::write(&folder.join("modes.json"), modes.as_bytes())?;
     file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
-    file::write(&folder.join("curve.csv"), curve_csv(&analysis.hits.impacts).as_bytes())
+    file::write(
+        &folder.join("curve.csv"),
+        csv::impacts(&columns::CURVE, &analysis.hits.impacts).as_bytes(),
+    )
 }
 
 /// What the model needs, in short.

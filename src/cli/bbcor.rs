@@ -7,6 +7,7 @@ use crate::base::file;
 use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::bbcor::{Protocol, TEST_SPEED};
+use crate::collision::sweep::Asked;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
@@ -96,7 +97,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);
-    let tested = protocol.test(&bat, (&request, args.bat.asked()), &tell)?;
+    let asked = Asked { request: &request, exactly: args.bat.asked() };
+    let tested = protocol.test(&bat, asked, &tell)?;
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
     if let Some(folder) = &args.plots {

@@ -9,7 +9,6 @@ use crate::base::file;
 use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
-use crate::collision::hit::Impact;
 use crate::files::bat_file::Named;
 use crate::files::schema;
 use crate::modes::solve::{self, Request, Solution, Solver};
@@ -361,24 +360,4 @@ pub fn warn(text: &str, quiet: bool) {
             let _ = writeln!(std::io::stderr(), "{}", printable(text));
         });
     }
-}
-
-/// The curve of exit speeds as CSV.
-pub fn curve_csv(impacts: &[Impact]) -> String {
-    let mut out =
-        String::from("x_m,bat_speed_m_s,exit_speed_m_s,rigid_exit_speed_m_s,vibration_j\n");
-    let cell = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
-    for impact in impacts {
-        let outcome = impact.outcome.as_ref();
-        let cells = [
-            impact.x.to_string(),
-            impact.bat_speed.to_string(),
-            cell(outcome.map(|o| o.exit_speed)),
-            cell(impact.rigid_exit_speed),
-            cell(outcome.map(|o| o.energy.vibration())),
-        ];
-        out += &cells.join(",");
-        out.push('\n');
-    }
-    out
 }

@@ -6,7 +6,8 @@ use crate::base::error::{Error, Result};
 use crate::base::units::{Quantity, inches};
 use crate::bat::body::Bat;
 use crate::collision::figures::Figures;
-use crate::collision::sweep::{Sweep, sweep_telling};
+use crate::collision::hitter::Hitter;
+use crate::collision::sweep::{Asked, Sweep, Trial, sweep_telling};
 use crate::files::schema::hit::HitFile;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
@@ -125,11 +126,13 @@ pub fn run(args: &Args) -> Result<Done> {
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);
-    let asked = (&request, args.bat.asked());
-    let sweep = sweep_telling(&bat, (model, &scene), asked, &places, &tell)?;
+    let asked = Asked { request: &request, exactly: args.bat.asked() };
+    let trial = Trial { model, scene: &scene };
+    let sweep = sweep_telling(&bat, trial, asked, &places, &tell)?;
     args.solve.say_raised(&sweep.solution, &args.output);
     progress.say(1.0, "the sweet spot");
-    let figures = Figures::new(&bat, (model, sweep.effort), (&scene, law), &sweep.solution)?;
+    let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
+    let figures = Figures::new(&bat, &hitter, law)?;
     if let Some(folder) = &args.plots {
         let subject =
             profile::Subject { name: &bat.name, bat: &bat, swing_pivot: Some(scene.pivot) };

@@ -11,13 +11,16 @@
 //!
 //! Dashpots are counted mode by mode; the hands' own mass is not in the bat.
 
+use faer::c64;
+
 use crate::bat::body::Bat;
-use crate::collision::contact::collocation::{POINTS, Pair, moments, times};
-use crate::collision::contact::step::Piece;
+use crate::collision::contact::collocation::polynomial;
+use crate::collision::contact::table::Piece;
 use crate::collision::struck::Struck;
 use crate::modes::compliance::RigidMotion;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
+use crate::motion::phi::exponential;
 
 /// A bat driven by a recorded force.
 pub struct Aftermath<'a> {
@@ -37,7 +40,7 @@ struct Pushed {
 
 struct Rung<'a> {
     mode: &'a Mode,
-    s: Pair,
+    s: c64,
     /// `φ(a)/(m ω_d)`.
     gain: f64,
 }
@@ -86,18 +89,6 @@ pub struct Sting {
     pub begins: f64,
 }
 
-/// The memory `v` of a mode, that long (s) after a piece of the force began, from what it was then.
-pub fn driven(s: Pair, memory: Pair, piece: &Piece, length: f64) -> Pair {
-    let (whole, all) = moments::<POINTS>([s[0] * length, s[1] * length]);
-    let mut sum = times(whole, memory);
-    let mut scale = length;
-    for (power, moment) in piece.powers.iter().zip(&all) {
-        sum = [sum[0] + scale * power * moment[0], sum[1] + scale * power * moment[1]];
-        scale *= length / piece.length;
-    }
-    sum
-}
-
 impl<'a> Aftermath<'a> {
     /// The bat of that solution under that force at `place` (m). Every mode must swing.
     pub fn new(bat: &'a Bat, solution: &'a Solution, place: f64, pieces: Vec<Piece>) -> Self {
@@ -109,14 +100,14 @@ impl<'a> Aftermath<'a> {
         let modes = solution.modes.iter().zip(struck.modes()).map(|(mode, [omega, ratio])| {
             let swings = omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt();
             let gain = mode.shape.deflection(place) / (mode.modal_mass * swings);
-            Rung { mode, s: [-ratio * omega, swings], gain }
+            Rung { mode, s: c64::new(-ratio * omega, swings), gain }
         });
         Self { bat, place, rigid: rigid.collect(), modes: modes.collect(), pieces }
     }
 
     /// When the ball leaves (s).
     pub fn end(&self) -> f64 {
-        self.pieces.last().map_or(0.0, |last| last.start + last.length)
+        self.pieces.last().map_or(0.0, Piece::end)
     }
 
     /// The bat at those times (s), which rise.
@@ -129,24 +120,20 @@ impl<'a> Aftermath<'a> {
             }
         }
         for (k, rung) in self.modes.iter().enumerate() {
-            let (mut memory, mut next, s) = ([0.0; 2], 0, rung.s);
+            let (mut memory, mut next, s) = (c64::default(), 0, rung.s);
             for instant in &mut instants {
-                while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= instant.time) {
-                    memory = driven(s, memory, piece, piece.length);
+                while let Some(piece) = self.pieces.get(next).filter(|p| p.end() <= instant.time) {
+                    memory = piece.drive(s, memory);
                     next += 1;
                 }
                 let rest = instant.time - self.start_of(next);
                 let v = match self.pieces.get(next) {
-                    Some(piece) => driven(s, memory, piece, rest.max(0.0)),
-                    None => {
-                        let size = (s[0] * rest).exp();
-                        let (sin, cos) = (s[1] * rest).sin_cos();
-                        times([size * cos, size * sin], memory)
-                    }
+                    Some(piece) => piece.first(rest.max(0.0)).drive(s, memory),
+                    None => exponential(s * rest) * memory,
                 };
-                let rate = times(s, v);
-                let turned = times(s, [rate[0] + instant.force, rate[1]]);
-                instant.modes[k] = [v[1], rate[1], turned[1]].map(|value| -rung.gain * value);
+                let rate = s * v;
+                let turned = s * (rate + instant.force);
+                instant.modes[k] = [v.im, rate.im, turned.im].map(|value| -rung.gain * value);
             }
         }
         instants
@@ -157,15 +144,15 @@ impl<'a> Aftermath<'a> {
     pub fn pushed(&self, when: &[f64]) -> Vec<[f64; 2]> {
         let (mut moved, mut speed, mut next) = (0.0, 0.0, 0);
         let until = |time: &f64| {
-            while let Some(piece) = self.pieces.get(next).filter(|p| ends(p) <= *time) {
-                let [by, faster] = pushes(piece, piece.length);
+            while let Some(piece) = self.pieces.get(next).filter(|p| p.end() <= *time) {
+                let [by, faster] = piece.push();
                 moved += speed * piece.length + by;
                 speed += faster;
                 next += 1;
             }
             let rest = time - self.start_of(next);
             let [by, faster] = match self.pieces.get(next) {
-                Some(piece) if rest > 0.0 => pushes(piece, rest),
+                Some(piece) if rest > 0.0 => piece.first(rest).push(),
                 _ => [0.0; 2],
             };
             [moved + speed * rest + by, speed + faster]
@@ -264,11 +251,9 @@ impl<'a> Aftermath<'a> {
 
     /// Nothing has moved yet.
     fn still(&self, time: f64) -> Instant {
-        let piece = self.pieces.iter().find(|piece| ends(piece) > time && piece.start <= time);
-        let force = piece.map_or(0.0, |piece| {
-            let at = (time - piece.start) / piece.length;
-            piece.powers.iter().rev().fold(0.0, |sum, power| sum * at + power)
-        });
+        let piece = self.pieces.iter().find(|piece| piece.end() > time && piece.start <= time);
+        let force = piece
+            .map_or(0.0, |piece| polynomial(&piece.powers, (time - piece.start) / piece.length));
         let (rigid, modes) = (vec![[0.0; 3]; self.rigid.len()], vec![[0.0; 3]; self.modes.len()]);
         Instant { time, force, rigid, modes }
     }
@@ -277,20 +262,4 @@ impl<'a> Aftermath<'a> {
     fn start_of(&self, k: usize) -> f64 {
         self.pieces.get(k).map_or(self.end(), |piece| piece.start)
     }
-}
-
-fn ends(piece: &Piece) -> f64 {
-    piece.start + piece.length
-}
-
-/// What a piece's force moves a unit mass by after that time (s), and how fast it then is.
-pub fn pushes(piece: &Piece, time: f64) -> [f64; 2] {
-    let (mut by, mut speed, mut scale) = (0.0, 0.0, time);
-    for (k, power) in piece.powers.iter().enumerate() {
-        let k = k as f64;
-        speed += scale * power / (k + 1.0);
-        by += time * scale * power / ((k + 1.0) * (k + 2.0));
-        scale *= time / piece.length;
-    }
-    [by, speed]
 }

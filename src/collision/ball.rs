@@ -1,6 +1,18 @@
 //! What ball: mass, size, bounce and stiffness.
 
 use crate::base::error::{Error, Result};
+use crate::collision::contact::collider::Law;
+use crate::collision::contact::power_law;
+
+/// What makes a force law of k, α and e₀.
+#[derive(Debug, Clone, Copy)]
+pub struct LawOf(pub fn(f64, f64, f64) -> Box<dyn Law>);
+
+impl PartialEq for LawOf {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::fn_addr_eq(self.0, other.0)
+    }
+}
 
 /// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +29,8 @@ pub struct Ball {
     pub stiffness: Option<f64>,
     /// `α` of the force `k u^α`.
     pub exponent: Option<f64>,
+    /// The law of these two numbers and e₀ by which the ball springs back.
+    pub law: LawOf,
     /// Coefficient of restitution on a rigid wall, e₀.
     pub cor: f64,
     /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed; replaces `cor`
@@ -36,6 +50,7 @@ impl Ball {
             radius: 0.0366,
             stiffness: Some(6.53e7),
             exponent: Some(1.84),
+            law: LawOf(power_law::law),
             cor: 0.5,
             cor_by_speed: vec![],
         }
@@ -73,7 +88,13 @@ impl Ball {
             return Err(Error::value("--ball-stiffness", found, "1 to 1e12 N/m"));
         }
         let source = format!("{}; a linear spring of {stiffness} N/m, as was asked", self.source);
-        Ok(Self { source, stiffness: Some(stiffness), exponent: Some(1.0), ..self })
+        Ok(Self {
+            source,
+            stiffness: Some(stiffness),
+            exponent: Some(1.0),
+            law: LawOf(power_law::law),
+            ..self
+        })
     }
 
     /// A 12 in softball: 6¼ to 7 oz, 11⅞ to 12⅛ in around by the rules, e₀ 0.44.
@@ -88,6 +109,7 @@ impl Ball {
             radius: 12.0 * 0.0254 / std::f64::consts::TAU,
             stiffness: None,
             exponent: None,
+            law: LawOf(power_law::law),
             cor: 0.44,
             cor_by_speed: vec![],
         }

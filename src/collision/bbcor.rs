@@ -16,8 +16,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::fixtures::{Fixtures, Held, Support};
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Impact, Model, Scene};
-use crate::collision::sweep::{Sweep, sweep_telling};
-use crate::modes::solve::Request;
+use crate::collision::sweep::{Asked, Sweep, Trial, sweep_telling};
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
@@ -119,14 +118,14 @@ impl Protocol {
         Scene { swing: 0.0, ball, ball_speed, cor, ..Scene::default() }
     }
 
-    /// Shoots the ball at every place, with as many modes as the accuracy needs; with `exactly` those
-    /// of the request and no others.
+    /// Shoots the ball at every place, with as many modes as the accuracy needs, or exactly those asked
+    /// for.
     ///
     /// # Errors
     ///
     /// [`Error::Value`] if there is no place to shoot at, and as
     /// [`sweep`](crate::collision::sweep::sweep).
-    pub fn test(self, bat: &Bat, asked: (&Request, bool), tell: Tell) -> Result<Tested> {
+    pub fn test(self, bat: &Bat, asked: Asked, tell: Tell) -> Result<Tested> {
         let beyond = |x: &f64| *x > STANDARD_PIVOT && *x <= bat.length();
         let places: Vec<f64> = self.places(bat.length()).into_iter().filter(beyond).collect();
         if places.is_empty() {
@@ -136,7 +135,8 @@ impl Protocol {
             return Err(Error::value("scan", format!("{from:.4} to {to:.4} m"), expected));
         }
         let (bat, scene) = (pivoted(bat), self.scene());
-        let sweep = sweep_telling(&bat, (Model::Contact, &scene), asked, &places, tell)?;
+        let trial = Trial { model: Model::Contact, scene: &scene };
+        let sweep = sweep_telling(&bat, trial, asked, &places, tell)?;
         let inertia = bat.inertia().about(STANDARD_PIVOT);
         let place = |impact: &Impact| {
             let ratio = self.ball.mass * (impact.x - STANDARD_PIVOT).powi(2) / inertia;

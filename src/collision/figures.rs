@@ -4,10 +4,9 @@
 
 use crate::base::error::Result;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
-use crate::collision::hit::{Effort, Impact, Model, Scene};
+use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
-use crate::modes::solve::Solution;
 
 /// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
 /// (I_ref/I)^n`, I about the standard pivot.
@@ -65,28 +64,24 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// All of them. The scene's swing is that of this bat; `law` tells where it is from.
+    /// All of them, of the hits of that hitter. The scene's swing is that of this bat; `law` tells where
+    /// it is from.
     ///
     /// # Errors
     ///
     /// As [`Hitter::new`].
-    pub fn new(
-        bat: &Bat,
-        (model, effort): (Model, Effort),
-        (scene, law): (&Scene, Option<SwingLaw>),
-        solution: &Solution,
-    ) -> Result<Self> {
+    pub fn new(bat: &Bat, hitter: &Hitter, law: Option<SwingLaw>) -> Result<Self> {
         /// Steps along the outer half where a scene differs in one thing.
         const FEW: usize = 32;
         let outer = [0.5 * bat.length(), bat.length()];
-        let hitter = Hitter::new(model, scene, bat, solution, effort)?;
+        let Hitter { scene, solution, effort, .. } = *hitter;
         let find = |scene: &Scene| -> Result<SweetSpot> {
             let hitter = hitter.in_scene(scene, bat)?;
             Ok(SweetSpot::within(&Looked::by(outer, FEW, &hitter), bat, scene, solution))
         };
         let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
         let rigid_best = Looked::new(outer, &rigid).greatest(|seen| Some(seen.exit_speed));
-        let looked = Looked::new(outer, &hitter);
+        let looked = Looked::new(outer, hitter);
         let bbcor = |k: usize| match hitter.modes_used() {
             // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
             0 => None,

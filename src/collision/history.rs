@@ -4,9 +4,10 @@
 //! a polynomial in time ([`crate::collision::contact::encounter`] has the equations). The ball's law is not
 //! asked, whose force near the end is too small to tell a compression from.
 
-use crate::collision::aftermath::{driven, pushes};
-use crate::collision::contact::collocation::{Pair, polynomial};
-use crate::collision::contact::step::Piece;
+use faer::c64;
+
+use crate::collision::contact::collocation::polynomial;
+use crate::collision::contact::table::Piece;
 use crate::collision::contact::touch::Felt;
 
 /// The ball at an instant.
@@ -31,10 +32,10 @@ pub fn history(
     parts: usize,
 ) -> Vec<Moment> {
     let pole = |[omega, ratio]: &[f64; 2]| {
-        [-ratio * omega, omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt()]
+        c64::new(-ratio * omega, omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt())
     };
-    let poles: Vec<Pair> = modes.iter().map(pole).collect();
-    let mut memories = vec![[0.0; 2]; poles.len()];
+    let poles: Vec<c64> = modes.iter().map(pole).collect();
+    let mut memories = vec![c64::default(); poles.len()];
     let (mut closed, mut closing) = (0.0, speed);
     let mut all = vec![];
     for piece in pieces {
@@ -42,20 +43,21 @@ pub fn history(
             let at = k as f64 / parts as f64;
             let time = at * piece.length;
             let force = polynomial(&piece.powers, at);
-            let [by, _] = pushes(piece, time);
+            let until = piece.first(time);
+            let [by, _] = until.push();
             let mut nearer = closed + closing * time - felt.inverse_mass * by - felt.rest * force;
             for ((pole, memory), gain) in poles.iter().zip(&memories).zip(&felt.gains) {
-                nearer -= gain / pole[1] * driven(*pole, *memory, piece, time)[1];
+                nearer -= gain / pole.im * until.drive(*pole, *memory).im;
             }
             // What is left of round-off where it ends.
             let [force, compression] = [force, nearer].map(|value| value.max(0.0));
             all.push(Moment { time: piece.start + time, force, compression });
         }
-        let [by, faster] = pushes(piece, piece.length);
+        let [by, faster] = piece.push();
         closed += closing * piece.length - felt.inverse_mass * by;
         closing -= felt.inverse_mass * faster;
         for (pole, memory) in poles.iter().zip(&mut memories) {
-            *memory = driven(*pole, *memory, piece, piece.length);
+            *memory = piece.drive(*pole, *memory);
         }
     }
     all

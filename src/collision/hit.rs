@@ -3,7 +3,7 @@
 use crate::base::error::{Error, Result};
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
-use crate::collision::contact::force_law::ForceLaw;
+use crate::collision::contact::collider::Law;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::pulse::Pulse;
 
@@ -86,9 +86,9 @@ impl Scene {
     /// # Errors
     ///
     /// [`Error::Value`] for a ball of which none is known.
-    pub fn force_law(&self, cor: f64) -> Result<ForceLaw> {
+    pub fn force_law(&self, cor: f64) -> Result<Box<dyn Law>> {
         match (self.ball.stiffness, self.ball.exponent) {
-            (Some(stiffness), Some(exponent)) => Ok(ForceLaw::new(stiffness, exponent, cor)),
+            (Some(stiffness), Some(exponent)) => Ok((self.ball.law.0)(stiffness, exponent, cor)),
             _ => {
                 let found = format!("{}, of which no force law is known", self.ball.name);
                 let expected = "--ball-stiffness with its dynamic stiffness as a laboratory \

@@ -7,18 +7,19 @@
 //!
 //! | module | question |
 //! |---|---|
+//! | [`contact`] | how hard does a ball push back; what happens while they touch, and when do they touch again |
 //! | [`ball`] | what ball |
-//! | [`contact`] | how hard does it push back; what happens while they touch, and when do they touch again |
 //! | [`struck`] | how does the bat give way to a ball, anywhere |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
-//! | [`hit`], [`hitter`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
+//! | [`columns`] | which figures of a hit are told, and by which names |
+//! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
-pub mod ball;
 pub mod contact;
+pub mod ball;
 pub mod struck;
 pub mod rigid;
 pub mod energy_loss;
@@ -26,8 +27,11 @@ pub mod pulse;
 pub mod aftermath;
 pub mod history;
 pub mod hit;
+pub mod columns;
 pub mod stated;
 pub mod hitter;
+pub(crate) mod answer;
+pub mod strike;
 pub mod strength;
 pub mod sweet_spot;
 pub mod figures;

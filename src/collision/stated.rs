@@ -23,7 +23,7 @@ const FALLS: [[f64; 2]; 2] = [[4.0, 5.0], [2.5, 3.0]];
 const LEFT_OUT: f64 = 0.6;
 
 /// A change of the closing speed that shows by how much the hit magnifies what is small, and what is
-/// small in any case: the energy that a touch may leave open.
+/// small in any case: the share of the energy that a touch may leave open.
 const NUDGE: f64 = 1e-6;
 const SMALL: f64 = 1e-12;
 
@@ -36,6 +36,10 @@ pub struct Answered<'a> {
     pub count: usize,
     /// Accuracy of the steps, relative.
     pub accuracy: f64,
+    /// How fast ball and stiff bat part, over the closing speed.
+    pub rebound: f64,
+    /// μ/m: the ball's part in a change of that.
+    pub of_ball: f64,
 }
 
 impl Answered<'_> {
@@ -55,8 +59,19 @@ impl Answered<'_> {
         });
         let finer = FINER * self.accuracy;
         let other = if finer < FINEST { self.accuracy / FINER } else { finer };
-        let steps = apart(self.count, other).max(CORRECTED * self.met.corrected);
+        let least = self.speed_of(CORRECTED * self.met.corrected);
+        let steps = apart(self.count, other).max(least);
         [left_out.fold(0.0, greater), steps]
+    }
+
+    /// Change of the exit speed, relative to the closing speed u, by a share dE of the energy `μu²/2`:
+    /// what is left of it, `μ(eu)²/2`, changes by that, `e² + dE = (e + de)²`, and the ball's speed by
+    /// `de μ/m`.
+    fn speed_of(&self, share: f64) -> f64 {
+        let rebound = self.rebound.abs();
+        let after = (rebound * rebound + share).sqrt();
+        // Without the loss of digits of a difference, and 0 where nothing is missing.
+        if share > 0.0 { self.of_ball * share / (after + rebound) } else { 0.0 }
     }
 
     /// Factor by which the hit magnifies small changes, and the error that it makes of round-off, where
@@ -67,7 +82,7 @@ impl Answered<'_> {
             return [1.0, 0.0];
         }
         let magnified = (faster(NUDGE) / NUDGE).max(1.0);
-        [magnified, magnified * SMALL]
+        [magnified, magnified * self.speed_of(SMALL)]
     }
 }
 
@@ -82,6 +97,10 @@ fn fewer(count: usize) -> impl Iterator<Item = usize> {
 mod tests {
     use super::*;
 
+    fn answered(met: &Encounter) -> Answered<'_> {
+        Answered { met, count: 10, accuracy: 1e-6, rebound: 0.5, of_ball: 0.8 }
+    }
+
     /// An error that falls as `n^−6` (`n^−3` with shear) is stated within four times, of any number of
     /// modes; one that jumps is not overlooked for agreeing once.
     #[test]
@@ -89,7 +108,7 @@ mod tests {
         let met = Encounter { touches: 1, ..Encounter::default() };
         for (shears, power) in [(false, 6.0), (true, 3.0)] {
             for count in [10, 20, 43, 80] {
-                let answered = Answered { met: &met, count, accuracy: 1e-6 };
+                let answered = Answered { count, ..answered(&met) };
                 let error = |n: usize| (n as f64).powf(-power);
                 let [stated, steps] = answered.errors(shears, |n, _| error(n) - error(count));
                 let ratio = stated / error(count);
@@ -104,17 +123,27 @@ mod tests {
     fn the_finest_steps_are_not_compared_with_themselves() {
         let met = Encounter { touches: 1, ..Encounter::default() };
         for accuracy in [1e-3, 1e-9, 1e-11, 1e-12] {
-            let answered = Answered { met: &met, count: 10, accuracy };
+            let answered = Answered { accuracy, ..answered(&met) };
             let apart = |count: usize, other: f64| f64::from(count == 10 && other != accuracy);
             assert_eq!(answered.errors(false, apart)[1], 1.0);
         }
+    }
+
+    /// Of a ball that returns at `e u` a little energy makes `dE/(2e)`; of one that sticks, a root.
+    #[test]
+    fn an_energy_is_stated_as_the_speed_that_it_makes() {
+        let met = Encounter { touches: 1, ..Encounter::default() };
+        let sticking = Answered { rebound: 0.0, ..answered(&met) };
+        assert!((answered(&met).speed_of(1e-9) / (0.8e-9) - 1.0).abs() < 1e-8);
+        assert!((sticking.speed_of(1e-8) / 0.8e-4 - 1.0).abs() < 1e-12);
+        assert_eq!(sticking.speed_of(0.0), 0.0);
     }
 
     #[test]
     fn one_touch_magnifies_nothing() {
         let met = Encounter { touches: 1, ..Encounter::default() };
         let again = Encounter { touches: 2, ..Encounter::default() };
-        let of = |met| Answered { met, count: 10, accuracy: 1e-6 }.magnified(|by| 1e3 * by);
+        let of = |met| answered(met).magnified(|by| 1e3 * by);
         assert_eq!(of(&met), [1.0, 0.0]);
         let [magnified, round_off] = of(&again);
         assert!((magnified / 1e3 - 1.0).abs() < 1e-9 && round_off < 1e-8);

@@ -10,7 +10,8 @@ use crate::modes::solve::Solution;
 /// A bat's rigid motions, its modes and the flexibility of all others.
 pub struct Struck<'a> {
     bat: &'a Bat,
-    solution: &'a Solution,
+    /// The modes that are struck.
+    pub solution: &'a Solution,
     flexible: Flexible,
 }
 

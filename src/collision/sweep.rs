@@ -1,4 +1,4 @@
-//! Hits along a bat, with modes as good and as many as the wanted exit speeds need.
+//! Trial along a bat, with modes as good and as many as the wanted exit speeds need.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -7,7 +7,8 @@ use crate::base::telling::{Tell, nobody};
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
-use crate::collision::hitter::{Hitter, UNRESOLVED};
+use crate::collision::hitter::Hitter;
+use crate::collision::strike::UNRESOLVED;
 use crate::modes::solve::{Request, Solution, solve};
 
 /// The impacts along a bat.
@@ -38,6 +39,26 @@ impl Sweep {
     }
 }
 
+/// Who meets whom, and by which model.
+#[derive(Debug, Clone, Copy)]
+pub struct Trial<'a> {
+    /// How the bat's bending is counted.
+    pub model: Model,
+    /// Swing, ball and pitch.
+    pub scene: &'a Scene,
+}
+
+/// The modes that are asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked<'a> {
+    /// Its tolerance is the allowed error of the exit speed relative to the closing speed, unless it
+    /// fixes the elements.
+    pub request: &'a Request,
+    /// Whether the pulse and the contact have the request's modes and nothing else; else they have as
+    /// many as they need.
+    pub exactly: bool,
+}
+
 /// Strikes the bat at all places (m); the request's tolerance is the allowed error of the exit
 /// speed relative to the closing speed, unless the request fixes the elements. With `exactly` the
 /// pulse and the contact have the request's modes and nothing else; else as many as they need.
@@ -53,7 +74,7 @@ pub fn sweep(
     exactly: bool,
     places: &[f64],
 ) -> Result<Sweep> {
-    sweep_telling(bat, (model, scene), (request, exactly), places, &nobody)
+    sweep_telling(bat, Trial { model, scene }, Asked { request, exactly }, places, &nobody)
 }
 
 /// Strikes the bat at all places as [`sweep`] does, and tells how many of them have been struck.
@@ -63,103 +84,151 @@ pub fn sweep(
 /// As [`sweep`].
 pub fn sweep_telling(
     bat: &Bat,
-    (model, scene): (Model, &Scene),
-    (request, exactly): (&Request, bool),
+    trial: Trial,
+    asked: Asked,
     places: &[f64],
     tell: Tell,
 ) -> Result<Sweep> {
-    /// More modes are not taken for an exit speed.
-    const MOST: usize = 120;
-    /// Steps are not made better than this.
-    const FINEST: f64 = 1e-12;
-    /// Two rounds that leave more than this share of the error show that the answer is not defined
-    /// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it.
-    const IDLE: f64 = 0.8;
-    const IDLE_DEAD: f64 = 0.3;
-    const DEAD: f64 = 0.05;
-    /// The modes' own tolerance as a share of the tolerance of the exit speed.
-    const MODES: f64 = 3e-4;
-    /// Share of a change by fewer modes that steps may make of it.
-    const BLURRED: f64 = 0.003;
-    let touching = matches!(model, Model::Pulse(_) | Model::Contact);
-    let planned = touching && !exactly;
-    let mut asked = *request;
-    let mut effort = Effort { accuracy: 10.0 * request.tolerance, completed: planned };
-    effort.accuracy = effort.accuracy.clamp(1e-11, 1e-3);
-    if planned {
-        asked.modes = enough((model, scene), request, bat);
-    }
-    if touching {
-        // What a mode's own error does to a hit is bounded from far above: it is to be no part.
-        asked.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
-    }
+    let Asked { request, .. } = asked;
+    let planned = trial.touches() && !asked.exactly;
+    let mut now = Round::first(bat, trial, request, planned);
     tell(0.0, "modes");
-    let mut solution = solve(bat, &asked)?;
+    let mut solution = solve(bat, &now.request)?;
     let mut impacts: Vec<Impact> = vec![];
     let mut before = [f64::INFINITY; 2];
     loop {
-        let hitter = Hitter::new(model, scene, bat, &solution, effort)?;
-        // What is known well enough stays, and so does what is known better than now.
-        let open: Vec<usize> = match impacts.len() {
-            0 => (0..places.len()).collect(),
-            _ => (0..places.len()).filter(|k| doubt(&impacts[*k]) > request.tolerance).collect(),
-        };
+        let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
+        let open = open(&impacts, request.tolerance, places.len());
         let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
         let struck = strikes(&hitter, bat.length(), &struck, tell);
-        if impacts.is_empty() {
-            impacts = struck;
-        } else {
-            for (k, impact) in open.iter().zip(struck) {
-                if doubt(&impact) < doubt(&impacts[*k]) {
-                    impacts[*k] = impact;
-                }
-            }
-        }
-        let outcomes = || open.iter().filter_map(|k| impacts[*k].outcome.as_ref());
-        let most = |of: fn(&Outcome) -> f64| outcomes().map(of).fold(0.0, greater);
-        let [worst, truncation, steps] =
-            [most(|o| o.error), most(|o| o.truncation), most(|o| o.steps)];
+        drop(hitter);
+        keep_better(&mut impacts, &open, struck);
+        let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
         let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
-        let settles = match scene.cor < DEAD {
-            true => worst <= IDLE_DEAD * before[1],
-            false => worst <= IDLE * before[0],
+        let settles = match trial.scene.cor < DEAD {
+            true => worst.error <= IDLE_DEAD * before[1],
+            false => worst.error <= IDLE * before[0],
         };
-        before = [before[1], worst];
-        let (mut finer, mut again) = (asked, false);
+        before = [before[1], worst.error];
         if !met && settles && request.elements.is_none() {
-            if planned && truncation > 0.3 * request.tolerance {
-                finer.modes = (finer.modes + finer.modes / 2).min(MOST);
-            }
-            // What is compared differs by its steps too.
-            let blurred = truncation > 0.3 * request.tolerance && steps > BLURRED * truncation;
-            let open = blurred || steps > 0.3 * request.tolerance;
-            if open && effort.accuracy > FINEST {
-                effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
-                again = true;
-            }
-            // The exit speed is more sensitive than the frequencies: ask these for more.
-            let left = worst - truncation - steps;
-            if left > 0.5 * request.tolerance {
-                finer.tolerance *= (0.3 * request.tolerance / left).clamp(1e-6, 0.1);
-                finer.tolerance = finer.tolerance.max(1e-14);
-            }
-        }
-        if finer == asked && again {
-            continue;
-        }
-        if finer != asked && asked.tolerance >= 1e-13 {
-            asked = finer;
-            // Where more cannot be had, this answer stands.
-            if let Ok(finer) = solve(bat, &asked) {
-                drop(hitter);
-                solution = finer;
+            let next = now.finer(&worst, request.tolerance, planned);
+            if next.request != now.request && now.request.tolerance >= 1e-13 {
+                // Where more cannot be had, this answer stands.
+                if let Ok(finer) = solve(bat, &next.request) {
+                    (solution, now) = (finer, next);
+                    continue;
+                }
+            } else if next.request == now.request && next.effort != now.effort {
+                now = next;
                 continue;
             }
+            now.effort = next.effort;
         }
-        drop(hitter);
         let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
         let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-        return Ok(Sweep { solution, effort, impacts, truncation, met, settles });
+        return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, settles });
+    }
+}
+
+/// More modes are not taken for an exit speed.
+const MOST: usize = 120;
+/// Steps are not made better than this.
+const FINEST: f64 = 1e-12;
+/// Two rounds that leave more than this share of the error show that the answer is not defined
+/// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it.
+const IDLE: f64 = 0.8;
+const IDLE_DEAD: f64 = 0.3;
+const DEAD: f64 = 0.05;
+/// The modes' own tolerance as a share of the tolerance of the exit speed.
+const MODES: f64 = 3e-4;
+/// Share of a change by fewer modes that steps may make of it.
+const BLURRED: f64 = 0.003;
+
+impl Trial<'_> {
+    /// Whether ball and modes act on each other, so that modes are planned for the hit.
+    fn touches(&self) -> bool {
+        matches!(self.model, Model::Pulse(_) | Model::Contact)
+    }
+}
+
+/// By which modes and steps a round of hits is computed.
+#[derive(Clone, Copy)]
+struct Round {
+    request: Request,
+    effort: Effort,
+}
+
+impl Round {
+    /// Those of the first round.
+    fn first(bat: &Bat, trial: Trial, request: &Request, planned: bool) -> Self {
+        let accuracy = (10.0 * request.tolerance).clamp(1e-11, 1e-3);
+        let mut first = *request;
+        if planned {
+            first.modes = enough(trial, request, bat);
+        }
+        if trial.touches() {
+            // What a mode's own error does to a hit is bounded from far above: it is to be no part.
+            first.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
+        }
+        Self { request: first, effort: Effort { accuracy, completed: planned } }
+    }
+
+    /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.
+    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool) -> Self {
+        let Self { mut request, mut effort } = *self;
+        if planned && worst.truncation > 0.3 * tolerance {
+            request.modes = (request.modes + request.modes / 2).min(MOST);
+        }
+        // What is compared differs by its steps too.
+        let blurred =
+            worst.truncation > 0.3 * tolerance && worst.steps > BLURRED * worst.truncation;
+        if (blurred || worst.steps > 0.3 * tolerance) && effort.accuracy > FINEST {
+            effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
+        }
+        // The exit speed is more sensitive than the frequencies: ask these for more.
+        let left = worst.error - worst.truncation - worst.steps;
+        if left > 0.5 * tolerance {
+            request.tolerance *= (0.3 * tolerance / left).clamp(1e-6, 0.1);
+            request.tolerance = request.tolerance.max(1e-14);
+        }
+        Self { request, effort }
+    }
+}
+
+/// The largest errors of some trial.
+struct Worst {
+    error: f64,
+    truncation: f64,
+    steps: f64,
+}
+
+impl Worst {
+    fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome> + Clone) -> Self {
+        let most = |of: fn(&Outcome) -> f64| outcomes.clone().map(of).fold(0.0, greater);
+        Self {
+            error: most(|o| o.error),
+            truncation: most(|o| o.truncation),
+            steps: most(|o| o.steps),
+        }
+    }
+}
+
+/// The places whose hits are not known well enough yet: what is, stays.
+fn open(impacts: &[Impact], tolerance: f64, places: usize) -> Vec<usize> {
+    let unknown = |k: &usize| impacts.get(*k).is_none_or(|impact| doubt(impact) > tolerance);
+    (0..places).filter(unknown).collect()
+}
+
+/// Puts new hits at those places; what was known better than now stays.
+fn keep_better(impacts: &mut Vec<Impact>, places: &[usize], struck: Vec<Impact>) {
+    if impacts.is_empty() {
+        *impacts = struck;
+        return;
+    }
+    for (k, impact) in places.iter().zip(struck) {
+        if doubt(&impact) < doubt(&impacts[*k]) {
+            impacts[*k] = impact;
+        }
     }
 }
 
@@ -176,7 +245,7 @@ fn doubt(impact: &Impact) -> f64 {
 /// those between two take the larger error of both.
 pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<Impact> {
     const MOST: usize = 8;
-    /// Hits between two words of how many there are.
+    /// Trial between two words of how many there are.
     const OFTEN: usize = 64;
     /// Share of the half-wave of the first mode left out: between two places so far apart its square is
     /// nowhere twice as large as at the larger of both.
@@ -217,7 +286,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
 /// How many modes a touch needs for that tolerance, measured on a dowel, a cone and an R161: the
 /// error falls as `n^−6.5` where frequencies rise as `n²`, and as `n^−3.2` where shear lets them
 /// rise as `n`. Never more than a mesh of one element per piece can have.
-fn enough((model, scene): (Model, &Scene), request: &Request, bat: &Bat) -> usize {
+fn enough(Trial { model, scene }: Trial, request: &Request, bat: &Bat) -> usize {
     let digits = -request.tolerance.log10();
     let rate = match (model, request.theory.shears()) {
         (Model::Pulse(_), false) => 8.0,

@@ -3,7 +3,8 @@
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::hit::Scene;
-use crate::collision::hitter::{Glance, Hitter};
+use crate::collision::hitter::Hitter;
+use crate::collision::strike::Glance;
 use crate::modes::solve::Solution;
 
 /// A place and the value there.

@@ -7,7 +7,8 @@ use std::path::Path;
 use crate::base::error::Result;
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::Quantity;
-use crate::collision::ball::{Ball, restitution};
+use crate::collision::ball::{Ball, LawOf, restitution};
+use crate::collision::contact::power_law;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 
@@ -56,6 +57,7 @@ impl Ball {
             radius,
             stiffness,
             exponent: if bounce.linear { Some(1.0) } else { exponent },
+            law: LawOf(power_law::law),
             cor: bounce.cor,
             cor_by_speed: bounce.by_speed,
         })

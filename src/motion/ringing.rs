@@ -22,7 +22,8 @@ use crate::modes::mode::Shape;
 use crate::modes::reduced::{Pole, Reduced};
 use crate::modes::solve::Solution;
 use crate::motion::force::ForceHistory;
-use crate::motion::oscillator::{Oscillator, driven};
+use crate::motion::oscillator::Oscillator;
+use crate::motion::phi::driven;
 use crate::motion::shape::InitialShape;
 
 /// How the motion begins: what goes on in every motion.
@@ -148,8 +149,8 @@ impl Ringing {
                 Clock::Pole(pole) => {
                     let now = match start {
                         Start::Force(..) => {
-                            stretches.iter().fold(c64::new(0.0, 0.0), |state, (h, force)| {
-                                state * (pole.s * *h).exp() + driven(pole.s, *force, *h)
+                            stretches.iter().fold(c64::new(0.0, 0.0), |state, (h, [from, to])| {
+                                driven(pole.s, state, &[*from, to - from], *h)
                             })
                         }
                         _ => (pole.s * t).exp(),

@@ -10,10 +10,11 @@ use serde::Deserialize;
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
+use crate::collision::contact::collider::Collider;
 use crate::collision::contact::collocation::{POINTS, polynomial};
-use crate::collision::contact::encounter::Collider;
 use crate::collision::contact::force_law::ForceLaw;
-use crate::collision::contact::step::Piece;
+use crate::collision::contact::power_law::PowerLaw;
+use crate::collision::contact::table::Piece;
 use crate::collision::contact::touch::Felt;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::hit::{Effort, Model, Outcome, Scene};
@@ -173,7 +174,7 @@ impl Throw {
 
     /// What the contact finds on a rigid wall at a speed (m/s); NaN for what only a bat has.
     pub fn on_wall(&self, seen: Seen, speed: f64) -> f64 {
-        let law = ForceLaw::new(self.stiffness, self.exponent, self.cor);
+        let law = PowerLaw::new(self.stiffness, self.exponent, self.cor);
         let felt = Felt { inverse_mass: 1.0 / self.mass_kg, ..Felt::default() };
         let deepest = law.compression(0.5 * self.mass_kg * speed * speed);
         let collider = Collider::new(&[], 0.25 * deepest / speed);

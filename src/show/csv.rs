@@ -3,6 +3,9 @@
 
 use csv::Writer;
 
+use crate::collision::columns::Column;
+use crate::collision::hit::Impact;
+
 /// One cell.
 pub struct Cell(String);
 
@@ -72,6 +75,15 @@ impl Csv {
         let bytes = self.0.into_inner().expect("memory can be written to");
         String::from_utf8(bytes).expect("it is made of strings")
     }
+}
+
+/// A line of those columns for each impact; empty where there is no value.
+pub fn impacts(columns: &[Column], impacts: &[Impact]) -> String {
+    let mut table = Csv::new(columns.iter().map(|column| column.name));
+    for impact in impacts {
+        table.row(columns.iter().map(|column| column.at(impact).into()));
+    }
+    table.text()
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! How a force in time moves a mode, exactly: the force of a step is a polynomial through Lobatto's
-//! points, and what it does to `e^{st}` are moments that have closed forms.
+//! The points of a step, and the force through them: a polynomial, so that what it does to a mode is
+//! exact ([`crate::motion::phi`]). Modes are taken several side by side.
 
 /// Points of a step, both ends included.
 pub const POINTS: usize = 5;
@@ -101,61 +101,9 @@ pub fn polynomial(coefficients: &[f64; POINTS], s: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
 }
 
-/// A complex number as its real and imaginary part.
-pub type Pair = [f64; 2];
-
-/// `a b`.
-#[inline(always)]
-pub fn times(a: Pair, b: Pair) -> Pair {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-/// `e^z` and `E_k = ∫₀¹ e^{z(1−s)} s^k ds` for k below `COUNT`.
-///
-/// By parts `z E_k = k E_{k−1} − 1`, upwards where z is large; else the last one is a power series,
-/// and the others follow downwards. Both ways round-off is not raised.
-#[inline(always)]
-pub fn moments<const COUNT: usize>(z: Pair) -> (Pair, [Pair; COUNT]) {
-    /// Terms of the series: 1.5^18/(18!) is below ε.
-    const TERMS: usize = 20;
-    let size = if z[0] == 0.0 { 1.0 } else { z[0].exp() };
-    let (sin, cos) = z[1].sin_cos();
-    let whole = [size * cos, size * sin];
-    let mut all = [[0.0; 2]; COUNT];
-    let square = z[0] * z[0] + z[1] * z[1];
-    if square > 2.25 {
-        let inverse = [z[0] / square, -z[1] / square];
-        let mut above = [whole[0] - 1.0, whole[1]];
-        for (k, moment) in all.iter_mut().enumerate() {
-            *moment = times(above, inverse);
-            let next = (k + 1) as f64;
-            above = [next * moment[0] - 1.0, next * moment[1]];
-        }
-    } else {
-        let mut term = [1.0 / COUNT as f64, 0.0];
-        let mut sum = term;
-        for j in 1..TERMS {
-            let scale = 1.0 / (COUNT + j) as f64;
-            term = times(term, [z[0] * scale, z[1] * scale]);
-            sum = [sum[0] + term[0], sum[1] + term[1]];
-            if term[0].abs() + term[1].abs() < 1e-18 {
-                break;
-            }
-        }
-        all[COUNT - 1] = sum;
-        for k in (1..COUNT).rev() {
-            let part = times(z, all[k]);
-            let scale = 1.0 / k as f64;
-            all[k - 1] = [(1.0 + part[0]) * scale, part[1] * scale];
-        }
-    }
-    (whole, all)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quadrature::gauss;
 
     #[test]
     fn the_points_integrate_what_lobatto_s_do() {
@@ -188,27 +136,6 @@ mod tests {
         for (i, s) in rule.at.into_iter().enumerate() {
             let sum: f64 = (0..POINTS).map(|j| rule.twice[i][j] * rule.at[j].powi(3)).sum();
             assert!((sum - s.powi(5) / 20.0).abs() < 1e-15);
-        }
-    }
-
-    #[test]
-    fn moments_are_integrals() {
-        let points = gauss(40);
-        for z in [[0.0, 1e-9], [-0.1, 0.3], [0.0, 1.49], [0.0, 1.51], [-0.4, 6.0], [-2.0, 30.0]] {
-            let (whole, all) = moments::<5>(z);
-            let exponential = |s: f64| {
-                let size = (z[0] * s).exp();
-                [size * (z[1] * s).cos(), size * (z[1] * s).sin()]
-            };
-            for part in 0..2 {
-                assert!((whole[part] - exponential(1.0)[part]).abs() < 1e-15);
-                for (k, moment) in all.iter().enumerate() {
-                    let value =
-                        |(s, w): &(f64, f64)| w * exponential(1.0 - s)[part] * s.powi(k as i32);
-                    let sum: f64 = points.iter().map(value).sum();
-                    assert!((moment[part] - sum).abs() < 2e-15, "{z:?} {k} {part}");
-                }
-            }
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Where a step ends early: the largest compression, the return to it, the end of the contact.
 
-use crate::collision::contact::collocation::{POINTS, lanes, moments, times, total};
-use crate::collision::contact::force_law::Top;
-use crate::collision::contact::step::{Course, Step, StepTable};
+use crate::collision::contact::collocation::{POINTS, lanes, total};
+use crate::collision::contact::energy::Limits;
+use crate::collision::contact::force_law::{ForceLaw, Top};
+use crate::collision::contact::step::{Course, Step};
+use crate::collision::contact::table::StepTable;
 use crate::collision::contact::touch::{State, Touch};
+use crate::motion::phi::moments;
 
 /// Why a step ends early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,17 +19,13 @@ pub enum Event {
     Gone,
 }
 
-/// What a step stops at: the event, the branch it is met on, and the step's largest force (N).
+/// What a step stops at, and within which limits.
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
     /// Why it stops.
     pub event: Event,
-    /// The largest compression, once the ball is on its way back.
-    pub top: Option<Top>,
-    /// The step's largest force (N).
-    pub most: f64,
-    /// Share of the impulse that a bump may change.
-    pub slight: f64,
+    /// What holds its force.
+    pub limits: Limits,
 }
 
 /// Share of a step by which a state may be moved along it by a series.
@@ -34,7 +33,7 @@ const NUDGED: f64 = 1e-4;
 /// Share of the energy that a contact may leave unaccounted for.
 pub const CLOSED: f64 = 1e-11;
 
-impl Touch<'_> {
+impl<L: ForceLaw> Touch<'_, L> {
     /// What happens in a step.
     #[inline(always)]
     pub fn event(&self, step: &Step, next: &State, top: Option<Top>) -> Option<Event> {
@@ -70,12 +69,8 @@ impl Touch<'_> {
         if event == Event::Turned {
             let mut rate = -state.force * self.felt.inverse_mass;
             for n in 0..self.poles.len() {
-                let [a, b] = self.poles[n];
-                let (w, v) = (self.weights[n], [state.real[n], state.imaginary[n]]);
-                // Im s(sv + F).
-                let turned =
-                    times([a, b], [a * v[0] - b * v[1] + state.force, a * v[1] + b * v[0]]);
-                rate -= w * turned[1];
+                let s = self.poles[n];
+                rate -= self.weights[n] * (s * (s * state.memory(n) + state.force)).im;
             }
             return [self.rate(state), rate];
         }
@@ -91,7 +86,7 @@ impl Touch<'_> {
     /// right.
     #[inline(always)]
     pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> Option<f64> {
-        let Stop { event, top, .. } = stop;
+        let Stop { event, limits: Limits { top, .. } } = stop;
         // The end of the step, or the first point beyond the event.
         let goal = |x: f64| match (event, top) {
             (Event::Gone, _) => x <= 0.0,
@@ -146,7 +141,7 @@ impl Touch<'_> {
     #[inline(always)]
     pub fn round_off(
         &self,
-        Stop { event, top, most, slight }: Stop,
+        Stop { event, limits }: Stop,
         now: &State,
         step: &Step,
         time: &mut f64,
@@ -164,14 +159,14 @@ impl Touch<'_> {
             if !as_before {
                 known = length;
                 for (n, s) in self.modes() {
-                    let (_, all) = moments::<3>([s[0] * length, s[1] * length]);
-                    bump[0][n] = length * (all[1][0] - all[2][0]);
-                    bump[1][n] = length * (all[1][1] - all[2][1]);
+                    let (_, [_, first, second]) = moments(s * length);
+                    let done = (first - second) * length;
+                    (bump[0][n], bump[1][n]) = (done.re, done.im);
                 }
             }
             let bump = [&bump[0][..], &bump[1][..]];
-            corrected += self.correct(next, length, bump, [most, slight], top)?;
-            let [x, rate] = self.distance(event, next, top);
+            corrected += self.correct(next, length, bump, limits)?;
+            let [x, rate] = self.distance(event, next, limits.top);
             let by = -x / rate;
             let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;
             if event == Event::Turned || there || !by.is_finite() {

@@ -11,8 +11,9 @@
 //! for good where `z + Σ (c/ω_d) |v|` is below zero and falls, or where it is faster than the surface
 //! can be.
 
-use crate::collision::contact::collocation::{Pair, times};
+use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::touch::{State, Touch};
+use crate::motion::phi::exponential;
 
 /// Where a flight ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +31,7 @@ pub enum Landing {
 /// More looks are not taken in one flight.
 const MOST_LOOKS: usize = 20_000;
 
-impl Touch<'_> {
+impl<L: ForceLaw> Touch<'_, L> {
     /// Flies until `z + Σ y` is at one of the two levels (m), the ball is gone, or the flight has
     /// lasted for `longest` (s), after which the ball counts as gone.
     pub fn fly(&self, state: &mut State, [low, high]: [f64; 2], longest: f64) -> Landing {
@@ -79,11 +80,8 @@ impl Touch<'_> {
         state.time += time;
         state.closing += time * state.speed;
         for n in 0..self.felt.gains.len() {
-            let [a, b]: Pair = self.poles[n];
-            let (sin, cos) = (b * time).sin_cos();
-            let size = if a == 0.0 { 1.0 } else { (a * time).exp() };
-            let turned = times([size * cos, size * sin], [state.real[n], state.imaginary[n]]);
-            [state.real[n], state.imaginary[n]] = turned;
+            let turned = exponential(self.poles[n] * time) * state.memory(n);
+            state.remember(n, turned);
         }
     }
 }

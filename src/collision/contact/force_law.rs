@@ -1,150 +1,76 @@
-//! How hard a compressed ball pushes back: a nonlinear spring that returns less than it took.
+//! How hard does a compressed ball push back: what a contact asks of any law.
 //!
-//! ```text
-//! F = k x^α                          at a compression x that it has not had before
-//! F = k x_m^α (x/x_m)^β              below the largest compression so far, x_m
-//! β = (1 + α)/e₀² − 1                so that on a rigid wall it returns e₀² of the energy
-//! ```
-//!
-//! Below `x_m` the law is reversible; at `x_m` it is on the first branch again. In every state
-//! what it stores and what it has lost are closed forms.
-//!
-//! # Source
-//!
-//! A. M. Nathan, Am. J. Phys. 68, 979 (2000), "Dynamics of the baseball-bat collision".
-
-/// The law of one ball.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ForceLaw {
-    /// `k` (N/m^α).
-    pub stiffness: f64,
-    /// `α`.
-    pub exponent: f64,
-    /// `β`.
-    pub unloading: f64,
-}
+//! A law of one's own is a type with [`ForceLaw`]; [`crate::collision::contact::power_law`] is one to
+//! follow. Its force is a function of the compression on the way to the largest one, and another below
+//! it, back and forth, so that what is stored and lost is known in every state.
 
 /// The largest compression so far (m) and the force there (N), once the ball has given way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top {
     /// x_m (m).
     pub compression: f64,
-    /// `k x_m^α` (N).
+    /// Force (N) at it.
     pub force: f64,
 }
 
-/// A ball that returns less is computed as one with this `e₀`: its force falls as steeply as can be
-/// told in floating point, and what it returns is 1e-10 of the energy.
-pub const LEAST_RESTITUTION: f64 = 1e-5;
+/// The law of one ball for one hit. The force rises with the compression, and from 0; `top` is None on
+/// the way to the largest compression, else the force is that of the way back, below it.
+pub trait ForceLaw: Copy + Send + Sync {
+    /// Force (N) at that compression (m) and its derivative (N/m); none at 0 and below.
+    fn force(&self, x: f64, top: Option<Top>) -> [f64; 2];
 
-impl ForceLaw {
-    /// `k` (N/m^α), `α` and `e₀`.
-    pub fn new(stiffness: f64, exponent: f64, restitution: f64) -> Self {
-        let restitution = restitution.max(LEAST_RESTITUTION);
-        let unloading = (1.0 + exponent) / (restitution * restitution) - 1.0;
-        Self { stiffness, exponent, unloading }
-    }
+    /// Energy stored and energy lost so far (J) at the compression `x` (m), from the force (N) there.
+    fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2];
 
-    /// Force (N) at that compression (m) and its derivative (N/m), on the way to the largest
-    /// compression, or below `top`.
-    #[inline(always)]
-    pub fn force(&self, x: f64, top: Option<Top>) -> [f64; 2] {
-        if x <= 0.0 {
-            return [0.0; 2];
-        }
-        let force = match top {
-            None => self.stiffness * x.powf(self.exponent),
-            Some(top) => top.force * (x / top.compression).powf(self.unloading),
-        };
-        [force, self.slope(x, force, top)]
-    }
+    /// The compression (m) that takes that energy (J).
+    fn compression(&self, energy: f64) -> f64;
+
+    /// The power of the compression as which the force begins, and as which it ends; where it is no
+    /// power, the largest it comes near.
+    fn exponent(&self, top: Option<Top>) -> f64;
 
     /// The derivative (N/m) at a compression with that force (N).
     #[inline(always)]
-    pub fn slope(&self, x: f64, force: f64, top: Option<Top>) -> f64 {
-        if force > 0.0 { self.power(top) * force / x } else { 0.0 }
+    fn slope(&self, x: f64, _force: f64, top: Option<Top>) -> f64 {
+        self.force(x, top)[1]
     }
 
-    /// The exponent of the branch.
+    /// The forces (N) a little way from compressions where they are known, if there is a shorter way to
+    /// them than by [`Self::force`].
     #[inline(always)]
-    fn power(&self, top: Option<Top>) -> f64 {
-        top.map_or(self.exponent, |_| self.unloading)
-    }
-
-    /// How small a share of a compression is, on a branch that may be steep: `10/β`, 1 at most.
-    #[inline(always)]
-    pub fn fine(&self, top: Option<Top>) -> f64 {
-        (10.0 / self.power(top)).min(1.0)
-    }
-
-    /// The forces (N) a little way from compressions x > 0 where they are known: `F (1 + δ)^β` by its
-    /// binomial series, `δ = by/x`. None where one is not near.
-    #[inline(always)]
-    pub fn near<const N: usize>(
+    fn near<const N: usize>(
         &self,
-        x: [f64; N],
-        force: [f64; N],
-        by: [f64; N],
-        top: Option<Top>,
+        _x: [f64; N],
+        _force: [f64; N],
+        _by: [f64; N],
+        _top: Option<Top>,
     ) -> Option<[f64; N]> {
-        /// `βδ` whose powers beyond the terms are below ε.
-        const NEAR: f64 = 0.05;
-        const TERMS: [f64; 8] = [8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
-        let exponent = self.power(top);
-        let most = NEAR / exponent.max(1.0);
-        let (mut share, mut near) = ([0.0; N], true);
-        for i in 0..N {
-            share[i] = by[i] / x[i];
-            near &= share[i].abs() <= most && x[i] > 0.0;
-        }
-        if !near {
-            return None;
-        }
-        let mut sum = [1.0; N];
-        for k in TERMS {
-            let factor = (exponent + 1.0 - k) * (1.0 / k);
-            for i in 0..N {
-                sum[i] = 1.0 + factor * share[i] * sum[i];
-            }
-        }
-        for i in 0..N {
-            sum[i] *= force[i];
-        }
-        Some(sum)
+        None
+    }
+
+    /// The compression (m) at that force (N), or more.
+    #[inline(always)]
+    fn at(&self, _force: f64, _top: Option<Top>) -> f64 {
+        f64::INFINITY
     }
 
     /// Energy stored and energy lost so far (J).
     #[inline(always)]
-    pub fn energy(&self, x: f64, top: Option<Top>) -> [f64; 2] {
+    fn energy(&self, x: f64, top: Option<Top>) -> [f64; 2] {
         self.energy_of(x, self.force(x, top)[0], top)
     }
 
-    /// Energy stored and energy lost so far (J) at the compression `x` (m), from the force (N) there.
+    /// How small a share of a compression is, on a branch that may be steep: 10 over its exponent, 1 at
+    /// most.
     #[inline(always)]
-    pub fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2] {
-        let (loading, unloading) = (1.0 / (1.0 + self.exponent), 1.0 / (1.0 + self.unloading));
-        match top {
-            None => [force * x.max(0.0) * loading, 0.0],
-            Some(top) => {
-                let lost = top.force * top.compression * (loading - unloading);
-                [force * x.max(0.0) * unloading, lost]
-            }
-        }
-    }
-
-    /// The compression (m) at that force (N), where there is one.
-    #[inline(always)]
-    fn at(&self, force: f64, top: Option<Top>) -> f64 {
-        match top {
-            None => (force / self.stiffness).powf(1.0 / self.exponent),
-            Some(top) => top.compression * (force / top.force).powf(1.0 / self.unloading),
-        }
+    fn fine(&self, top: Option<Top>) -> f64 {
+        (10.0 / self.exponent(top)).min(1.0)
     }
 
     /// The ball's part (m) of `x + C F(x) = whole` with a spring of that flexibility C (m/N), and the
     /// force (N), by Newton's method from `guess` (m). A guess outside of 0 to `whole` is rejected.
     #[inline(always)]
-    pub fn share(&self, whole: f64, flexibility: f64, top: Option<Top>, guess: f64) -> [f64; 2] {
+    fn share(&self, whole: f64, flexibility: f64, top: Option<Top>, guess: f64) -> [f64; 2] {
         if flexibility == 0.0 || whole <= 0.0 {
             return [whole, self.force(whole, top)[0]];
         }
@@ -163,64 +89,5 @@ impl ForceLaw {
             x = if by > 0.1 * fine * x { above() } else { x + by };
         }
         [x, self.force(x, top)[0]]
-    }
-
-    /// The compression (m) that takes that energy (J).
-    pub fn compression(&self, energy: f64) -> f64 {
-        let exponent = 1.0 + self.exponent;
-        (exponent * energy / self.stiffness).powf(1.0 / exponent)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LAW: ForceLaw = ForceLaw { stiffness: 2e7, exponent: 1.6, unloading: 8.0 };
-
-    #[test]
-    fn the_force_is_what_the_energy_changes_by() {
-        let top = Some(Top { compression: 0.01, force: LAW.force(0.01, None)[0] });
-        for (x, top) in [(0.004, None), (0.009, top), (0.002, top)] {
-            let h = 1e-7;
-            let change = LAW.energy(x + h, top)[0] - LAW.energy(x - h, top)[0];
-            let [force, slope] = LAW.force(x, top);
-            assert!((change / (2.0 * h) / force - 1.0).abs() < 1e-6);
-            let change = LAW.force(x + h, top)[0] - LAW.force(x - h, top)[0];
-            assert!((change / (2.0 * h) / slope - 1.0).abs() < 1e-6);
-        }
-    }
-
-    /// The binomial series is the power, to its end.
-    #[test]
-    fn near_a_known_force_the_series_is_the_force() {
-        let top = Some(Top { compression: 0.01, force: LAW.force(0.01, None)[0] });
-        for (x, top) in [(0.004, None), (0.004, top), (1e-6, top)] {
-            for share in [-6e-3, -1e-9, 2e-4, 6e-3] {
-                let known = LAW.force(x, top)[0];
-                let [near] = LAW.near([x], [known], [share * x], top).unwrap();
-                assert!((near / LAW.force(x * (1.0 + share), top)[0] - 1.0).abs() < 2e-14);
-            }
-            assert_eq!(LAW.near([x], [1.0], [0.06 * x], top), None);
-            assert_eq!(LAW.near([0.0], [0.0], [x], top), None);
-            assert_eq!(LAW.near([x], [1.0], [f64::NAN], top), None);
-        }
-    }
-
-    #[test]
-    fn the_law_returns_its_share() {
-        for restitution in [0.3, 0.5, 1.0] {
-            let law = ForceLaw::new(2e7, 1.6, restitution);
-            let all = law.energy(0.01, None)[0];
-            let top = Some(Top { compression: 0.01, force: law.force(0.01, None)[0] });
-            let [back, lost] = law.energy(0.01, top);
-            assert!((back / all - restitution * restitution).abs() < 1e-14);
-            assert!(((back + lost) / all - 1.0).abs() < 1e-14);
-            assert!((law.compression(all) / 0.01 - 1.0).abs() < 1e-14);
-        }
-        let dead = ForceLaw::new(2e7, 1.6, 0.0);
-        let top = Some(Top { compression: 0.01, force: 100.0 });
-        assert_eq!(dead.force(0.009, top), [0.0; 2]);
-        assert_eq!(dead.energy(0.009, top)[0], 0.0);
     }
 }

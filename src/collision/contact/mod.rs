@@ -2,17 +2,25 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`force_law`] | how hard does the ball push back |
+//! | [`force_law`] | what does a contact ask of a ball's law |
 //! | [`collocation`] | the points of a step and the modes' exact answer to a force through them |
 //! | [`touch`] | what is felt at the place; the state of ball and bat |
-//! | [`step`], [`events`] | one step; where the force turns, ends or begins again |
+//! | [`table`], [`step`], [`energy`] | what a step does to the modes; one step; its energy put right |
+//! | [`events`] | where the force turns, ends or begins again |
 //! | [`flight`] | when do they touch again |
-//! | [`encounter`] | the whole encounter, until the ball is gone for good |
+//! | [`encounter`] | the equations; what an encounter leaves behind |
+//! | [`pressing`], [`collider`] | one touch; the whole encounter, until the ball is gone for good |
+//! | [`power_law`] | the law of a baseball: how hard it pushes back |
 
 pub mod force_law;
 pub mod collocation;
 pub mod touch;
+pub mod table;
 pub mod step;
+pub mod energy;
 pub mod events;
 pub mod flight;
 pub mod encounter;
+pub mod pressing;
+pub mod collider;
+pub mod power_law;

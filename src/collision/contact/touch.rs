@@ -1,7 +1,9 @@
 //! Ball and bat at one moment of a contact: how far they have come together, how fast, with what
 //! energies. The equations are those of [`crate::collision::contact::encounter`].
 
-use crate::collision::contact::collocation::{LANES, Lobatto, Pair, lanes, sum, total};
+use faer::c64;
+
+use crate::collision::contact::collocation::{LANES, Lobatto, lanes, sum, total};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 
 /// The bat as the ball feels it at one place.
@@ -50,14 +52,52 @@ impl State {
         let none = || vec![0.0; modes];
         Self { speed, real: none(), imaginary: none(), ..Self::default() }
     }
+
+    /// The memory of mode n.
+    #[inline(always)]
+    pub fn memory(&self, n: usize) -> c64 {
+        c64::new(self.real[n], self.imaginary[n])
+    }
+
+    /// Makes that the memory of mode n.
+    #[inline(always)]
+    pub fn remember(&mut self, n: usize, memory: c64) {
+        (self.real[n], self.imaginary[n]) = (memory.re, memory.im);
+    }
+}
+
+/// How long the steps of a contact are let be.
+///
+/// `cargo run --release --example tuning_steps` prints the table that the values are chosen from: the steps
+/// that random hits take and how far their exit speeds are off, with each value smaller and larger. Larger
+/// ones save few steps and are off by more than the accuracy; smaller ones cost steps for digits that
+/// nobody asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tuning {
+    /// Error of a step of usual length that is let pass, over the accuracy.
+    pub usual_error: f64,
+    /// Error of a longer step, while the force has almost gone, over the accuracy.
+    pub long_error: f64,
+    /// Share of the energy that the ball may still store when its last step begins, over the accuracy.
+    pub last_energy: f64,
+    /// Share of the impulse that a bump may change, over the accuracy.
+    pub slight: f64,
+    /// Share of its peak below which the force has almost gone, and steps may be longer.
+    pub faint: f64,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Self { usual_error: 3.0, long_error: 0.01, last_energy: 0.03, slight: 0.05, faint: 0.02 }
+    }
 }
 
 /// One place, one ball, one speed.
-pub struct Touch<'a> {
+pub struct Touch<'a, L> {
     /// Where in a step the force is looked at.
     pub rule: &'a Lobatto,
     /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
-    pub poles: &'a [Pair],
+    pub poles: &'a [c64],
     /// Real part of every `s` (1/s).
     pub decay: &'a [f64],
     /// Imaginary part of every `s` (1/s).
@@ -73,7 +113,7 @@ pub struct Touch<'a> {
     /// Whether any mode dies out.
     pub damped: bool,
     /// The ball's law.
-    pub law: ForceLaw,
+    pub law: L,
     /// The closing speed u at the first touch (m/s).
     pub speed: f64,
     /// `μ u²/2` at the first touch (J).
@@ -84,12 +124,14 @@ pub struct Touch<'a> {
     pub way: f64,
     /// How far the steps' forces may be off, relative.
     pub accuracy: f64,
+    /// How long the steps are let be.
+    pub tuning: Tuning,
 }
 
-impl Touch<'_> {
+impl<L: ForceLaw> Touch<'_, L> {
     /// The modes that are not there to fill the lanes.
     #[inline(always)]
-    pub fn modes(&self) -> impl Iterator<Item = (usize, &Pair)> {
+    pub fn modes(&self) -> impl Iterator<Item = (usize, &c64)> {
         self.poles.iter().enumerate().take(self.felt.gains.len())
     }
 

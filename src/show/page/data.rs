@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::base::number::rounded;
 use crate::bat::profile::{Piece, Profile};
+use crate::collision::columns::{self, Column};
 use crate::collision::hit::{Energy, Impact};
 use crate::files::schema::document::{Document, Format};
 use crate::show::analysis::Analysis;
@@ -139,15 +140,16 @@ impl Outline {
 impl Curve {
     fn new(impacts: &[Impact]) -> Self {
         let round = |value: f64| rounded(value, 3);
+        let along = |column: Column| impacts.iter().map(|i| column.at(i).map(round)).collect();
         let outcomes = || impacts.iter().map(|impact| impact.outcome.as_ref());
         let energy = |of: &dyn Fn(&Energy) -> f64| -> Vec<Option<f64>> {
             outcomes().map(|o| o.map(|o| round(of(&o.energy)))).collect()
         };
         Self {
             x_m: impacts.iter().map(|impact| rounded(impact.x, 6)).collect(),
-            exit_speed_m_s: outcomes().map(|o| o.map(|o| round(o.exit_speed))).collect(),
-            rigid_exit_speed_m_s: impacts.iter().map(|i| i.rigid_exit_speed.map(round)).collect(),
-            vibration_j: energy(&|energy| energy.vibration()),
+            exit_speed_m_s: along(columns::EXIT_SPEED),
+            rigid_exit_speed_m_s: along(columns::RIGID_EXIT_SPEED),
+            vibration_j: along(columns::VIBRATION),
             ball_j: energy(&|energy| energy.ball),
             lost_in_ball_j: energy(&|energy| energy.dissipated_ball),
             bat_j: energy(&|energy| energy.bat_rigid),

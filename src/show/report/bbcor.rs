@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::base::units::{inches, miles_per_hour};
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Tested};
+use crate::collision::columns::{BBCOR, EFFICIENCY, EXIT_SPEED, X};
 use crate::files::schema::bbcor as file;
 use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
@@ -105,21 +106,14 @@ fn verdict(tested: &Tested, units: Units) -> String {
 
 /// A line for each place, SI.
 pub fn csv(tested: &Tested) -> String {
-    let mut table = Csv::new([
-        "x_m",
-        "from_tip_m",
-        "exit_speed_m_s",
-        "collision_efficiency",
-        "bbcor",
-        "bbcor_error",
-    ]);
+    let [x, exit, efficiency, bbcor] = [X, EXIT_SPEED, EFFICIENCY, BBCOR].map(|c| c.name);
+    let mut table = Csv::new([x, "from_tip_m", exit, efficiency, bbcor, "bbcor_error"]);
     for place in &tested.places {
-        let (x, outcome) = (place.impact.x, place.impact.outcome.as_ref());
         table.row([
-            x.into(),
-            (tested.bat.length() - x).into(),
-            outcome.map(|o| o.exit_speed).into(),
-            outcome.map(|o| o.collision_efficiency).into(),
+            place.impact.x.into(),
+            (tested.bat.length() - place.impact.x).into(),
+            EXIT_SPEED.at(&place.impact).into(),
+            EFFICIENCY.at(&place.impact).into(),
             place.bbcor.into(),
             place.error.into(),
         ]);
@@ -167,8 +161,8 @@ fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {
     file::Place {
         x_m: impact.x,
         from_tip_m: length - impact.x,
-        exit_speed_m_s: outcome.map(|o| o.exit_speed),
-        collision_efficiency: outcome.map(|o| o.collision_efficiency),
+        exit_speed_m_s: EXIT_SPEED.at(impact),
+        collision_efficiency: EFFICIENCY.at(impact),
         bbcor: place.bbcor,
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
         error: file::PlaceError {

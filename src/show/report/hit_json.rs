@@ -2,8 +2,9 @@
 
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
+use crate::collision::columns;
 use crate::collision::figures::{Figures, Swung};
-use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene, Separation, Wall};
+use crate::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit as file;
@@ -120,26 +121,25 @@ pub fn figures(figures: &Figures) -> file::Figures {
 /// One impact.
 pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
     let outcome = impact.outcome.as_ref();
-    let number = |f: &dyn Fn(&Outcome) -> f64| outcome.map(f);
     file::Impact {
         x_m: impact.x,
         from_tip_m: bat.length() - impact.x,
         bat_speed_m_s: impact.bat_speed,
-        exit_speed_m_s: number(&|o| o.exit_speed),
-        rigid_exit_speed_m_s: impact.rigid_exit_speed,
-        cor: number(&|o| o.cor),
-        impulse_n_s: number(&|o| o.impulse),
-        contact_time_s: outcome.and_then(|o| o.contact_time),
+        exit_speed_m_s: columns::EXIT_SPEED.at(impact),
+        rigid_exit_speed_m_s: columns::RIGID_EXIT_SPEED.at(impact),
+        cor: columns::COR.at(impact),
+        impulse_n_s: columns::IMPULSE.at(impact),
+        contact_time_s: columns::CONTACT_TIME.at(impact),
         first_separation: outcome.and_then(|o| o.first_separation).map(separation),
-        peak_force_n: outcome.and_then(|o| o.peak_force),
-        peak_compression_m: outcome.and_then(|o| o.peak_compression),
-        collision_efficiency: number(&|o| o.collision_efficiency),
-        bbcor: number(&|o| o.bbcor),
-        bbcor_pivoted: number(&|o| o.bbcor_pivoted),
+        peak_force_n: columns::PEAK_FORCE.at(impact),
+        peak_compression_m: columns::PEAK_COMPRESSION.at(impact),
+        collision_efficiency: columns::EFFICIENCY.at(impact),
+        bbcor: columns::BBCOR.at(impact),
+        bbcor_pivoted: columns::BBCOR_PIVOTED.at(impact),
         modes_used: outcome.map(|o| o.energy.vibration_by_mode.len()),
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
         energy_j: outcome.map(|o| energy_out(&o.energy)),
-        error: file::HitError { exit_speed: number(&|o| o.error) },
+        error: file::HitError { exit_speed: outcome.map(|o| o.error) },
     }
 }
 
@@ -158,5 +158,32 @@ fn energy_out(energy: &Energy) -> file::Energy {
         dissipated_damping: energy.dissipated_damping,
         wall: energy.wall,
         imbalance: energy.imbalance(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::hit::Effort;
+    use crate::collision::hitter::Hitter;
+    use crate::files::schema;
+    use crate::proof::validation::bundled_bat;
+    use crate::{Request, solve};
+
+    /// A document's members are the columns, by their names; of the energies those of the ledger.
+    #[test]
+    fn every_column_is_a_member_of_an_impact() {
+        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let solution = solve(&bat, &Request { modes: 6, ..Request::default() }).unwrap();
+        let scene = Scene::default();
+        let effort = Effort::default();
+        let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+        let hit = hitter.strike(0.7);
+        let mut document = schema::value(&impact(&bat, &hit));
+        document["vibration_j"] = document["energy_j"]["vibration"].clone();
+        for column in columns::ALL {
+            assert!(column.at(&hit).is_some(), "{}", column.name);
+            assert_eq!(document[column.name].as_f64(), column.at(&hit), "{}", column.name);
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::base::number::signed;
 use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
+use crate::collision::columns::{self, Column};
 use crate::collision::figures::Figures;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
@@ -57,18 +58,21 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         let mut cells = [const { String::new() }; 8];
         cells[0] = length(impact.x, near);
         cells[1] = length(from_tip, tip);
-        cells[2] = format!("{:.2}", fast(impact.bat_speed));
-        cells[5] = impact.rigid_exit_speed.map_or(String::new(), |v| format!("{:.2}", fast(v)));
-        if let Some(outcome) = &impact.outcome {
-            cells[3] = format!("{:.2}", fast(outcome.exit_speed));
-            if units == Units::Both {
-                cells[4] = format!("{:.1}", miles_per_hour(outcome.exit_speed));
-            }
-            cells[6] = format!("{:.3}", outcome.collision_efficiency);
-            cells[7] = format!("{:.2}", outcome.energy.vibration());
-        } else {
+        let told = |column: Column, shown: &dyn Fn(f64) -> String| {
+            column.at(impact).map_or(String::new(), shown)
+        };
+        let speed = |v: f64| format!("{:.2}", fast(v));
+        cells[2] = told(columns::BAT_SPEED, &speed);
+        cells[3] = told(columns::EXIT_SPEED, &speed);
+        if cells[3].is_empty() {
             cells[3] = "no value".to_owned();
         }
+        if units == Units::Both {
+            cells[4] = told(columns::EXIT_SPEED, &|v| format!("{:.1}", miles_per_hour(v)));
+        }
+        cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
+        cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
+        cells[7] = told(columns::VIBRATION, &|energy| format!("{energy:.2}"));
         let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
         let marks: String = letters.collect();
         let gap = if marks.is_empty() { "" } else { " " };

@@ -1,0 +1,190 @@
+//! What each model says of a hit: one function a model.
+
+use crate::collision::contact::power_law::LEAST_RESTITUTION;
+use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
+use crate::collision::hit::{Effort, Model, Separation};
+use crate::collision::hitter::Hitter;
+use crate::collision::pulse::Pulse;
+use crate::collision::stated::Answered;
+use crate::modes::mode::Mode;
+
+/// What a model says.
+pub(super) struct Answer {
+    /// `J` (N s).
+    pub impulse: f64,
+    pub cor: f64,
+    pub in_modes: Vec<f64>,
+    pub lost_in_ball: f64,
+    pub lost_in_bat: f64,
+    pub in_wall: f64,
+    pub contact_time: Option<f64>,
+    pub first_separation: Option<Separation>,
+    pub peak_force: Option<f64>,
+    pub peak_compression: Option<f64>,
+    pub flags: Vec<&'static str>,
+    pub error: f64,
+    pub truncation: f64,
+    pub steps: f64,
+}
+
+impl Answer {
+    /// The answer of a model without modes and times.
+    fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
+        // The models' own formulas are exact to a few roundings.
+        let error = 8.0 * f64::EPSILON;
+        Self {
+            impulse,
+            cor,
+            in_modes: vec![],
+            lost_in_ball,
+            lost_in_bat: 0.0,
+            in_wall: 0.0,
+            contact_time: None,
+            first_separation: None,
+            peak_force: None,
+            peak_compression: None,
+            flags: vec![],
+            error,
+            truncation: 0.0,
+            steps: 0.0,
+        }
+    }
+}
+
+impl Hitter<'_> {
+    /// What the model says of a hit at `x`, if it says anything.
+    pub(super) fn answer(&self, x: f64, known: Option<[f64; 2]>) -> Option<Answer> {
+        let closing = self.closing(x).filter(|_| self.has_section(x))?;
+        let [mass, cor] = self.blow(x, closing);
+        let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
+        let rigid = Answer::new(mass * (1.0 + cor) * closing, cor, lost);
+        match self.model {
+            Model::Rigid => Some(rigid),
+            Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
+            Model::Pulse(pulse) => self.pulsed(pulse, x, closing, cor),
+            Model::Contact => self.touched(x, closing, cor, known),
+        }
+    }
+
+    fn empirical(&self, loss: EnergyLoss, x: f64, closing: f64, rigid: Answer) -> Option<Answer> {
+        let (incoming, ball) = (-self.scene.ball_speed, self.scene.ball.mass);
+        let stiff = rigid.impulse / ball + incoming;
+        let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
+        let of = |vibration| EnergyLoss::exit_velocity(incoming, stiff, vibration);
+        let exit = of(loss.vibration(&shapes))?;
+        let impulse = ball * (exit - incoming);
+        let mut answer = Answer { impulse, ..rigid };
+        answer.in_modes = loss.energies(&shapes, impulse, ball);
+        let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
+        // If the shapes cannot be bounded, neither can the loss.
+        let other = of(loss.vibration(&largest)).filter(|v| v.is_finite());
+        answer.error += other.map_or(1.0, |v| (v - exit).abs() / closing);
+        Some(answer)
+    }
+
+    fn pulsed(&self, pulse: Pulse, x: f64, closing: f64, restitution: f64) -> Option<Answer> {
+        let ball = self.scene.ball.mass;
+        let felt = self.struck.with_modes(x, ball, self.modes_used());
+        let mu = 1.0 / felt.inverse_mass;
+        let shares = pulse.shares(&self.modes, &felt.gains);
+        let share: f64 = shares.iter().sum();
+        let e = pulse.restitution(restitution, mu * share)?;
+        let impulse = mu * (1.0 + e) * closing;
+        let in_modes: Vec<f64> = shares.iter().map(|s| 0.5 * impulse * impulse * s).collect();
+        let left =
+            0.5 * mu * closing * closing - pulse.loss_share * 0.5 * impulse * impulse * share;
+        let lost = (1.0 - restitution * restitution) * left;
+        let mut answer = Answer::new(impulse, restitution, lost);
+        answer.in_modes = in_modes;
+        // All modes beyond, and the mesh.
+        let slow = self.struck.flexibility(x)[1] - self.struck.taken(&felt.gains)[1];
+        let last = self.modes.last().map_or(0.0, |mode| mode[0]);
+        let error = |more: f64| {
+            let other = pulse.restitution(restitution, mu * (share + more));
+            other.map_or(1.0, |other| mu / ball * (other - e).abs())
+        };
+        if self.effort.completed {
+            answer.truncation = error(pulse.beyond(last, slow));
+        }
+        answer.error += answer.truncation + error(self.struck.doubt(x).iter().sum());
+        Some(answer)
+    }
+
+    fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 2]>) -> Option<Answer> {
+        let (ball, count) = (self.scene.ball.mass, self.modes_used());
+        let Effort { accuracy, completed } = self.effort;
+        let beyond = completed.then(|| self.struck.flexibility(x));
+        let felt = self.felt_with(x, count, beyond);
+        let (met, accuracy) = self.meet(x, &felt, closing, accuracy)?;
+        let apart = |count: usize, accuracy: f64, faster: f64| {
+            let felt = self.felt_with(x, count, beyond);
+            let other = self.meet(x, &felt, faster * closing, accuracy);
+            // One that comes to no end says nothing.
+            other.map_or(1.0, |(other, _)| {
+                (other.impulse / faster - met.impulse).abs() / (ball * closing)
+            })
+        };
+        let mass = 1.0 / felt.inverse_mass;
+        let rebound = met.impulse / (mass * closing) - 1.0;
+        let answered = Answered { met: &met, count, accuracy, rebound, of_ball: mass / ball };
+        let shears = self.solution.theory.shears();
+        let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
+        [answer.truncation, answer.steps] =
+            known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
+                answered.errors(shears, |few, accuracy| match completed || few == count {
+                    true => apart(few, accuracy, 1.0),
+                    false => 0.0,
+                })
+            });
+        let [magnified, round_off] = answered.magnified(|by| apart(count, accuracy, 1.0 + by));
+        answer.steps += round_off;
+        // What touches beyond those that were followed could give, and a ball deader than any law.
+        answer.error +=
+            met.open / (ball * closing) + (LEAST_RESTITUTION - cor).max(0.0) * mass / ball;
+        answer.error += self.wall_error + answer.truncation + answer.steps;
+        // How long one push of the force lasts (s): a half sine's time on a stiff bat at most.
+        let push = met.time / (met.touches + met.reloads) as f64;
+        let push = push.min(std::f64::consts::PI * self.pressed);
+        for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
+            // A mode takes the force's changes that are slower than itself hardly at all.
+            let turns = omega * push / std::f64::consts::PI;
+            let change = doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
+            answer.error += magnified * change;
+        }
+        let flags = [
+            (met.reloads > 0, "reload"),
+            (met.late, "late_contact"),
+            (met.again(), "second_contact"),
+        ];
+        answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
+        answer.contact_time = Some(met.time);
+        let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
+        answer.first_separation = Some(Separation { time: met.first_end, exit_speed });
+        answer.peak_force = Some(met.peak_force);
+        answer.peak_compression = Some(met.compression);
+        let walls = met.in_modes.len() - count;
+        answer.in_wall = met.in_modes[..walls].iter().sum();
+        answer.in_modes = met.in_modes[walls..].to_vec();
+        answer.lost_in_bat = met.lost_in_bat;
+        Some(answer)
+    }
+}
+
+/// Deflections at `x` in the WPI report's scaling, `(1/M) ∫ρA W_n² dx = α_n²`, which on its dowel
+/// is exactly the report's raw shape.
+fn report_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
+    let scaled = |mode: &Mode| {
+        mode.shape.deflection(x) * wpi_alpha(mode.order) * (mass / mode.modal_mass).sqrt()
+    };
+    modes.iter().map(scaled).collect()
+}
+
+/// Upper bounds of the deflections of [`report_shapes`], by the stated errors of each mode.
+fn largest_shapes(modes: &[Mode], mass: f64, x: f64) -> Vec<f64> {
+    let with_error = |mode: &Mode| {
+        let deflection = mode.shape.deflection(x).abs() + mode.error.shape;
+        let lightest = mode.modal_mass * (1.0 - mode.error.modal_mass).max(0.0);
+        deflection * wpi_alpha(mode.order) * (mass / lightest).sqrt()
+    };
+    modes.iter().map(with_error).collect()
+}

@@ -1,0 +1,162 @@
+//! The energy of a step: the bump on its force that puts it right, and what damping takes.
+
+use faer::c64;
+
+use crate::collision::contact::collocation::{LANES, POINTS, lanes, sum};
+use crate::collision::contact::force_law::{ForceLaw, Top};
+use crate::collision::contact::step::Step;
+use crate::collision::contact::table::Piece;
+use crate::collision::contact::touch::{State, Touch};
+use crate::motion::phi::{driven, moments, shortened};
+
+/// A bump may change the impulse by so many times the energy that it puts right, both relative.
+const ILL: f64 = 3.0;
+/// An energy, relative, that one bump puts right.
+const SMALL: f64 = 1e-8;
+/// Energies, relative, that shorter steps do not make better.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What holds a step's force within bounds.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// The largest compression, once the ball is on its way back.
+    pub top: Option<Top>,
+    /// The step's largest force (N).
+    pub most: f64,
+    /// Share of the impulse that a bump may change.
+    pub slight: f64,
+}
+
+impl Limits {
+    /// Whether that force is less than zero somewhere; on its way back it is small, and steep.
+    #[inline(always)]
+    pub fn pulls(&self, piece: &Piece) -> bool {
+        self.top.is_some_and(|top| piece.pulls(top.force))
+    }
+}
+
+impl<L: ForceLaw> Touch<'_, L> {
+    /// Adds a bump to the force of a step of that length, so that the energy is right again;
+    /// returns by how much it was not, relative. Where the compression is about to turn or hardly a
+    /// force is left none does work: None, for a shorter step, if the bump would be more than twice
+    /// the largest force or change the impulse by more than the `slight` share and by more than the
+    /// energy was off by.
+    #[inline(always)]
+    pub fn correct(
+        &self,
+        next: &mut State,
+        length: f64,
+        bump: [&[f64]; 2],
+        Limits { top, most, slight }: Limits,
+    ) -> Option<f64> {
+        let mut off = 0.0;
+        for round in 0..4 {
+            self.settle(next, top);
+            let defect = self.whole_energy(next, top) - self.energy;
+            if round == 0 {
+                off = (defect - next.defect).abs() / self.energy;
+            }
+            next.defect = defect;
+            if defect.abs() <= 1e-14 * self.energy {
+                break;
+            }
+            // `s(1 − s)` has the area 1/6, half of it to each side of the middle.
+            let speed = -length * self.felt.inverse_mass / 6.0;
+            let closing = 0.5 * length * speed;
+            let [moved, work] = self.done_by(next, bump);
+            let slope = next.speed * speed / self.felt.inverse_mass + work;
+            let size = -defect / (slope + next.force * (closing + moved));
+            // Where the compression does not change no force does work.
+            let kick = (size * speed / self.speed).abs();
+            let ill = kick > slight.max(ILL * defect.abs() / self.energy);
+            if size.is_nan() || size.abs() > 2.0 * most || ill {
+                if off > ROUND_OFF {
+                    return None;
+                }
+                break;
+            }
+            next.speed += size * speed;
+            next.closing += size * closing;
+            next.impulse += size * length / 6.0;
+            next.bump += size;
+            for (memory, bump) in [&mut next.real, &mut next.imaginary].into_iter().zip(bump) {
+                for (part, bump) in memory.iter_mut().zip(bump) {
+                    *part += size * bump;
+                }
+            }
+            // What is left is the square of this, and seen with the next step's.
+            if defect.abs() <= SMALL * self.energy {
+                self.settle(next, top);
+                next.defect = 0.0;
+                break;
+            }
+        }
+        Some(off)
+    }
+
+    /// What a bump of 1 N does to the modes: how far it moves them (m/N), and the rate of their energy
+    /// with its size (J/N).
+    #[inline(always)]
+    fn done_by(&self, next: &State, bump: [&[f64]; 2]) -> [f64; 2] {
+        let [m, a, b, square] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
+        let [re, im] = [&next.real, &next.imaginary].map(|v| lanes(v));
+        let ([p, q], w) = (bump.map(lanes), lanes(&self.weights));
+        let [mut moved, mut work] = [[0.0; LANES]; 2];
+        for k in 0..self.chunks() {
+            for l in 0..LANES {
+                let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
+                let other = a[k][l] * q[k][l] + b[k][l] * p[k][l];
+                let both = rate * other + square[k][l] * im[k][l] * q[k][l];
+                moved[l] -= w[k][l] * q[k][l];
+                work[l] += m[k][l] * both;
+            }
+        }
+        [sum(moved), sum(work)]
+    }
+
+    /// What damping takes from the beginning of a step to a time in it, `∫ Σ 2ζω m_n q′² dt` (J).
+    pub fn loss(&self, now: &State, step: &Step, time: f64) -> f64 {
+        let force = shortened(step.powers, time / step.length);
+        let of_mode = |(n, s): (usize, &c64)| {
+            let square = self.square(*s, time, now.memory(n), &force);
+            -2.0 * s.re * self.weights[n] / s.im * time * square
+        };
+        let damped = self.modes().filter(|(_, s)| s.re != 0.0);
+        damped.map(of_mode).sum()
+    }
+
+    /// `∫₀¹ (Im sv)²` of a mode with that memory under `Σ f_k τ^k`, over the time's share τ.
+    ///
+    /// A slow mode by Lobatto's rule; of the others `v = A e^{zτ} + P(τ)`, all products of which have
+    /// closed integrals.
+    fn square(&self, s: c64, time: f64, memory: c64, force: &[f64; POINTS]) -> f64 {
+        const SLOW: f64 = 0.25;
+        let z = s * time;
+        if z.norm_sqr() < SLOW {
+            let rate = |at: f64| (s * driven(s, memory, &shortened(*force, at), at * time)).im;
+            let points = self.rule.at.iter().zip(&self.rule.weights);
+            return points.map(|(at, weight)| weight * rate(*at).powi(2)).sum();
+        }
+        let inverse = z.inv();
+        // P′ = zP + f from the highest power down; Q = Im sP.
+        let (mut above, mut part, mut q) = (c64::default(), c64::default(), [0.0; POINTS]);
+        for k in (0..POINTS).rev() {
+            part = inverse * (above - time * force[k]);
+            q[k] = (s * part).im;
+            above = part * k as f64;
+        }
+        let b = s * (memory - part);
+        // (Im B e^{zτ})² = (|B|² e^{2aτ} − Re B² e^{2zτ})/2, a the real part of z.
+        let (growth, turned) = ((2.0 * z.re).exp_m1(), moments::<1>(z * 2.0).1[0]);
+        let all = b.norm_sqr() * growth / (2.0 * z.re);
+        let mut sum = 0.5 * (all - (b * b * turned).re);
+        // ∫ τ^k e^{zτ} from k = 0 up.
+        let (whole, [mut moment]) = moments::<1>(z);
+        for k in 0..POINTS {
+            sum += 2.0 * q[k] * (b * moment).im;
+            sum += (0..POINTS).map(|j| q[k] * q[j] / (j + k + 1) as f64).sum::<f64>();
+            moment = inverse * (whole - moment * (k + 1) as f64);
+        }
+        sum
+    }
+}

@@ -1,0 +1,255 @@
+//! The ball is pressed and springs back: step after step, each as long as the accuracy lets it be, from
+//! the first touch until the force has gone.
+
+use std::sync::OnceLock;
+
+use faer::c64;
+
+use crate::collision::contact::collocation::POINTS;
+use crate::collision::contact::encounter::Encounter;
+use crate::collision::contact::energy::Limits;
+use crate::collision::contact::events::{CLOSED, Event, Stop};
+use crate::collision::contact::force_law::{ForceLaw, Top};
+use crate::collision::contact::step::{Coupling, Course, Step};
+use crate::collision::contact::table::{Piece, StepTable};
+use crate::collision::contact::touch::{State, Touch};
+
+/// Halvings of the longest step.
+pub(super) const LEVELS: usize = 42;
+/// A meeting that needs more steps than this has failed.
+const MOST_STEPS: usize = 20_000;
+/// Share of the largest compression by which its return may be missed.
+const MISSED: f64 = 1e-8;
+/// Share of the energy that the force may still give when it is let go.
+const NOTHING: f64 = 1e-14;
+/// Halvings of the longest step while there is a force, and the most for seeing whether the surface
+/// passes by the ball between two points.
+pub(super) const USUAL: usize = 2;
+const WATCHFUL: usize = 6;
+
+/// Where a meeting has come to.
+pub(super) struct Run {
+    pub now: State,
+    pub next: State,
+    /// The largest compression of this touch, once the ball is on its way back.
+    pub top: Option<Top>,
+    /// The last step's compression.
+    pub last: Option<Course>,
+    /// Level of the next step, whose length is `longest/2^level`.
+    pub level: usize,
+    /// Whether the force has almost gone.
+    pub faint: bool,
+    pub steps: usize,
+    pub couplings: [Option<Coupling>; LEVELS],
+}
+
+/// What became of a step.
+enum Taken {
+    /// The step failed and is repeated, shorter.
+    Finer,
+    /// The step is done and the next one follows.
+    On,
+    /// The step was the last: the ball has left, or its force has gone.
+    Parted,
+}
+
+/// Tables of steps, made when first needed, and who wants to know the force.
+pub(super) struct Means<'a> {
+    pub all: &'a [c64],
+    pub tables: &'a [OnceLock<StepTable>],
+    pub longest: f64,
+    pub history: Option<&'a mut Vec<Piece>>,
+}
+
+impl Means<'_> {
+    pub(super) fn record(&mut self, piece: Piece) {
+        self.history.iter_mut().for_each(|history| history.push(piece));
+    }
+}
+
+/// A part of the force that is done: what the energy was off by, relative, the force, and how the
+/// compression went.
+struct Part {
+    off: f64,
+    piece: Piece,
+    course: Course,
+}
+
+impl<L: ForceLaw> Touch<'_, L> {
+    /// The level of a touch's first step: the force begins as a power of the time.
+    #[inline(always)]
+    pub(super) fn first_level(&self, now: &State, longest: f64) -> usize {
+        let first = (3.0 * self.accuracy).powf(1.0 / (1.0 + self.law.exponent(None))) * self.way;
+        let level = (longest * self.rate(now) / first).log2().ceil().max(0.0) as usize;
+        level.clamp(USUAL, LEVELS - 1)
+    }
+
+    /// Steps until the ball has left or its force has gone; whether they come to an end.
+    #[inline(always)]
+    pub(super) fn press(&self, run: &mut Run, means: &mut Means, met: &mut Encounter) -> bool {
+        while run.steps < MOST_STEPS && met.corrected <= 1.0 {
+            run.steps += 1;
+            met.steps = run.steps;
+            match self.step(run, means, met) {
+                Taken::Finer if run.level + 1 == LEVELS => return false,
+                Taken::Finer => run.level += 1,
+                Taken::On => {}
+                Taken::Parted => return true,
+            }
+        }
+        false
+    }
+
+    #[inline(always)]
+    fn step(&self, run: &mut Run, means: &mut Means, met: &mut Encounter) -> Taken {
+        let Run { now, next, top, last, level, .. } = run;
+        let length = means.longest * 0.5_f64.powi(*level as i32);
+        let (all, tables) = (means.all, means.tables);
+        let table = tables[*level].get_or_init(|| StepTable::new(self.rule, all, length));
+        let coupling = match run.couplings[*level] {
+            Some(known) => known,
+            None => *run.couplings[*level].insert(self.coupling(table)),
+        };
+        let (step, converged) = self.solve(table, &coupling, now, *top, last.as_ref());
+        let (error, tuning) = (self.error_of(&step), &self.tuning);
+        let allowed = if *level < USUAL { tuning.long_error } else { tuning.usual_error };
+        // An error that is not a number is too large.
+        let small = error <= allowed * self.accuracy;
+        if !(converged && small) {
+            return Taken::Finer;
+        }
+        self.advance(table, now, &step, next);
+        let event = self.event(&step, next, *top);
+        if self.is_coarse(event, run, &step) {
+            return Taken::Finer;
+        }
+        let most = step.force.iter().fold(0.0, |most: f64, f| most.max(*f));
+        let limits = Limits { top: run.top, most, slight: tuning.slight * self.accuracy };
+        let taken = match event {
+            None => self.complete(limits, step, table, run),
+            Some(event) => self.stop_short(event, limits, step, run),
+        };
+        let Some(Part { off, piece, course }) = taken else { return Taken::Finer };
+        met.corrected += off;
+        means.record(piece);
+        run.last = Some(course);
+        match event {
+            None => self.go_on(error, run, met),
+            Some(event) => self.turn(event, limits.top, run, met),
+        }
+    }
+
+    /// A step to its end; None where it is to be shorter.
+    #[inline(always)]
+    fn complete(
+        &self,
+        limits: Limits,
+        step: Step,
+        table: &StepTable,
+        run: &mut Run,
+    ) -> Option<Part> {
+        let Run { now, next, .. } = run;
+        let off = self.correct(next, table.length, table.bumps(), limits)?;
+        let piece = step.until(now, next);
+        (!limits.pulls(&piece)).then(|| Part { off, piece, course: self.course(&step) })
+    }
+
+    /// A step to an event in it; None where it is to be shorter.
+    #[inline(always)]
+    fn stop_short(
+        &self,
+        event: Event,
+        limits: Limits,
+        mut step: Step,
+        run: &mut Run,
+    ) -> Option<Part> {
+        let Run { now, next, .. } = run;
+        let top = limits.top;
+        let off = self.stop(Stop { event, limits }, now, &mut step, next)?;
+        let piece = step.until(now, next);
+        let missed = match (event, top) {
+            // The last bit of the force does too little work to put much right.
+            (Event::Gone, _) => self.open(next, top) > CLOSED || limits.pulls(&piece),
+            (Event::Again, Some(top)) => {
+                (next.compression - top.compression).abs() > MISSED * top.compression
+            }
+            _ => false,
+        };
+        let from = piece.length / step.length;
+        (!missed).then(|| Part { off, piece, course: Course { from, ..self.course(&step) } })
+    }
+
+    /// From a step's end to the next step, which may be longer.
+    #[inline(always)]
+    fn go_on(&self, error: f64, run: &mut Run, met: &mut Encounter) -> Taken {
+        let Run { now, next, top, level, .. } = run;
+        let low = top.is_some_and(|top| next.force < self.tuning.faint * top.force);
+        let grown = error * 2.0_f64.powi(POINTS as i32);
+        let least = if low { 0 } else { USUAL };
+        if grown <= 4.0 * self.accuracy && *level > least {
+            *level -= 1;
+        }
+        *level = (*level).max(least);
+        met.late |= run.faint && next.force > now.force;
+        run.faint |= low;
+        std::mem::swap(now, next);
+        if self.is_over(now, *top) { Taken::Parted } else { Taken::On }
+    }
+
+    /// From an event to the branch of the law that follows it.
+    #[inline(always)]
+    fn turn(&self, event: Event, known: Option<Top>, run: &mut Run, met: &mut Encounter) -> Taken {
+        let Run { now, next, top, level, .. } = run;
+        std::mem::swap(now, next);
+        match event {
+            Event::Turned => {
+                let compression = now.compression;
+                let [force, _] = self.law.force(compression, None);
+                *top = Some(Top { compression, force });
+                now.force = force;
+                met.peak_force = met.peak_force.max(force);
+            }
+            Event::Again => {
+                if let Some(known) = known {
+                    (now.compression, now.force) = (known.compression, known.force);
+                }
+                *top = None;
+                *level = (*level).max(USUAL);
+                met.reloads += 1;
+            }
+            Event::Gone => {
+                now.compression = 0.0;
+                return Taken::Parted;
+            }
+        }
+        Taken::On
+    }
+
+    /// Whether a step that ends so is too long to be trusted.
+    #[inline(always)]
+    fn is_coarse(&self, event: Option<Event>, run: &Run, step: &Step) -> bool {
+        let Run { now, next, top, level, .. } = run;
+        match event {
+            // The last of the force is a broken power of the time, and may be overlooked.
+            Some(Event::Gone) => {
+                self.law.energy(now.compression, *top)[0]
+                    > self.tuning.last_energy * self.accuracy * self.energy
+            }
+            Some(_) => top.is_some_and(|t| step.force[POINTS - 1] < self.tuning.faint * t.force),
+            None if *level >= WATCHFUL => false,
+            None if top.is_some() => self.may_pass(now, step, next),
+            // It turned between two points and back.
+            None => step.compression.windows(2).any(|pair| pair[1] < pair[0]),
+        }
+    }
+
+    /// Whether the ball springs back with a force that does nothing more.
+    #[inline(always)]
+    fn is_over(&self, now: &State, top: Option<Top>) -> bool {
+        if top.is_none() || self.rate(now) >= 0.0 {
+            return false;
+        }
+        let bent = 0.5 * self.felt.rest * now.force * now.force;
+        self.law.energy_of(now.compression, now.force, top)[0] + bent <= NOTHING * self.energy
+    }
+}

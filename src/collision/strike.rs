@@ -1,0 +1,154 @@
+//! A hit at one place: in full, at a glance, and in time.
+
+use crate::collision::answer::Answer;
+use crate::collision::contact::table::Piece;
+use crate::collision::history::{Moment, history};
+use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
+use crate::collision::hitter::{Hitter, resolved, swinging};
+use crate::collision::struck::recoil_between;
+
+/// A hit without its ledger and its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glance {
+    /// Distance of the impact point from the knob end (m).
+    pub x: f64,
+    /// Exit speed of the ball (m/s).
+    pub exit_speed: f64,
+    /// Energy left in vibration (J); None for a model without.
+    pub vibration: Option<f64>,
+    /// What the hands feel once the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat
+    /// there against the swing's, in the mean square over a long undamped ringing.
+    pub hands: [f64; 2],
+}
+
+/// Accuracy of the steps where a place is sought: exit speeds then differ smoothly.
+const SMOOTH: f64 = 1e-6;
+
+/// The flag of a contact whose steps come to no end, or whose energies do not close.
+pub const UNRESOLVED: &str = "unresolved";
+
+impl Hitter<'_> {
+    /// The hit at `x` (m) as a search for places sees it. None where ball and bat do not meet, and
+    /// where the bat ends in a point: there a ball is met by ever less of it.
+    pub fn glance(&self, x: f64) -> Option<Glance> {
+        /// Of the largest radius.
+        const POINTED: f64 = 0.25;
+        let outer = &self.profile.stations.outer;
+        let largest = outer.iter().fold(0.0_f64, |largest, r| largest.max(*r));
+        let touches = matches!(self.model, Model::Pulse(_) | Model::Contact);
+        if touches && self.profile.at(x).outer < POINTED * largest {
+            return None;
+        }
+        let (impulse, in_modes) = match self.model {
+            Model::Contact => {
+                let closing = self.closing(x)?;
+                let (met, _) = self.meet(x, &self.felt(x), closing, SMOOTH)?;
+                (met.impulse, met.in_modes)
+            }
+            _ => {
+                let answer = self.answer(x, None)?;
+                (answer.impulse, answer.in_modes)
+            }
+        };
+        let in_modes = &in_modes[in_modes.len() - self.modes_used()..];
+        let mut velocity = (impulse * self.recoil_between(x, self.scene.hands)).powi(2);
+        let mut acceleration = 0.0;
+        for ((energy, [omega, _]), gain) in
+            in_modes.iter().zip(&self.modes).zip(self.struck.gains(self.scene.hands))
+        {
+            // Half of the amplitude's square, which is 2 E φ²/m.
+            velocity += energy * gain;
+            acceleration += energy * gain * omega * omega;
+        }
+        Some(Glance {
+            x,
+            exit_speed: impulse / self.scene.ball.mass - self.scene.ball_speed,
+            vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
+            hands: [velocity.sqrt(), acceleration.sqrt()],
+        })
+    }
+
+    /// The hit at `x` (m from the knob end).
+    pub fn strike(&self, x: f64) -> Impact {
+        self.strike_knowing(x, None)
+    }
+
+    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation and by steps
+    /// given where they are `known`: they are not estimated again.
+    pub fn strike_knowing(&self, x: f64, known: Option<[f64; 2]>) -> Impact {
+        let bat_speed = self.bat.speed_at(x, self.motion);
+        let rigid_exit_speed = self.rigid_exit(x);
+        let answer = self.answer(x, known);
+        let flags = match (rigid_exit_speed, &answer) {
+            (None, _) => vec!["no_contact"],
+            _ if !self.has_section(x) => vec!["no_section"],
+            (_, None) if self.model == Model::Contact => vec![UNRESOLVED],
+            (_, None) => vec!["no_real_solution"],
+            (_, Some(answer)) => answer.flags.clone(),
+        };
+        let outcome = answer.map(|answer| self.outcome(x, bat_speed, answer));
+        Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
+    }
+
+    /// The force at `x` (m) in time, by the contact model; None where that model has no answer.
+    pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
+        let (felt, closing) = (self.felt(x), self.closing(x)?);
+        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
+        let meet = |accuracy| collider.meet_recorded(&felt, &*law, closing, accuracy);
+        resolved(SMOOTH, meet, |(met, _)| met.is_sound(&felt, closing)).map(|(_, pieces)| pieces)
+    }
+
+    /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants
+    /// in every piece of the force; None where that model has no answer.
+    pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
+        let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
+        let modes: Vec<[f64; 2]> =
+            swinging(self.wall).into_iter().chain(self.modes.clone()).collect();
+        Some(history(&pieces, &felt, &modes, speed, parts))
+    }
+
+    fn outcome(&self, x: f64, bat_speed: f64, answer: Answer) -> Outcome {
+        let Scene { ball, ball_speed, .. } = self.scene;
+        let impulse = answer.impulse;
+        let (closing, exit_speed) = (bat_speed + ball_speed, impulse / ball.mass - ball_speed);
+        let kinetic = |speed: f64| 0.5 * ball.mass * speed * speed;
+        let [collision_efficiency, bbcor, bbcor_pivoted] = self.figures(x, exit_speed);
+        let after = self.bat.kinetic_energy(self.bat.after(self.motion, impulse, x));
+        let [initial, gone, bat_rigid] = match self.held {
+            true => [
+                kinetic(closing),
+                kinetic(exit_speed - bat_speed),
+                0.5 * impulse * impulse * recoil_between(self.motions(), x, x),
+            ],
+            false => [
+                kinetic(*ball_speed) + self.bat.kinetic_energy(self.motion),
+                kinetic(exit_speed),
+                after,
+            ],
+        };
+        Outcome {
+            exit_speed,
+            cor: answer.cor,
+            impulse,
+            collision_efficiency,
+            contact_time: answer.contact_time,
+            first_separation: answer.first_separation,
+            peak_force: answer.peak_force,
+            peak_compression: answer.peak_compression,
+            bbcor,
+            bbcor_pivoted,
+            energy: Energy {
+                initial,
+                ball: gone,
+                bat_rigid,
+                vibration_by_mode: answer.in_modes,
+                dissipated_ball: answer.lost_in_ball,
+                dissipated_damping: answer.lost_in_bat,
+                wall: answer.in_wall,
+            },
+            error: answer.error,
+            truncation: answer.truncation,
+            steps: answer.steps,
+        }
+    }
+}
