@@ -9,7 +9,7 @@
 //! | `pchip`, [`formula`], `formula_range` | how does the radius go between stations; as a formula of x |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
 //! | [`layup`] | what is the section worth: stiffness and mass per length |
-//! | [`fixtures`], `fixtures_check` | masses, springs, supports, grips, joints; are they possible |
+//! | [`fixtures`], `part`, `fixtures_check` | masses, springs, supports, grips, joints; their numbers; are they possible |
 //! | [`body`] | the whole bat |
 
 pub mod material;
@@ -23,5 +23,6 @@ pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
 pub mod layup;
 pub mod fixtures;
+pub(crate) mod part;
 pub(crate) mod fixtures_check;
 pub mod body;
