@@ -131,6 +131,11 @@ impl Quantity {
         (self.facts().2, 1.0)
     }
 
+    /// The SI unit as a person writes it: "kg m²".
+    pub(crate) fn unit(self) -> String {
+        self.facts().2.replace("^2", "²").replace("^3", "³")
+    }
+
     /// The quantity in words, with its article: "a length".
     pub fn name(self) -> &'static str {
         self.facts().0

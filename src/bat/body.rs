@@ -3,13 +3,15 @@
 //! [`Bat::new`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
 //! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
+use serde::{Deserialize, Serialize};
+
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::base::quadrature::{RunningSum, converged, gauss};
 use crate::bat::fixtures::Fixtures;
-use crate::bat::fixtures_check::{on_the_bat, positive};
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
+use crate::bat::part::{on_the_bat, positive};
 use crate::bat::profile::{Piece, Profile, Radii, Section};
 
 /// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
@@ -35,13 +37,17 @@ pub struct Bat {
 }
 
 /// What a scale and a tap said, where they were asked.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Weighed {
     /// Mass with everything attached (kg).
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     /// Balance point from the knob end (m): a check.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub balance_point: Option<f64>,
     /// The first bending frequency of the bat as described (Hz).
+    #[serde(rename = "first_bending_hz", skip_serializing_if = "Option::is_none")]
     pub first_bending: Option<f64>,
 }
 

@@ -3,50 +3,63 @@
 //! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
 //! [`crate::Bat::with_fixtures`].
 
+use serde::{Deserialize, Serialize};
+
 use crate::bat::layup::Layup;
 use crate::bat::profile::SAME_PLACE;
 
 /// Everything that a bat may have beside its shape and its material.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Fixtures {
     /// Stretches of other materials.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<Region>,
     /// Weights and springs to ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attachments: Vec<Attachment>,
-    /// Bat tape.
+    /// Bat tape: mass without stiffness.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tapes: Vec<Tape>,
-    /// Tuned absorbers.
+    /// Masses that hang on springs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorbers: Vec<Absorber>,
     /// Places that give way to bending.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Joint>,
-    /// Pins and clamps.
+    /// Places that are held.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
-    /// Hands.
+    /// Hands that hold the bat as an elastic bed.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub grip: Option<Grip>,
 }
 
 /// A stretch of other materials.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Region {
     /// Where the region begins (m).
     pub from: f64,
     /// Where the region ends (m).
     pub to: f64,
     /// Materials of the region.
+    #[serde(flatten)]
     pub layup: Layup,
 }
 
 /// A point mass and springs to ground.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Attachment {
     /// Where the attachment is fixed (m).
     pub x: f64,
     /// Mass of the attachment (kg).
     pub mass: f64,
-    /// How far beyond `x`, towards the barrel, the centre of the mass is (m).
-    pub offset: f64,
     /// Moment of inertia of the mass about its own centre (kg m²).
     pub rotary_inertia: f64,
+    /// How far beyond `x`, towards the barrel, the centre of the mass is (m).
+    pub offset: f64,
     /// Spring from the bat at `x` to the ground, against deflection (N/m).
     pub stiffness: f64,
     /// Spring from the bat at `x` to the ground, against rotation (N m/rad).
@@ -54,7 +67,8 @@ pub struct Attachment {
 }
 
 /// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Tape {
     /// Where the tape begins (m).
     pub from: f64,
@@ -65,7 +79,8 @@ pub struct Tape {
 }
 
 /// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Absorber {
     /// Where the absorber hangs (m).
     pub x: f64,
@@ -78,7 +93,8 @@ pub struct Absorber {
 }
 
 /// Where two parts of a bat are joined by a spring that gives way to bending.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Joint {
     /// Where the joint is (m).
     pub x: f64,
@@ -87,25 +103,31 @@ pub struct Joint {
 }
 
 /// A place that is held.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Support {
     /// Position of the support (m).
     pub x: f64,
     /// What the support holds.
+    #[serde(rename = "type")]
     pub kind: Held,
 }
 
-/// What a support holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a support holds: the deflection, or the rotation too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "show", schemars(inline))]
 pub enum Held {
-    /// The deflection; the bat may turn.
+    /// The bat does not move at the support but may turn.
     Pinned,
-    /// Deflection and rotation.
+    /// The bat neither moves nor turns at the support.
     Clamped,
 }
 
 /// Hands as an elastic bed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Grip {
     /// Where the hands begin (m).
     pub from: f64,

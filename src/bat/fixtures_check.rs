@@ -2,15 +2,10 @@
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
-use crate::bat::fixtures::{
-    Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
-};
+use crate::bat::fixtures::{Attachment, Fixtures, Held, Region, Support};
+use crate::bat::part::{Part, SOFTEST, on_the_bat, stretch};
 use crate::bat::profile::SAME_PLACE;
 
-/// Products of larger values are beyond the range of numbers.
-const MOST: f64 = 1e100;
-/// A softer spring (N/m or N m/rad) holds nothing.
-const SOFTEST: f64 = 1e-12;
 /// Frequencies nearer to each other, relative, are not counted apart.
 const LEAST_GAP: f64 = 1e-9;
 
@@ -125,66 +120,11 @@ fn each<T>(list: &str, items: &[T], check: impl Fn(&str, &T) -> Result<()>) -> R
 impl Region {
     pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
         let mut mistakes = Mistakes::default();
-        mistakes.note(stretch(path, self.from, self.to, length));
+        mistakes.note(stretch(path, [self.from, self.to], length));
         for (key, material) in ["material", "core"].iter().zip(self.layup.materials()) {
             let checked = material.check();
             mistakes.note(checked.map_err(|error| within(&format!("{path}.{key}"), error)));
         }
-        mistakes.end(())
-    }
-}
-
-impl Attachment {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        let name = |key: &str| format!("{path}.{key}");
-        mistakes.note(on_the_bat(name("x"), self.x, length));
-        mistakes.note(heavy(name("mass"), self.mass, "kg"));
-        mistakes.note(heavy(name("rotary_inertia"), self.rotary_inertia, "kg m²"));
-        mistakes.note(soft(name("stiffness"), self.stiffness, "N/m"));
-        mistakes.note(soft(name("rotational_stiffness"), self.rotational_stiffness, "N m/rad"));
-        if !self.offset.is_finite() || self.offset.abs() > 10.0 * length {
-            let expected = "a distance of at most ten lengths of the bat";
-            mistakes.add(Error::value(name("offset"), shown(self.offset, "m"), expected));
-        }
-        mistakes.end(())
-    }
-}
-
-impl Tape {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        mistakes.note(stretch(path, self.from, self.to, length));
-        mistakes.note(heavy(format!("{path}.mass"), self.mass, "kg"));
-        mistakes.end(())
-    }
-}
-
-impl Absorber {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        let name = |key: &str| format!("{path}.{key}");
-        mistakes.note(on_the_bat(name("x"), self.x, length));
-        let mass = positive(name("mass"), self.mass, "kg");
-        mistakes.note(mass.and_then(|()| heavy(name("mass"), self.mass, "kg")));
-        let spring = positive(name("stiffness"), self.stiffness, "N/m");
-        mistakes.note(spring.and_then(|()| soft(name("stiffness"), self.stiffness, "N/m")));
-        mistakes.note(not_negative(name("damping"), self.damping, "N s/m"));
-        mistakes.end(())
-    }
-}
-
-impl Joint {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        let same = SAME_PLACE * length;
-        if !(self.x > same && self.x < length - same) {
-            let expected = format!("a place inside the bat, 0 to {length} m");
-            mistakes.add(Error::value(format!("{path}.x"), shown(self.x, "m"), expected));
-        }
-        let name = || format!("{path}.rotational_stiffness");
-        let spring = positive(name(), self.rotational_stiffness, "N m/rad");
-        mistakes.note(spring.and_then(|()| soft(name(), self.rotational_stiffness, "N m/rad")));
         mistakes.end(())
     }
 }
@@ -195,82 +135,9 @@ impl Support {
     }
 }
 
-impl Grip {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        mistakes.note(stretch(path, self.from, self.to, length));
-        mistakes.note(soft(format!("{path}.stiffness"), self.stiffness, "N/m²"));
-        mistakes.note(not_negative(format!("{path}.damping"), self.damping, "N s/m²"));
-        mistakes.end(())
-    }
-}
-
 /// An error about a part, as one about the whole: its field is a path from there.
 fn within(path: &str, error: Error) -> Error {
     error.placed(|complaint| {
         Error::Value(Complaint { field: format!("{path}.{}", complaint.field), ..complaint })
     })
-}
-
-fn stretch(path: &str, from: f64, to: f64, length: f64) -> Result<()> {
-    let name = |key: &str| format!("{path}.{key}");
-    let mut mistakes = Mistakes::default();
-    mistakes.note(on_the_bat(name("from"), from, length));
-    mistakes.note(on_the_bat(name("to"), to, length));
-    mistakes.end(())?;
-    if to - from > SAME_PLACE * length {
-        return Ok(());
-    }
-    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))
-}
-
-pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Result<()> {
-    if x >= 0.0 && x <= length {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(x, "m"), format!("a place on the bat, 0 to {length} m")))
-}
-
-pub(crate) fn positive(field: impl Into<String>, value: f64, unit: &str) -> Result<()> {
-    if value > 0.0 && value < MOST {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(value, unit), format!("a number above 0, below {MOST:e}")))
-}
-
-fn not_negative(field: String, value: f64, unit: &str) -> Result<()> {
-    if (0.0..MOST).contains(&value) {
-        return Ok(());
-    }
-    Err(Error::value(field, shown(value, unit), format!("0 or more, below {MOST:e}")))
-}
-
-/// No spring, or one whose motion can be told from a rigid one.
-fn soft(field: String, value: f64, unit: &str) -> Result<()> {
-    not_negative(field.clone(), value, unit)?;
-    if value == 0.0 || value >= SOFTEST {
-        return Ok(());
-    }
-    let expected = format!("0, or {SOFTEST:e} {unit} and more: a softer spring holds nothing");
-    Err(Error::value(field, shown(value, unit), expected))
-}
-
-/// A mass that a bat can be told from.
-fn heavy(field: String, value: f64, unit: &str) -> Result<()> {
-    const HEAVIEST: f64 = 1e8;
-    not_negative(field.clone(), value, unit)?;
-    if value <= HEAVIEST {
-        return Ok(());
-    }
-    let expected = format!("{HEAVIEST:e} {unit} at most: more is a support");
-    Err(Error::value(field, shown(value, unit), expected))
-}
-
-/// A value without a row of zeros.
-fn shown(value: f64, unit: &str) -> String {
-    match value.abs() {
-        size if !size.is_finite() => "a value beyond the range of numbers".to_owned(),
-        0.0 | 1e-4..1e6 => format!("{value} {unit}"),
-        _ => format!("{value:e} {unit}"),
-    }
 }

@@ -2,17 +2,23 @@
 //!
 //! [`Layup::of`] a material, [`Layup::worth`] of a section.
 
+use serde::{Deserialize, Serialize};
+
 use crate::bat::material::Material;
 use crate::bat::profile::Section;
 
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Layup {
     /// Material of the wall, from the bore to the surface.
+    #[serde(rename = "material")]
     pub outer: Material,
     /// Material that fills the bore, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub core: Option<Material>,
     /// Mass of tape on the surface, which adds no stiffness (kg per m of bat).
+    #[serde(skip)]
     pub tape: f64,
 }
 

@@ -3,30 +3,39 @@
 //! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
 //! `shear_modulus` to let it shear.
 
+use serde::{Deserialize, Serialize};
+
 use crate::base::error::{Error, Result};
 use crate::base::interval::Rectangle;
 use crate::base::mistakes::Mistakes;
 
 /// A material, along the bat's axis where it is wood.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Material {
     /// The built-in name, if it has one.
+    #[serde(skip)]
     pub name: Option<String>,
     /// Density ρ (kg/m³).
     pub density: f64,
     /// Young's modulus E (Pa).
     pub youngs_modulus: f64,
-    /// Shear modulus G (Pa), if known.
-    pub shear_modulus: Option<f64>,
-    /// Poisson's ratio ν, if it was given.
-    pub poisson_ratio: Option<f64>,
-    /// Timoshenko's shear coefficient κ, if it was given.
-    pub shear_coefficient: Option<f64>,
     /// Loss factor η; a mode's damping ratio is ζ = η/2.
     pub loss_factor: f64,
+    /// Shear modulus G (Pa), if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_modulus: Option<f64>,
+    /// Poisson's ratio ν, if it was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_ratio: Option<f64>,
+    /// Timoshenko's shear coefficient κ, if it was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_coefficient: Option<f64>,
     /// Stress at which it breaks in bending (Pa), if known; of wood the modulus of rupture.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub strength: Option<f64>,
     /// Strain at which it breaks, if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub strain_to_failure: Option<f64>,
 }
 

@@ -10,7 +10,7 @@
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
 //! | [`layup`] | what is the section worth: stiffness and mass per length |
-//! | [`fixtures`], `fixtures_check` | masses, springs, supports, grips, joints; are they possible |
+//! | [`fixtures`], `part`, `fixtures_check` | masses, springs, supports, grips, joints; their numbers; are they possible |
 //! | [`body`] | the whole bat |
 
 pub mod material;
@@ -26,5 +26,6 @@ pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
 pub mod layup;
 pub mod fixtures;
+pub(crate) mod part;
 pub(crate) mod fixtures_check;
 pub mod body;

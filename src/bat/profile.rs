@@ -2,6 +2,8 @@
 //!
 //! [`Profile::new`] lays curves through [`Stations`]; [`Profile::at`] gives the [`Section`].
 
+use serde::{Deserialize, Serialize};
+
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::bat::formula::Formula;
@@ -13,11 +15,13 @@ use crate::bat::tip::{NEVER_BACK, sends_back};
 pub const SAME_PLACE: f64 = 1e-12;
 
 /// How the radius runs between stations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema), schemars(inline))]
+#[serde(rename_all = "lowercase")]
 pub enum Interpolation {
-    /// Monotone cubic of Fritsch and Butland, split at steps.
+    /// A smooth curve without overshoot: the monotone cubic of Fritsch and Butland, split at steps.
     Pchip,
-    /// Straight lines.
+    /// A straight line from station to station.
     Linear,
     /// The value of a station holds until the next; the last station only closes the bat.
     Constant,

@@ -4,11 +4,10 @@ use crate::base::error::{Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::Quantity;
 use crate::bat::body::Weighed;
-use crate::bat::fixtures::{
-    Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
-};
+use crate::bat::fixtures::{Fixtures, Held, Region, Support};
 use crate::bat::layup::Layup;
 use crate::bat::material::Material;
+use crate::bat::part::{Field, Instead, Part};
 use crate::files::json_node::{Node, Object};
 use crate::files::material_file;
 
@@ -38,12 +37,12 @@ impl On<'_> {
 pub(crate) fn read(root: &Object, on: &On, mistakes: &mut Mistakes) -> Fixtures {
     Fixtures {
         regions: mistakes.note(list(root, "regions", |node| region(node, on))),
-        attachments: mistakes.note(list(root, "attachments", |node| attachment(node, on))),
-        tapes: mistakes.note(list(root, "tapes", |node| tape(node, on))),
-        absorbers: mistakes.note(list(root, "absorbers", |node| absorber(node, on))),
-        joints: mistakes.note(list(root, "joints", |node| joint(node, on))),
+        attachments: mistakes.note(list(root, "attachments", |node| part(node, on))),
+        tapes: mistakes.note(list(root, "tapes", |node| part(node, on))),
+        absorbers: mistakes.note(list(root, "absorbers", |node| part(node, on))),
+        joints: mistakes.note(list(root, "joints", |node| part(node, on))),
         supports: mistakes.note(list(root, "supports", |node| support(node, on))),
-        grip: mistakes.note(root.get("grip").map(|node| grip(node, on)).transpose()),
+        grip: mistakes.note(root.get("grip").map(|node| part(node, on)).transpose()),
     }
 }
 
@@ -89,84 +88,55 @@ fn region(node: &Node, on: &On) -> Result<Region> {
     keys.and(values.end(region).and_then(|region| on.checked(node, region, Region::check)))
 }
 
-fn attachment(node: &Node, on: &On) -> Result<Attachment> {
-    let kinds = ["mass", "rotary_inertia", "stiffness", "rotational_stiffness"];
+/// A part that is a list of numbers.
+fn part<P: Part>(node: &Node, on: &On) -> Result<P> {
     let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
-    let object = node.object(&[&["x", "offset"], &kinds[..]].concat(), &mut keys)?;
-    values.note(object.require_some(&kinds));
-    if object.get("offset").is_some() {
-        let mass = object.require("mass", "the \"mass\" whose centre has that \"offset\"");
-        values.note(mass.map(|_| ()));
+    let known = P::FIELDS.iter().map(|field| field.key);
+    let known: Vec<&str> = known.chain(P::INSTEAD.map(|instead| instead.key)).collect();
+    let object = node.object(&known, &mut keys)?;
+    if !P::SOME.is_empty() {
+        values.note(object.require_some(P::SOME));
     }
-    let mut or_zero = |key, quantity| values.note(or_zero(&object, key, quantity));
-    let mut attachment = Attachment {
-        x: 0.0,
-        mass: or_zero("mass", Quantity::Mass),
-        offset: or_zero("offset", Quantity::Length),
-        rotary_inertia: or_zero("rotary_inertia", Quantity::Inertia),
-        stiffness: or_zero("stiffness", Quantity::Stiffness),
-        rotational_stiffness: or_zero("rotational_stiffness", Quantity::RotationalStiffness),
-    };
-    attachment.x = values.note(place(&object, "x", on));
-    keys.and(values.end(attachment).and_then(|a| on.checked(node, a, Attachment::check)))
+    let mut part = P::default();
+    for field in P::FIELDS {
+        *(field.of)(&mut part) = values.note(number(&object, field, on));
+        if let Some((other, expected)) = field.with.filter(|_| object.get(field.key).is_some()) {
+            values.note(object.require(other, expected).map(|_| ()));
+        }
+    }
+    if let Some(instead) = P::INSTEAD {
+        values.note(replaced(&object, &instead, &mut part));
+    }
+    keys.and(values.end(part).and_then(|part| on.checked(node, part, P::check)))
 }
 
-fn tape(node: &Node, on: &On) -> Result<Tape> {
-    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
-    let object = node.object(&["from", "to", "mass"], &mut keys)?;
-    let mass = object.require("mass", "the \"mass\" that is spread there");
-    let tape = Tape {
-        from: values.note(place(&object, "from", on)),
-        to: values.note(place(&object, "to", on)),
-        mass: values.note(mass.and_then(|mass| mass.quantity(Quantity::Mass))),
-    };
-    keys.and(values.end(tape).and_then(|tape| on.checked(node, tape, Tape::check)))
+fn number<P>(object: &Object, field: &Field<P>, on: &On) -> Result<f64> {
+    let Field { key, quantity, .. } = *field;
+    match field.needed {
+        _ if field.is_place() => place(object, key, on),
+        Some(expected) => object.require(key, expected)?.quantity(quantity),
+        None => Ok(object.quantity(key, quantity)?.unwrap_or(0.0)),
+    }
 }
 
-fn absorber(node: &Node, on: &On) -> Result<Absorber> {
-    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
-    let object = node.object(&["x", "mass", "stiffness", "frequency", "damping"], &mut keys)?;
-    let mass = object.require("mass", "the \"mass\" that hangs there");
-    let mass = values.note(mass.and_then(|mass| mass.quantity(Quantity::Mass)));
-    let absorber = Absorber {
-        x: values.note(place(&object, "x", on)),
-        mass,
-        stiffness: values.note(spring(&object, mass)),
-        damping: values.note(or_zero(&object, "damping", Quantity::Damping)),
-    };
-    keys.and(values.end(absorber).and_then(|a| on.checked(node, a, Absorber::check)))
-}
-
-/// The stiffness under a mass (kg), or that with which it swings as fast as it is said to.
-fn spring(object: &Object, mass: f64) -> Result<f64> {
-    match object.one_of(&["stiffness", "frequency"])? {
-        Some(("stiffness", node)) => node.quantity(Quantity::Stiffness),
-        Some((_, node)) => {
-            let frequency = node.quantity(Quantity::Frequency)?;
-            if frequency <= 0.0 {
-                return Err(node.error(node.shown(), "a frequency above 0"));
+/// Sets the number that is given by something else, if it is.
+fn replaced<P>(object: &Object, instead: &Instead<P>, part: &mut P) -> Result<()> {
+    let Instead { key, of, quantity, .. } = *instead;
+    match object.one_of(&[of, key])? {
+        Some((found, node)) if found == key => {
+            let value = node.quantity(quantity)?;
+            if value <= 0.0 {
+                return Err(node.error(node.shown(), format!("{} above 0", quantity.name())));
             }
-            Ok(mass * (std::f64::consts::TAU * frequency).powi(2))
+            (instead.set)(part, value);
+            Ok(())
         }
+        Some(_) => Ok(()),
         None => {
-            let found = "no \"stiffness\" and no \"frequency\"";
-            let expected = "one of them: the spring, or how fast it swings alone";
-            Err(object.node.error(found, expected))
+            let found = format!("no \"{of}\" and no \"{key}\"");
+            Err(object.node.error(found, instead.expected))
         }
     }
-}
-
-fn joint(node: &Node, on: &On) -> Result<Joint> {
-    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
-    let object = node.object(&["x", "rotational_stiffness"], &mut keys)?;
-    let expected = "\"rotational_stiffness\": the bending moment per angle";
-    let spring = object.require("rotational_stiffness", expected);
-    let spring = spring.and_then(|node| node.quantity(Quantity::RotationalStiffness));
-    let joint = Joint {
-        x: values.note(place(&object, "x", on)),
-        rotational_stiffness: values.note(spring),
-    };
-    keys.and(values.end(joint).and_then(|joint| on.checked(node, joint, Joint::check)))
 }
 
 fn support(node: &Node, on: &On) -> Result<Support> {
@@ -179,27 +149,10 @@ fn support(node: &Node, on: &On) -> Result<Support> {
     keys.and(values.end(support).and_then(|support| on.checked(node, support, Support::check)))
 }
 
-fn grip(node: &Node, on: &On) -> Result<Grip> {
-    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
-    let object = node.object(&["from", "to", "stiffness", "damping"], &mut keys)?;
-    values.note(object.require_some(&["stiffness", "damping"]));
-    let grip = Grip {
-        from: values.note(place(&object, "from", on)),
-        to: values.note(place(&object, "to", on)),
-        stiffness: values.note(or_zero(&object, "stiffness", Quantity::BedStiffness)),
-        damping: values.note(or_zero(&object, "damping", Quantity::BedDamping)),
-    };
-    keys.and(values.end(grip).and_then(|grip| on.checked(node, grip, Grip::check)))
-}
-
 /// A place on the bat; the tip in other digits than the profile's is the tip.
 fn place(object: &Object, key: &str, on: &On) -> Result<f64> {
     let expected = format!("\"{key}\": a place on the bat, from the knob end");
     let x = object.require(key, &expected)?.quantity(Quantity::Length)?;
     let tip = on.length.filter(|length| (x - length).abs() <= 1e-12 * length);
     Ok(tip.unwrap_or(x))
-}
-
-fn or_zero(object: &Object, key: &str, quantity: Quantity) -> Result<f64> {
-    Ok(object.quantity(key, quantity)?.unwrap_or(0.0))
 }

@@ -10,9 +10,11 @@ use schemars::generate::Contract;
 use serde_json::{Value, json};
 
 use crate::base::units::Quantity;
+use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Tape};
+use crate::bat::profile::Interpolation;
 use crate::files::schema::amount::{Amount, Measures, column};
 use crate::files::schema::document::{Document, Format};
-use crate::files::schema::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
+use crate::files::schema::fixtures::{InFile, Region, Support};
 use crate::files::schema::material::{Comment, Material};
 use crate::files::schema::resolved::End;
 
@@ -47,17 +49,17 @@ pub struct BatFile {
     /// Stretches of other materials, which do not overlap.
     pub regions: Option<Vec<Region>>,
     /// Weights and springs to ground.
-    pub attachments: Option<Vec<Attachment>>,
+    pub attachments: Option<Vec<InFile<Attachment>>>,
     /// Bat tape: mass without stiffness.
-    pub tapes: Option<Vec<Tape>>,
+    pub tapes: Option<Vec<InFile<Tape>>>,
     /// Masses that hang on springs.
-    pub absorbers: Option<Vec<Absorber>>,
+    pub absorbers: Option<Vec<InFile<Absorber>>>,
     /// Places that give way to bending, one joint at one place.
-    pub joints: Option<Vec<Joint>>,
+    pub joints: Option<Vec<InFile<Joint>>>,
     /// Places that are held, one support at one place; without supports the bat is free.
     pub supports: Option<Vec<Support>>,
     /// Hands that hold the bat as an elastic bed.
-    pub grip: Option<Grip>,
+    pub grip: Option<InFile<Grip>>,
 }
 
 impl Document for BatFile {
@@ -140,18 +142,6 @@ const COLUMNS: [&str; 6] =
 /// None of these members may be there.
 fn nothing_of(keys: &[&str]) -> Value {
     keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect()
-}
-
-/// How a curve runs between stations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, JsonSchema)]
-#[schemars(inline, rename_all = "lowercase")]
-pub enum Interpolation {
-    /// A smooth curve that does not overshoot: rising stations give a rising curve.
-    Pchip,
-    /// A straight line from station to station.
-    Linear,
-    /// A station's value holds up to the next one.
-    Constant,
 }
 
 /// A stretch of the bat whose radii are formulas.
