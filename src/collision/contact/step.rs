@@ -1,11 +1,12 @@
 //! A step of a contact: the force at its points by Newton's method, the motions under that force, and
 //! the bump on it that puts the energy right.
 
+use crate::base::linear::dot;
 use crate::collision::contact::collocation::{
     LANES, Lobatto, POINTS, Pair, lanes, moments, polynomial, sum, times, total,
 };
 use crate::collision::contact::force_law::Top;
-use crate::collision::contact::touch::{State, Touch, dot};
+use crate::collision::contact::touch::{State, Touch};
 
 /// A part of the force in time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -163,9 +163,3 @@ impl Touch<'_> {
         [state.compression, state.force] = shared;
     }
 }
-
-/// `Σ a_k b_k`.
-#[inline(always)]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
