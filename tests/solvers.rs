@@ -4,9 +4,9 @@ mod common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel};
 use nalgebra_sparse::{CooMatrix, CscMatrix};
+use sweetspot::base::linear::dot;
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
-use sweetspot::eigen::lanczos::dot;
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
 use sweetspot::modes::solve::own_and_recomputed;

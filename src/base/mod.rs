@@ -10,6 +10,7 @@
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
 //! | [`units`], [`number`] | what is a number with a unit in SI; how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
+//! | [`linear`], [`golden`] | products of vectors, two equations; the golden section |
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
 //! | [`xml`] | how is a text written into XML |
 
@@ -23,6 +24,8 @@ pub mod units;
 pub mod number;
 pub mod real;
 pub mod lanes;
+pub mod linear;
+pub mod golden;
 pub mod quadrature;
 pub mod interval;
 pub mod xml;

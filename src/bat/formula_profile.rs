@@ -1,6 +1,7 @@
 //! A profile from formulas: cut where they have corners and at their features, checked everywhere.
 
 use crate::base::error::{Complaint, Error, Result, shortened};
+use crate::base::golden;
 use crate::bat::formula::Formula;
 use crate::bat::formula_bounds::Bounds;
 use crate::bat::profile::{
@@ -322,29 +323,9 @@ fn bottom(
     of: impl Fn(Section) -> f64,
 ) -> Option<(f64, Section)> {
     let lows = samples.windows(3).filter(|w| of(w[1].1) < of(w[0].1) && of(w[1].1) <= of(w[2].1));
-    let places = lows.map(|w| golden(w[0].0, w[2].0, |s| of(curves.at(s))));
+    let places = lows.map(|w| golden::least(w[0].0, w[2].0, |s| of(curves.at(s))));
     let found = places.map(|s| (s, curves.at(s)));
     found.min_by(|a, b| of(a.1).total_cmp(&of(b.1)))
-}
-
-/// Where `f` is least between `low` and `high`, by golden sections.
-fn golden(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_8;
-    let (mut a, mut b) = (high - SHARE * (high - low), low + SHARE * (high - low));
-    let (mut at_a, mut at_b) = (f(a), f(b));
-    // Enough for a position to half the digits, where the value has all of its own.
-    for _ in 0..40 {
-        if at_a < at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = high - SHARE * (high - low);
-            at_a = f(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = low + SHARE * (high - low);
-            at_b = f(b);
-        }
-    }
-    if at_a < at_b { a } else { b }
 }
 
 /// Both ends of a smooth piece and its widest place.

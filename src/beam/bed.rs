@@ -15,6 +15,7 @@ use crate::beam::footing::{
 };
 
 /// What an elastic bed is made of.
+#[derive(Debug, Clone)]
 pub struct Under<S> {
     /// Number of the bed's first contact.
     pub contact: usize,
@@ -22,7 +23,8 @@ pub struct Under<S> {
     pub place: usize,
     /// How far each of its springs is drawn out by a strain of 1.
     pub softness: Vec<S>,
-    /// What each of them holds: rows over the strains, deflection and rotation at the inner end.
+    /// What each of them holds: rows over the strains, `H`, and over deflection and rotation at the inner
+    /// end, `G`.
     pub rows: Vec<S>,
 }
 
@@ -31,14 +33,7 @@ pub struct Under<S> {
 pub struct Bed<S> {
     /// The element.
     crossing: Crossing<S>,
-    /// The number of its first contact.
-    contact: usize,
-    /// The place of its first strain.
-    place: usize,
-    /// How far each of its springs is drawn out by a strain of 1.
-    softness: Vec<S>,
-    /// Rows of `H`, and behind each that of `G`.
-    rows: Vec<S>,
+    under: Under<S>,
     /// The Cholesky factor of `Σ + H Hᵀ`, row by row.
     lower: Vec<S>,
     /// `H Bᵀ`, `(Σ + H Hᵀ)⁻¹ G` and `(Σ + H Hᵀ)⁻¹ H Bᵀ`.
@@ -80,27 +75,14 @@ impl<S: Real> Bed<S> {
             [[1.0 - moved(0, 0), span.length - moved(0, 1)], [-moved(1, 0), 1.0 - moved(1, 1)]];
         let (crossing, seen) = footing.through(span, compliance);
         let (meeting, footing) = seen.meet(carried, own);
-        let Under { contact, place, softness, rows } = under;
         let own = own.map(S::splat);
-        let bed = Self {
-            crossing,
-            contact,
-            place,
-            softness,
-            rows,
-            lower,
-            outer,
-            by_motion,
-            by_force,
-            own,
-            meeting,
-        };
+        let bed = Self { crossing, under, lower, outer, by_motion, by_force, own, meeting };
         (bed, footing)
     }
 
     /// Every spring's row over the strains, deflection and rotation at the inner end.
     fn rows(&self) -> impl Iterator<Item = &[S]> {
-        self.rows.chunks_exact(self.crossing.adds.len() + 2)
+        self.under.rows.chunks_exact(self.crossing.adds.len() + 2)
     }
 
     /// Where the springs are at rest on the inner side, from where they are on the outer; leaves what
@@ -141,8 +123,8 @@ impl<S: Real> Bed<S> {
         strains: &mut [R],
         reactions: &mut [R],
     ) -> [R; 2] {
-        let own = trace.split_off(trace.len() - self.softness.len() - 6);
-        let (forces, rest) = own.split_at(self.softness.len());
+        let own = trace.split_off(trace.len() - self.under.softness.len() - 6);
+        let (forces, rest) = own.split_at(self.under.softness.len());
         let (crossing, meeting) = (&self.crossing, &self.meeting);
         let turned = rest[1] + turn * meeting.softness[1];
         let moved = rest[0] + push * meeting.softness[0] - turned * meeting.at;
@@ -153,8 +135,8 @@ impl<S: Real> Bed<S> {
             let [by, out] = [&self.by_motion[k], &self.by_force[k]];
             let force = forces[k] + (moved * by[0] + turned * by[1])
                 - (carried[0] * out[0] + carried[1] * out[1]);
-            reactions[self.contact + k] = force;
-            strains[self.place + k] += force * self.softness[k];
+            reactions[self.under.contact + k] = force;
+            strains[self.under.place + k] += force * self.under.softness[k];
             let own = strains[crossing.first..].iter_mut().zip(&crossing.adds).zip(row);
             own.for_each(|((q, _), h)| *q -= force * *h);
         }
@@ -165,12 +147,12 @@ impl<S: Real> Bed<S> {
     fn off<R: Over<S>>(&self, given: Given<R>) -> Vec<R> {
         let q = match given {
             Given::Displacements(off) => {
-                return off[self.contact..][..self.softness.len()].to_vec();
+                return off[self.under.contact..][..self.under.softness.len()].to_vec();
             }
             Given::Strains(q) => q,
         };
         let own = &q[self.crossing.first..][..self.crossing.adds.len()];
-        let springs = self.softness.iter().zip(&q[self.place..]);
+        let springs = self.under.softness.iter().zip(&q[self.under.place..]);
         self.rows()
             .zip(springs)
             .map(|(row, (softness, strain))| {
@@ -224,7 +206,7 @@ mod tests {
     fn the_factor_solves_what_it_is_the_factor_of() {
         // Rows of two strains, and the columns of the inner end, which do not count here.
         let rows = vec![1.0, 2.0, 9.0, 9.0, -1.0, 0.5, 9.0, 9.0, 0.3, 0.1, 9.0, 9.0];
-        let softness = vec![0.5, 1.0, 2.0];
+        let softness = vec![0.5_f64, 1.0, 2.0];
         let under = Under { contact: 0, place: 0, softness, rows };
         let entry = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| &under.rows[4 * k..][..2]);

@@ -16,6 +16,7 @@
 
 use std::ops::{Index, IndexMut};
 
+use crate::base::linear::{determinant, solve_two};
 use crate::beam::fixed::unit;
 use crate::beam::placed::Placed;
 use crate::beam::statics::Statics;
@@ -317,13 +318,12 @@ impl Form {
     fn eliminate_two(&mut self, first: usize) -> Option<usize> {
         let row = |i: usize| self.values[i * self.size..][..self.size].to_vec();
         let [a, b] = [row(first), row(first + 1)];
-        let (p, q, r) = (a[first], a[first + 1], b[first + 1]);
-        let det = p * r - q * q;
-        if det >= 0.0 {
+        let pivot = [[a[first], a[first + 1]], [a[first + 1], b[first + 1]]];
+        if determinant(pivot) >= 0.0 {
             return None;
         }
         for i in first + 2..self.size {
-            let (of_a, of_b) = ((r * a[i] - q * b[i]) / det, (p * b[i] - q * a[i]) / det);
+            let [of_a, of_b] = solve_two(pivot, [a[i], b[i]]);
             for j in first + 2..self.size {
                 self[(i, j)] -= of_a * a[j] + of_b * b[j];
             }

@@ -23,6 +23,7 @@
 //! an equilibrated field; Rayleigh's, Schwarz' and Grammel's quotients in L. Collatz,
 //! Eigenwertaufgaben mit technischen Anwendungen (1963).
 
+use crate::base::linear::dot;
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS};
@@ -30,7 +31,6 @@ use crate::beam::motion::Motion;
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
-use crate::eigen::lanczos::dot;
 
 /// Memory for the numbers of one cell.
 struct OneCell<R> {

@@ -1,6 +1,18 @@
 //! From a degree and a theory, known when the program runs, to code compiled for them.
 
 use crate::bat::theory::Theory;
+use crate::beam::mesh::Mesh;
+
+/// What a bat is divided into, and what is known of the parts.
+#[derive(Debug, Clone, Copy)]
+pub struct Elements<'a> {
+    /// Where they are.
+    pub mesh: &'a Mesh,
+    /// Degree of their deflection.
+    pub degree: usize,
+    /// The beam theory.
+    pub theory: Theory,
+}
 
 /// Work on elements of a degree that is known when it is compiled.
 pub trait OfDegree {

@@ -1,5 +1,6 @@
 //! The elements in the unknowns of the textbooks: deflections, rotations, bubbles.
 
+use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::element::{Element, Matrix, Samples, Vector, integrated};
@@ -65,7 +66,7 @@ impl<const N: usize, const W: usize> Element<f64, N, W> {
             [shape, turn]
         });
         let times = |matrix: &Matrix<f64, N>, x: &[f64]| -> Vector<f64, N> {
-            std::array::from_fn(|k| dot(&matrix[k], x))
+            std::array::from_fn(|k| dot(&matrix[k][..x.len()], x))
         };
         let (mut stiffness, mut mass) = ([[0.0; W]; W], [[0.0; W]; W]);
         for i in 0..W {
@@ -79,19 +80,15 @@ impl<const N: usize, const W: usize> Element<f64, N, W> {
                 None => [[0.0; N]; 2],
             };
             for j in 0..W {
-                stiffness[i][j] = dot(&bent, &strains[j][..N - 2]);
+                stiffness[i][j] = dot(&bent[..N - 2], &strains[j][..N - 2]);
                 if W > N {
-                    stiffness[i][j] += dot(&sheared, &strains[j][N - 2..W - 2]);
+                    stiffness[i][j] += dot(&sheared[..N - 2], &strains[j][N - 2..W - 2]);
                 }
                 mass[i][j] = dot(&moved, &shapes[j][0]) + dot(&turned, &shapes[j][1]);
             }
         }
         (stiffness, mass)
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -1,9 +1,19 @@
 //! What does the bat as a beam store, and how does it give way?
 //!
-//! [`mesh`] says where the elements are, [`element`] what one of them stores, [`statics`] what a
-//! load does to the whole bat, [`motion`] how far a motion is from a mode and [`count`] how many
-//! modes are slower than one. [`assembly::Pencil::of`] gives K and M as sparse matrices; it is what
-//! to call from outside, for [`crate::solve()`] does the rest.
+//! [`assembly::Pencil::of`] gives K and M as sparse matrices; it is what to call from outside, for
+//! [`crate::solve()`] does the rest.
+//!
+//! | file | question |
+//! |---|---|
+//! | [`mesh`], [`rule`], [`sections`] | where are the elements, and their points; what are the sections there |
+//! | [`element`], [`hermite`], [`degree`] | what does one element store, in strains and as the textbooks have it |
+//! | [`walk`], [`sweep`] | the way over a bat from stop to stop; what is summed up on it |
+//! | [`footing`], [`bed`], [`holds`] | what lies beyond a border, two springs; an elastic bed; how contacts hold a bat |
+//! | [`attached`], [`placed`], [`fixed`] | one thing on the bat; where it is; how the bat then gives way |
+//! | [`statics`], [`start`], [`view`] | what a load does to the whole bat; where an iteration starts |
+//! | [`count`] | how many motions are slower than one |
+//! | [`motion`], [`defect`], [`changes`] | shape and energies of a motion; how far it and its shape are from a mode's |
+//! | [`assembly`], [`dowel`] | sparse matrices; a uniform beam in closed form |
 
 pub mod mesh;
 pub mod rule;
@@ -13,8 +23,8 @@ pub mod hermite;
 pub mod degree;
 pub mod walk;
 pub mod sweep;
-pub(crate) mod footing;
-pub(crate) mod bed;
+pub mod footing;
+pub mod bed;
 pub mod holds;
 pub mod attached;
 pub mod placed;

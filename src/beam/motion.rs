@@ -1,5 +1,6 @@
 //! One bending motion of the bat: its shape and its energies.
 
+use crate::base::linear::dot;
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
@@ -8,7 +9,6 @@ use crate::beam::statics::Statics;
 use crate::beam::sweep::{Loads, Rigid};
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
-use crate::eigen::lanczos::dot;
 
 /// A bending motion with the memory it was computed in.
 #[derive(Debug, Clone, Default)]

@@ -1,5 +1,6 @@
 //! Where does the iteration for the slowest motions start?
 
+use crate::base::golden;
 use crate::base::real::Real;
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::Statics;
@@ -59,7 +60,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
                 }
                 // Clenshaw's recurrence, all points at once.
                 for j in (0..count + 2).rev() {
-                    let amplitude = number(0.2 + golden(j));
+                    let amplitude = number(0.2 + golden::fraction(j));
                     for ((wave, before), now) in
                         wave[..places.len()].iter().zip(&mut before).zip(&mut now)
                     {
@@ -76,13 +77,8 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         let mut largest = R::default();
         out.iter().for_each(|q| largest = largest.max(q.abs()));
         for (k, q) in out.iter_mut().enumerate() {
-            *q += number(TOUCH * (golden(k) - 0.5)) * largest;
+            *q += number(TOUCH * (golden::fraction(k) - 0.5)) * largest;
         }
         self.fixed.iter().for_each(|fixed| fixed.project(out));
     }
-}
-
-/// The fractional part of `(k + 1)` golden sections: numbers of no pattern in [0, 1).
-fn golden(k: usize) -> f64 {
-    ((k + 1) as f64 * 0.618_033_988_749_894_9).fract()
 }

@@ -356,6 +356,7 @@ fn power_of_two_below(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::linear::dot;
     use crate::bat::body::Weighed;
     use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
     use crate::bat::material::Material;
@@ -363,7 +364,6 @@ mod tests {
     use crate::beam::changes::Depth;
     use crate::beam::hermite::elements;
     use crate::beam::motion::Motion;
-    use crate::eigen::lanczos::dot;
 
     fn bat(outer: [f64; 2]) -> Bat {
         let stations = Stations {

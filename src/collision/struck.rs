@@ -1,8 +1,8 @@
 //! A bat as a ball feels it, anywhere along its length.
 
+use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::Felt;
-use crate::eigen::lanczos::dot;
 use crate::modes::compliance::{Flexible, RigidMotion};
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
@@ -18,7 +18,7 @@ pub struct Struck<'a> {
 impl<'a> Struck<'a> {
     /// The bat on the solution's mesh.
     pub fn new(bat: &'a Bat, solution: &'a Solution) -> Self {
-        let flexible = Flexible::new(bat, &solution.mesh, solution.degree, solution.theory);
+        let flexible = Flexible::new(bat, solution.elements());
         Self { bat, solution, flexible }
     }
 
@@ -123,7 +123,7 @@ impl<'a> Struck<'a> {
 /// The rigid motions of the bat where springs and hands do not hold it.
 pub fn without_springs(bat: &Bat, solution: &Solution) -> Vec<RigidMotion> {
     let bare = Bat { fixtures: bat.fixtures.without_springs(), ..bat.clone() };
-    Flexible::new(&bare, &solution.mesh, solution.degree, solution.theory).rigid
+    Flexible::new(&bare, solution.elements()).rigid
 }
 
 /// The velocity (m/s) at a place that 1 N s at another gives a bat with these motions alone.

@@ -1,5 +1,6 @@
 //! Where is the sweet spot, by each of its definitions.
 
+use crate::base::golden;
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::hit::Scene;
@@ -170,7 +171,6 @@ fn brent(
     value: impl Fn(f64) -> f64,
 ) -> Peak {
     const MOST: usize = 60;
-    let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
     let (mut best, mut second, mut third) = (start, start, start);
     let (mut step, mut before): (f64, f64) = (0.0, 0.0);
     for _ in 0..MOST {
@@ -190,7 +190,7 @@ fn brent(
             (before, step) = (step, by);
         } else {
             before = if best.x < middle { high - best.x } else { low - best.x };
-            step = golden * before;
+            step = (1.0 - golden::SECTION) * before;
         }
         let x = best.x + if step.abs() < width { width.copysign(step) } else { step };
         let found = Peak { x, value: value(x) };

@@ -13,6 +13,7 @@ use std::sync::{Mutex, PoisonError};
 use nalgebra_sparse::CscMatrix;
 
 use crate::base::error::{Error, Result};
+use crate::base::linear::dot;
 use crate::eigen::factor::Factor;
 use crate::eigen::lanczos::{self, Ritz};
 use crate::eigen::shift_invert::{self, Noise, Pairs, multiply};
@@ -40,7 +41,7 @@ pub fn lowest(
             factor.forward(y);
             factor.backward(y);
             for (x, momentum) in found.iter().zip(&momenta) {
-                let part = lanczos::dot(momentum, y);
+                let part = dot(momentum, y);
                 y.iter_mut().zip(x).for_each(|(y, x)| *y -= part * x);
             }
             y.iter_mut().for_each(|y| *y *= shift);

@@ -5,6 +5,7 @@
 //! vector costs nothing then, and none of Lanczos' ghosts appear.
 
 use crate::base::error::{Error, Result};
+use crate::base::linear::dot;
 use crate::base::real::Real;
 use crate::eigen::tridiagonal::Tridiagonal;
 
@@ -80,13 +81,7 @@ impl<R: Real> Lanczos<R> {
         let (count, Space { known, allow }) = (wanted.count, space);
         let before = known.len() / dimension;
         let most = (dimension - before).min(3 * (count + wanted.clustered) + 60);
-        self.next.clear();
-        self.next.resize(dimension, R::default());
-        self.basis.clear();
-        self.basis.extend_from_slice(known);
-        self.basis.reserve_exact(dimension * most.min(count + wanted.earliest));
-        self.alpha.clear();
-        self.beta.clear();
+        self.begin(dimension, known, dimension * most.min(count + wanted.earliest));
         start(&mut self.next);
         let size = match before {
             0 => dot(&self.next, &self.next).sqrt(),
@@ -94,58 +89,80 @@ impl<R: Real> Lanczos<R> {
         };
         self.take(size);
         loop {
-            self.steps = self.alpha.len() + 1;
-            let steps = self.steps;
-            let last = &self.basis[(before + steps - 1) * dimension..];
-            apply(last, &mut self.next);
-            let alpha = dot(last, &self.next);
-            self.alpha.push(alpha);
-            subtract(alpha, last, &mut self.next);
-            if let Some(beta) = self.beta.last() {
-                let place = (before + steps - 2) * dimension;
-                let last_but_one = &self.basis[place..place + dimension];
-                subtract(*beta, last_but_one, &mut self.next);
-            }
+            self.multiply(dimension, &mut apply);
             let rest = self.orthogonalise(allow);
+            let steps = self.steps;
             let spanned = steps == dimension - before
                 || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
             // The small eigenproblem costs steps³, so many modes are looked at less often.
             let beyond = steps.checked_sub(count + wanted.earliest);
             let due = beyond.is_some_and(|beyond| beyond.is_multiple_of(1 + count / 8));
             if spanned || steps == most || due {
-                let failed = Error::NotConverged { wanted: count, converged: 0, steps };
-                self.small.solve(&self.alpha, &self.beta).ok_or(failed)?;
-                let found = count.min(steps);
-                self.residuals.clear();
-                for k in 0..found {
-                    let residual = rest * self.small.weight(k, steps - 1).abs();
-                    self.residuals.push(residual / self.small.value(k));
-                }
-                let misses = |residual: &&R| !residual.within(R::splat(wanted.residual));
-                let missed = if spanned { 0 } else { self.residuals.iter().filter(misses).count() };
-                // A wanted vector can be told from the first one beyond only if that one shows.
-                self.beyond = (steps > count).then(|| self.small.value(count));
-                let shows = self.beyond.is_some_and(|value| {
-                    let residual = rest * self.small.weight(count, steps - 1).abs();
-                    residual.within(R::splat(NEARLY * wanted.residual) * value)
-                });
-                if missed == 0 && found == count && (spanned || shows) {
+                let (converged, shows) = self.look(wanted, rest, spanned)?;
+                if converged == count && (spanned || shows) {
                     self.combine(count, dimension, before);
                     return Ok(());
                 }
                 // As far as the next look and no farther, where a vector would double.
                 self.basis.reserve_exact(dimension * (1 + count / 8));
                 if spanned || steps == most {
-                    return Err(Error::NotConverged {
-                        wanted: count,
-                        converged: found - missed,
-                        steps,
-                    });
+                    return Err(Error::NotConverged { wanted: count, converged, steps });
                 }
             }
             self.beta.push(rest);
             self.take(rest);
         }
+    }
+
+    /// Nothing but known vectors in the basis, which gets room for so many numbers more.
+    #[inline(always)]
+    fn begin(&mut self, dimension: usize, known: &[R], room: usize) {
+        self.next.clear();
+        self.next.resize(dimension, R::default());
+        self.basis.clear();
+        self.basis.extend_from_slice(known);
+        self.basis.reserve_exact(room);
+        self.alpha.clear();
+        self.beta.clear();
+        self.steps = 0;
+    }
+
+    /// A step: the product with the last basis vector, less what is known of it.
+    #[inline(always)]
+    fn multiply(&mut self, dimension: usize, apply: &mut impl FnMut(&[R], &mut [R])) {
+        self.steps += 1;
+        let (older, last) = self.basis.split_at(self.basis.len() - dimension);
+        apply(last, &mut self.next);
+        let alpha = dot(last, &self.next);
+        self.alpha.push(alpha);
+        subtract(alpha, last, &mut self.next);
+        if let Some(beta) = self.beta.last() {
+            subtract(*beta, &older[older.len() - dimension..], &mut self.next);
+        }
+    }
+
+    /// Looks at the Ritz pairs: how many of the wanted ones have converged, and whether the first
+    /// beyond them shows.
+    #[inline(always)]
+    fn look(&mut self, wanted: Wanted, rest: R, spanned: bool) -> Result<(usize, bool)> {
+        let (count, steps) = (wanted.count, self.steps);
+        let failed = Error::NotConverged { wanted: count, converged: 0, steps };
+        self.small.solve(&self.alpha, &self.beta).ok_or(failed)?;
+        let found = count.min(steps);
+        self.residuals.clear();
+        for k in 0..found {
+            let residual = rest * self.small.weight(k, steps - 1).abs();
+            self.residuals.push(residual / self.small.value(k));
+        }
+        let misses = |residual: &&R| !residual.within(R::splat(wanted.residual));
+        let missed = if spanned { 0 } else { self.residuals.iter().filter(misses).count() };
+        // A wanted vector can be told from the first one beyond only if that one shows.
+        self.beyond = (steps > count).then(|| self.small.value(count));
+        let shows = self.beyond.is_some_and(|value| {
+            let residual = rest * self.small.weight(count, steps - 1).abs();
+            residual.within(R::splat(NEARLY * wanted.residual) * value)
+        });
+        Ok((found - missed, shows))
     }
 
     /// Makes `next`, of that length, the next basis vector.
@@ -258,33 +275,6 @@ fn subtract_all<R: Real>(parts: &[R], basis: &[R], vector: &mut [R]) {
     for j in fours..parts.len() {
         subtract(parts[j], at(j), vector);
     }
-}
-
-/// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
-#[inline(always)]
-pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
-    const BLOCK: usize = 1024;
-    let mut total = R::default();
-    for (x, y) in x.chunks(BLOCK).zip(y.chunks(BLOCK)) {
-        total += short_dot(x, y);
-    }
-    total
-}
-
-#[inline(always)]
-fn short_dot<R: Real>(x: &[R], y: &[R]) -> R {
-    const SUMS: usize = 8;
-    let mut sums = [R::default(); SUMS];
-    let (x8, y8) = (x.chunks_exact(SUMS), y.chunks_exact(SUMS));
-    let mut rest = R::default();
-    x8.remainder().iter().zip(y8.remainder()).for_each(|(x, y)| rest += *x * *y);
-    for (x, y) in x8.zip(y8) {
-        for k in 0..SUMS {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    let [a, b, c, d, e, f, g, h] = sums;
-    rest + (((a + b) + (c + d)) + ((e + f) + (g + h)))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use nalgebra_sparse::CscMatrix;
 
 use crate::base::error::{Error, Result};
+use crate::base::linear::dot;
 use crate::eigen::factor::{Factor, INDEFINITE};
 use crate::eigen::lanczos::{self, Ritz};
 
@@ -128,10 +129,10 @@ pub fn pairs(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64, ritz: Ritz) -> 
     let mut rows = Vec::with_capacity(ritz.values.len());
     for (theta, mut vector) in ritz.values.iter().zip(ritz.vectors) {
         multiply(m, &vector, &mut product);
-        let scale = 1.0 / lanczos::dot(&vector, &product).sqrt();
+        let scale = 1.0 / dot(&vector, &product).sqrt();
         vector.iter_mut().for_each(|x| *x *= scale);
         multiply(k, &vector, &mut product);
-        let lambda = lanczos::dot(&vector, &product);
+        let lambda = dot(&vector, &product);
         let round_off = (1.0 / theta - shift - lambda).abs();
         let small = round_off <= 0.1 * (lambda + shift); // not so for a NaN
         if !small {
@@ -164,7 +165,7 @@ pub fn multiply(a: &CscMatrix<f64>, x: &[f64], y: &mut [f64]) {
 /// Takes the directions of the orthonormal `found` out of `vector`.
 fn remove(found: &[Vec<f64>], vector: &mut [f64]) {
     for direction in found {
-        let part = lanczos::dot(direction, vector);
+        let part = dot(direction, vector);
         vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= part * d);
     }
 }

@@ -9,13 +9,14 @@
 use std::sync::{Arc, LazyLock};
 
 use crate::base::error::Result;
+use crate::base::linear::dot;
 use crate::base::quadrature::{gauss, legendre};
 use crate::bat::body::Bat;
 use crate::bat::layup::Worth;
 use crate::bat::theory::Theory;
 use crate::beam::attached::Spring;
 use crate::beam::changes::Depth;
-use crate::beam::degree::{OfDegree, of_degree};
+use crate::beam::degree::{Elements, OfDegree, of_degree};
 use crate::beam::element::MOST_STRAINS;
 use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;
@@ -25,7 +26,6 @@ use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::beam::sections::losses;
 use crate::beam::sweep::Loads;
 use crate::beam::view::View;
-use crate::eigen::lanczos::dot;
 use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::mode::Shape;
 
@@ -211,7 +211,8 @@ impl OfDegree for Empty<'_> {
 
 impl Flexible {
     /// The bat on that mesh, with elements of that degree.
-    pub fn new(bat: &Bat, mesh: &Mesh, degree: usize, theory: Theory) -> Self {
+    pub fn new(bat: &Bat, elements: Elements) -> Self {
+        let Elements { mesh, degree, theory } = elements;
         let mut pairs = of_degree(degree, theory, Empty { bat, theory });
         pairs.assemble(bat, mesh);
         let Place { dimension, energy_unit, mass, inertia, balance, .. } = pairs.place();

@@ -18,11 +18,11 @@ use std::fmt;
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::mesh::Mesh;
+use crate::beam::degree::Elements;
 use crate::beam::rule::DEGREES;
 use crate::modes::mode::Mode;
-use crate::modes::reduced::{Group, Reduced};
+use crate::modes::pole::Group;
+use crate::modes::reduced::Reduced;
 
 /// How one mode dies out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,18 +140,13 @@ impl fmt::Display for Kind {
     }
 }
 
-/// How the modes of a bat die out, found on that mesh; complex where the dashpots move a frequency
+/// How the modes of a bat die out, found on those elements; complex where the dashpots move a frequency
 /// or a damping ratio by more than `tolerance`.
 ///
 /// # Errors
 ///
 /// [`crate::Error::NotConverged`] if the modes, or those of the damped bat, cannot be found again.
-pub fn damping(
-    bat: &Bat,
-    (mesh, degree, theory): (&Mesh, usize, Theory),
-    modes: &[Mode],
-    tolerance: f64,
-) -> Result<Damping> {
+pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) -> Result<Damping> {
     let dashpots = bat.fixtures.damping();
     let own = bat.material().loss_factor;
     let mut materials = bat.layups.iter().flat_map(|layup| layup.materials());
@@ -165,7 +160,7 @@ pub fn damping(
         let modes = modes.iter().map(damped).collect();
         return Ok(Damping::by_modes(modes, vec![], Kind::Materials));
     }
-    let mut reduced = Reduced::new(bat, mesh, degree, theory, modes.len())?;
+    let mut reduced = Reduced::new(bat, elements, modes.len())?;
     let of_materials: Vec<f64> = (0..modes.len()).map(|k| 0.5 * reduced.mode_loss(k)).collect();
     let alone = |k: usize| {
         let ratio = of_materials[k] + 0.5 * modes[k].omega * reduced.mode_damping(k);
@@ -175,7 +170,7 @@ pub fn damping(
     if !dashpots {
         return Ok(Damping::by_modes(alone, vec![], Kind::Materials));
     }
-    let mut together = Together::new(&mut reduced, modes.len(), tolerance, &of_materials)?;
+    let together = Together::new(&mut reduced, tolerance, &of_materials)?;
     let change = |(a, b): (&Damped, &Damped)| {
         (a.natural / b.natural - 1.0).abs().max((a.ratio - b.ratio).abs())
     };
@@ -188,25 +183,7 @@ pub fn damping(
     if within || changes.len() < alone.len() {
         return Ok(Damping::by_modes(alone, together.rigid, Kind::Modal(largest)));
     }
-    // Where a dashpot is strong the bat moves about it as no mode does, and what the modes say of
-    // the mesh is not enough.
-    let (mut mesh, mut degree) = (mesh.clone(), degree);
-    for _ in 0..MOST_REFINEMENTS {
-        (mesh, degree) = match degree + 2 <= *DEGREES.end() {
-            true => (mesh, degree + 2),
-            false => (mesh.refined(|_| 2), degree),
-        };
-        let mut finer = Reduced::new(bat, &mesh, degree, theory, modes.len())?;
-        let before = together;
-        together = Together::new(&mut finer, modes.len(), tolerance, &of_materials)?;
-        let errors = together.motions.iter_mut().zip(&before.motions);
-        errors.for_each(|(now, before)| {
-            now.error = now.error.max(now.apart(before)).max(ROUND_OFF);
-        });
-        if together.motions.iter().all(|damped| damped.error <= tolerance) {
-            break;
-        }
-    }
+    let together = together.refined(bat, elements, tolerance, &of_materials)?;
     let (modes, rigid) = (together.motions, together.rigid);
     let alone = alone.iter().map(|damped| damped.ratio).collect();
     Ok(Damping { modes, alone, rigid, kind: Kind::Complex(largest) })
@@ -224,18 +201,46 @@ struct Together {
 }
 
 impl Together {
-    fn new(
-        reduced: &mut Reduced,
-        modes: usize,
-        tolerance: f64,
-        of_materials: &[f64],
-    ) -> Result<Self> {
-        let free = reduced.free_motions(modes, accuracy(tolerance))?;
+    /// As many motions as there are `of_materials`, which are those ratios.
+    fn new(reduced: &mut Reduced, tolerance: f64, of_materials: &[f64]) -> Result<Self> {
+        let free = reduced.free_motions(of_materials.len(), accuracy(tolerance))?;
         let motions = free.groups.iter().zip(of_materials);
         Ok(Self {
             motions: motions.map(|(group, ratio)| of_group(group, *ratio)).collect(),
             rigid: free.rigid.iter().map(|pole| -pole.s.re).collect(),
         })
+    }
+
+    /// These motions on finer elements, until what that changes is within the tolerance: where a dashpot
+    /// is strong the bat moves about it as no mode does, and what the modes say of the mesh is not
+    /// enough.
+    fn refined(
+        mut self,
+        bat: &Bat,
+        elements: Elements,
+        tolerance: f64,
+        of_materials: &[f64],
+    ) -> Result<Self> {
+        let Elements { mut degree, theory, .. } = elements;
+        let mut mesh = elements.mesh.clone();
+        for _ in 0..MOST_REFINEMENTS {
+            (mesh, degree) = match degree + 2 <= *DEGREES.end() {
+                true => (mesh, degree + 2),
+                false => (mesh.refined(|_| 2), degree),
+            };
+            let elements = Elements { mesh: &mesh, degree, theory };
+            let mut finer = Reduced::new(bat, elements, of_materials.len())?;
+            let before = self;
+            self = Self::new(&mut finer, tolerance, of_materials)?;
+            let errors = self.motions.iter_mut().zip(&before.motions);
+            errors.for_each(|(now, before)| {
+                now.error = now.error.max(now.apart(before)).max(ROUND_OFF);
+            });
+            if self.motions.iter().all(|damped| damped.error <= tolerance) {
+                break;
+            }
+        }
+        Ok(self)
     }
 }
 

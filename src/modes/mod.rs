@@ -8,18 +8,22 @@
 //! | [`survey`], [`plan`] | how does the wave number go along the bat; which elements does a tolerance need |
 //! | `memory` | how much memory does a solve take |
 //! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
-//! | [`mode`] | frequency, shape, nodes and modal mass of a mode |
+//! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
 //! | [`certificate`] | how far may each be off |
 //! | [`referee`] | what do other solvers say |
+//! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
-//! | [`compliance`], [`reduced`], [`damping`] | how the bat gives way at a place; few modes with dashpots; how motions die out |
+//! | [`compliance`] | how the bat gives way at a place |
+//! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
 
 pub mod shape;
 pub(crate) mod landmarks;
 pub mod mode;
 pub mod eigenpairs;
 pub mod compliance;
+pub mod pole;
 pub mod reduced;
+pub(crate) mod free_motions;
 pub mod damping;
 pub mod certificate;
 pub mod referee;

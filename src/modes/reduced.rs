@@ -20,14 +20,14 @@
 //! F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001) 235.
 
 use faer::linalg::solvers::Solve;
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::linear::dot;
 use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
-use crate::beam::mesh::Mesh;
-use crate::eigen::lanczos::dot;
+use crate::beam::degree::Elements;
 use crate::modes::compliance::{Dashpot, Flexible, RigidMotion};
+use crate::modes::pole::Pole;
 
 /// A bat on a few strains.
 pub struct Reduced {
@@ -37,7 +37,7 @@ pub struct Reduced {
     pub omega: Vec<f64>,
     members: Vec<Member>,
     /// Lower rows of `vᵀMv` (s²) and `vᵀK″v`.
-    mass: Vec<Vec<f64>>,
+    pub(super) mass: Vec<Vec<f64>>,
     loss: Vec<Vec<f64>>,
     /// Whether a dashpot moves rigid motions that nothing else holds.
     pub coupled: bool,
@@ -52,37 +52,6 @@ struct Member {
     loss: Vec<f64>,
     /// How far it draws every dashpot out (m).
     drawn: Vec<f64>,
-}
-
-/// A motion as `e^{st}` that goes on by itself.
-#[derive(Debug, Clone)]
-pub struct Pole {
-    /// Complex rate `s` of `e^{st}` (1/s).
-    pub s: c64,
-    /// Parts of the rigid motions, where they are coupled.
-    pub rigid: Vec<c64>,
-    /// Parts of the strains.
-    pub parts: Vec<c64>,
-    /// `vᵀ(2sM + C)v` (J s/m²): with it a unit impulse at a makes `v v(a) e^{st}/norm`.
-    pub norm: c64,
-    /// Error of s, relative to |s|, because the motion is one on few strains.
-    pub error: f64,
-    /// Share of the rigid motions in the kinetic energy.
-    pub rigid_share: f64,
-    /// Share of the strains in the sum of both energies: a half where it swings, more where it
-    /// creeps back, less where a dashpot stops it.
-    pub strain_share: f64,
-}
-
-/// How a damped bat goes on by itself.
-#[derive(Debug, Clone)]
-pub struct FreeMotions {
-    /// Groups of motions by rising |s|.
-    pub groups: Vec<Group>,
-    /// Motions of the rigid bat that dashpots slow down.
-    pub rigid: Vec<Pole>,
-    /// All other motions of the reduced bat.
-    pub others: Vec<Pole>,
 }
 
 /// Strains under a force as `e^{iωt}`.
@@ -105,19 +74,13 @@ pub struct Place {
 }
 
 impl Reduced {
-    /// The bat on that mesh with `wanted` of its modes and some more.
+    /// The bat on those elements with `wanted` of its modes and some more.
     ///
     /// # Errors
     ///
     /// As [`Flexible::slowest`].
-    pub fn new(
-        bat: &Bat,
-        mesh: &Mesh,
-        degree: usize,
-        theory: Theory,
-        wanted: usize,
-    ) -> Result<Self> {
-        let mut flexible = Flexible::new(bat, mesh, degree, theory);
+    pub fn new(bat: &Bat, elements: Elements, wanted: usize) -> Result<Self> {
+        let mut flexible = Flexible::new(bat, elements);
         let (omega, strains, _) = flexible.slowest(wanted + (wanted / 2).max(4))?;
         /// Slower than that share of mode 1 no rigid motion is seen to come to rest.
         const SLOWEST: f64 = 1e-10;
@@ -223,12 +186,12 @@ impl Reduced {
     }
 
     /// How many unknowns are rigid motions.
-    fn rigid_unknowns(&self) -> usize {
+    pub(super) fn rigid_unknowns(&self) -> usize {
         if self.coupled { self.flexible.rigid.len() } else { 0 }
     }
 
     /// Mass of an unknown rigid motion, in the unit of energy (s²/m² or s²).
-    fn rigid_mass(&self, k: usize) -> f64 {
+    pub(super) fn rigid_mass(&self, k: usize) -> f64 {
         self.flexible.rigid[k].mass / self.flexible.energy_unit
     }
 
@@ -251,7 +214,13 @@ impl Reduced {
 
     /// Takes the strains' part that the members hold out of a residual `s² M q + s C q + iK″ q` of
     /// those parts; what is left is the residual.
-    fn residual(&self, s: c64, hysteretic: bool, rigid: &[c64], parts: &[c64]) -> [Vec<f64>; 2] {
+    pub(super) fn residual(
+        &self,
+        s: c64,
+        hysteretic: bool,
+        rigid: &[c64],
+        parts: &[c64],
+    ) -> [Vec<f64>; 2] {
         let mut left = [0, 1].map(|_| vec![0.0; self.flexible.dimension]);
         let mut add = |factor: c64, strains: &[f64]| {
             for (left, factor) in left.iter_mut().zip([factor.re, factor.im]) {
@@ -277,214 +246,6 @@ impl Reduced {
             take_out(left, &self.members);
         }
         left
-    }
-
-    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, those of the
-    /// rigid motions that dashpots slow down, and all others of the reduced bat, which are not its
-    /// own but make a blow's response begin at zero. The materials' loss is that of viscous dashpots
-    /// with the modes' own damping ratios.
-    ///
-    /// Strains are taken in until no s changes by more than `tolerance`, relative to |s|, or no
-    /// further ones are there.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
-    /// dashpots are so large that round-off leaves no motion that dies out.
-    pub fn free_motions(&mut self, wanted: usize, tolerance: f64) -> Result<FreeMotions> {
-        const MOST_ROUNDS: usize = 12;
-        const MOST_MEMBERS: usize = 400;
-        let mut round = 0;
-        loop {
-            let FreeMotions { mut groups, rigid, mut others } =
-                grouped(self.poles()?, self.rigid_unknowns());
-            let beyond = groups.split_off(wanted.min(groups.len()));
-            others.extend(beyond.into_iter().flat_map(|group| group.poles));
-            let [mass, damping] = self.viscous();
-            let poles = groups.iter_mut().flat_map(|group| &mut group.poles);
-            let mut missing = vec![];
-            for pole in poles {
-                self.polish(&mass, &damping, pole);
-                let residual = self.residual(pole.s, false, &pole.rigid, &pole.parts);
-                let square: f64 = residual.iter().map(|r| dot(r, r)).sum();
-                let norm = pole.norm / self.flexible.energy_unit;
-                pole.error = square / (pole.s * norm).norm();
-                if pole.error > tolerance {
-                    missing.extend(residual);
-                }
-            }
-            let full = round == MOST_ROUNDS || self.members.len() >= MOST_MEMBERS;
-            let before = self.members.len();
-            if !full {
-                missing.into_iter().for_each(|strains| {
-                    self.add(strains);
-                });
-            }
-            if self.members.len() == before {
-                let mut rigid = rigid;
-                let rest = rigid.iter_mut().chain(&mut others);
-                rest.for_each(|pole| self.polish(&mass, &damping, pole));
-                let all = groups.iter().flat_map(|group| &group.poles).chain(&rigid);
-                possible(all)?;
-                return Ok(FreeMotions { groups, rigid, others });
-            }
-            round += 1;
-        }
-    }
-
-    /// All eigenvalues of the reduced bat with `Im s ≥ 0`.
-    ///
-    /// With `μ = 1/s`, `M = diag(ℓ²)` and `p = ℓq/μ` the problem `(M + μC + μ²) q = 0` is
-    ///
-    /// ```text
-    /// μ q = −C q − ℓ p,   μ p = ℓ q,
-    /// ```
-    ///
-    /// whose norm is that of the slowest motion, however fast the others are. A rigid motion ρ of
-    /// mass m, which only dashpots hold, joins as `ρ′ = ρ + B q`, `B = C_ρρ⁻¹ C_ρq`:
-    /// `μ ρ′ = m C_ρρ⁻¹ (B q − ρ′)`, and C becomes `C − C_qρ B` beside `C_qρ ρ′`.
-    fn poles(&self) -> Result<Vec<Pole>> {
-        let (modes, n, r) = (self.omega.len(), self.members.len(), self.rigid_unknowns());
-        let failed = || Error::NotConverged { wanted: n, converged: 0, steps: 0 };
-        // M diagonal: the modes' is.
-        let extra = n - modes;
-        let block =
-            Mat::from_fn(extra, extra, |i, j| self.mass[modes + i.max(j)][modes + i.min(j)]);
-        let (mut lengths, mut turned) = (vec![0.0; n], Mat::<f64>::identity(n, n));
-        (0..modes).for_each(|k| lengths[k] = 1.0 / self.omega[k]);
-        if extra > 0 {
-            let eigen = block.self_adjoint_eigen(Side::Lower).map_err(|_| failed())?;
-            for j in 0..extra {
-                lengths[modes + j] = eigen.S().column_vector()[j].max(0.0).sqrt();
-                (0..extra).for_each(|i| turned[(modes + i, modes + j)] = eigen.U()[(i, j)]);
-            }
-        }
-        let [_, all] = self.viscous();
-        // Rigid motions in units in which their mass is that of the slowest mode's strains.
-        let slowest = lengths.first().copied().unwrap_or(1.0);
-        let unit: Vec<f64> = (0..r).map(|k| slowest / self.rigid_mass(k).sqrt()).collect();
-        let mut wide = Mat::<f64>::identity(r + n, r + n);
-        (0..r).for_each(|k| wide[(k, k)] = unit[k]);
-        for i in 0..n {
-            (0..n).for_each(|j| wide[(r + i, r + j)] = turned[(i, j)]);
-        }
-        let c = wide.transpose() * &all * &wide;
-        let inverse = inverted(&c, r);
-        let mixed =
-            Mat::from_fn(r, n, |i, j| (0..r).map(|k| inverse[i][k] * c[(k, r + j)]).sum::<f64>());
-        let mut state = Mat::<f64>::zeros(2 * n + r, 2 * n + r);
-        for i in 0..n {
-            for j in 0..n {
-                let bound = (0..r).map(|k| c[(r + i, k)] * mixed[(k, j)]).sum::<f64>();
-                state[(i, j)] = bound - c[(r + i, r + j)];
-            }
-            state[(i, n + i)] = -lengths[i];
-            state[(n + i, i)] = lengths[i];
-            (0..r).for_each(|k| state[(i, 2 * n + k)] = -c[(r + i, k)]);
-        }
-        let square = slowest * slowest;
-        for k in 0..r {
-            for l in 0..r {
-                state[(2 * n + k, 2 * n + l)] = -square * inverse[k][l];
-                for j in 0..n {
-                    state[(2 * n + k, j)] += square * inverse[k][l] * mixed[(l, j)];
-                }
-            }
-        }
-        /// Round-off takes a double eigenvalue apart by its root, 1e-8.
-        const SAME: f64 = 1e-6;
-        let eigen = state.eigen().map_err(|_| failed())?;
-        let mut poles = vec![];
-        for (j, mu) in eigen.S().column_vector().iter().enumerate() {
-            if mu.im > 0.0 || mu.norm() == 0.0 {
-                continue;
-            }
-            let column = |i: usize| eigen.U()[(i, j)];
-            let strains: Vec<c64> = (0..n).map(column).collect();
-            let rigid: Vec<c64> = (0..r)
-                .map(|k| {
-                    let bound: c64 = (0..n).map(|i| strains[i] * mixed[(k, i)]).sum();
-                    column(2 * n + k) - bound
-                })
-                .collect();
-            let pole = |s: c64, strains: &[c64], rigid: &[c64]| {
-                let size = |of: &[c64]| of.iter().map(|p| p.norm_sqr()).sum::<f64>();
-                let moving = strains.iter().zip(&lengths).map(|(p, l)| p.norm_sqr() * l * l);
-                let moving = moving.sum::<f64>() + square * size(rigid);
-                let strained = size(strains);
-                let part = |i: usize| (0..n).map(|k| strains[k] * turned[(i, k)]).sum();
-                Pole {
-                    s,
-                    rigid: rigid.iter().zip(&unit).map(|(p, unit)| *p * *unit).collect(),
-                    parts: (0..n).map(part).collect(),
-                    norm: c64::new(0.0, 0.0),
-                    error: 0.0,
-                    rigid_share: square * size(rigid) / moving,
-                    strain_share: strained / (strained + moving * s.norm_sqr()),
-                }
-            };
-            let one = pole(1.0 / *mu, &strains, &rigid);
-            // What swings has as much of both energies. A pair that has not is the same real
-            // eigenvalue twice, and round-off an imaginary part; its vectors are both parts.
-            let twice = mu.im != 0.0
-                && mu.im.abs() < SAME * mu.norm()
-                && (one.strain_share - 0.5).abs() > SAME;
-            if !twice {
-                poles.push(one);
-                continue;
-            }
-            for of in [|p: &c64| c64::new(p.re, 0.0), |p: &c64| c64::new(p.im, 0.0)] {
-                let [strains, rigid] =
-                    [&strains, &rigid].map(|all| all.iter().map(of).collect::<Vec<c64>>());
-                poles.push(pole(c64::new(one.s.re, 0.0), &strains, &rigid));
-            }
-        }
-        Ok(poles)
-    }
-
-    /// Makes an eigenvalue and its vector as good as arithmetic allows: inverse iteration
-    /// `Z(s) v ← Z′(s) v`, `Z = s²M + sC + K`, and the root of Rayleigh's functional
-    /// `s² vᵀMv + s vᵀCv + vᵀKv`, whose error is the square of the vector's.
-    fn polish(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &mut Pole) {
-        const STEPS: usize = 3;
-        let (r, size) = (self.rigid_unknowns(), mass.nrows());
-        let real = pole.s.im == 0.0;
-        let (mut s, mut v) = (pole.s, [&pole.rigid[..], &pole.parts].concat());
-        let product = |matrix: &Mat<f64>, v: &[c64], i: usize| -> c64 {
-            v.iter().enumerate().map(|(j, v)| *v * matrix[(i, j)]).sum()
-        };
-        let form = |matrix: &Mat<f64>, v: &[c64]| -> c64 {
-            v.iter().enumerate().map(|(i, own)| *own * product(matrix, v, i)).sum()
-        };
-        for _ in 0..STEPS {
-            let z = Mat::from_fn(size, size, |i, j| {
-                let stiffness = f64::from(u8::from(i == j && i >= r));
-                s * s * mass[(i, j)] + s * damping[(i, j)] + stiffness
-            });
-            let slope = |i: usize, _| s * product(mass, &v, i) * 2.0 + product(damping, &v, i);
-            let solved = z.partial_piv_lu().solve(Mat::from_fn(size, 1, slope));
-            let next: Vec<c64> = (0..size).map(|i| solved[(i, 0)]).collect();
-            let length = next.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-            if !(length.is_finite() && length > 0.0) {
-                break;
-            }
-            v = next.iter().map(|v| *v / length).collect();
-            let stiffness = v[r..].iter().map(|v| *v * *v).sum();
-            s = nearest_root(form(mass, &v), form(damping, &v), stiffness, s);
-            if real {
-                s.im = 0.0;
-            }
-        }
-        /// Beyond that it is another one.
-        const SAME: f64 = 1e-3;
-        if (s - pole.s).norm() < SAME * pole.s.norm() {
-            (pole.rigid, pole.parts) = (v[..r].to_vec(), v[r..].to_vec());
-            pole.s = s;
-        } else {
-            v = [&pole.rigid[..], &pole.parts].concat();
-        }
-        let norm = pole.s * form(mass, &v) * 2.0 + form(damping, &v);
-        pole.norm = norm * self.flexible.energy_unit;
     }
 
     /// M (s²) of all unknowns, rigid motions first, and C (s) with the materials' part.
@@ -596,98 +357,6 @@ impl Answer {
     /// Size of the residual.
     pub fn missed(&self) -> f64 {
         self.residual.iter().map(|r| dot(r, r)).sum::<f64>().sqrt()
-    }
-}
-
-/// One motion of the damped bat: a complex pair, its half with `Im s > 0`, or two real ones.
-#[derive(Debug, Clone)]
-pub struct Group {
-    /// One, or the two real ones.
-    pub poles: Vec<Pole>,
-}
-
-impl Group {
-    /// `√(s s*)`, or `√(s₁ s₂)` of two real ones (rad/s).
-    pub fn natural(&self) -> f64 {
-        match &self.poles[..] {
-            [a, b] => (a.s.re * b.s.re).abs().sqrt(),
-            poles => poles.iter().map(|pole| pole.s.norm()).sum(),
-        }
-    }
-
-    /// `−Re s/|s|`, or `−½(s₁ + s₂)/√(s₁ s₂)`, which is above 1.
-    pub fn ratio(&self) -> f64 {
-        let sum: f64 = self.poles.iter().map(|pole| pole.s.re).sum();
-        -sum / (self.poles.len() as f64 * self.natural())
-    }
-}
-
-/// Complex pairs and pairs of real eigenvalues, by rising |s|; those that belong to `rigid` coupled
-/// rigid motions apart.
-fn grouped(poles: Vec<Pole>, rigid: usize) -> FreeMotions {
-    let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
-    real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
-    let strained = real.split_off(rigid.min(real.len()));
-    // Of two that belong together one creeps back and the other is stopped, with nearly the same
-    // strains; the slowest looks for its own first.
-    let (mut slow, mut fast): (Vec<Pole>, Vec<Pole>) =
-        strained.into_iter().partition(|pole| pole.strain_share > 0.5);
-    slow.sort_by(|a, b| b.s.norm().total_cmp(&a.s.norm()));
-    let size = |a: &Pole| a.parts.iter().map(|p| p.norm_sqr()).sum::<f64>().sqrt();
-    let alike = |a: &Pole, b: &Pole| {
-        let both = a.parts.iter().zip(&b.parts).map(|(a, b)| *a * *b).sum::<c64>();
-        both.norm() / (size(a) * size(b))
-    };
-    let mut groups: Vec<Group> =
-        pairs.into_iter().map(|pole| Group { poles: vec![pole] }).collect();
-    while let Some(one) = slow.pop() {
-        let order =
-            |i: &usize, j: &usize| alike(&one, &fast[*i]).total_cmp(&alike(&one, &fast[*j]));
-        let Some(partner) = (0..fast.len()).max_by(order) else {
-            slow.push(one);
-            break;
-        };
-        groups.push(Group { poles: vec![one, fast.remove(partner)] });
-    }
-    groups.sort_by(|a, b| a.natural().total_cmp(&b.natural()));
-    slow.append(&mut fast);
-    FreeMotions { groups, rigid: real, others: slow }
-}
-
-/// Whether all of these motions die out, as they must.
-fn possible<'a>(mut poles: impl Iterator<Item = &'a Pole>) -> Result<()> {
-    const ROUND_OFF: f64 = 1e-9;
-    let lost = |pole: &&Pole| !(pole.s.re <= ROUND_OFF * pole.s.norm() && pole.s.norm() > 0.0);
-    match poles.find(lost) {
-        None => Ok(()),
-        Some(_) => {
-            let found = "dashpots so strong that round-off hides all that they damp";
-            let expected = "a damping that lets the bat move, or a support in its place";
-            Err(Error::value("damping", found, expected))
-        }
-    }
-}
-
-/// The root of `a s² + b s + c` that is nearest to a guess.
-fn nearest_root(a: c64, b: c64, c: c64, guess: c64) -> c64 {
-    let root = (b * b - a * c * 4.0).sqrt();
-    // The sum that does not cancel.
-    let sum = if (b + root).norm() > (b - root).norm() { b + root } else { b - root };
-    let roots = [sum / a * -0.5, c / sum * -2.0];
-    let far = |s: &c64| (*s - guess).norm();
-    let best = if far(&roots[0]) < far(&roots[1]) { roots[0] } else { roots[1] };
-    if best.re.is_finite() && best.im.is_finite() { best } else { guess }
-}
-
-/// The inverse of the leading `r × r` block, `r` at most 2.
-fn inverted(c: &Mat<f64>, r: usize) -> [[f64; 2]; 2] {
-    match r {
-        0 => [[0.0; 2]; 2],
-        1 => [[1.0 / c[(0, 0)], 0.0], [0.0; 2]],
-        _ => {
-            let det = c[(0, 0)] * c[(1, 1)] - c[(0, 1)] * c[(1, 0)];
-            [[c[(1, 1)] / det, -c[(0, 1)] / det], [-c[(1, 0)] / det, c[(0, 0)] / det]]
-        }
     }
 }
 

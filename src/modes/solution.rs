@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::bat::theory::Theory;
+use crate::beam::degree::Elements;
 use crate::beam::mesh::Mesh;
 use crate::modes::damping::Damping;
 use crate::modes::mode::Mode;
@@ -58,6 +59,11 @@ impl Solution {
     /// Whether it is certain that no mode is missing.
     pub fn complete(&self) -> bool {
         self.none_missing == Some(true)
+    }
+
+    /// What the bat was divided into.
+    pub fn elements(&self) -> Elements<'_> {
+        Elements { mesh: &self.mesh, degree: self.degree, theory: self.theory }
     }
 
     /// Why the wanted tolerance was not met, for a person; empty if it was.

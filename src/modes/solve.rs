@@ -51,8 +51,7 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     }
     request.check_memory(request.memory(bat, &plan), plan.mesh.len())?;
     let mut best = refined(bat, request, plan, timing)?;
-    let body = (&best.mesh, best.degree, best.theory);
-    best.damping = damping(bat, body, &best.modes, request.tolerance)?;
+    best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
     let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
     if best.met && damped > request.tolerance {
         best.met = false;

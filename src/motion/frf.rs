@@ -17,8 +17,8 @@ use std::f64::consts::TAU;
 use faer::c64;
 
 use crate::base::error::{Error, Result};
+use crate::base::linear::dot;
 use crate::bat::body::Bat;
-use crate::eigen::lanczos::dot;
 use crate::modes::reduced::{Answer, Place, Reduced};
 use crate::modes::solve::{Request, Solution, solve};
 
@@ -111,8 +111,7 @@ impl Frf {
         }
         let request = Request { tolerance: request.tolerance.min(MESH), ..*request };
         let solution = solve(&bat, &request)?;
-        let (mesh, degree, theory) = (&solution.mesh, solution.degree, solution.theory);
-        let mut reduced = Reduced::new(&bat, mesh, degree, theory, solution.modes.len())?;
+        let mut reduced = Reduced::new(&bat, solution.elements(), solution.modes.len())?;
         [at, to].iter().for_each(|x| {
             reduced.place(*x);
         });

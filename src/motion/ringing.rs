@@ -19,7 +19,8 @@ use crate::bat::body::Bat;
 use crate::modes::compliance::RigidMotion;
 use crate::modes::damping::{Kind, accuracy};
 use crate::modes::mode::Shape;
-use crate::modes::reduced::{Pole, Reduced};
+use crate::modes::pole::Pole;
+use crate::modes::reduced::Reduced;
 use crate::modes::solve::Solution;
 use crate::motion::force::ForceHistory;
 use crate::motion::oscillator::Oscillator;
@@ -86,9 +87,8 @@ impl Ringing {
     ///
     /// As [`Reduced::free_motions`].
     pub fn new(bat: &Bat, solution: &Solution, tolerance: f64, bending_only: bool) -> Result<Self> {
-        let (mesh, degree, theory) = (&solution.mesh, solution.degree, solution.theory);
         let wanted = solution.modes.len();
-        let mut reduced = Reduced::new(bat, mesh, degree, theory, wanted)?;
+        let mut reduced = Reduced::new(bat, solution.elements(), wanted)?;
         let mut motions = vec![];
         if !bending_only && !reduced.coupled {
             for motion in &reduced.flexible.rigid {
@@ -118,7 +118,7 @@ impl Ringing {
                 motions.push(ModeInTime { clock, forms });
             }
         }
-        Ok(Self { reduced, turns: theory.turns(), motions })
+        Ok(Self { reduced, turns: solution.theory.turns(), motions })
     }
 
     /// Every deflection that takes part, sampled at `x`.

@@ -1,9 +1,10 @@
 //! A step of a contact: the force at its points by Newton's method, and the motions under that force.
 
+use crate::base::linear::dot;
 use crate::collision::contact::collocation::{LANES, POINTS, lanes, polynomial, total};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::table::{Piece, StepTable};
-use crate::collision::contact::touch::{State, Touch, dot};
+use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::{driven, pushed, shortened};
 
 /// A step whose force is known at the points.

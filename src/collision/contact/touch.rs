@@ -205,9 +205,3 @@ impl<L: ForceLaw> Touch<'_, L> {
         [state.compression, state.force] = shared;
     }
 }
-
-/// `Σ a_k b_k`.
-#[inline(always)]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}

@@ -2,16 +2,13 @@
 
 use faer::{Mat, Side};
 
+use crate::base::linear::dot;
+
 /// A direction or a place.
 pub type Vector = [f64; 3];
 
 /// A direction this near to an axis of coordinates is that axis.
 const ALONG: f64 = 0.9999;
-
-/// The product of two directions.
-pub fn dot(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
 
 /// The direction in which places are farthest apart, its largest part positive.
 pub fn axis(at: &[Vector]) -> Vector {
@@ -41,9 +38,9 @@ pub fn positive(direction: Vector) -> Vector {
 pub fn normals(axis: Vector) -> [Vector; 2] {
     let least = (0..3).min_by(|a, b| axis[*a].abs().total_cmp(&axis[*b].abs())).unwrap_or(0);
     let unit: Vector = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
-    let off = dot(unit, axis);
+    let off = dot(&unit, &axis);
     let one = [0, 1, 2].map(|k| unit[k] - off * axis[k]);
-    let size = dot(one, one).sqrt();
+    let size = dot(&one, &one).sqrt();
     let one = one.map(|v| v / size);
     let other = [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);

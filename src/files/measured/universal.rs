@@ -11,8 +11,9 @@ use faer::c64;
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
+use crate::base::linear::dot;
 use crate::files::measured::FEWEST;
-use crate::files::measured::direction::{Vector, axis, dot, named, normals, positive};
+use crate::files::measured::direction::{Vector, axis, named, normals, positive};
 use crate::files::uff::{self, Analysis, Dataset, NodalData, Node, Universal, six_digits};
 use crate::study::measured::data::{Measured, MeasuredMode};
 
@@ -257,7 +258,7 @@ struct NodeGroup {
 
 fn points(at: &[Vector], axis: Vector) -> Vec<NodeGroup> {
     let mut all: Vec<(f64, usize)> =
-        at.iter().enumerate().map(|(k, x)| (dot(*x, axis), k)).collect();
+        at.iter().enumerate().map(|(k, x)| (dot(x, &axis), k)).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     let span = all.last().map_or(0.0, |last| last.0 - all[0].0);
     let mut points: Vec<NodeGroup> = vec![];

@@ -54,6 +54,7 @@ pub fn fastest(runs: &[Run], tolerance: f64) -> Option<&Run> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::base::golden;
     use crate::modes::solve::Solver;
 
     pub fn run(seconds: f64, error: f64) -> Run {
@@ -66,7 +67,7 @@ pub(crate) mod tests {
     #[test]
     fn nothing_beats_the_front_and_something_of_it_beats_all_else() {
         let floor = 1e-12;
-        let numbers = (1..200_u32).map(|k| (f64::from(k) * 0.618_033_988_749_894_9).fract());
+        let numbers = (0..199).map(golden::fraction);
         let mut runs: Vec<Run> = numbers
             .clone()
             .zip(numbers.skip(7))

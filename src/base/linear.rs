@@ -1,0 +1,64 @@
+//! What is the product of two vectors, and which two numbers solve two equations?
+
+use crate::base::real::Real;
+
+/// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
+#[inline(always)]
+pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
+    const BLOCK: usize = 1024;
+    debug_assert_eq!(x.len(), y.len());
+    let mut total = R::default();
+    for (x, y) in x.chunks(BLOCK).zip(y.chunks(BLOCK)) {
+        total += short_dot(x, y);
+    }
+    total
+}
+
+#[inline(always)]
+fn short_dot<R: Real>(x: &[R], y: &[R]) -> R {
+    const SUMS: usize = 8;
+    let mut sums = [R::default(); SUMS];
+    let (x8, y8) = (x.chunks_exact(SUMS), y.chunks_exact(SUMS));
+    let mut rest = R::default();
+    x8.remainder().iter().zip(y8.remainder()).for_each(|(x, y)| rest += *x * *y);
+    for (x, y) in x8.zip(y8) {
+        for k in 0..SUMS {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    rest + (((a + b) + (c + d)) + ((e + f) + (g + h)))
+}
+
+/// `a d − b c` of `[[a, b], [c, d]]`.
+pub fn determinant([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    a * d - b * c
+}
+
+/// The solution of two equations, by Cramer's rule.
+pub fn solve_two(matrix: [[f64; 2]; 2], [e, f]: [f64; 2]) -> [f64; 2] {
+    let ([[a, b], [c, d]], det) = (matrix, determinant(matrix));
+    [(d * e - b * f) / det, (a * f - c * e) / det]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whole numbers have no rounding.
+    #[test]
+    fn a_product_is_the_sum_of_all_products_however_long() {
+        for length in [0, 1, 7, 8, 9, 1023, 1024, 1025, 5000] {
+            let x: Vec<f64> = (0..length).map(|k| ((7 * k) % 19) as f64 - 9.0).collect();
+            let y: Vec<f64> = (0..length).map(|k| ((5 * k) % 23) as f64 - 11.0).collect();
+            let exact: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
+            assert_eq!(dot(&x, &y), exact, "{length}");
+        }
+    }
+
+    #[test]
+    fn two_equations_hold_for_their_solution() {
+        let [x, y] = solve_two([[2.0, 1.0], [-3.0, 4.0]], [1.0, 15.0]);
+        assert_eq!([2.0 * x + y, -3.0 * x + 4.0 * y], [1.0, 15.0]);
+    }
+}
