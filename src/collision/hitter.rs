@@ -44,7 +44,8 @@ pub struct Hitter<'a> {
 }
 
 /// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
-/// quarter of the way to the deepest compression.
+/// quarter of the way to the deepest compression. By the example `tuning_steps` half of it takes half as many
+/// steps again at rough accuracies, and twice as much saves hardly any at good ones.
 const LONGEST: f64 = 0.28;
 
 impl<'a> Hitter<'a> {

@@ -17,7 +17,8 @@ const FINEST: f64 = 1e-12;
 const CORRECTED: f64 = 0.03;
 
 /// The error falls at least as these powers of the number of modes, without and with shear, to a few
-/// modes less and to half as many; in the mean as 6.5 and 3.2.
+/// modes less and to half as many; in the mean as 6.5 and 3.2 (example `tuning_modes`: 5.7 to 6.2 and 2.9 to
+/// 3.2 from 10 to 40 modes).
 const FALLS: [[f64; 2]; 2] = [[4.0, 5.0], [2.5, 3.0]];
 /// Share of the error expected from a change by fewer modes.
 const LEFT_OUT: f64 = 0.6;

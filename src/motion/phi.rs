@@ -12,7 +12,7 @@
 //!
 //! # Source
 //!
-//! M. Hochbruck, A. Ostermann, Exponential integrators, Acta Numerica 19 (2010) 209, section 2.
+//! M. Hochbruck, A. Ostermann, Exponential integrators, Acta Numerica 19 (2010) 209.
 
 use faer::c64;
 
