@@ -1,7 +1,7 @@
 //! What did the user type?
 //!
 //! One file a verb; no physics. A verb parses its options, calls the library and returns what is to be
-//! printed as [`Done`].
+//! printed as `Done`.
 //!
 //! | file | question |
 //! |---|---|

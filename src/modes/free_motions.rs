@@ -9,7 +9,7 @@ use crate::modes::pole::{FreeMotions, Pole, grouped, possible};
 use crate::modes::reduced::Reduced;
 
 impl Reduced {
-    /// The slowest `wanted` motions of the damped bat, as [`Group`]s of rising |s|, those of the
+    /// The slowest `wanted` motions of the damped bat, as groups of rising |s|, those of the
     /// rigid motions that dashpots slow down, and all others of the reduced bat, which are not its
     /// own but make a blow's response begin at zero. The materials' loss is that of viscous dashpots
     /// with the modes' own damping ratios.
