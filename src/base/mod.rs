@@ -5,7 +5,7 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`error`], [`mistakes`] | what was wrong, where, what was expected; several mistakes at once |
+//! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, `threads` | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
 //! | [`units`] | what is a number with a unit in SI |
