@@ -7,7 +7,10 @@ use crate::modes::mode::Mode;
 /// Relative round-off of a frequency by the running sums.
 ///
 /// They keep ε of the slowest motion; a faster mode keeps ε times the ratio of their frequencies,
-/// and long sums lose a little more: measured, on cones, steps and dowels of up to 10⁶ elements.
+/// and long sums lose a little more: measured, on cones, steps and dowels of up to 10⁶
+/// elements; `examples/tuning/round_off.rs` prints true and
+/// stated round-off side by side: of a dowel on 100 to 10 000 elements the true is up to two thirds of the
+/// stated.
 pub fn round_off(ratio: f64, elements: usize) -> f64 {
     let length = 1.0 + (elements as f64).sqrt() / 25.0;
     f64::EPSILON * (4.0 + 1.5 * ratio.max(1.0) * length)
@@ -98,7 +101,8 @@ pub fn share(omegas: &[f64], errors: &mut [f64]) {
 
 /// Whether the motion beyond `count` others is so near to the last of them that it has to be looked
 /// at too, from the `ratio` of their λ (at most 1). A bat's own gaps are about 2/n and more at its
-/// n-th mode.
+/// n-th mode. `examples/tuning/gaps.rs` prints the least of 40 modes, times n: 0.7 or more on all bats of
+/// `meshes/`, but for modes 37 and 38 of the two-piece bat with shear (0.07).
 pub fn is_twin(ratio: f64, count: usize) -> bool {
     (1.0 - ratio) * (count as f64) < 0.2
 }

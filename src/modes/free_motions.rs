@@ -9,9 +9,10 @@ use crate::modes::pole::{FreeMotions, Pole, grouped, possible};
 use crate::modes::reduced::Reduced;
 
 impl Reduced {
-    /// The slowest `wanted` motions of the damped bat, as groups of rising |s|, those of the
-    /// rigid motions that dashpots slow down, and all others of the reduced bat, which are not its
-    /// own but make a blow's response begin at zero. The materials' loss is that of viscous dashpots
+    /// The slowest `wanted` motions of the damped bat, as groups of
+    /// rising |s|, those of the rigid motions that dashpots slow down, and all others of the reduced
+    /// bat, which are not its own but make a blow's response begin at zero. The materials' loss is
+    /// that of viscous dashpots
     /// with the modes' own damping ratios.
     ///
     /// Strains are taken in until no s changes by more than `tolerance`, relative to |s|, or no

@@ -115,7 +115,9 @@ pub struct Wanted {
     pub theory: Theory,
 }
 
-/// The plan aims at this share of the wanted error, because no element is like the formula's.
+/// The plan aims at this share of the wanted error, because no element is like the formula's;
+/// `examples/tuning/plans.rs` prints the share that first plans come to, 0.02 to 0.2 on dowel, cone and
+/// R161.
 const AIM: f64 = 0.4;
 /// The smallest relative error worth planning for: arithmetic tells no finer one.
 const FINEST: f64 = 1e-16;
@@ -186,7 +188,8 @@ impl Plan {
     /// of a frequency): one degree more where little is missing and `free` to choose, else every
     /// element cut into as many parts as its own part of the error asks for.
     pub fn refined(&self, defects: &[f64], tolerance: f64, free: bool) -> Self {
-        // A degree more takes about two digits off the error, and costs a fifth of the time.
+        // A degree more takes about two digits off the error, and costs a fifth of the time:
+        // `examples/tuning/plans.rs` prints both, the error 20 to 130 times smaller.
         const LITTLE: f64 = 100.0;
         let (count, error) = (self.mesh.len() as f64, 0.5 * defects.iter().sum::<f64>());
         if free && error < LITTLE * tolerance && self.degree < *DEGREES.end() {
