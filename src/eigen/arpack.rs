@@ -15,7 +15,7 @@ use nalgebra_sparse::CscMatrix;
 use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::eigen::factor::Factor;
-use crate::eigen::lanczos::{self, Ritz};
+use crate::eigen::lanczos::Ritz;
 use crate::eigen::shift_invert::{self, Noise, Pairs, multiply};
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, the rigid ones included.
