@@ -34,7 +34,7 @@ fn random_bats() -> Vec<Bat> {
             interpolation: Interpolation::Linear,
         };
         let material = Material::new(uniform(600.0, 720.0), uniform(11e9, 16e9)).unwrap();
-        Bat::new("random", Profile::new(stations).unwrap(), material, None).unwrap()
+        Bat::builder(Profile::new(stations).unwrap(), material).name("random").build().unwrap()
     };
     (0..BATS).map(bat).collect()
 }

@@ -28,7 +28,7 @@ fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
     fixtures.attachments.push(Attachment { x: KNOB, mass, ..Attachment::default() });
     let (profile, material) = (bat.profile.clone(), bat.material().clone());
     // The bare bat's density is known by now: nothing is weighed again.
-    Bat::with_fixtures(&bat.name, profile, material, fixtures, Weighed::default())
+    Bat::builder(profile, material).name(&bat.name).fixtures(fixtures).build()
 }
 
 /// Where the ball leaves fastest at that swing (rad/s), how fast (m/s), and how far that may be off.

@@ -29,7 +29,7 @@
 //! let (inner, interpolation) = (vec![0.0; x.len()], Interpolation::Pchip);
 //! let profile = Profile::new(Stations { x, outer, inner, interpolation })?;
 //! let maple = Material::named("sugar-maple-dynamic").expect("it is built in");
-//! let bat = Bat::new("my maple", profile, maple, Some(0.893))?; // weighed, in kg
+//! let bat = Bat::builder(profile, maple).name("my maple").mass(Some(0.893)).build()?; // weighed, in kg
 //! println!("it balances {:.3} m from the knob", bat.inertia().balance_point);
 //!
 //! // Five bending modes, every frequency within 1e-8 of the exact beam's.

@@ -48,7 +48,7 @@ fn dowel(fixtures: Fixtures, loss: f64) -> Bat {
     material.shear_coefficient = Some(0.9);
     material.loss_factor = loss;
     let profile = Profile::new(stations).unwrap();
-    Bat::with_fixtures("dowel", profile, material, fixtures, Weighed::default()).unwrap()
+    Bat::builder(profile, material).name("dowel").fixtures(fixtures).build().unwrap()
 }
 
 fn gripped() -> Fixtures {
@@ -479,8 +479,7 @@ fn loss_factors_are_weighted_with_strain_energies() {
     };
     let fixtures = Fixtures { regions: vec![core], ..Fixtures::default() };
     let profile = Profile::new(stations).unwrap();
-    let filled =
-        Bat::with_fixtures("filled", profile, outer, fixtures, Weighed::default()).unwrap();
+    let filled = Bat::builder(profile, outer).name("filled").fixtures(fixtures).build().unwrap();
     all(ratios(&filled, Theory::EulerBernoulli), 0.04 / 16.0);
 }
 

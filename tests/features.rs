@@ -194,7 +194,7 @@ fn a_thin_tapered_wall_takes_as_many_elements_as_a_thick_one() {
         let profile = Profile::new(Stations { x, outer, inner, interpolation }).unwrap();
         let mut material = Material::new(DENSITY, MODULUS).unwrap();
         material.shear_modulus = Some(1e9);
-        Bat::new("tube", profile, material, None).unwrap()
+        Bat::builder(profile, material).name("tube").build().unwrap()
     };
     for interpolation in [Interpolation::Linear, Interpolation::Pchip] {
         for wall in [1e-3, 1e-5, 1e-8, 1e-11] {

@@ -181,7 +181,8 @@ fn a_smooth_bat_is_the_limit_of_its_stations() {
     let inner = vec![0.0; x.len()];
     let profile =
         Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear }).unwrap();
-    let stations = Bat::new("stations", profile, formula.material().clone(), None).unwrap();
+    let stations =
+        Bat::builder(profile, formula.material().clone()).name("stations").build().unwrap();
     let fine = Request { elements: Some(2000), ..REQUEST };
     let of = |bat: &Bat| solve(bat, &fine).unwrap().modes;
     for (a, b) in of(&formula).iter().zip(of(&stations)) {
@@ -238,7 +239,7 @@ fn warnings_know_the_widest_place() {
 fn a_weighed_mass_sets_the_density_of_a_formula() {
     let shape = one("0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))").profile;
     let material = Material::new(DENSITY, MODULUS).unwrap();
-    let weighed = Bat::new("weighed", shape, material, Some(0.9)).unwrap();
+    let weighed = Bat::builder(shape, material).name("weighed").mass(Some(0.9)).build().unwrap();
     assert!((weighed.inertia().mass / 0.9 - 1.0).abs() < 1e-13);
 }
 

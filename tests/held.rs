@@ -24,7 +24,7 @@ fn asked_with(fixtures: Fixtures) -> sweetspot::Result<Bat> {
     let cone = cone(0.0125, 0.033);
     let mut material = cone.material().clone();
     material.shear_modulus = Some(1e9);
-    Bat::with_fixtures("test", cone.profile, material, fixtures, Weighed::default())
+    Bat::builder(cone.profile, material).name("test").fixtures(fixtures).build()
 }
 
 fn springs(list: &[(f64, f64, f64)]) -> Vec<Attachment> {
@@ -190,7 +190,7 @@ fn a_bat_with_everything_turned_end_for_end_is_the_same() {
     let bare = cone(0.033, 0.0125);
     let material = original.material().clone();
     let mirrored =
-        Bat::with_fixtures("turned", bare.profile, material, mirror, Weighed::default()).unwrap();
+        Bat::builder(bare.profile, material).name("turned").fixtures(mirror).build().unwrap();
     for theory in Theory::ALL {
         let request = Request { modes: 10, tolerance: 1e-11, theory, ..Request::default() };
         let [a, b] = [&original, &mirrored].map(|bat| solve(bat, &request).unwrap());
@@ -378,8 +378,7 @@ fn a_grip_does_not_see_the_stations_of_a_profile() {
         let mut material = cone.material().clone();
         material.shear_modulus = Some(1e9);
         let profile = Profile::new(stations).unwrap();
-        let many =
-            Bat::with_fixtures("many", profile, material, fixtures.clone(), Weighed::default());
+        let many = Bat::builder(profile, material).name("many").fixtures(fixtures.clone()).build();
         let request = Request { modes: 12, tolerance: TOLERANCE, theory, ..Request::default() };
         let solution = solve(&many.unwrap(), &request).unwrap();
         assert!(solution.met && solution.complete() && solution.rigid_modes == 0);

@@ -26,7 +26,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
             shear_coefficient: Some(0.9),
             ..dowel.material().clone()
         };
-        let bat = Bat::new("dowel", dowel.profile.clone(), material, None).unwrap();
+        let bat = Bat::builder(dowel.profile.clone(), material).name("dowel").build().unwrap();
         let solution = solve(&bat, &Request { tolerance: 1e-9, ..Request::default() }).unwrap();
         for mode in &solution.modes[..5] {
             let beta = common::beta(mode.order);

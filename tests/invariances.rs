@@ -52,7 +52,7 @@ fn the_weighed_mass_sets_the_density_and_nothing_else() {
     let stations = dowel().profile.stations;
     let profile = Profile::new(stations).unwrap();
     let light = Material::new(1.0, common::MODULUS).unwrap();
-    let bat = Bat::new("weighed", profile, light, Some(0.9)).unwrap();
+    let bat = Bat::builder(profile, light).name("weighed").mass(Some(0.9)).build().unwrap();
     assert!((bat.inertia().mass - 0.9).abs() < 1e-15);
     let ratio = (common::DENSITY / bat.material().density).sqrt();
     for (a, b) in frequencies(&dowel()).iter().zip(frequencies(&bat)) {

@@ -197,7 +197,7 @@ fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
         Fixtures { supports: vec![Support { x: 0.0, kind: Held::Clamped }], ..Fixtures::default() };
     let material = Material::new(DENSITY, MODULUS).unwrap();
     let profile = dowel().profile;
-    let bat = Bat::with_fixtures("held", profile, material, fixtures, Weighed::default()).unwrap();
+    let bat = Bat::builder(profile, material).name("held").fixtures(fixtures).build().unwrap();
     let form = Dowel { length: LENGTH, radius: RADIUS, youngs_modulus: MODULUS, density: DENSITY };
     // Twelve points from 5 cm to the tip.
     let x: Vec<f64> = (0..12).map(|k| 0.05 + (LENGTH - 0.05) * f64::from(k) / 11.0).collect();

@@ -88,7 +88,7 @@ fn the_nodes_and_mass_of_a_mode_beside_a_tuned_absorber_are_as_far_off_as_they_s
         let absorber = Absorber { x: 0.6, mass, stiffness: mass * tuned * tuned, damping: 0.0 };
         let fixtures = Fixtures { absorbers: vec![absorber], ..Fixtures::default() };
         let (profile, material) = (bare.profile.clone(), bare.material().clone());
-        let bat = Bat::with_fixtures("tuned", profile, material, fixtures, Weighed::default());
+        let bat = Bat::builder(profile, material).name("tuned").fixtures(fixtures).build();
         let bat = bat.unwrap();
         for tolerance in [1e-2, 1e-4, 1e-6] {
             holds(&bat, 3, tolerance);
@@ -140,7 +140,7 @@ fn nodes_of_a_bat_that_hardly_moves_are_as_far_off_as_they_say() {
         ..Fixtures::default()
     };
     let material = Material::new(650.0, 15e9).unwrap();
-    let bat = Bat::with_fixtures("soft", profile.unwrap(), material, fixtures, Weighed::default());
+    let bat = Bat::builder(profile.unwrap(), material).name("soft").fixtures(fixtures).build();
     let (bat, modes, theory) = (bat.unwrap(), 4, Theory::Rayleigh);
     let exact = solve(&bat, &Request { modes, theory, tolerance: 1e-12, ..Request::default() });
     let exact = exact.unwrap();

@@ -25,7 +25,11 @@ fn hit(bat: &Bat, model: Model, scene: &Scene, x: f64) -> Outcome {
 fn held(fixtures: Fixtures) -> Bat {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let weighed = sweetspot::bat::body::Weighed::default();
-    Bat::with_fixtures("held", bat.profile.clone(), bat.material().clone(), fixtures, weighed)
+    Bat::builder(bat.profile.clone(), bat.material().clone())
+        .name("held")
+        .fixtures(fixtures)
+        .weighed(weighed)
+        .build()
         .unwrap()
 }
 
@@ -92,7 +96,7 @@ fn what_damping_takes_is_told() {
     let mut before = 0.0;
     for loss_factor in [0.0, 0.01, 0.1] {
         material.loss_factor = loss_factor;
-        let bat = Bat::new("lossy", profile.clone(), material.clone(), None).unwrap();
+        let bat = Bat::builder(profile.clone(), material.clone()).name("lossy").build().unwrap();
         let energy = hit(&bat, Model::Contact, &Scene::default(), 0.6).energy;
         assert!(energy.imbalance().abs() < 1e-9 * energy.initial);
         assert!(energy.dissipated_damping > before || loss_factor == 0.0);

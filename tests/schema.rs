@@ -242,7 +242,7 @@ fn every_format_is_written_and_pinned_or_read() {
     let read = ["bat", "ball", "validation"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
-        let known = written || file.name() == "page" || read.contains(&file.name());
+        let known = written || file.name() == "page" || read.contains(file.name());
         assert!(known, "{}", file.name());
     }
 }

@@ -148,7 +148,7 @@ fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     material.shear_modulus = Some(1e9);
     material.shear_coefficient = Some(0.7);
     let profile = Profile::new(stations).unwrap();
-    let mut bat = Bat::new("shaft", profile, material, None).unwrap();
+    let mut bat = Bat::builder(profile, material).name("shaft").build().unwrap();
     let pin =
         |x| sweetspot::bat::fixtures::Support { x, kind: sweetspot::bat::fixtures::Held::Pinned };
     bat.fixtures.supports = vec![pin(0.0), pin(LENGTH)];

@@ -17,7 +17,7 @@ use sweetspot::{Bat, Request, solve};
 fn held(fixtures: Fixtures) -> Bat {
     let Bat { profile, layups, .. } = dowel();
     let material = layups[0].outer.clone();
-    Bat::with_fixtures("held", profile, material, fixtures, Weighed::default()).unwrap()
+    Bat::builder(profile, material).name("held").fixtures(fixtures).build().unwrap()
 }
 
 fn clamped() -> Bat {

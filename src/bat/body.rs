@@ -17,23 +17,54 @@ use crate::bat::profile::{Piece, Profile, Radii, Section};
 /// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
 pub const STANDARD_PIVOT: f64 = 0.1524;
 
-/// A bat: a shape, materials, and what is on it; checked, so that no later stage checks again.
+/// A bat: a shape, materials, and what is on it. One that exists is valid, so that no later stage checks
+/// again: it is made by [`Bat::builder`], and a change makes another one ([`Bat::with`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
+    name: String,
+    source: String,
+    profile: Profile,
+    layups: Vec<Layup>,
+    fixtures: Fixtures,
+    weighed: Weighed,
+    factors: [f64; 2],
+}
+
+/// What a bat is made of, before it is one.
+///
+/// ```
+/// use sweetspot::bat::body::Weighed;
+/// use sweetspot::{Bat, Material, Profile};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// let maple = Material::named("sugar-maple-dynamic").expect("it is built in");
+/// let dowel = Profile::uniform(0.84, 0.0152)?;
+/// let weighed = Weighed { mass: Some(0.43), ..Weighed::default() };
+/// let bat = Bat::builder(dowel, maple).name("a dowel").weighed(weighed).build()?;
+/// assert!((bat.inertia().mass - 0.43).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Builder {
+    parts: Parts,
+    weighed: Weighed,
+}
+
+/// The parts of a bat, as [`Bat::with`] gives them to be changed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Parts {
     /// Name of the bat.
     pub name: String,
     /// Where the numbers of the bat come from.
     pub source: String,
-    /// Shape of the bat; its pieces end wherever a material or a fixture begins.
+    /// Shape of the bat.
     pub profile: Profile,
-    /// What the pieces of the profile are made of; the first is the bat's own material.
-    pub layups: Vec<Layup>,
+    /// The bat's own material.
+    pub material: Material,
     /// What is on it and what holds it.
     pub fixtures: Fixtures,
-    /// Mass, balance point and first frequency as they were measured.
-    pub weighed: Weighed,
-    /// Factors on all densities and on all moduli that weighing and tapping led to.
-    pub factors: [f64; 2],
 }
 
 /// What a scale and a tap said, where they were asked.
@@ -82,49 +113,50 @@ pub struct Inertia {
     pub line_about_balance: f64,
 }
 
-impl Bat {
-    /// A bat of a shape and a material; a weighed mass (kg) sets the density.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] if the mass or the stiffness is beyond the range of numbers.
-    pub fn new(
-        name: impl Into<String>,
-        profile: Profile,
-        material: Material,
-        weighed_mass: Option<f64>,
-    ) -> Result<Self> {
-        let weighed = Weighed { mass: weighed_mass, ..Weighed::default() };
-        Self::with_fixtures(name, profile, material, Fixtures::default(), weighed)
+impl Builder {
+    /// Its name.
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.parts.name = name.into();
+        self
     }
 
-    /// A bat of a shape and materials, with what is on it and what holds it.
-    ///
-    /// The weighed mass includes what is attached; it sets one factor on all densities. A tapped
-    /// frequency is kept for [`crate::study::tuned`].
+    /// Where its numbers come from.
+    pub fn source(mut self, source: impl Into<String>) -> Self {
+        self.parts.source = source.into();
+        self
+    }
+
+    /// What is on it and what holds it.
+    pub fn fixtures(mut self, fixtures: Fixtures) -> Self {
+        self.parts.fixtures = fixtures;
+        self
+    }
+
+    /// What the bat weighs with everything attached (kg), if it was weighed: see [`Self::weighed`].
+    pub fn mass(mut self, mass: Option<f64>) -> Self {
+        self.weighed.mass = mass;
+        self
+    }
+
+    /// What a scale and a tap said. The mass includes what is attached; it sets one factor on all
+    /// densities. A tapped frequency is kept for [`crate::study::tuned`].
+    pub fn weighed(mut self, weighed: Weighed) -> Self {
+        self.weighed = weighed;
+        self
+    }
+
+    /// The bat.
     ///
     /// # Errors
     ///
     /// [`Error::Value`], its field the path of a key in a bat file, or several of them.
-    pub fn with_fixtures(
-        name: impl Into<String>,
-        profile: Profile,
-        material: Material,
-        fixtures: Fixtures,
-        weighed: Weighed,
-    ) -> Result<Self> {
-        let (name, source, mut fixtures) = (name.into(), String::new(), fixtures);
-        let layups = vec![Layup::of(material)];
+    pub fn build(self) -> Result<Bat> {
         let mut mistakes = Mistakes::default();
-        mistakes.note(fixtures.check(profile.length()));
-        mistakes.note(weighed.check(profile.length()));
+        mistakes.note(self.weighed.check(self.parts.profile.length()));
+        let bat = mistakes.some(Bat::of(self.parts, self.weighed, [1.0; 2]));
         mistakes.end(())?;
-        fixtures.settle(&profile.borders());
-        let factors = [1.0; 2];
-        let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
-        bat.lay_out();
-        bat.check_range()?;
-        if let Some(mass) = weighed.mass {
+        let mut bat = bat.expect("what could not be made was noted");
+        if let Some(mass) = self.weighed.mass {
             let attached = bat.fixtures.attached_mass();
             let own = mass - attached;
             if own <= 0.0 {
@@ -136,9 +168,82 @@ impl Bat {
         }
         Ok(bat)
     }
+}
+
+impl Bat {
+    /// A bat of a shape and a material, to which more can be told before it is built.
+    pub fn builder(profile: Profile, material: Material) -> Builder {
+        let (name, source, fixtures) = (String::new(), String::new(), Fixtures::default());
+        let parts = Parts { name, source, profile, material, fixtures };
+        Builder { parts, weighed: Weighed::default() }
+    }
+
+    /// The same bat with something changed. What was weighed stays as it led to densities and moduli: it
+    /// was said of the bat before the change, and is not asked again.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::build`].
+    pub fn with(&self, edit: impl FnOnce(&mut Parts)) -> Result<Self> {
+        let mut parts = Parts {
+            name: self.name.clone(),
+            source: self.source.clone(),
+            profile: self.profile.clone(),
+            material: self.material().clone(),
+            fixtures: self.fixtures.clone(),
+        };
+        edit(&mut parts);
+        Self::of(parts, self.weighed, self.factors)
+    }
+
+    fn of(parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
+        let Parts { name, source, profile, material, mut fixtures } = parts;
+        let layups = vec![Layup::of(material)];
+        fixtures.check(profile.length())?;
+        fixtures.settle(&profile.borders());
+        let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
+        bat.lay_out();
+        bat.check_range()?;
+        Ok(bat)
+    }
+
+    /// Name of the bat.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where the numbers of the bat come from.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Shape of the bat; its pieces end wherever a material or a fixture begins.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// What the pieces of the profile are made of; the first is the bat's own material.
+    pub fn layups(&self) -> &[Layup] {
+        &self.layups
+    }
+
+    /// What is on it and what holds it.
+    pub fn fixtures(&self) -> &Fixtures {
+        &self.fixtures
+    }
+
+    /// Mass, balance point and first frequency as they were measured.
+    pub fn weighed(&self) -> Weighed {
+        self.weighed
+    }
+
+    /// Factors on all densities and on all moduli that weighing and tapping led to.
+    pub fn factors(&self) -> [f64; 2] {
+        self.factors
+    }
 
     /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
-    pub(crate) fn lay_out(&mut self) {
+    fn lay_out(&mut self) {
         self.layups.truncate(1);
         self.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
         self.profile.cut(self.fixtures.borders());

@@ -348,7 +348,7 @@ mod tests {
         };
         let profile = Profile::new(stations).unwrap();
         let material = Material::new(700.0, youngs_modulus).unwrap();
-        let bat = Bat::with_fixtures("pinned", profile, material, fixtures, Weighed::default());
+        let bat = Bat::builder(profile, material).name("pinned").fixtures(fixtures).build();
         let bat = bat.unwrap();
         let mut statics = Statics::<f64, 6, 6>::empty(&bat, Theory::EulerBernoulli);
         statics.assemble(&[&bat], &[&Mesh::along(&bat, 6)]);

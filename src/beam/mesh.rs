@@ -28,14 +28,14 @@ impl Mesh {
     /// About `wanted` elements spread by length, equal within each piece: exactly that many if
     /// there are no more pieces than that, else one per piece.
     pub fn along(bat: &Bat, wanted: usize) -> Self {
-        let lengths: Vec<f64> = bat.profile.pieces.iter().map(|piece| piece.length).collect();
+        let lengths: Vec<f64> = bat.profile().pieces.iter().map(|piece| piece.length).collect();
         Self::with_counts(bat, &spread(&lengths, wanted))
     }
 
     /// A mesh with that many equal elements in each piece of the profile.
     pub fn with_counts(bat: &Bat, counts: &[usize]) -> Self {
         let mut elements = Vec::with_capacity(counts.iter().sum());
-        for (k, (piece, &count)) in bat.profile.pieces.iter().zip(counts).enumerate() {
+        for (k, (piece, &count)) in bat.profile().pieces.iter().zip(counts).enumerate() {
             let at = |j: usize| j as f64 / count as f64;
             elements.extend((0..count).map(|j| Element {
                 piece: k,
@@ -50,8 +50,8 @@ impl Mesh {
 
     /// A mesh with borders where `write` puts them on each piece, `s` rising from 0 to 1.
     pub fn with_borders(bat: &Bat, mut write: impl FnMut(usize, &mut Vec<f64>)) -> Self {
-        let (mut elements, mut borders) = (Vec::with_capacity(bat.profile.pieces.len()), vec![]);
-        for (k, piece) in bat.profile.pieces.iter().enumerate() {
+        let (mut elements, mut borders) = (Vec::with_capacity(bat.profile().pieces.len()), vec![]);
+        for (k, piece) in bat.profile().pieces.iter().enumerate() {
             borders.clear();
             write(k, &mut borders);
             elements.extend(borders.windows(2).map(|s| Element {
@@ -87,7 +87,7 @@ impl Mesh {
     pub fn fit(&mut self, bat: &Bat, pattern: &Self) {
         self.elements.clear();
         for e in &pattern.elements {
-            let piece = &bat.profile.pieces[e.piece];
+            let piece = &bat.profile().pieces[e.piece];
             self.elements.push(Element {
                 start: piece.start + piece.length * e.from,
                 length: piece.length * (e.to - e.from),

@@ -36,7 +36,7 @@ impl<S: Real> Placed<S> {
         bat: &Bat,
         mesh: &Mesh,
     ) -> Self {
-        let clamped = bat.fixtures.supports.iter().filter(|s| s.kind == Held::Clamped);
+        let clamped = bat.fixtures().supports.iter().filter(|s| s.kind == Held::Clamped);
         let clamps = clamped.map(|support| support.x).collect();
         let mut placed = Self { clamps, ..Self::default() };
         placed.add_joints(body, bat, mesh);
@@ -100,7 +100,7 @@ impl<S: Real> Placed<S> {
         bat: &Bat,
         mesh: &Mesh,
     ) {
-        for joint in &bat.fixtures.joints {
+        for joint in &bat.fixtures().joints {
             let spring = self.spring(body, joint.rotational_stiffness);
             self.joints.push(spring);
             let what = What::Joint(self.joints.len() - 1);
@@ -115,9 +115,9 @@ impl<S: Real> Placed<S> {
         mesh: &Mesh,
     ) {
         let number = S::splat;
-        let masses = bat.fixtures.attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
+        let masses = bat.fixtures().attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
         let fixed = masses.map(|a| (a.x, [a.mass, a.offset, a.rotary_inertia], None));
-        let hung = bat.fixtures.absorbers.iter();
+        let hung = bat.fixtures().absorbers.iter();
         let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
         for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
             let what = What::PointMass(self.points.len());
@@ -148,13 +148,13 @@ impl<S: Real> Placed<S> {
             let sign = S::splat(if turning && side == 0 { -1.0 } else { 1.0 });
             self.contacts.push(Contact { at: At::Border, turning, sign, spring });
         };
-        for support in &bat.fixtures.supports {
+        for support in &bat.fixtures().supports {
             add(support.x, false, None);
             if support.kind == Held::Clamped {
                 add(support.x, true, None);
             }
         }
-        for a in &bat.fixtures.attachments {
+        for a in &bat.fixtures().attachments {
             let springs = [(false, a.stiffness), (true, a.rotational_stiffness)];
             for (turning, stiffness) in springs.into_iter().filter(|(_, k)| *k > 0.0) {
                 add(a.x, turning, Some(stiffness));
@@ -169,7 +169,7 @@ impl<S: Real> Placed<S> {
         bat: &Bat,
         mesh: &Mesh,
     ) {
-        let Some(grip) = bat.fixtures.grip.filter(|grip| grip.stiffness > 0.0) else { return };
+        let Some(grip) = bat.fixtures().grip.filter(|grip| grip.stiffness > 0.0) else { return };
         self.beds = vec![None; mesh.len()];
         for (cell, e) in in_grip(bat, mesh, body.split) {
             self.beds[cell] = Some(self.contacts.len());
@@ -186,7 +186,7 @@ impl<S: Real> Placed<S> {
 
 /// The number of the mesh's node at `x`, or nearest to it: the bat's pieces end there.
 pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
-    let pieces = &bat.profile.pieces;
+    let pieces = &bat.profile().pieces;
     let start = |k: usize| pieces.get(k).map_or(bat.length(), |piece| piece.start);
     let above = pieces.partition_point(|piece| piece.start <= x).max(1);
     let piece = if x - start(above - 1) <= start(above) - x { above - 1 } else { above };
@@ -195,7 +195,7 @@ pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
 
 /// The elements in the grip: the place of the cell and the number of the element.
 pub fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
-    let Some(grip) = &bat.fixtures.grip else { return vec![] };
+    let Some(grip) = &bat.fixtures().grip else { return vec![] };
     let held = |e: &usize| {
         let e = &mesh.elements[*e];
         let middle = e.start + 0.5 * e.length;

@@ -61,7 +61,7 @@ impl Rule {
     /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
     pub fn of(bat: &Bat, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
-        let mut pieces = bat.profile.pieces.iter();
+        let mut pieces = bat.profile().pieces.iter();
         let radii = pieces.try_fold(0, |most: usize, piece| match &piece.radii {
             Radii::Cubic(cubics) => Some(most.max(cubics.degree)),
             Radii::Formula(_) => None,

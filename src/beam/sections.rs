@@ -10,7 +10,7 @@ use crate::beam::rule::{MOST_POINTS, Rule};
 /// The sections at the points of the rule on one element.
 #[inline(always)]
 fn sections(bat: &Bat, e: &Element, rule: &Rule, mut at: impl FnMut(usize, Section)) {
-    let piece = &bat.profile.pieces[e.piece];
+    let piece = &bat.profile().pieces[e.piece];
     let Radii::Cubic(cubics) = &piece.radii else {
         for (i, point) in rule.points.iter().enumerate() {
             at(i, piece.at(e.from + (e.to - e.from) * point.s));
@@ -35,19 +35,19 @@ pub fn bending_and_mass(
     rule: &Rule,
     mut take: impl FnMut(usize, [f64; 2]),
 ) {
-    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    let layup = bat.layup(&bat.profile().pieces[e.piece]);
     sections(bat, e, rule, |i, section| take(i, layup.bending_and_mass(section)));
 }
 
 /// All that the sections are worth there.
 pub fn worths(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, Worth)) {
-    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    let layup = bat.layup(&bat.profile().pieces[e.piece]);
     sections(bat, e, rule, |i, section| take(i, layup.worth(section)));
 }
 
 /// The sections' loss factors in bending and in shear there.
 pub fn losses(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, [f64; 2])) {
-    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    let layup = bat.layup(&bat.profile().pieces[e.piece]);
     sections(bat, e, rule, |i, section| take(i, layup.loss(section)));
 }
 
@@ -64,7 +64,7 @@ const SHORT: f64 = 1e-8;
 /// the parse tree leave of EI, ρA and κGA, and on an element so short that nothing on it matters its variation times
 /// its share of the bat.
 pub fn missed(bat: &Bat, e: &Element, rule: &Rule, theory: Theory) -> f64 {
-    let piece = &bat.profile.pieces[e.piece];
+    let piece = &bat.profile().pieces[e.piece];
     let layup = bat.layup(piece);
     let missed = match &piece.radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] || cubics.degree == 0 => 0.0,
@@ -97,7 +97,7 @@ pub fn missed(bat: &Bat, e: &Element, rule: &Rule, theory: Theory) -> f64 {
 /// round-off of a thin wall.
 fn shear_tail(bat: &Bat, e: &Element, rule: &Rule) -> f64 {
     let (mut shear, mut thinness) = ([0.0; MOST_POINTS], 1.0_f64);
-    let layup = bat.layup(&bat.profile.pieces[e.piece]);
+    let layup = bat.layup(&bat.profile().pieces[e.piece]);
     sections(bat, e, rule, |i, section| {
         shear[i] = layup.worth(section).shear;
         thinness = thinness.max(section.thinness());
@@ -109,7 +109,7 @@ fn shear_tail(bat: &Bat, e: &Element, rule: &Rule) -> f64 {
 /// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
 /// two radii, and what evaluating a formula costs.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
-    let of = |e: &Element| match &bat.profile.pieces[e.piece].radii {
+    let of = |e: &Element| match &bat.profile().pieces[e.piece].radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,
         Radii::Cubic(cubics) => {
             let walls = cubics.outer.iter().zip(&cubics.inner);

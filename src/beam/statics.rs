@@ -139,7 +139,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             stiffest = f64::max(stiffest, stiffness.lane(0) / length.lane(0));
             at = start + length;
         }
-        for [attached, x, _] in bats[0].fixtures.masses() {
+        for [attached, x, _] in bats[0].fixtures().masses() {
             mass.add(R::splat(attached));
             first.add(R::splat(attached * x));
         }
@@ -153,7 +153,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.split = self.root(count, stiffest);
         self.fill(meshes);
         self.fixed = None;
-        if !bats[0].fixtures.none_moving() {
+        if !bats[0].fixtures().none_moving() {
             self.attach(bats[0]);
             debug_assert!(R::LANES == 1);
             self.fixed = Some(Box::new(Fixed::new(&self.body(), bats[0], meshes[0])));
@@ -249,7 +249,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
 
     /// Adds what is attached to the inertia.
     fn attach(&mut self, bat: &Bat) {
-        for [mass, x, own] in bat.fixtures.masses() {
+        for [mass, x, own] in bat.fixtures().masses() {
             let arm = R::splat(x) - self.balance;
             self.inertia += R::splat(mass) * arm * arm + R::splat(own);
         }
@@ -374,7 +374,7 @@ mod tests {
         };
         let mut material = Material::new(700.0, 14e9).unwrap();
         material.shear_modulus = Some(1e9);
-        Bat::new("test", Profile::new(stations).unwrap(), material, None).unwrap()
+        Bat::builder(Profile::new(stations).unwrap(), material).name("test").build().unwrap()
     }
 
     const THEORIES: [Theory; 3] = Theory::ALL;
@@ -444,7 +444,11 @@ mod tests {
             let material = bare.material().clone();
             let profile = bare.profile;
             let weighed = Weighed::default();
-            let bat = Bat::with_fixtures("held", profile, material, fixtures.clone(), weighed);
+            let bat = Bat::builder(profile, material)
+                .name("held")
+                .fixtures(fixtures.clone())
+                .weighed(weighed)
+                .build();
             let bat = bat.unwrap();
             symmetric::<6, 6>(&bat, THEORIES[1]);
             symmetric::<6, 10>(&bat, THEORIES[2]);

@@ -104,7 +104,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, law) = args.scene.scene(&bat)?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
-    let modes = args.solve.modes_within(10, bat.profile.pieces.len());
+    let modes = args.solve.modes_within(10, bat.profile().pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));
     let task = Task { model, scene, law, hits, proof };

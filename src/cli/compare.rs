@@ -141,7 +141,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &plot::measured::pictures(&bat.name, &study), args.output.quiet)?;
+        pictures::write(folder, &plot::measured::pictures(bat.name(), &study), args.output.quiet)?;
     }
     let text = report::measured::text(&bat, &study, args.output.units);
     let name = path.display().to_string();
@@ -204,7 +204,7 @@ fn as_option(error: Error) -> Error {
 /// The exit code, after a word about bats whose exit speeds are less accurate than asked.
 fn verdict(args: &Args, compared: &Comparison) -> u8 {
     let short = compared.bats.iter().filter(|bat| !bat.sweep.met && args.solve.enforced());
-    let names: Vec<&str> = short.map(|bat| bat.bat.name.as_str()).collect();
+    let names: Vec<&str> = short.map(|bat| bat.bat.name()).collect();
     if names.is_empty() {
         return 0;
     }

@@ -115,7 +115,7 @@ pub fn run(args: &Args) -> Result<Done> {
             return Err(Error::value(name, shown_length(x), expected));
         }
     }
-    check(args, bat.fixtures.rigid_modes() > 0)?;
+    check(args, bat.fixtures().rigid_modes() > 0)?;
     let modes = args.bat.count().max(1);
     let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
@@ -128,7 +128,7 @@ pub fn run(args: &Args) -> Result<Done> {
         rising(args, &mut frequencies)?;
     }
     let samples = frf.receptances(&frequencies)?;
-    let measured = Measured { bat: &bat.name, kind: args.kind, at, to, even };
+    let measured = Measured { bat: bat.name(), kind: args.kind, at, to, even };
     let table = || table(args.kind, [at, to], &frf, &samples);
     let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
     let document = || document(&measured, &samples, &frf);

@@ -135,7 +135,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let figures = Figures::new(&bat, &hitter, law)?;
     if let Some(folder) = &args.plots {
         let subject =
-            profile::Subject { name: &bat.name, bat: &bat, swing_pivot: Some(scene.pivot) };
+            profile::Subject { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
         let mut pictures = vec![profile::picture(&[subject])];
         pictures.extend(hits.pictures(args.place.at)?);

@@ -86,7 +86,7 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {
-    if !bat.fixtures.none_moving() {
+    if !bat.fixtures().none_moving() {
         let found = "a bat with attachments, joints or supports";
         let expected = "a bare bat: K and M are those of its body";
         return Err(Error::value("--matrices", found, expected));

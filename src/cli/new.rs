@@ -253,7 +253,7 @@ fn like(name: &str, length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>> {
     let bat = bundled_bat(&format!("meshes/{name}.json"))?;
     let of_metres = if unit == "in" { inches(1.0) } else { 100.0 };
     let longer = length.map_or(1.0, |length| length / (bat.length() * of_metres));
-    let stations = bat.profile.stations.x.iter().zip(&bat.profile.stations.outer);
+    let stations = bat.profile().stations.x.iter().zip(&bat.profile().stations.outer);
     Ok(stations.map(|(x, r)| [x * of_metres * longer, 2.0 * r * of_metres]).collect())
 }
 
@@ -269,12 +269,12 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     ];
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let density = bat.material().density;
-    let told = density / bat.factors[0];
+    let told = density / bat.factors()[0];
     let verdict = format!(
         "To weigh {} the material must have {density:.0} kg/m³; {} has {told:.0}. {}",
         measured.mass,
         measured.material,
-        match bat.factors[0] {
+        match bat.factors()[0] {
             0.8..1.25 => "That is as wood differs.",
             _ => "That is another material, a hollow bat, or a slip: look at mass and diameters.",
         }

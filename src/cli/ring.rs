@@ -223,7 +223,7 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     const ENOUGH: usize = 40;
     let x = on_the_bat(&bat, "--hit", x)?;
     let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
-    let count = args.solve.modes_within(count, bat.profile.pieces.len());
+    let count = args.solve.modes_within(count, bat.profile().pieces.len());
     if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
         on_the_bat(&bat, "--watch", *place)?;
     }

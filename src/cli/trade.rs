@@ -104,11 +104,11 @@ pub fn run(args: &Args) -> Result<Done> {
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
         let document = schema::text(&u_curve::document(&bat, &reference, &columns));
-        let pictures = sets::of_u_curve(&bat.name, &columns, modes);
+        let pictures = sets::of_u_curve(bat.name(), &columns, modes);
         (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns), pictures)
     } else {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
-        let pictures = front::picture(&bat.name, &trade).into_iter().collect();
+        let pictures = front::picture(bat.name(), &trade).into_iter().collect();
         (
             trade::text(&bat, &trade),
             schema::text(&trade::document(&bat, &trade)),

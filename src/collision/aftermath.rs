@@ -194,7 +194,7 @@ impl<'a> Aftermath<'a> {
             let modes = self.modes.iter().zip(&now.modes).take(count);
             let sum: f64 = modes.map(|(rung, part)| rung.mode.shape.curvature(*x) * part[0]).sum();
             // So that rest is not −0.
-            0.0 - self.bat.profile.at(*x).outer * sum
+            0.0 - self.bat.profile().at(*x).outer * sum
         };
         places.iter().map(bent).collect()
     }
@@ -211,7 +211,7 @@ impl<'a> Aftermath<'a> {
         let at = |x: &f64| {
             let modes = self.modes.iter().take(count);
             let curvature: Vec<f64> = modes.map(|r| r.mode.shape.curvature(*x)).collect();
-            let radius = self.bat.profile.at(*x).outer;
+            let radius = self.bat.profile().at(*x).outer;
             let mut worst = Strained { x: *x, time: 0.0, strain: 0.0, stress: 0.0 };
             for now in instants {
                 let sum: f64 = curvature.iter().zip(&now.modes).map(|(c, part)| c * part[0]).sum();
@@ -227,7 +227,7 @@ impl<'a> Aftermath<'a> {
 
     /// Young's modulus (Pa) of the outer material at `x` (m).
     pub fn modulus(&self, x: f64) -> f64 {
-        self.bat.layup(self.bat.profile.piece_at(x)).outer.youngs_modulus
+        self.bat.layup(self.bat.profile().piece_at(x)).outer.youngs_modulus
     }
 
     /// Number of modes.

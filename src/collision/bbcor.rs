@@ -134,7 +134,7 @@ impl Protocol {
             let [from, to] = self.scan;
             return Err(Error::value("scan", format!("{from:.4} to {to:.4} m"), expected));
         }
-        let (bat, scene) = (pivoted(bat), self.scene());
+        let (bat, scene) = (pivoted(bat)?, self.scene());
         let trial = Trial { model: Model::Contact, scene: &scene };
         let sweep = sweep_telling(&bat, trial, asked, &places, tell)?;
         let inertia = bat.inertia().about(STANDARD_PIVOT);
@@ -153,13 +153,12 @@ impl Protocol {
 }
 
 /// The bat on the pivot alone: what else held it is taken away.
-fn pivoted(bat: &Bat) -> Bat {
+fn pivoted(bat: &Bat) -> Result<Bat> {
     let pivot = Support { x: STANDARD_PIVOT, kind: Held::Pinned };
-    let fixtures = bat.fixtures.without_springs();
-    let mut held = bat.clone();
-    held.fixtures = Fixtures { supports: vec![pivot], ..fixtures };
-    held.lay_out();
-    held
+    bat.with(|parts| {
+        let fixtures = parts.fixtures.without_springs();
+        parts.fixtures = Fixtures { supports: vec![pivot], ..fixtures };
+    })
 }
 
 impl Tested {

@@ -83,7 +83,7 @@ impl<'a> Hitter<'a> {
         struck: Arc<Struck<'a>>,
         effort: Effort,
     ) -> Result<Self> {
-        let held = bat.fixtures.holding();
+        let held = bat.fixtures().holding();
         if held && matches!(model, Model::EnergyLoss(_)) {
             let expected = "a free bat, which the report's fit is for, or another model";
             return Err(Error::value("--model energy-loss", "a bat that is held", expected));
@@ -116,7 +116,7 @@ impl<'a> Hitter<'a> {
             model,
             scene,
             solution,
-            profile: &bat.profile,
+            profile: bat.profile(),
             bat: rigid,
             motion,
             held,

@@ -122,7 +122,8 @@ impl<'a> Struck<'a> {
 
 /// The rigid motions of the bat where springs and hands do not hold it.
 pub fn without_springs(bat: &Bat, solution: &Solution) -> Vec<RigidMotion> {
-    let bare = Bat { fixtures: bat.fixtures.without_springs(), ..bat.clone() };
+    let bare = bat.with(|parts| parts.fixtures = parts.fixtures.without_springs());
+    let bare = bare.expect("a bat without its springs is a bat");
     Flexible::new(&bare, solution.elements()).rigid
 }
 

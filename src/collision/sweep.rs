@@ -301,7 +301,7 @@ fn enough(Trial { model, scene }: Trial, request: &Request, bat: &Bat) -> usize 
     let count = few * 10.0_f64.powf((digits - 4.0) / rate);
     let most = match request.elements {
         Some(elements) => {
-            (request.degree.unwrap_or(3) - 1) * elements.max(bat.profile.pieces.len())
+            (request.degree.unwrap_or(3) - 1) * elements.max(bat.profile().pieces.len())
         }
         None => usize::MAX,
     };

@@ -167,8 +167,8 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     mistakes.end(())?;
     let profile = profile.expect("a profile that could not be read was noted");
     let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
-    let bat = Bat::with_fixtures(name, profile, material, fixtures, weighed).map_err(placed)?;
-    Ok(Bat { source: source.unwrap_or_default(), ..bat })
+    let bat = Bat::builder(profile, material).name(name).source(source.unwrap_or_default());
+    bat.fixtures(fixtures).weighed(weighed).build().map_err(placed)
 }
 
 /// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is

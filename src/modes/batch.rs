@@ -129,7 +129,7 @@ fn all_alone(bats: &[Bat], request: &Request, visit: Visit) {
 /// Whether a bat is made of stations, with nothing on it and nothing that holds it.
 fn plain(bat: &Bat) -> bool {
     let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
-    bat.fixtures.none_moving() && !bat.profile.pieces.iter().any(formula)
+    bat.fixtures().none_moving() && !bat.profile().pieces.iter().any(formula)
 }
 
 /// Solves every bat on all cores, each share of 256 bats planned by its own first one.
@@ -194,10 +194,10 @@ fn with_degree<const N: usize>(
 /// like proportions, so that the same elements serve both.
 fn same_pattern(a: &Bat, b: &Bat) -> bool {
     const ALIKE: f64 = 2.5;
-    let widest = |bat: &Bat| bat.profile.stations.outer.iter().fold(0.0_f64, |m, r| m.max(*r));
+    let widest = |bat: &Bat| bat.profile().stations.outer.iter().fold(0.0_f64, |m, r| m.max(*r));
     let (widest_a, widest_b) = (widest(a), widest(b));
-    let pieces = a.profile.pieces.iter().zip(&b.profile.pieces);
-    a.profile.pieces.len() == b.profile.pieces.len()
+    let pieces = a.profile().pieces.iter().zip(&b.profile().pieces);
+    a.profile().pieces.len() == b.profile().pieces.len()
         && plain(a) == plain(b)
         && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
         && pieces.flat_map(|(a, b)| [0.0, 1.0].map(|s| (a.at(s).outer, b.at(s).outer))).all(

@@ -384,7 +384,7 @@ impl Flexible {
 
     /// The loss factors at the points of the cells, outwards.
     fn losses(&self, bat: &Bat) -> Vec<[f64; 2]> {
-        if bat.layups.iter().all(|layup| layup.materials().all(|m| m.loss_factor == 0.0)) {
+        if bat.layups().iter().all(|layup| layup.materials().all(|m| m.loss_factor == 0.0)) {
             return vec![];
         }
         let Place { split, rule, .. } = self.pairs.place();
@@ -409,10 +409,10 @@ impl Flexible {
         let none = vec![0.0; self.rigid.len()];
         let beside =
             |constant: f64, strains: Drawn| Dashpot { constant, rigid: none.clone(), strains };
-        let hung = bat.fixtures.absorbers.iter().zip(&self.hung);
+        let hung = bat.fixtures().absorbers.iter().zip(&self.hung);
         let mut all: Vec<Dashpot> =
             hung.map(|(absorber, drawn)| beside(absorber.damping, drawn.clone())).collect();
-        if let Some(grip) = bat.fixtures.grip.filter(|grip| grip.damping > 0.0) {
+        if let Some(grip) = bat.fixtures().grip.filter(|grip| grip.damping > 0.0) {
             // One for every point of the bed, of its share: the same as for its spring.
             let Place { energy_unit, split, rule, .. } = self.pairs.place();
             let per_stiffness = grip.damping / grip.stiffness;

@@ -147,15 +147,15 @@ impl fmt::Display for Kind {
 ///
 /// [`crate::Error::NotConverged`] if the modes, or those of the damped bat, cannot be found again.
 pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) -> Result<Damping> {
-    let dashpots = bat.fixtures.damping();
+    let dashpots = bat.fixtures().damping();
     let own = bat.material().loss_factor;
-    let mut materials = bat.layups.iter().flat_map(|layup| layup.materials());
+    let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
     let alike = materials.all(|material| material.loss_factor == own);
     let lossless = alike && own == 0.0;
     if modes.is_empty() || (lossless && !dashpots) {
         return Ok(Damping::default());
     }
-    if alike && bat.fixtures.none_moving() && !dashpots {
+    if alike && bat.fixtures().none_moving() && !dashpots {
         let damped = |mode: &Mode| Damped::new(mode.omega, 0.5 * own, 0.5 * own);
         let modes = modes.iter().map(damped).collect();
         return Ok(Damping::by_modes(modes, vec![], Kind::Materials));

@@ -144,7 +144,7 @@ impl Plan {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
         // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds
         // to the order of a motion at most one for each thing held beyond the two rigid motions.
-        let held = bat.fixtures.held().saturating_sub(2);
+        let held = bat.fixtures().held().saturating_sub(2);
         let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
         let survey = Survey::of(bat, wanted.theory, phase);
         let wave = survey.root_omega;
@@ -155,7 +155,7 @@ impl Plan {
             let mut reach = Reach::of(degree, AIM * tolerance.max(FINEST), wave);
             let mut count = reach.elements(&survey);
             // A plan that would be too large is made as large as it may be: rounding up adds to it.
-            while (degree - 1) * count > most_unknowns && count > bat.profile.pieces.len() {
+            while (degree - 1) * count > most_unknowns && count > bat.profile().pieces.len() {
                 reach.scale(1.01 * ((degree - 1) * count) as f64 / most_unknowns as f64);
                 count = reach.elements(&survey);
             }
@@ -212,8 +212,8 @@ impl Plan {
 /// the κ of a bore that tapers, than the wanted error has room for.
 fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     let Wanted { theory, tolerance, .. } = *wanted;
-    let bored = bat.profile.stations.inner.iter().any(|r| *r > 0.0);
-    if bat.profile.formulas.is_none() && !(bored && theory.shears()) {
+    let bored = bat.profile().stations.inner.iter().any(|r| *r > 0.0);
+    if bat.profile().formulas.is_none() && !(bored && theory.shears()) {
         return mesh;
     }
     let rule = Rule::of(bat, degree);

@@ -65,7 +65,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
     let coarse = coarse(bat, &plan, request);
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
-    if !bat.fixtures.none_moving() {
+    if !bat.fixtures().none_moving() {
         // Two frequencies may be the same, and then are no nearer to the truth than the residual.
         residual = residual.min(request.tolerance).max(CONVERGED);
     }
@@ -118,7 +118,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
 fn coarse<'a>(bat: &'a Bat, plan: &Plan, request: &Request) -> Option<Moments<'a>> {
     let large = plan.unknowns() > LARGE && request.modes > 0;
     let own = request.elements.is_some() && request.solver == Solver::Statics;
-    if !large || !own || bat.profile.pieces.len() > LARGE / 16 {
+    if !large || !own || bat.profile().pieces.len() > LARGE / 16 {
         return None;
     }
     let wanted = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };

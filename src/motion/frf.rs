@@ -101,14 +101,13 @@ impl Frf {
     ///
     /// [`Error::Value`] for a point that is not on the bat; those of [`solve`].
     pub fn new(bat: &Bat, request: &Request, at: f64, to: f64) -> Result<Self> {
-        let mut bat = bat.clone();
         for (name, x) in [("--at", at), ("--to", to)] {
             if !(x >= 0.0 && x <= bat.length()) {
                 let expected = format!("a place on the bat, 0 to {} m", bat.length());
                 return Err(Error::value(name, format!("{x} m"), expected));
             }
-            bat.profile.cut([x]);
         }
+        let bat = bat.with(|parts| parts.profile.cut([at, to]))?;
         let request = Request { tolerance: request.tolerance.min(MESH), ..*request };
         let solution = solve(&bat, &request)?;
         let mut reduced = Reduced::new(&bat, solution.elements(), solution.modes.len())?;

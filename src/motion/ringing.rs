@@ -222,7 +222,7 @@ impl Ringing {
     /// deflection and slope of the shape.
     fn points(&self, bat: &Bat, shape: &InitialShape) -> Vec<[f64; 4]> {
         let rule = gauss(7);
-        let starts = bat.profile.pieces.iter().map(|piece| piece.start);
+        let starts = bat.profile().pieces.iter().map(|piece| piece.start);
         let mut corners: Vec<f64> = starts.chain(shape.x.iter().copied()).collect();
         corners.extend((0..=200).map(|k| bat.length() * f64::from(k) / 200.0));
         corners.sort_by(f64::total_cmp);
@@ -248,13 +248,13 @@ impl Ringing {
                 sum += weight * worth.turning * form.turned(*x) * slope;
             }
         }
-        for a in &bat.fixtures.attachments {
+        for a in &bat.fixtures().attachments {
             let slope = shape.slope(a.x);
             let center = form.at(a.x) + a.offset * form.turned(a.x);
             sum += a.mass * center * (shape.at(a.x) + a.offset * slope);
             sum += a.rotary_inertia * form.turned(a.x) * slope;
         }
-        for (a, beyond) in bat.fixtures.absorbers.iter().zip(&form.hung) {
+        for (a, beyond) in bat.fixtures().absorbers.iter().zip(&form.hung) {
             sum += a.mass * (form.at(a.x) + beyond) * shape.at(a.x);
         }
         sum
@@ -313,7 +313,7 @@ mod tests {
         let mut material = Material::new(700.0, 14e9).unwrap();
         material.shear_modulus = Some(1e9);
         let profile = Profile::new(stations).unwrap();
-        Bat::with_fixtures("ringing", profile, material, fixtures, Weighed::default()).unwrap()
+        Bat::builder(profile, material).name("ringing").fixtures(fixtures).build().unwrap()
     }
 
     fn solved(bat: &Bat, modes: usize, theory: Theory) -> Solution {

@@ -203,7 +203,7 @@ fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
     let off = |speed: f64| (speed - hit.exit_speed).abs() / closing;
     Ok(CheckedHit {
         number,
-        bat: bat.name.clone(),
+        bat: bat.name().to_owned(),
         course: match (hit.contacts, hit.reloads) {
             (1, 0) => Course::Single,
             (1, _) => Course::Reload,

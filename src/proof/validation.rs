@@ -456,7 +456,7 @@ impl Truth {
 fn dowel(bat: &Bat) -> Dowel {
     Dowel {
         length: bat.length(),
-        radius: bat.profile.at(0.0).outer,
+        radius: bat.profile().at(0.0).outer,
         youngs_modulus: bat.material().youngs_modulus,
         density: bat.material().density,
     }

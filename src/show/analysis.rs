@@ -112,7 +112,7 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
 fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {
     const MODES: usize = 5;
     const MOST_PIECES: usize = 1000;
-    if bat.profile.pieces.len() > MOST_PIECES {
+    if bat.profile().pieces.len() > MOST_PIECES {
         return None;
     }
     advise(bat, MODES, tolerance).ok()

@@ -70,7 +70,7 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
 /// other by solving with each theory, to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
-    match bat.fixtures.none_moving() {
+    match bat.fixtures().none_moving() {
         true => by_modes(),
         false => solved_shifts(bat, modes.len(), tolerance).unwrap_or_else(by_modes),
     }
@@ -101,14 +101,17 @@ fn typical_shear(material: &Material) -> f64 {
 
 /// The bat with a typical shear modulus in every material that has none.
 pub fn with_typical_shear(bat: &Bat) -> Bat {
-    let mut bat = bat.clone();
-    for layup in &mut bat.layups {
-        for material in std::iter::once(&mut layup.outer).chain(&mut layup.core) {
+    let with = bat.with(|parts| {
+        let regions = parts.fixtures.regions.iter_mut();
+        let layups = regions.flat_map(|region| {
+            std::iter::once(&mut region.layup.outer).chain(&mut region.layup.core)
+        });
+        for material in std::iter::once(&mut parts.material).chain(layups) {
             let typical = typical_shear(material) * material.youngs_modulus;
             material.shear_modulus.get_or_insert(typical);
         }
-    }
-    bat
+    });
+    with.expect("a bat whose shear modulus is known is a bat")
 }
 
 /// By how much effects would change the lowest modes, in words.
@@ -148,7 +151,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
             ),
         });
     }
-    if !solution.theory.turns() && !bat.fixtures.holding() {
+    if !solution.theory.turns() && !bat.fixtures().holding() {
         let inertia = bat.inertia();
         let own = 100.0 * (inertia.about_balance / inertia.line_about_balance - 1.0);
         ignored.push(format!(
@@ -156,14 +159,14 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
              inertia about the balance point {own:.2} % below the body's"
         ));
     }
-    if bat.fixtures.damping() {
+    if bat.fixtures().damping() {
         ignored.push(
             "damping by hands and absorbers in shapes, nodes and undamped frequencies: the damped \
              frequencies are given beside them"
                 .to_owned(),
         );
     }
-    if bat.fixtures.grip.is_none() {
+    if bat.fixtures().grip.is_none() {
         ignored.push("hands: not modelled (add a \"grip\" to the bat file)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
@@ -181,7 +184,7 @@ pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
     let wall = |k: usize| {
         // Between the stations too, and not at the tip, where a cap is not a wall.
         let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
-        let section = bat.profile.at(x);
+        let section = bat.profile().at(x);
         (section.inner > 0.0).then_some([section.outer - section.inner, x])
     };
     (0..STRETCHES).filter_map(wall).min_by(|a, b| a[0].total_cmp(&b[0]))

@@ -100,7 +100,7 @@ fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
     let shearing = with_typical_shear(bat);
     let accuracy = (0.1 * tolerance).clamp(FINEST, ROUGH);
     let found = Costs::of(&shifts(&shearing, &solution.modes, accuracy), known);
-    if !bat.fixtures.none_moving() || !found.near(tolerance) {
+    if !bat.fixtures().none_moving() || !found.near(tolerance) {
         return Ok(found);
     }
     let solved = solved_shifts(&shearing, modes, accuracy);

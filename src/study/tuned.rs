@@ -22,12 +22,12 @@ use crate::modes::solve::{Request, solve};
 pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     const MOST_STEPS: usize = 60;
     const STIFFER: f64 = 1.01;
-    let Some(tapped) = bat.weighed.first_bending else { return Ok(bat) };
+    let Some(tapped) = bat.weighed().first_bending else { return Ok(bat) };
     let tolerance = (0.01 * tolerance).clamp(1e-12, 1e-6);
     // Hands and springs leave at most two slow motions that are rigid by themselves; an absorber
     // adds one more each.
-    let held = bat.fixtures.holding() || !bat.fixtures.absorbers.is_empty();
-    let modes = if held { 3 + bat.fixtures.absorbers.len() } else { 1 };
+    let held = bat.fixtures().holding() || !bat.fixtures().absorbers.is_empty();
+    let modes = if held { 3 + bat.fixtures().absorbers.len() } else { 1 };
     let request = Request { modes, tolerance, theory, ..Request::default() };
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut nearest = 0.0_f64;
@@ -54,7 +54,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
             return Ok(bat);
         }
         // Newton's step in logarithms, never beyond what is known to be too soft or too stiff.
-        let now = bat.factors[1];
+        let now = bat.factors()[1];
         if ratio > 1.0 {
             low = low.max(now)
         } else {
@@ -71,7 +71,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         bat.scale(1.0, next / now);
     }
     let found = format!("{tapped} Hz; the nearest one that was reached is {nearest:.6} Hz");
-    let expected = match bat.fixtures.absorbers.is_empty() {
+    let expected = match bat.fixtures().absorbers.is_empty() {
         true => "a first bending frequency that a stiffer or softer bat of that kind can have",
         false => "a first bending frequency with the absorber, which takes one near its own away",
     };

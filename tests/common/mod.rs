@@ -23,7 +23,7 @@ pub const MODULUS: f64 = 13.9e9;
 pub fn bat(x: &[f64], outer: &[f64], inner: &[f64], interpolation: Interpolation) -> Bat {
     let (x, outer, inner) = (x.to_vec(), outer.to_vec(), inner.to_vec());
     let profile = Profile::new(Stations { x, outer, inner, interpolation }).unwrap();
-    Bat::new("test", profile, Material::new(DENSITY, MODULUS).unwrap(), None).unwrap()
+    Bat::builder(profile, Material::new(DENSITY, MODULUS).unwrap()).name("test").build().unwrap()
 }
 
 pub fn dowel() -> Bat {

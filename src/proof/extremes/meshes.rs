@@ -47,7 +47,7 @@ pub fn many_stations(count: usize) -> Result<Outcome> {
 
 /// The bat of straight lines between two stations with `count` stations on its line.
 fn on_the_line(bat: &Bat, count: usize) -> Result<Bat> {
-    let [from, to] = [0.0, bat.length()].map(|x| bat.profile.at(x).outer);
+    let [from, to] = [0.0, bat.length()].map(|x| bat.profile().at(x).outer);
     let share = |k: usize| k as f64 / (count - 1) as f64;
     let profile = Profile::new(Stations {
         x: (0..count).map(|k| bat.length() * share(k)).collect(),
@@ -56,7 +56,7 @@ fn on_the_line(bat: &Bat, count: usize) -> Result<Bat> {
         interpolation: Interpolation::Linear,
     })?;
     let Material { density, youngs_modulus, .. } = *bat.material();
-    Bat::new("stations on a line", profile, Material::new(density, youngs_modulus)?, None)
+    Bat::builder(profile, Material::new(density, youngs_modulus)?).build()
 }
 
 /// One element of every degree, as many modes as it has: frequencies above the exact ones

@@ -18,7 +18,7 @@ const ROUNDINGS: f64 = 1e-13;
 /// Both directions of one mesh, whose running sums go from either end.
 pub fn turned_on_one_mesh() -> Result<Outcome> {
     let bat = Truth::of_cases(&["cone_1_1000"])?.bat;
-    let turned = Bat { profile: bat.profile.clone().reversed(), ..bat.clone() };
+    let turned = bat.with(|parts| parts.profile = parts.profile.clone().reversed())?;
     let request = Request { elements: Some(400), ..Request::default() };
     let (a, b) = (solve(&bat, &request)?, solve(&turned, &request)?);
     Ok(difference(ROUNDINGS, apart(&a, &b, 1.0), a.worst()))
@@ -35,7 +35,7 @@ fn with_more_stations(case: &str, places: &[f64]) -> Result<Outcome> {
 /// The bat with a station more at these shares of every piece, on its line.
 fn split(bat: &Bat, places: &[f64]) -> Result<Bat> {
     let (mut x, mut outer, mut inner) = (vec![], vec![], vec![]);
-    for piece in &bat.profile.pieces {
+    for piece in &bat.profile().pieces {
         // The ends of a piece too: where the next begins otherwise, that is a step.
         for share in [0.0].iter().chain(places).chain(&[1.0]) {
             let (place, section) = (piece.start + share * piece.length, piece.at(*share));
@@ -49,7 +49,7 @@ fn split(bat: &Bat, places: &[f64]) -> Result<Bat> {
     }
     let stations = Stations { x, outer, inner, interpolation: Interpolation::Linear };
     let Material { density, youngs_modulus, .. } = *bat.material();
-    Bat::new("split", Profile::new(stations)?, Material::new(density, youngs_modulus)?, None)
+    Bat::builder(Profile::new(stations)?, Material::new(density, youngs_modulus)?).build()
 }
 
 pub fn split_cylinders() -> Result<Outcome> {

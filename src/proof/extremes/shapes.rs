@@ -23,7 +23,7 @@ pub fn known(case: &str, modes: usize, asked: f64) -> Result<Outcome> {
 /// The case with the bat reversed: equal frequencies, mirrored nodes.
 pub fn turned(case: &str, modes: usize, asked: f64) -> Result<Outcome> {
     let truth = Truth::of_cases(&[case])?;
-    let bat = Bat { profile: truth.bat.profile.clone().reversed(), ..truth.bat.clone() };
+    let bat = truth.bat.with(|parts| parts.profile = parts.profile.clone().reversed())?;
     let solution = solve(&bat, &request(modes, asked))?;
     let outcome = against(asked, &solution, &truth.frequencies);
     Ok(match mirrored(&solution, &truth) {
@@ -54,7 +54,7 @@ pub fn chain_of_steps() -> Result<Outcome> {
         inner: vec![0.0; count as usize + 1],
         interpolation: Interpolation::Constant,
     })?;
-    let bat = Bat::new("chain", profile, Material::new(680.0, 15.5e9)?, None)?;
+    let bat = Bat::builder(profile, Material::new(680.0, 15.5e9)?).build()?;
     let of_degree = |degree| solve(&bat, &Request { degree: Some(degree), ..request(10, 1e-11) });
     let (a, b) = (of_degree(5)?, of_degree(12)?);
     let stated = a.worst() + b.worst();

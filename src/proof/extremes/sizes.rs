@@ -39,7 +39,7 @@ pub fn dowel(size: Size) -> Result<Bat> {
         inner: vec![0.0; 2],
         interpolation: Interpolation::Linear,
     })?;
-    Bat::new("dowel", profile, Material::new(DENSITY, size.modulus)?, None)
+    Bat::builder(profile, Material::new(DENSITY, size.modulus)?).build()
 }
 
 fn of_size(size: Size) -> Result<Outcome> {
@@ -88,7 +88,7 @@ pub fn modes(count: usize, asked: f64) -> Result<Outcome> {
 fn r161_times(length: f64, modulus: f64, density: f64) -> Result<Bat> {
     let original = bundled_bat("meshes/r161.json")?;
     let times = |values: &[f64]| values.iter().map(|v| v * length).collect::<Vec<f64>>();
-    let stations = &original.profile.stations;
+    let stations = &original.profile().stations;
     let profile = Profile::new(Stations {
         x: times(&stations.x),
         outer: times(&stations.outer),
@@ -97,7 +97,7 @@ fn r161_times(length: f64, modulus: f64, density: f64) -> Result<Bat> {
     })?;
     let material = original.material();
     let material = Material::new(material.density * density, material.youngs_modulus * modulus)?;
-    Bat::new("scaled", profile, material, None)
+    Bat::builder(profile, material).build()
 }
 
 fn on_one_mesh(bat: &Bat) -> Result<Solution> {

@@ -15,12 +15,12 @@ use crate::show::exchange::modes_file::{ModeTable, SampledMode};
 pub fn modes(table: &ModeTable, legacy: bool, stamp: &Stamp) -> Vec<Dataset> {
     let nodes = (1..).zip(&table.x).map(|(label, x)| Node::new(label, [*x, 0.0, 0.0])).collect();
     let mut datasets = vec![
-        Dataset::Header(header(&table.bat.name, "bending modes of a bat", stamp)),
+        Dataset::Header(header(table.bat.name(), "bending modes of a bat", stamp)),
         Dataset::Units(Units::si()),
         Dataset::Nodes(Nodes { nodes, legacy }),
     ];
     datasets.extend(axis(table.x.len()).map(Dataset::TraceLine));
-    let shapes = table.modes.iter().map(|mode| shape(&table.bat.name, mode));
+    let shapes = table.modes.iter().map(|mode| shape(table.bat.name(), mode));
     datasets.extend(shapes.map(Dataset::NodalData));
     datasets
 }

@@ -52,7 +52,7 @@ pub fn certified(analysis: &Analysis) -> Vec<String> {
 /// Whether it is certain that no mode is missing.
 fn count_of_modes(analysis: &Analysis) -> &'static str {
     let solution = &analysis.solution;
-    let by_nodes = analysis.bat.fixtures.none_moving() && !solution.theory.shears();
+    let by_nodes = analysis.bat.fixtures().none_moving() && !solution.theory.shears();
     match (solution.complete(), by_nodes) {
         (true, true) => "No mode is missing: mode n has its n + 1 nodes.",
         (true, false) => "No mode is missing, by an inertia count.",

@@ -150,7 +150,7 @@ impl<'a> Report<'a> {
             return vec![Part::Missing(NOTHING)];
         }
         let mut parts = vec![];
-        if self.analysis.bat.fixtures.holding() {
+        if self.analysis.bat.fixtures().holding() {
             parts.push(Part::Text(HELD.to_owned()));
         }
         if matches!(self.analysis.task.model, Model::Rigid) {
@@ -180,7 +180,7 @@ impl<'a> Report<'a> {
         if self.analysis.solution.modes.is_empty() {
             return vec![Part::Missing(NO_MODES)];
         }
-        let freedom = self.analysis.bat.fixtures.freedom();
+        let freedom = self.analysis.bat.fixtures().freedom();
         let mut parts = vec![Part::Text(format!("Bending modes, {freedom}.")), Part::Modes];
         parts.extend(self.pictured(&["shapes"]));
         parts.push(Part::Table(tables::modes(self.analysis)));

@@ -89,7 +89,7 @@ pub const MOVING: usize = 6;
 impl<'a> Data<'a> {
     /// The numbers of an analysis, rounded but for the summary.
     pub fn new(analysis: &Analysis, summary: &'a Summary, moments: &'a [Moment]) -> Self {
-        let outline = Outline::new(&analysis.bat.profile);
+        let outline = Outline::new(analysis.bat.profile());
         let modes = analysis.solution.modes.iter().take(MOVING);
         let modes = modes.map(|mode| MovingMode {
             order: mode.order,

@@ -20,7 +20,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 /// The whole page.
 pub fn page(report: &Report) -> String {
     let sections = report.sections();
-    let name = escaped(&report.analysis.bat.name);
+    let name = escaped(report.analysis.bat.name());
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
@@ -59,8 +59,8 @@ fn header(report: &Report) -> String {
     let bat = &report.analysis.bat;
     /// Longer ones are folded, so that the summary is near.
     const SHORT: usize = 200;
-    let source = escaped(&bat.source);
-    let source = match bat.source.chars().count() {
+    let source = escaped(bat.source());
+    let source = match bat.source().chars().count() {
         0 => String::new(),
         1..=SHORT => format!("<p class=\"source\">{source}</p>\n"),
         _ => format!(
@@ -70,7 +70,7 @@ fn header(report: &Report) -> String {
     };
     format!(
         "<header>\n<p class=\"kind\">Bat report</p>\n<h1>{}</h1>\n{source}</header>\n",
-        escaped(&bat.name)
+        escaped(bat.name())
     )
 }
 

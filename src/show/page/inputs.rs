@@ -84,7 +84,7 @@ pub fn scene(analysis: &Analysis) -> Table {
         line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
         line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
     }
-    if analysis.bat.fixtures.holding() {
+    if analysis.bat.fixtures().holding() {
         line(("the bat is held", "energies are as its hands see them".to_owned()));
     }
     table
@@ -170,8 +170,8 @@ pub fn values(analysis: &Analysis) -> Table {
     if let Some(interpolation) = bat["profile"]["interpolation"].as_str() {
         table.row(["profile.interpolation", interpolation, ""]);
     }
-    let [density, modulus] = analysis.bat.factors;
-    if analysis.bat.factors != [1.0; 2] {
+    let [density, modulus] = analysis.bat.factors();
+    if analysis.bat.factors() != [1.0; 2] {
         table.row(["factor on all densities, as weighed", &shown::plain(density), ""]);
         table.row(["factor on all moduli, as tapped", &shown::plain(modulus), ""]);
     }
@@ -218,7 +218,7 @@ fn unit(path: &str) -> &'static str {
 
 /// The columns of the profile in SI, the first many of them; formulas as they were written.
 pub fn profile(analysis: &Analysis) -> Table {
-    let profile = &analysis.bat.profile;
+    let profile = analysis.bat.profile();
     if let Some(formulas) = &profile.formulas {
         let mut table = Table::of_words("The profile", &["From, m", "To, m", "Radius", "Bore"]);
         for piece in &formulas.pieces {

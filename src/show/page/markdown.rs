@@ -12,9 +12,9 @@ use crate::show::plot::picture::Picture;
 /// The whole text; `pictures` is the folder of the pictures as seen from it.
 pub fn text(report: &Report, pictures: &str) -> String {
     let bat = &report.analysis.bat;
-    let mut out = format!("# {}\n\n", escaped(&bat.name));
-    if !bat.source.is_empty() {
-        let _ = writeln!(out, "Source: {}\n", escaped(&bat.source));
+    let mut out = format!("# {}\n\n", escaped(bat.name()));
+    if !bat.source().is_empty() {
+        let _ = writeln!(out, "Source: {}\n", escaped(bat.source()));
     }
     out += "## Summary\n\n";
     let headline = report.summary.headline();

@@ -173,11 +173,11 @@ impl Frame {
         let places: Vec<f64> = (0..PLACES).map(|k| step * k as f64).collect();
         let mut masses: Vec<f64> = places.iter().map(|x| step * bat.worth_at(*x).mass).collect();
         (masses[0], masses[PLACES - 1]) = (0.5 * masses[0], 0.5 * masses[PLACES - 1]);
-        for [mass, x, _] in bat.fixtures.masses() {
+        for [mass, x, _] in bat.fixtures().masses() {
             let nearest = (x / step).round().clamp(0.0, (PLACES - 1) as f64);
             masses[nearest as usize] += mass;
         }
-        let free = bat.fixtures.supports.is_empty();
+        let free = bat.fixtures().supports.is_empty();
         Self { places, masses: free.then_some(masses) }
     }
 

@@ -27,13 +27,12 @@ pub fn picture(tested: &Tested) -> Option<Picture> {
     let title = "BBCOR along the bat";
     let facts = "bat at rest on a pivot 6 in from the knob; computed, not certified";
     let mut svg = Svg::new(WIDTH, 0.0);
-    head(&mut svg, title, [&tested.bat.name, facts]);
+    head(&mut svg, title, [tested.bat.name(), facts]);
     let top = legend(&mut svg, &[&curve, &limit], [LEFT, HEAD + 10.0, WIDTH - 12.0]);
     let top = top + 12.0 + NUMBERS;
     let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
     svg.height = frame.bottom + NUMBERS + 4.0;
-    let [x, tip] =
-        place::axes([from / CM, to / CM], &[(tested.bat.name.as_str(), tested.bat.length())]);
+    let [x, tip] = place::axes([from / CM, to / CM], &[(tested.bat.name(), tested.bat.length())]);
     let values = known.iter().map(|[_, bbcor]| *bbcor).chain([LIMIT]);
     let y = Axis::around("BBCOR", values, ticks_up(DIAGRAM));
     let plane = Plane { frame, x, y };
@@ -46,6 +45,6 @@ pub fn picture(tested: &Tested) -> Option<Picture> {
     let most = most.map_or(String::new(), |(bbcor, x)| {
         format!(" Largest {bbcor:.3}, {}.", place::shown(x, tested.bat.length()))
     });
-    let alt = format!("{}: BBCOR against place, {facts}.{most}", tested.bat.name);
+    let alt = format!("{}: BBCOR against place, {facts}.{most}", tested.bat.name());
     Some(Picture::new("bbcor", title, &alt, svg))
 }

@@ -87,7 +87,7 @@ fn touches(comparison: &Comparison, names: &[String]) -> Result<Vec<Picture>> {
 
 /// A letter as in the tables, and the name.
 fn name(comparison: &Comparison, k: usize) -> String {
-    format!("{}: {}", letter(k), comparison.bats[k].bat.name)
+    format!("{}: {}", letter(k), comparison.bats[k].bat.name())
 }
 
 /// Exit speeds less those of the first bat at the same distance from the tip.

@@ -99,7 +99,7 @@ pub fn picture(name: &str, bat: &Bat, impacts: &[Impact], up_to: f64) -> Option<
         format!("{} to {} J before the hit", short(least), short(greatest))
     };
     let title = "Where the energy goes";
-    let held = if bat.fixtures.holding() { ", as the hands see it" } else { "" };
+    let held = if bat.fixtures().holding() { ", as the hands see it" } else { "" };
     let facts = format!("{sum}{held}, {}", books(impacts, greatest));
     head(&mut svg, title, [name, &facts]);
     plane.draw(&mut svg);

@@ -54,7 +54,7 @@ pub fn marked(subjects: &[Subject]) -> Vec<PlaceRow> {
 /// crowd the picture.
 fn fastened(bat: &Bat) -> Vec<PlaceRow> {
     const MOST: usize = 12;
-    let fixtures = &bat.fixtures;
+    let fixtures = bat.fixtures();
     let stretch = |label: String, from, to| PlaceRow::of_stretches(label, vec![(0, [from, to])]);
     let place = |label: String, x| PlaceRow::of_places(label, vec![(0, x)]);
     let made =

@@ -53,7 +53,7 @@ impl Lying<'_> {
     /// The bat: its wall, its bore, its regions hatched, its joints and what is fastened to it.
     pub fn draw(&self, svg: &mut Svg, bat: &Bat, ink: Ink) {
         const MOST: usize = 300;
-        let all = sections(&bat.profile, MOST);
+        let all = sections(bat.profile(), MOST);
         let pen = Some(Pen::new(ink, 1.5));
         svg.area(&self.around(&all, |section| section.outer), ink, TINT, pen);
         self.regions(svg, bat);
@@ -73,7 +73,7 @@ impl Lying<'_> {
         let count = ((to - from) / APART).ceil().max(1.0) as usize;
         for k in 0..count {
             let x = stretch[0] + (stretch[1] - stretch[0]) * (k as f64 + 0.5) / count as f64;
-            let Section { outer, inner } = bat.profile.at(x);
+            let Section { outer, inner } = bat.profile().at(x);
             let pen = Pen::new(if bore { SERIES[4] } else { FRAME }, 0.8);
             match bore {
                 true => svg.line(&[self.at(x, inner), self.at(x, -inner)], pen),
@@ -88,7 +88,7 @@ impl Lying<'_> {
 
     /// Stretches of another material.
     fn regions(&self, svg: &mut Svg, bat: &Bat) {
-        for region in &bat.fixtures.regions {
+        for region in &bat.fixtures().regions {
             if region.layup.outer != *bat.material() {
                 self.hatched(svg, bat, [region.from, region.to], false);
             }
@@ -97,34 +97,34 @@ impl Lying<'_> {
 
     /// What fills the bore.
     fn cores(&self, svg: &mut Svg, bat: &Bat) {
-        for region in bat.fixtures.regions.iter().filter(|region| region.layup.core.is_some()) {
+        for region in bat.fixtures().regions.iter().filter(|region| region.layup.core.is_some()) {
             self.hatched(svg, bat, [region.from, region.to], true);
         }
     }
 
     /// Joints, weights and supports.
     fn fixtures(&self, svg: &mut Svg, bat: &Bat) {
-        let radius = |x: f64| bat.profile.at(x).outer;
-        for joint in &bat.fixtures.joints {
+        let radius = |x: f64| bat.profile().at(x).outer;
+        for joint in &bat.fixtures().joints {
             let ends = [1.15, -1.15].map(|side| self.at(joint.x, side * radius(joint.x)));
             svg.line(&ends, Pen::new(TEXT, 2.0));
         }
-        for tape in &bat.fixtures.tapes {
+        for tape in &bat.fixtures().tapes {
             for side in [1.0, -1.0] {
                 let ends = [tape.from, tape.to].map(|x| self.at(x, side * radius(x)));
                 svg.line(&ends, Pen::new(TEXT, 2.4).dashed("2 2"));
             }
         }
-        if let Some(grip) = bat.fixtures.grip {
+        if let Some(grip) = bat.fixtures().grip {
             let [from, to] = [grip.from, grip.to].map(|x| self.at(x, -radius(x))[0]);
             let y = self.axis + self.per_metre * radius(grip.from).max(radius(grip.to)) + 4.0;
             svg.line(&[[from, y], [to, y]], Pen::new(TEXT, 3.0));
         }
-        let weights = bat.fixtures.attachments.iter().map(|a| a.x);
-        for x in weights.chain(bat.fixtures.absorbers.iter().map(|a| a.x)) {
+        let weights = bat.fixtures().attachments.iter().map(|a| a.x);
+        for x in weights.chain(bat.fixtures().absorbers.iter().map(|a| a.x)) {
             svg.mark(Mark::Diamond, self.at(x, 0.0), 4.5, TEXT, true);
         }
-        for support in &bat.fixtures.supports {
+        for support in &bat.fixtures().supports {
             let [x, y] = self.at(support.x, -radius(support.x));
             let mark = if support.kind == Held::Pinned { Mark::Triangle } else { Mark::Square };
             svg.mark(mark, [x, y + 6.0], 5.0, TEXT, true);

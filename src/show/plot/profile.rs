@@ -85,7 +85,7 @@ fn words(subjects: &[Subject]) -> (String, String) {
                 digits(CM * thick, 3),
                 digits(inches(thick), 3)
             );
-            if bat.profile.stations.inner.iter().any(|r| *r > 0.0) {
+            if bat.profile().stations.inner.iter().any(|r| *r > 0.0) {
                 second += "; thin line: the bore";
             }
             ((*name).to_owned(), second)
@@ -106,7 +106,7 @@ fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
 
 /// The largest radius (m).
 fn widest(bat: &Bat) -> f64 {
-    let stations = &bat.profile.stations;
+    let stations = &bat.profile().stations;
     stations.outer.iter().fold(0.0_f64, |most, r| most.max(*r))
 }
 
@@ -138,7 +138,7 @@ fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
 /// The outer diameter, and the inner one where there is a bore.
 fn curves(k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
     const MOST: usize = 300;
-    let all = sections(&bat.profile, MOST);
+    let all = sections(bat.profile(), MOST);
     let outer = all.iter().map(|(x, at)| Some([CM * x, 2.0 * CM * at.outer])).collect();
     let mut curves = vec![Series::curve(name, k, outer).units("cm", "cm")];
     if all.iter().any(|(_, at)| at.inner > 0.0) {

@@ -16,7 +16,7 @@ use crate::study::trade::u_curve::Column;
 /// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
 /// marked.
 pub fn of_modes(bat: &Bat, solution: &Solution, swing_pivot: Option<f64>) -> Vec<Picture> {
-    let name = bat.name.as_str();
+    let name = bat.name();
     let side = profile::picture(&[profile::Subject { name, bat, swing_pivot }]);
     let bent = shapes::picture(&[shapes::Subject { name, bat, solution }], shapes::MODES);
     std::iter::once(side).chain(bent).collect()
@@ -46,7 +46,7 @@ impl Hits<'_> {
     /// As [`Hitter::new`].
     pub fn pictures(&self, at: Option<f64>) -> Result<Vec<Picture>> {
         let Self { bat, model, scene, sweep, spot } = *self;
-        let (name, length, impacts) = (bat.name.as_str(), bat.length(), &sweep.impacts);
+        let (name, length, impacts) = (bat.name(), bat.length(), &sweep.impacts);
         let along = exit_speed::Subject { name, length, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(&[along]).into_iter().collect();
         all.extend(ledger::picture(name, bat, impacts, 0.0));

@@ -67,7 +67,7 @@ fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
     let drawn = "not to scale";
     match subjects {
         [Subject { name, bat, .. }] => {
-            let held = if bat.fixtures.holding() { "held" } else { "free" };
+            let held = if bat.fixtures().holding() { "held" } else { "free" };
             (title, name, format!("{held}; nodes in cm from the knob end; {drawn}"))
         }
         _ => (title, "", drawn.to_owned()),
@@ -125,7 +125,7 @@ fn frequency(hertz: f64) -> String {
 /// A bat bent by a mode: sections stay across its axis.
 fn bent(svg: &mut Svg, plane: &Plane, axis: f64, (k, bat, mode): (usize, &Bat, &Mode)) {
     const MOST: usize = 160;
-    let all = sections(&bat.profile, MOST);
+    let all = sections(bat.profile(), MOST);
     let widest = all.iter().fold(0.0_f64, |most, (_, at)| most.max(at.outer));
     let middle: Vec<Point> = all
         .iter()

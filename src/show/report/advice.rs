@@ -23,7 +23,7 @@ const CELL: usize = 10;
 /// The advice in full, 80 columns wide.
 pub fn text(advice: &Advice, units: Units) -> String {
     let full = &advice.full;
-    let mut out = wrapped(&format!("Advice on {}", full.bat.name), 4);
+    let mut out = wrapped(&format!("Advice on {}", full.bat.name()), 4);
     let worst = advice.effects.iter().flat_map(|effect| [&effect.with, &effect.without]);
     let worst = worst.map(|solved| solved.solution.worst()).fold(0.0, f64::max);
     let line = format!("  full model: {}; solved, each within {worst:.0e}", model(&full.model));
@@ -306,7 +306,7 @@ pub fn recommendation(advice: &Advice) -> Vec<String> {
             percent_of(shift)
         ));
     }
-    if advice.full.bat.weighed.first_bending.is_some() {
+    if advice.full.bat.weighed().first_bending.is_some() {
         lines.push(
             "The stiffness is that of the tapped frequency with everything on, also where something \
              is left out; modes and hit fit it anew to the model that they are asked for"
@@ -339,7 +339,7 @@ pub fn document(advice: &Advice) -> file::AdviceFile {
     file::AdviceFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName { name: full.bat.name.clone() },
+        bat: BatName { name: full.bat.name().to_owned() },
         modes: full.solution.modes.len(),
         tolerance: advice.tolerance,
         full_model: file::FullModel { model: of_model(full), tolerance_met: advice.met() },

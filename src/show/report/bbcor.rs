@@ -27,7 +27,7 @@ pub fn cor_source(tested: &Tested, given: bool) -> String {
 /// Everything for the terminal.
 pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
     let protocol = &tested.protocol;
-    let mut out = format!("BBCOR of {} (computed, not certified)\n", tested.bat.name);
+    let mut out = format!("BBCOR of {} (computed, not certified)\n", tested.bat.name());
     let pivot = units.inline(units.length(STANDARD_PIVOT));
     let speed = units.inline(units.speed(protocol.ball_speed));
     let cor = match protocol.ball.cor_by_speed.is_empty() {
@@ -135,7 +135,7 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
     file::BbcorFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat_name: tested.bat.name.clone(),
+        bat_name: tested.bat.name().to_owned(),
         certified: false,
         protocol: file::Protocol {
             pivot_m: STANDARD_PIVOT,

@@ -87,7 +87,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
     for (k, contender) in comparison.bats.iter().enumerate() {
         let modes = contender.sweep.solution.modes.len();
         let theory = contender.sweep.solution.theory.name();
-        let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name);
+        let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name());
         out += &wrapped(&line, 5);
         for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
             out += &wrapped(&format!("     left out: {effect}"), 5);

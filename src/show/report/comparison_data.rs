@@ -69,7 +69,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
     let figures = comparison.figures.iter();
     let stretches = comparison.stretches(k).into_iter().filter(|_| k > 0);
     file::ComparedBat {
-        name: bat.bat.name.clone(),
+        name: bat.bat.name().to_owned(),
         file: file.to_owned(),
         swing_rad_s: bat.scene.swing,
         energies_seen_from: seen_from(&bat.bat),

@@ -42,7 +42,7 @@ pub fn model_name(model: Model) -> &'static str {
 
 /// From where the energies of hits on that bat are seen.
 pub fn seen_from(bat: &Bat) -> &'static str {
-    if bat.fixtures.holding() { "hands" } else { "ground" }
+    if bat.fixtures().holding() { "hands" } else { "ground" }
 }
 
 /// Swing, pitch and ball.

@@ -313,7 +313,7 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
     for effect in ignored::in_hit(bat, scene.wall.is_some()) {
         out += &wrapped(&format!("     left out: {effect}"), 5);
     }
-    if bat.fixtures.holding() {
+    if bat.fixtures().holding() {
         out += "     the bat is held: energies are as its hands see them, the bat at rest;\n     \
          swinging in what holds it counts as vibration\n";
     }

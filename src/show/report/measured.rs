@@ -17,7 +17,7 @@ use crate::study::measured::words::words;
 
 /// Everything for the terminal.
 pub fn text(bat: &Bat, study: &Study, units: Units) -> String {
-    let mut out = format!("{}\n", bat.name);
+    let mut out = format!("{}\n", bat.name());
     out += &source(study, units);
     out += &modes(study);
     if let Some(shapes) = study.shapes.as_ref().filter(|_| !study.bending.is_empty()) {
@@ -245,7 +245,7 @@ pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
         format: Format::new(),
         generator: Generator::this(),
         bat: file::ComputedBat {
-            name: bat.name.clone(),
+            name: bat.name().to_owned(),
             file: file.to_owned(),
             theory: solution.theory.name(),
         },

@@ -11,12 +11,12 @@ use crate::files::schema::resolved::ResolvedBat;
 pub fn resolved(bat: &Bat) -> ResolvedBat {
     ResolvedBat {
         format: Format::new(),
-        name: bat.name.clone(),
-        source: bat.source.clone(),
+        name: bat.name().to_owned(),
+        source: bat.source().to_owned(),
         material: bat.material().clone(),
-        profile: profile(&bat.profile),
-        fixtures: bat.fixtures.clone(),
-        weighed: Some(bat.weighed).filter(|weighed| *weighed != Weighed::default()),
+        profile: profile(bat.profile()),
+        fixtures: bat.fixtures().clone(),
+        weighed: Some(bat.weighed()).filter(|weighed| *weighed != Weighed::default()),
     }
 }
 

@@ -117,7 +117,7 @@ pub fn of_hit(bat: &Bat, spot: &SweetSpot) -> Vec<SketchRow> {
 /// proportion to it, and one at least.
 fn half_heights(bat: &Bat) -> [usize; WIDTH] {
     let column = bat.length() / WIDTH as f64;
-    let middle = |k: usize| bat.profile.at((k as f64 + 0.5) * column).outer;
+    let middle = |k: usize| bat.profile().at((k as f64 + 0.5) * column).outer;
     let widest = (0..WIDTH).map(middle).fold(f64::MIN_POSITIVE, f64::max);
     // A half row is as high as a column is wide.
     let scale = (THICKER / column).min((2 * HALF_HEIGHT) as f64 / widest);

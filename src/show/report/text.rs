@@ -83,7 +83,7 @@ impl Units {
 pub fn summary(bat: &Bat, units: Units) -> String {
     let inertia = bat.inertia();
     let length = bat.length();
-    let mut out = format!("{}\n", bat.name);
+    let mut out = format!("{}\n", bat.name());
     let mut line = |what: &str, value: String| {
         let _ = writeln!(out, "  {what:<34} {value}");
     };
@@ -91,7 +91,7 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     line("mass", units.mass(inertia.mass));
     line("balance point, from knob", units.length(inertia.balance_point));
     line("balance point, from tip", units.length(length - inertia.balance_point));
-    if let Some(weighed) = bat.weighed.balance_point {
+    if let Some(weighed) = bat.weighed().balance_point {
         line("  less the weighed one", units.length(inertia.balance_point - weighed));
     }
     line("inertia about balance point", units.inertia(inertia.about_balance));
@@ -116,7 +116,7 @@ const MOST_NODES: usize = 20;
 
 /// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
 pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
-    let mut out = wrapped(&format!("Bending modes ({})", bat.fixtures.freedom()), 2);
+    let mut out = wrapped(&format!("Bending modes ({})", bat.fixtures().freedom()), 2);
     if solution.modes.is_empty() {
         return out;
     }
@@ -182,7 +182,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
         let _ = write!(model, " ({} Lanczos steps)", solution.steps);
     }
     let mut out = wrapped(&model, 7);
-    let oscillates = bat.fixtures.none_moving() && !solution.theory.turns();
+    let oscillates = bat.fixtures().none_moving() && !solution.theory.turns();
     let by_nodes = oscillates && solution.modes.iter().all(Mode::has_its_nodes);
     let count = match (solution.complete(), by_nodes) {
         (true, true) => "no mode is missing: mode n has its n + 1 nodes",

@@ -18,7 +18,7 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
         let elements = if choice.elements == 1 { "element" } else { "elements" };
         format!("{} {elements} of degree {}", choice.elements, choice.degree)
     };
-    let title = format!("{what}: {}", bat.name);
+    let title = format!("{what}: {}", bat.name());
     let truth = format!(
         "  {}, measured against {}, every frequency within {:.0e}; {} agree with them to {:.0e}",
         reference.theory.name(),
@@ -148,7 +148,7 @@ pub fn document(bat: &Bat, reference: &Reference, curve: &[Column]) -> file::UCu
     file::UCurveFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName { name: bat.name.clone() },
+        bat: BatName { name: bat.name().to_owned() },
         modes: reference.omegas.len(),
         degree: 3,
         reference: of_reference(reference),

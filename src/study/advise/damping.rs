@@ -29,10 +29,10 @@ impl Damping {
         let least = losses.iter().copied().fold(f64::INFINITY, f64::min);
         let most = losses.iter().copied().fold(0.0, f64::max);
         let mut dashpots = Vec::new();
-        if let Some(grip) = bat.fixtures.grip.filter(|grip| grip.damping > 0.0) {
+        if let Some(grip) = bat.fixtures().grip.filter(|grip| grip.damping > 0.0) {
             dashpots.push(format!("the grip, {} N s/m²", grip.damping));
         }
-        for (k, absorber) in bat.fixtures.absorbers.iter().enumerate() {
+        for (k, absorber) in bat.fixtures().absorbers.iter().enumerate() {
             if absorber.damping > 0.0 {
                 dashpots.push(format!("absorbers[{k}], {} N s/m", absorber.damping));
             }
@@ -43,7 +43,7 @@ impl Damping {
 
 /// The materials that the bat really has: a core only where there is a bore.
 fn materials(bat: &Bat) -> impl Iterator<Item = &Material> {
-    bat.profile.pieces.iter().flat_map(|piece| {
+    bat.profile().pieces.iter().flat_map(|piece| {
         let layup = bat.layup(piece);
         let bored = [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0);
         layup.materials().take(if bored { 2 } else { 1 })

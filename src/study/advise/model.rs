@@ -43,10 +43,10 @@ impl Model {
 
     /// The bat as this model sees it.
     pub fn bat(&self, bat: &Bat) -> Bat {
-        let mut seen = bat.clone();
         let missing = Part::ALL.into_iter().filter(|part| !self.parts.contains(part));
-        missing.filter(|part| part.is_on(bat)).for_each(|part| part.take_off(&mut seen));
-        seen
+        let missing = missing.filter(|part| part.is_on(bat));
+        let seen = bat.with(|parts| missing.for_each(|part| part.take_off(&mut parts.fixtures)));
+        seen.expect("a bat with less on it is a bat")
     }
 }
 
@@ -91,7 +91,7 @@ impl Solved {
     pub fn pairs_with(&self, that: &Self) -> bool {
         let highest = |solved: &Self| solved.solution.modes.last().map_or(0.0, |mode| mode.omega);
         let top = f64::max(highest(self), highest(that));
-        let [few, many] = match (&self.bat.fixtures.absorbers, &that.bat.fixtures.absorbers) {
+        let [few, many] = match (&self.bat.fixtures().absorbers, &that.bat.fixtures().absorbers) {
             (a, b) if a.len() < b.len() => [a, b],
             (a, b) => [b, a],
         };

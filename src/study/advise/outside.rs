@@ -4,7 +4,7 @@ use crate::bat::body::Bat;
 
 /// What is out of scope, a sentence each, as far as it can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {
-    let hollow = bat.profile.pieces.iter().any(|piece| {
+    let hollow = bat.profile().pieces.iter().any(|piece| {
         let empty = bat.layup(piece).core.is_none();
         empty && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
     });
@@ -28,7 +28,7 @@ pub fn outside(bat: &Bat) -> Vec<String> {
          change ω² by the order of the swing's own rate squared, is left out",
         "contact: how knob and hand touch, and how wood dents under the ball, is not modelled",
     ];
-    if !bat.fixtures.joints.is_empty() {
+    if !bat.fixtures().joints.is_empty() {
         outside.push("joints with play: a joint is a linear spring without slack or friction");
     }
     outside.into_iter().map(str::to_owned).collect()

@@ -1,7 +1,7 @@
 //! What is on a bat, kind by kind, and the bat without it.
 
 use crate::bat::body::Bat;
-use crate::bat::fixtures::Attachment;
+use crate::bat::fixtures::{Attachment, Fixtures};
 
 /// A kind of thing that a model of a bat may have or leave out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,7 +57,7 @@ impl Part {
 
     /// Whether the bat has any.
     pub fn is_on(self, bat: &Bat) -> bool {
-        let fixtures = &bat.fixtures;
+        let fixtures = bat.fixtures();
         match self {
             Self::Materials => !fixtures.regions.is_empty(),
             Self::Weights => fixtures.attachments.iter().any(weighs),
@@ -71,17 +71,10 @@ impl Part {
     }
 
     /// Takes all of them off the bat; density and stiffness of the rest stay as they are.
-    pub fn take_off(self, bat: &mut Bat) {
-        let fixtures = &mut bat.fixtures;
+    pub fn take_off(self, fixtures: &mut Fixtures) {
         match self {
-            Self::Materials => {
-                fixtures.regions.clear();
-                bat.lay_out();
-            }
-            Self::Tapes => {
-                fixtures.tapes.clear();
-                bat.lay_out();
-            }
+            Self::Materials => fixtures.regions.clear(),
+            Self::Tapes => fixtures.tapes.clear(),
             Self::Weights => {
                 for a in &mut fixtures.attachments {
                     (a.mass, a.offset, a.rotary_inertia) = (0.0, 0.0, 0.0);
@@ -97,7 +90,7 @@ impl Part {
             Self::Supports => fixtures.supports.clear(),
             Self::Grip => fixtures.grip = None,
         }
-        bat.fixtures.attachments.retain(|a| weighs(a) || springs(a));
+        fixtures.attachments.retain(|a| weighs(a) || springs(a));
     }
 }
 

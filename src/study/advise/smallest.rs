@@ -34,7 +34,7 @@ pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64, tell: Tell) -> 
             tell(f64::from(tried) / all as f64, "smaller models");
             tried += 1;
             let bat = model.bat(bench.bat());
-            let others = bat.fixtures.rigid_modes() != truth.bat.fixtures.rigid_modes();
+            let others = bat.fixtures().rigid_modes() != truth.bat.fixtures().rigid_modes();
             if others || (model.theory.shears() && !bat.knows_shear()) {
                 continue;
             }

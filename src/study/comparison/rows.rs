@@ -134,7 +134,7 @@ pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
 /// Whether energies of all bats are seen from the ground, or all as hands or a clamp see them: others
 /// are of different motions.
 pub fn energies_compare(bats: &[Contender]) -> bool {
-    let held = |c: &Contender| c.bat.fixtures.holding();
+    let held = |c: &Contender| c.bat.fixtures().holding();
     bats.windows(2).all(|pair| held(&pair[0]) == held(&pair[1]))
 }
 

@@ -207,7 +207,7 @@ impl Study {
     /// What the shapes say.
     fn look(&self, bat: &Bat, seen: Seen) -> Shapes {
         let Seen { placed, computed, mac } = seen;
-        let whole = bat.fixtures.absorbers.is_empty();
+        let whole = bat.fixtures().absorbers.is_empty();
         let scale = Scale::new(bat, self.solution.theory, &placed.x);
         let shape = |k: &usize| placed.shapes[*k].as_slice();
         let curve = |values: &[c64]| scale.curve(&placed.x, &mac::unit(values));

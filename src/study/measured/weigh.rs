@@ -44,7 +44,7 @@ impl Scale {
         // Two cubics and a mass of degree 6 are of degree 12; formulas are smooth.
         let rule = gauss(12);
         let mut shares = vec![];
-        for piece in &bat.profile.pieces {
+        for piece in &bat.profile().pieces {
             let layup = bat.layup(piece);
             let end = piece.start + piece.length;
             let inner = points.iter().copied().filter(|x| *x > piece.start && *x < end);
@@ -60,7 +60,7 @@ impl Scale {
                 }
             }
         }
-        shares.extend(bat.fixtures.attachments.iter().map(|a| {
+        shares.extend(bat.fixtures().attachments.iter().map(|a| {
             let (mass, turning) = (a.mass, a.rotary_inertia);
             Share { x: a.x, offset: a.offset, mass, turning }
         }));

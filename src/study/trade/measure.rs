@@ -149,7 +149,7 @@ impl Bench<'_> {
         let ladder = |degree, solver| Ladder {
             degree,
             solver,
-            next: self.bat.profile.pieces.len() as f64,
+            next: self.bat.profile().pieces.len() as f64,
             least: f64::INFINITY,
             without_gain: 0,
             last: None,

@@ -109,7 +109,7 @@ pub fn loss(series: &[(usize, f64)], threshold: f64) -> Option<(usize, f64)> {
 /// 8, 16, 32, … and `most`, from the first that has an element in every piece of the profile and
 /// bends in so many ways on.
 pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
-    let least = bat.profile.pieces.len().max(modes.div_ceil(2) + 1);
+    let least = bat.profile().pieces.len().max(modes.div_ceil(2) + 1);
     let doubled = std::iter::successors(Some(8), |n| Some(2 * n)).take_while(|n| *n < most);
     let mut counts: Vec<usize> = doubled.chain([most]).filter(|n| *n >= least).collect();
     if counts.is_empty() {
