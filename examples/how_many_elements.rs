@@ -28,7 +28,7 @@ fn main() -> Result<()> {
     let reference = solve(&bat, &Request { tolerance: 1e-13, ..request })?;
     let certain = reference.worst();
 
-    println!("{}, {}, {MODES} modes", bat.name, request.theory.name());
+    println!("{}, {}, {MODES} modes", bat.name(), request.theory.name());
     println!(
         "reference: {} elements of degree {}, every frequency within {certain:.0e}\n",
         reference.mesh.len(),
@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     let mut tried: Vec<(Solution, f64)> = vec![];
     for degree in [3, 4, 6, 8] {
         for doubling in 0..5 {
-            let elements = Some(bat.profile.pieces.len() << doubling);
+            let elements = Some(bat.profile().pieces.len() << doubling);
             let solution = solve(&bat, &Request { elements, degree: Some(degree), ..request })?;
             let found = error(&solution, &reference);
             if found <= certain {

@@ -24,11 +24,8 @@ const SWING: f64 = 50.0;
 
 /// The same bat with a mass (kg) in its knob.
 fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
-    let mut fixtures = bat.fixtures.clone();
-    fixtures.attachments.push(Attachment { x: KNOB, mass, ..Attachment::default() });
-    let (profile, material) = (bat.profile.clone(), bat.material().clone());
-    // The bare bat's density is known by now: nothing is weighed again.
-    Bat::builder(profile, material).name(&bat.name).fixtures(fixtures).build()
+    let weight = Attachment { x: KNOB, mass, ..Attachment::default() };
+    bat.with(|parts| parts.fixtures.attachments.push(weight))
 }
 
 /// Where the ball leaves fastest at that swing (rad/s), how fast (m/s), and how far that may be off.
@@ -51,7 +48,7 @@ fn main() -> Result<()> {
     let mut request = Request { tolerance: 1e-5, ..Request::default() };
     request.theory = theory_choice::theory(&bare, &request)?.theory;
 
-    println!("{}, with a weight {:.2} in from the knob end", bare.name, inches(KNOB));
+    println!("{}, with a weight {:.2} in from the knob end", bare.name(), inches(KNOB));
     println!("                                                      sweet     fastest ball, mph,");
     println!("  knob  balance  swing weight  modes 1, 2    node 1    spot     at the same");
     println!("    oz  in, knob       oz in²          Hz   in, tip  in, tip    swing   energy");

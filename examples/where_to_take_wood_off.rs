@@ -28,9 +28,9 @@ const TOLERANCE: f64 = 1e-6;
 
 /// The bat with less wood between two places (m).
 fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
-    let mut bat = bat.clone();
-    bat.profile.cut([from, to]);
-    for piece in bat.profile.pieces.iter_mut().filter(|piece| piece.is_within(from, to)) {
+    let mut profile = bat.profile().clone();
+    profile.cut([from, to]);
+    for piece in profile.pieces.iter_mut().filter(|piece| piece.is_within(from, to)) {
         let Radii::Cubic(cubics) = &mut piece.radii else {
             return Err(Error::value("profile", "formulas", "stations: a bat to be turned"));
         };
@@ -41,7 +41,7 @@ fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
         // A cubic in Bernstein form goes down as a whole.
         cubics.outer.iter_mut().for_each(|r| *r -= DEPTH);
     }
-    Ok(bat)
+    bat.with(|parts| parts.profile = profile)
 }
 
 /// The fastest ball off a bat (m/s), and how far it may be off.
@@ -70,7 +70,7 @@ fn main() -> Result<()> {
     let batter = SwingLaw { exponent: 0.5, reference, of_reference: SWING };
     let now = best(&bat, SWING, &solution, sweep.effort)?;
 
-    println!("{}: {:.1} mm off the radius over an inch", bat.name, 1e3 * DEPTH);
+    println!("{}: {:.1} mm off the radius over an inch", bat.name(), 1e3 * DEPTH);
     print!("now {:.1} g, {:.0} oz in²,", 1e3 * body.mass, ounce_square_inches(reference));
     print!(" {:.2} Hz,", solution.modes[0].frequency());
     println!(" best ball {:.2} mph at {SWING} rad/s\n", miles_per_hour(now[0]));

@@ -37,7 +37,7 @@ fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let [from, to] = spot.zone.expect("a best place has a zone");
     let body = bat.inertia();
     let swing_weight = ounce_square_inches(body.about(STANDARD_PIVOT));
-    println!("{name}: {}", bat.name);
+    println!("{name}: {}", bat.name());
     print!("   {:.2} oz, swing weight {swing_weight:.0} oz in²,", ounces(body.mass));
     println!(" swung at {:.2} rad/s", scene.swing);
     let place = inches(bat.length() - best.x);

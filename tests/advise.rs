@@ -47,7 +47,7 @@ fn switches(advice: &Advice) -> Vec<Switch> {
 
 /// Frequencies of Euler and Bernoulli's dowel in closed form (Hz).
 fn plain(bat: &Bat, n: usize) -> f64 {
-    let radius = bat.profile.at(0.1).outer;
+    let radius = bat.profile().at(0.1).outer;
     let material = bat.material();
     let stiffness = material.youngs_modulus * radius * radius / (4.0 * material.density);
     let wave = beta_l(Ends::FreeFree, n) / bat.length();
@@ -278,8 +278,7 @@ fn without_its_regions_a_bat_is_of_its_own_material() {
     let (cork, exact) = case("cork");
     let advice = advise(&cork, 5, 1e-8).unwrap();
     let effect = row(&advice, Switch::Part(Part::Materials));
-    let mut bare = cork.clone();
-    Part::Materials.take_off(&mut bare);
+    let bare = cork.with(|parts| Part::Materials.take_off(&mut parts.fixtures)).unwrap();
     let request =
         Request { modes: 5, tolerance: 1e-11, theory: Theory::Timoshenko, ..Request::default() };
     let modes = solve(&bare, &request).unwrap().modes;

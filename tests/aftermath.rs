@@ -112,9 +112,9 @@ fn a_slow_push_strains_as_statics_says() {
         let [push, turn] = [force / body.mass, force * (a - c) / body.line_about_balance];
         let inside = x * x / 2.0 * (push - turn * c) + turn * x * x * x / 6.0;
         let moment = per * inside - if x > a { force * (x - a) } else { 0.0 };
-        let exact = bat.profile.at(x).outer * moment / bat.worth_at(x).bending;
+        let exact = bat.profile().at(x).outer * moment / bat.worth_at(x).bending;
         let found = after.strains(&[x], now, after.count())[0];
-        let largest = 0.02 * force * bat.profile.at(x).outer / bat.worth_at(x).bending;
+        let largest = 0.02 * force * bat.profile().at(x).outer / bat.worth_at(x).bending;
         assert!(
             (found.abs() - exact.abs()).abs() < 0.02 * largest.max(exact.abs()),
             "{x} {found} {exact}"

@@ -205,9 +205,9 @@ fn masses_and_frequencies_are_those_of_the_shapes() {
                 for k in 0..request.modes {
                     let [mass, stiffness] = forms(bat, &found, [k, k]);
                     let off = found.masses[k] / mass - 1.0;
-                    assert!(off.abs() < 1e-9, "{} mode {}: mass {off:e}", bat.name, k + 1);
+                    assert!(off.abs() < 1e-9, "{} mode {}: mass {off:e}", bat.name(), k + 1);
                     let off = (stiffness / mass).sqrt() / found.omegas[k] - 1.0;
-                    assert!(off.abs() < 1e-8, "{} mode {}: ω {off:e}", bat.name, k + 1);
+                    assert!(off.abs() < 1e-8, "{} mode {}: ω {off:e}", bat.name(), k + 1);
                     assert!(found.tip(k) > 0.0);
                     let ends = found.ends(k);
                     assert!(ends.iter().flatten().all(|w| w.abs() <= 1.0 + 1e-12));
@@ -217,8 +217,8 @@ fn masses_and_frequencies_are_those_of_the_shapes() {
                         let [mass, stiffness] = forms(bat, &found, [k, other]);
                         let kinetic = (found.masses[k] * found.masses[other]).sqrt();
                         let strain = found.omegas[k] * found.omegas[other] * kinetic;
-                        assert!(mass.abs() < 1e-7 * kinetic, "{} {k} {other}", bat.name);
-                        assert!(stiffness.abs() < 1e-7 * strain, "{} {k} {other}", bat.name);
+                        assert!(mass.abs() < 1e-7 * kinetic, "{} {k} {other}", bat.name());
+                        assert!(stiffness.abs() < 1e-7 * strain, "{} {k} {other}", bat.name());
                     }
                 }
             }

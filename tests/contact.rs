@@ -115,7 +115,7 @@ fn stiff_bats_are_rigid() {
     let none = solved(&bat, 0, Theory::EulerBernoulli);
     let stiff =
         Material { youngs_modulus: 1e12 * bat.material().youngs_modulus, ..bat.material().clone() };
-    let stiff = Bat::builder(bat.profile.clone(), stiff).name("stiff").build().unwrap();
+    let stiff = Bat::builder(bat.profile().clone(), stiff).name("stiff").build().unwrap();
     let bending = solved(&stiff, 8, Theory::EulerBernoulli);
     for cor in [0.3, 0.5, 1.0] {
         let scene = scene(50.0, cor);

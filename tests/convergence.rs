@@ -131,7 +131,7 @@ fn no_element_lies_across_a_station() {
             let request =
                 Request { modes: 1, elements: Some(count), degree: Some(5), ..Request::default() };
             let nodes = solve(&bat, &request).unwrap().mesh.nodes();
-            for x in &bat.profile.stations.x {
+            for x in &bat.profile().stations.x {
                 let nearest = nodes.iter().map(|node| (node - x).abs()).fold(1.0, f64::min);
                 assert!(nearest < 1e-15, "{case}, {count} elements: {x} is {nearest:e} away");
             }

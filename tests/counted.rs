@@ -19,7 +19,7 @@ const BESIDE: f64 = 1e-3;
 fn with(fixtures: Fixtures) -> Bat {
     let bare = dowel();
     let material = bare.material().clone();
-    Bat::builder(bare.profile, material).name("test").fixtures(fixtures).build().unwrap()
+    Bat::builder(bare.profile().clone(), material).name("test").fixtures(fixtures).build().unwrap()
 }
 
 fn counted(bat: &Bat, omega: f64) -> Option<usize> {

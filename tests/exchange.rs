@@ -122,7 +122,7 @@ fn a_table_reads_back_to_the_same_bits() {
     assert_eq!(rows.len(), 6);
     let bat = Bat::from_file(mesh("r161")).unwrap();
     for (i, row) in rows.iter().enumerate() {
-        let section = bat.profile.at(row[0]);
+        let section = bat.profile().at(row[0]);
         assert_eq!((row[1], row[2]), (section.outer, section.inner));
         for k in 0..3 {
             let shape = &document["modes"][k]["shape"];

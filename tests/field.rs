@@ -148,8 +148,8 @@ fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
 /// At the swing that is said to take the bat to its strength the stress is the strength.
 #[test]
 fn a_hit_at_the_breaking_swing_reaches_the_strength() {
-    let mut bat = bundled_bat("meshes/r161.json").unwrap();
-    bat.layups.iter_mut().for_each(|layup| layup.outer.strength = Some(300e6));
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let bat = bat.with(|parts| parts.material.strength = Some(300e6)).unwrap();
     let request = Request { modes: 20, ..asked() };
     let solution = solve(&bat, &request).unwrap();
     let effort = Effort { completed: false, ..Effort::default() };

@@ -24,7 +24,7 @@ fn asked_with(fixtures: Fixtures) -> sweetspot::Result<Bat> {
     let cone = cone(0.0125, 0.033);
     let mut material = cone.material().clone();
     material.shear_modulus = Some(1e9);
-    Bat::builder(cone.profile, material).name("test").fixtures(fixtures).build()
+    Bat::builder(cone.profile().clone(), material).name("test").fixtures(fixtures).build()
 }
 
 fn springs(list: &[(f64, f64, f64)]) -> Vec<Attachment> {
@@ -61,7 +61,7 @@ fn known_spectrum(fixtures: Fixtures, theory: Theory) -> Result<Vec<f64>, String
     let bat = asked_with(fixtures).map_err(|why| why.to_string())?;
     let solution = solve(&bat, &request).unwrap();
     if !(solution.met && solution.complete()) {
-        return Err(format!("{} {:?}", solution.shortfall(TOLERANCE), bat.fixtures));
+        return Err(format!("{} {:?}", solution.shortfall(TOLERANCE), bat.fixtures()));
     }
     let rigid = std::iter::repeat_n(0.0, solution.rigid_modes);
     Ok(rigid.chain(solution.modes.iter().map(|mode| mode.frequency())).collect())
@@ -189,8 +189,11 @@ fn a_bat_with_everything_turned_end_for_end_is_the_same() {
     let mirror = all(&turned, -1.0);
     let bare = cone(0.033, 0.0125);
     let material = original.material().clone();
-    let mirrored =
-        Bat::builder(bare.profile, material).name("turned").fixtures(mirror).build().unwrap();
+    let mirrored = Bat::builder(bare.profile().clone(), material)
+        .name("turned")
+        .fixtures(mirror)
+        .build()
+        .unwrap();
     for theory in Theory::ALL {
         let request = Request { modes: 10, tolerance: 1e-11, theory, ..Request::default() };
         let [a, b] = [&original, &mirrored].map(|bat| solve(bat, &request).unwrap());
@@ -245,8 +248,8 @@ fn rigid_motions_are_found_and_named() {
         let bat = with(fixtures);
         let solution = solve(&bat, &Request { modes: 3, ..Request::default() }).unwrap();
         assert!(solution.met && solution.complete());
-        assert_eq!((solution.rigid_modes, bat.fixtures.rigid_modes()), (rigid, rigid));
-        assert!(bat.fixtures.freedom().contains(words), "{}", bat.fixtures.freedom());
+        assert_eq!((solution.rigid_modes, bat.fixtures().rigid_modes()), (rigid, rigid));
+        assert!(bat.fixtures().freedom().contains(words), "{}", bat.fixtures().freedom());
         // A spring of 1e-9 N/m holds: slow is not rigid.
         assert!(solution.modes.iter().all(|mode| mode.omega > 0.0));
     }

@@ -17,7 +17,7 @@ use sweetspot::{Bat, Request, solve};
 #[test]
 fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
     let dowel = sweetspot::proof::validation::bundled_bat("meshes/dowel.json").unwrap();
-    let (length, radius) = (dowel.length(), dowel.profile.at(0.0).outer);
+    let (length, radius) = (dowel.length(), dowel.profile().at(0.0).outer);
     // I/A over L².
     let slenderness = (radius / (2.0 * length)).powi(2);
     for ratio in [2.6, 16.0] {
@@ -26,7 +26,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
             shear_coefficient: Some(0.9),
             ..dowel.material().clone()
         };
-        let bat = Bat::builder(dowel.profile.clone(), material).name("dowel").build().unwrap();
+        let bat = Bat::builder(dowel.profile().clone(), material).name("dowel").build().unwrap();
         let solution = solve(&bat, &Request { tolerance: 1e-9, ..Request::default() }).unwrap();
         for mode in &solution.modes[..5] {
             let beta = common::beta(mode.order);

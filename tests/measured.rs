@@ -196,7 +196,7 @@ fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
     let fixtures =
         Fixtures { supports: vec![Support { x: 0.0, kind: Held::Clamped }], ..Fixtures::default() };
     let material = Material::new(DENSITY, MODULUS).unwrap();
-    let profile = dowel().profile;
+    let profile = dowel().profile().clone();
     let bat = Bat::builder(profile, material).name("held").fixtures(fixtures).build().unwrap();
     let form = Dowel { length: LENGTH, radius: RADIUS, youngs_modulus: MODULUS, density: DENSITY };
     // Twelve points from 5 cm to the tip.

@@ -8,9 +8,7 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::{Bat, Error, Request, Solver, solve};
 
 fn bat() -> Bat {
-    let mut bat = cone(0.0125, 0.033);
-    bat.layups[0].outer.shear_modulus = Some(1e9);
-    bat
+    cone(0.0125, 0.033).with(|parts| parts.material.shear_modulus = Some(1e9)).unwrap()
 }
 
 /// The memory (GB) of one bat, from the refusal of ten thousand side by side.

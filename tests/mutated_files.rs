@@ -199,7 +199,7 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
     let inertia = bat.inertia();
     holds("mass", in_range(inertia.mass))?;
     // Weights may hang beside the bat.
-    let beside = bat.fixtures.attachments.iter().any(|a| a.offset != 0.0);
+    let beside = bat.fixtures().attachments.iter().any(|a| a.offset != 0.0);
     let inside = inertia.balance_point > 0.0 && inertia.balance_point < bat.length();
     holds("balance", inside || (beside && inertia.balance_point.is_finite()))?;
     holds("inertia", in_range(inertia.about_balance) && in_range(inertia.line_about_balance))?;
@@ -230,7 +230,7 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
         let numbers = [damped.natural, damped.ratio, damped.decay, damped.error];
         holds(&format!("{damped:?}"), numbers.iter().all(|v| *v >= 0.0 && v.is_finite()))?;
     }
-    if bat.fixtures.holding() {
+    if bat.fixtures().holding() {
         return Ok(());
     }
     hit(bat, &solution, Model::Rigid)?;

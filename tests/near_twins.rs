@@ -31,7 +31,7 @@ fn solved(bat: &Bat, modes: usize, tolerance: f64) -> Solution {
 /// Whether every frequency, modal mass and node is within three times its stated error.
 fn holds(bat: &Bat, modes: usize, tolerance: f64) {
     let (found, truth) = (solved(bat, modes, tolerance), solved(bat, modes, 1e-12));
-    let told = format!("{:?} for {tolerance:.0e}", bat.profile.stations.outer);
+    let told = format!("{:?} for {tolerance:.0e}", bat.profile().stations.outer);
     for (mode, exact) in found.modes.iter().zip(&truth.modes) {
         let off = (mode.omega / exact.omega - 1.0).abs();
         let known = 3.0 * exact.error.total();
@@ -87,7 +87,7 @@ fn the_nodes_and_mass_of_a_mode_beside_a_tuned_absorber_are_as_far_off_as_they_s
     for mass in [1e-9, 1e-7, 1e-5, 1e-3] {
         let absorber = Absorber { x: 0.6, mass, stiffness: mass * tuned * tuned, damping: 0.0 };
         let fixtures = Fixtures { absorbers: vec![absorber], ..Fixtures::default() };
-        let (profile, material) = (bare.profile.clone(), bare.material().clone());
+        let (profile, material) = (bare.profile().clone(), bare.material().clone());
         let bat = Bat::builder(profile, material).name("tuned").fixtures(fixtures).build();
         let bat = bat.unwrap();
         for tolerance in [1e-2, 1e-4, 1e-6] {

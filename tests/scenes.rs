@@ -25,7 +25,7 @@ fn hit(bat: &Bat, model: Model, scene: &Scene, x: f64) -> Outcome {
 fn held(fixtures: Fixtures) -> Bat {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let weighed = sweetspot::bat::body::Weighed::default();
-    Bat::builder(bat.profile.clone(), bat.material().clone())
+    Bat::builder(bat.profile().clone(), bat.material().clone())
         .name("held")
         .fixtures(fixtures)
         .weighed(weighed)
@@ -92,7 +92,8 @@ fn the_ball_leaves_before_it_feels_the_hands() {
 #[test]
 fn what_damping_takes_is_told() {
     let mut material = bundled_bat("meshes/r161.json").unwrap().material().clone();
-    let profile = bundled_bat("meshes/r161.json").unwrap().profile;
+    let r161 = bundled_bat("meshes/r161.json").unwrap();
+    let profile = r161.profile();
     let mut before = 0.0;
     for loss_factor in [0.0, 0.01, 0.1] {
         material.loss_factor = loss_factor;

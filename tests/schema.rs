@@ -185,7 +185,7 @@ fn hits_of_all_models_are_valid_and_so_are_those_that_come_to_nothing() {
     let some = ["r161.json", "dashpots", "formulas", "full"];
     let chosen = |name: &str| some.iter().any(|end| name.ends_with(end));
     for (name, bat) in bats().into_iter().filter(|(name, _)| chosen(name)) {
-        let held = bat.fixtures.holding();
+        let held = bat.fixtures().holding();
         for (model, scene) in [
             (Model::Contact, &Scene::default()),
             (Model::Contact, &still),
@@ -242,7 +242,7 @@ fn every_format_is_written_and_pinned_or_read() {
     let read = ["bat", "ball", "validation"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
-        let known = written || file.name() == "page" || read.contains(file.name());
+        let known = written || file.name() == "page" || read.contains(&file.name());
         assert!(known, "{}", file.name());
     }
 }

@@ -36,7 +36,8 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
     for entry in fs::read_dir(MESHES).unwrap() {
         let path = entry.unwrap().path();
         let bat = path.to_str().unwrap();
-        let name = Bat::from_file(&path).unwrap().name;
+        let read = Bat::from_file(&path).unwrap();
+        let name = read.name();
         for args in [
             &["analyze", bat][..],
             &["modes", bat, "-n", "25"],
@@ -273,11 +274,11 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     }
     assert_eq!(folder.names(), ["birch-mine.json"]);
     let bat = Bat::from_file(folder.0.join("birch-mine.json")).unwrap();
-    assert_eq!(bat.name, "Birch, mine");
+    assert_eq!(bat.name(), "Birch, mine");
     assert!((bat.length() - 0.84).abs() < 1e-12 && (bat.inertia().mass - 0.88).abs() < 1e-12);
     assert_eq!(bat.material().name.as_deref(), Some("yellow-birch"));
     for (x, diameter) in [(0.0, 0.05), (0.01, 0.049), (0.026, 0.03), (0.1, 0.027), (0.84, 0.064)] {
-        assert!((2.0 * bat.profile.at(x).outer - diameter).abs() < 1e-12, "{x}");
+        assert!((2.0 * bat.profile().at(x).outer - diameter).abs() < 1e-12, "{x}");
     }
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("measured") && shown.contains("sweetspot analyze birch-mine.json"));
@@ -348,7 +349,7 @@ fn a_bat_like_another_has_its_diameters_at_its_own_length() {
     let stretch = bat.length() / r161.length();
     assert!((bat.length() - 36.0 * 0.0254).abs() < 1e-5);
     for x in [0.01, 0.15, 0.4, 0.7, 0.83] {
-        let off = bat.profile.at(x * stretch).outer - r161.profile.at(x).outer;
+        let off = bat.profile().at(x * stretch).outer - r161.profile().at(x).outer;
         // Four decimals of an inch are written.
         assert!(off.abs() < 1e-5, "{x} {off}");
     }

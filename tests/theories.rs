@@ -13,9 +13,8 @@ use sweetspot::proof::validation::{Truth, bundled_bat};
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// A bat with the shear modulus of wood.
-fn sheared(mut bat: Bat) -> Bat {
-    bat.layups[0].outer.shear_modulus = Some(MODULUS / 14.0);
-    bat
+fn sheared(bat: Bat) -> Bat {
+    bat.with(|parts| parts.material.shear_modulus = Some(MODULUS / 14.0)).unwrap()
 }
 
 fn uniform(radius: f64) -> Bat {
@@ -148,10 +147,12 @@ fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     material.shear_modulus = Some(1e9);
     material.shear_coefficient = Some(0.7);
     let profile = Profile::new(stations).unwrap();
-    let mut bat = Bat::builder(profile, material).name("shaft").build().unwrap();
+    let bat = Bat::builder(profile, material).name("shaft");
     let pin =
         |x| sweetspot::bat::fixtures::Support { x, kind: sweetspot::bat::fixtures::Held::Pinned };
-    bat.fixtures.supports = vec![pin(0.0), pin(LENGTH)];
+    let supports = vec![pin(0.0), pin(LENGTH)];
+    let fixtures = sweetspot::bat::fixtures::Fixtures { supports, ..Default::default() };
+    let bat = bat.fixtures(fixtures).build().unwrap();
     let worth = bat.worth_at(0.1);
     for (k, mode) in solved(&bat, Theory::Timoshenko, 6, 1e-12).modes.iter().enumerate() {
         let wave = ((k + 1) as f64 * PI / LENGTH).powi(2);

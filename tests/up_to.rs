@@ -15,9 +15,7 @@ use sweetspot::modes::up_to::modes_up_to;
 use sweetspot::{Bat, Request, solve};
 
 fn held(fixtures: Fixtures) -> Bat {
-    let Bat { profile, layups, .. } = dowel();
-    let material = layups[0].outer.clone();
-    Bat::builder(profile, material).name("held").fixtures(fixtures).build().unwrap()
+    dowel().with(|parts| parts.fixtures = fixtures).unwrap()
 }
 
 fn clamped() -> Bat {
@@ -74,7 +72,7 @@ fn what_is_counted_is_what_is_solved() {
                 let below = all.iter().filter(|mode| mode.frequency() <= limit).count();
                 if below < all.len() {
                     let counted = modes_up_to(bat, &request, limit).unwrap();
-                    assert_eq!(counted, below, "{} {theory:?} {limit} Hz", bat.name);
+                    assert_eq!(counted, below, "{} {theory:?} {limit} Hz", bat.name());
                 }
             }
         }

@@ -55,7 +55,7 @@ fn answered(text: &str) -> Result<Value> {
     let hits = sweep(&bat, Model::Contact, &Scene::default(), &asked, false, &[IMPACT])?;
     let speed = hits.impacts[0].outcome.as_ref().map(|outcome| outcome.exit_speed);
     Ok(json!({
-        "name": bat.name,
+        "name": bat.name(),
         "frequency_hz": frequencies,
         "met": solution.met && hits.met,
         "hit": { "x_m": IMPACT, "exit_speed_m_s": speed },

@@ -33,7 +33,7 @@ fn main() -> Result<()> {
                 ((k + 1) as f64 * (1.0 - ratio), k + 1)
             });
             let (gap, mode) = gaps.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two");
-            println!("{:36} {:16} {gap:5.2} {mode:9}", bat.name, theory.name());
+            println!("{:36} {:16} {gap:5.2} {mode:9}", bat.name(), theory.name());
         }
     }
     Ok(())

@@ -442,7 +442,7 @@ mod tests {
             fixtures.supports = supports[..held].iter().map(support).collect();
             let bare = bat([0.012, 0.033]);
             let material = bare.material().clone();
-            let profile = bare.profile;
+            let profile = bare.profile().clone();
             let weighed = Weighed::default();
             let bat = Bat::builder(profile, material)
                 .name("held")

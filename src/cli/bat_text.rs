@@ -83,10 +83,10 @@ mod tests {
         };
         let text = text(&measured);
         let bat = Bat::from_text("mine.json", &text, Path::new("")).unwrap();
-        assert_eq!(bat.name, measured.name);
+        assert_eq!(bat.name(), measured.name);
         assert!((bat.inertia().mass / (31.5 * 0.453_592_37 / 16.0) - 1.0).abs() < 1e-12);
         assert!((bat.length() - 33.5 * 0.0254).abs() < 1e-15);
-        assert!((bat.profile.at(15.0 * 0.0254).outer - 0.55 * 0.0254).abs() < 1e-15);
+        assert!((bat.profile().at(15.0 * 0.0254).outer - 0.55 * 0.0254).abs() < 1e-15);
         let place = |key: &str, number: &str| {
             let line = text.lines().find(|line| line.trim_start().starts_with(key)).unwrap();
             line.find(number).unwrap()

@@ -243,8 +243,9 @@ mod tests {
                     let cells = rows.iter().map(|row| row.get(k).copied().unwrap_or(' '));
                     cells.map(|c| if c == full { 2.0 } else { f64::from(c != ' ') }).sum::<f64>()
                 };
-                let radius =
-                    |k: usize| bat.profile.at((k as f64 + 0.5) / WIDTH as f64 * bat.length()).outer;
+                let radius = |k: usize| {
+                    bat.profile().at((k as f64 + 0.5) / WIDTH as f64 * bat.length()).outer
+                };
                 let widest = (0..WIDTH).max_by(|a, b| radius(*a).total_cmp(&radius(*b))).unwrap();
                 for k in 0..WIDTH {
                     // Half a half row on each side is round-off, of this column and of the widest.

@@ -113,7 +113,7 @@ mod tests {
         let bat = bundled_bat("meshes/dowel.json").unwrap();
         let dowel = Dowel {
             length: bat.length(),
-            radius: bat.profile.at(0.0).outer,
+            radius: bat.profile().at(0.0).outer,
             youngs_modulus: bat.material().youngs_modulus,
             density: bat.material().density,
         };
@@ -133,7 +133,7 @@ mod tests {
             for theory in Theory::ALL.into_iter().filter(known) {
                 let reference = Reference::of(&bat, 5, theory).unwrap();
                 let within = reference.agreement <= 3.0 * reference.stated;
-                assert!(within && reference.stated < 1e-13, "{}: {reference:?}", bat.name);
+                assert!(within && reference.stated < 1e-13, "{}: {reference:?}", bat.name());
             }
         }
     }
