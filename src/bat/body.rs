@@ -1,6 +1,6 @@
 //! What bat is this, is it possible, and what are its mass, balance point and swing weight?
 //!
-//! [`Bat::new`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
+//! [`Bat::builder`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
 //! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
 use serde::{Deserialize, Serialize};
@@ -33,15 +33,17 @@ pub struct Bat {
 /// What a bat is made of, before it is one.
 ///
 /// ```
-/// use sweetspot::bat::body::Weighed;
+/// use sweetspot::bat::profile::{Interpolation, Stations};
 /// use sweetspot::{Bat, Material, Profile};
 ///
 /// # fn main() -> sweetspot::Result<()> {
+/// let (x, outer, inner) = (vec![0.0, 0.84], vec![0.0152; 2], vec![0.0; 2]);
+/// let dowel = Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear })?;
 /// let maple = Material::named("sugar-maple-dynamic").expect("it is built in");
-/// let dowel = Profile::uniform(0.84, 0.0152)?;
-/// let weighed = Weighed { mass: Some(0.43), ..Weighed::default() };
-/// let bat = Bat::builder(dowel, maple).name("a dowel").weighed(weighed).build()?;
+/// let bat = Bat::builder(dowel, maple).name("a dowel").mass(Some(0.43)).build()?; // weighed, in kg
 /// assert!((bat.inertia().mass - 0.43).abs() < 1e-15);
+/// let lighter = bat.with(|parts| parts.material.density *= 0.9)?;
+/// assert!((lighter.inertia().mass - 0.387).abs() < 1e-15);
 /// # Ok(())
 /// # }
 /// ```

@@ -1,7 +1,7 @@
 //! What is on the bat, and what holds it: weights, tape, springs, supports, hands, joints?
 //!
 //! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
-//! [`crate::Bat::with_fixtures`].
+//! [`crate::bat::body::Builder::build`].
 
 use serde::{Deserialize, Serialize};
 
