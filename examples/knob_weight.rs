@@ -8,7 +8,7 @@
 
 use std::env;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches};
-use sweetspot::bat::body::{STANDARD_PIVOT, Weighed};
+use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::fixtures::Attachment;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Sweep, sweep};

@@ -128,7 +128,7 @@ fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> 
     let measured = measured::read(&folder.0.join("measured.csv")).unwrap();
     let told = Told { first: Some(End::Knob), origin: None };
     let study = Study::new(bat, measured, &Request::default(), false, told).unwrap();
-    plot::measured::pictures(&bat.name(), &study)
+    plot::measured::pictures(bat.name(), &study)
 }
 
 #[test]

@@ -4,7 +4,6 @@ mod common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel};
 use sweetspot::Bat;
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::count::slower;

@@ -19,7 +19,6 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{
     Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support,
 };
@@ -204,7 +203,7 @@ fn assert_poles(bat: &Bat, theory: Theory, exact: &[[f64; 2]]) {
     assert!(matches!(solution.damping.kind, Kind::Complex(_)), "{}", solution.damping.kind);
     for (damped, [re, im]) in solution.damping.modes.iter().zip(exact) {
         let exact = c64::new(*re, *im);
-        let root = missed(&bat.fixtures(), theory, exact);
+        let root = missed(bat.fixtures(), theory, exact);
         assert!(root < 1e-11, "{exact} is no root: {root:e}");
         let s = c64::new(-damped.decay, damped.swinging());
         let off = (s - exact).norm() / exact.norm();

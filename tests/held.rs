@@ -3,7 +3,6 @@
 mod common;
 
 use common::{LENGTH, cone};
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{
     Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
 };

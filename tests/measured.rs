@@ -11,7 +11,6 @@ use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
 use faer::c64;
 use serde_json::Value;
 use sweetspot::Bat;
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{Fixtures, Held, Support};
 use sweetspot::bat::material::Material;
 use sweetspot::beam::dowel::{Dowel, Ends, UniformMode};

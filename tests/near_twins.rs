@@ -7,7 +7,6 @@ mod common;
 
 use common::bat;
 use sweetspot::base::error::Error;
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Stations};

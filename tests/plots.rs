@@ -127,17 +127,17 @@ fn several_bats_fit_into_one_picture() {
         .map(|name| struck(bat(name), Model::Contact, Scene::default()))
         .into();
     let side = all.iter().map(|s| profile::Subject {
-        name: &s.bat.name(),
+        name: s.bat.name(),
         bat: &s.bat,
         swing_pivot: Some(s.scene.pivot),
     });
     let bent = all.iter().map(|s| shapes::Subject {
-        name: &s.bat.name(),
+        name: s.bat.name(),
         bat: &s.bat,
         solution: &s.solution,
     });
     let along = all.iter().map(|s| exit_speed::Subject {
-        name: &s.bat.name(),
+        name: s.bat.name(),
         length: s.bat.length(),
         impacts: &s.sweep.impacts,
         spot: &s.spot,
@@ -148,7 +148,7 @@ fn several_bats_fit_into_one_picture() {
     for picture in [side, bent, along] {
         check(&picture, "three bats");
         for s in &all {
-            assert!(picture.svg.contains(&escaped(&s.bat.name())), "{}", picture.name);
+            assert!(picture.svg.contains(&escaped(s.bat.name())), "{}", picture.name);
         }
     }
 }
@@ -376,12 +376,12 @@ fn the_front_shows_the_solvers_and_the_planners_choices() {
     let theory = sweetspot::bat::theory::Theory::EulerBernoulli;
     let budget = std::time::Duration::from_millis(600);
     let trade = measure(&bat, 3, theory, budget, &sweetspot::base::telling::nobody).unwrap();
-    let picture = front::picture(&bat.name(), &trade).unwrap();
+    let picture = front::picture(bat.name(), &trade).unwrap();
     assert!(Document::parse(&picture.svg).is_ok() && !picture.svg.contains("NaN"));
     for words in ["statics", "shift-invert", "front", "planner"] {
         assert!(picture.svg.contains(words), "{words}");
     }
-    for (k, picture) in sets::of_u_curve(&bat.name(), &trade.columns, 3).iter().enumerate() {
+    for (k, picture) in sets::of_u_curve(bat.name(), &trade.columns, 3).iter().enumerate() {
         assert_eq!(picture.name, ["u_curve", "u_curve_mode_3"][k]);
         check(picture, "cone");
     }

@@ -46,10 +46,10 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
             &["frf", bat, "--at", "0.6", "--points", "3"],
             &["advise", bat],
         ] {
-            faults.extend(table_faults(&folder, args, &name));
+            faults.extend(table_faults(&folder, args, name));
         }
         for units in ["si", "us"] {
-            faults.extend(table_faults(&folder, &["modes", bat, "--units", units], &name));
+            faults.extend(table_faults(&folder, &["modes", bat, "--units", units], name));
         }
     }
     let bat = mesh("r161");

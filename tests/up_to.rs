@@ -8,7 +8,6 @@ use std::path::Path;
 
 use common::folder::{Folder, but_shear};
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel, dowel_frequency};
-use sweetspot::bat::body::Weighed;
 use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support};
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::up_to::modes_up_to;

@@ -322,7 +322,7 @@ pub fn unit<const N: usize>(term: usize) -> [f64; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bat::body::Weighed;
+
     use crate::bat::fixtures::{Fixtures, Held, Joint, Support};
     use crate::bat::material::Material;
     use crate::bat::profile::{Interpolation, Profile, Stations};

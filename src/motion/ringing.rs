@@ -294,7 +294,7 @@ fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> ModeInTime {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bat::body::Weighed;
+
     use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Support};
     use crate::bat::material::Material;
     use crate::bat::profile::{Interpolation, Profile, Stations};
