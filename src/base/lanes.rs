@@ -5,7 +5,6 @@
 //! Plain loops over arrays, which the compiler turns into vector instructions; pulp chooses the
 //! widest that the machine knows. The bits of an answer do not depend on that choice.
 
-use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -39,16 +38,18 @@ pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
 #[repr(align(64))]
 pub struct Lanes([f64; WIDTH]);
 
-impl Lanes {
-    #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(from_fn(|k| f(self.0[k])))
-    }
-
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self(from_fn(|k| f(self.0[k], other.0[k])))
-    }
+/// What the expression gives for every lane: a loop and nothing else, because closures are compiled anew
+/// for every use and are not always made part of the loop.
+macro_rules! lanes {
+    ($k:ident => $value:expr) => {{
+        let mut lanes = [0.0; WIDTH];
+        let mut $k = 0;
+        while $k < WIDTH {
+            lanes[$k] = $value;
+            $k += 1;
+        }
+        Lanes(lanes)
+    }};
 }
 
 impl Add for Lanes {
@@ -56,7 +57,7 @@ impl Add for Lanes {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
+        lanes!(k => self.0[k] + other.0[k])
     }
 }
 
@@ -65,7 +66,7 @@ impl Sub for Lanes {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
+        lanes!(k => self.0[k] - other.0[k])
     }
 }
 
@@ -74,7 +75,7 @@ impl Mul for Lanes {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
+        lanes!(k => self.0[k] * other.0[k])
     }
 }
 
@@ -83,7 +84,7 @@ impl Mul<f64> for Lanes {
 
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        self.map(|a| a * other)
+        lanes!(k => self.0[k] * other)
     }
 }
 
@@ -99,7 +100,7 @@ impl Div for Lanes {
 
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| a / b)
+        lanes!(k => self.0[k] / other.0[k])
     }
 }
 
@@ -108,7 +109,7 @@ impl Neg for Lanes {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|a| -a)
+        lanes!(k => -self.0[k])
     }
 }
 
@@ -146,37 +147,45 @@ impl Real for Lanes {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.map(f64::sqrt)
+        lanes!(k => self.0[k].sqrt())
     }
 
     #[inline(always)]
     fn abs(self) -> Self {
-        self.map(f64::abs)
+        lanes!(k => self.0[k].abs())
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
+        lanes!(k => if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] })
     }
 
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
-        self.zip(sign, f64::copysign)
+        lanes!(k => self.0[k].copysign(sign.0[k]))
     }
 
     #[inline(always)]
     fn if_zero(self, then: Self, otherwise: Self) -> Self {
-        Self(from_fn(|k| if self.0[k] == 0.0 { then.0[k] } else { otherwise.0[k] }))
+        lanes!(k => if self.0[k] == 0.0 { then.0[k] } else { otherwise.0[k] })
     }
 
     #[inline(always)]
     fn within(self, other: Self) -> bool {
-        (0..WIDTH).fold(true, |all, k| all & (self.0[k] <= other.0[k]))
+        let mut all = true;
+        let mut k = 0;
+        while k < WIDTH {
+            all &= self.0[k] <= other.0[k];
+            k += 1;
+        }
+        all
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::array::from_fn;
+
     use super::*;
 
     #[test]

@@ -3,6 +3,7 @@
 //! They are computed, from this project's models; nothing here is a certificate of any standard.
 
 use crate::base::error::Result;
+use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
@@ -71,8 +72,9 @@ impl Figures {
     ///
     /// As [`Hitter::new`].
     pub fn new(bat: &Bat, hitter: &Hitter, law: Option<SwingLaw>) -> Result<Self> {
-        /// Steps along the outer half where a scene differs in one thing.
-        const FEW: usize = 32;
+        /// Steps along the outer half where a scene differs in one thing, and how exactly places are
+        /// located there: to some 10 µm, as what is told is how many tenths of a millimetre they move.
+        const FEW: (usize, f64) = (32, 2e-5);
         let outer = [0.5 * bat.length(), bat.length()];
         let Hitter { scene, solution, effort, .. } = *hitter;
         let find = |scene: &Scene| -> Result<SweetSpot> {
@@ -99,7 +101,9 @@ impl Figures {
             }
         }
         let spot = SweetSpot::within(&looked, bat, scene, solution);
-        let moves = changes(scene).into_iter().map(|(what, scene)| Ok((what, find(&scene)?)));
+        let changes = changes(scene);
+        let moved = threads::map(changes.len(), |k| find(&changes[k].1));
+        let moves = changes.into_iter().zip(moved).map(|((what, _), spot)| Ok((what, spot?)));
         Ok(Self {
             best: spot.exit_speed_max.map(|peak| hitter.strike(peak.x)),
             vibration_at_rigid_best: rigid_best.and_then(|peak| hitter.glance(peak.x)?.vibration),

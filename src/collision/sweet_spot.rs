@@ -42,7 +42,7 @@ pub struct SweetSpot {
 
 /// Points of the first look along the outer half.
 const GRID: usize = 128;
-/// A place is located to this share of the outer half.
+/// A place is located to this share of the stretch.
 const WIDTH: f64 = 1e-6;
 const INCH: f64 = 0.0254;
 
@@ -92,6 +92,8 @@ impl SweetSpot {
 /// A stretch of a bat after a first look along it.
 pub struct Looked<'a> {
     ends: [f64; 2],
+    /// How exactly places are located (m).
+    width: f64,
     hitter: &'a Hitter<'a>,
     seen: Vec<Option<Glance>>,
 }
@@ -99,13 +101,17 @@ pub struct Looked<'a> {
 impl<'a> Looked<'a> {
     /// Looks along that stretch (m).
     pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
-        Self::by(ends, GRID, hitter)
+        Self::by(ends, (GRID, WIDTH), hitter)
     }
 
-    /// Looks along it in so many steps: fewer do where the best places are known to be near others.
-    pub fn by(ends: [f64; 2], steps: usize, hitter: &'a Hitter<'a>) -> Self {
-        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / steps as f64;
-        Self { ends, hitter, seen: threads::map(steps + 1, |k| hitter.glance(place(k))) }
+    /// Looks along it in so many steps, and locates places to that share of it: fewer steps do where the
+    /// best places are known to be near others, and a wider share where only their distance from
+    /// others is told.
+    pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
+        let length = ends[1] - ends[0];
+        let place = |k: usize| ends[0] + length * k as f64 / steps as f64;
+        let seen = threads::map(steps + 1, |k| hitter.glance(place(k)));
+        Self { ends, width: share * length, hitter, seen }
     }
 
     /// The last place's number.
@@ -132,9 +138,8 @@ impl<'a> Looked<'a> {
         let at = |x: f64| of(&self.hitter.glance(x));
         let low = self.place(best.saturating_sub(1));
         let high = self.place((best + 1).min(self.last()));
-        let width = WIDTH * (self.ends[1] - self.ends[0]);
         let here = Peak { x: self.place(best), value: seen };
-        let found = brent([low, high], here, width, at);
+        let found = brent([low, high], here, self.width, at);
         // The ends of the interval may be the best, where the search only comes near.
         Some(if found.value > here.value { found } else { here })
     }
@@ -148,7 +153,7 @@ impl<'a> Looked<'a> {
             let Some(k) = bad else { return end };
             let bad = [self.place(k), above(&self.seen[k])];
             let at = |x: f64| above(&self.hitter.glance(x));
-            boundary([peak.x, peak.value - floor], bad, WIDTH * (to - from), at)
+            boundary([peak.x, peak.value - floor], bad, self.width, at)
         };
         // What is not a number is not enough.
         let poor = |k: &usize| above(&self.seen[*k]).is_nan() || above(&self.seen[*k]) < 0.0;
