@@ -17,7 +17,7 @@ use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::strikes;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// Impact points of a barrel sweep, over the length.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, Solver, solve};
 
 /// Assembly, eigenpairs, shapes, nodes, modal masses and error estimates.

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use common::{LENGTH, beta, cone, dowel, dowel_frequency};
 use sweetspot::modes::solve::solve_within;
-use sweetspot::proof::validation::{CASES, Truth, bundled_bat};
+use sweetspot::proof::bundled::{CASES, bundled_bat};
+use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Solver, solve};
 
 fn on(elements: usize, modes: usize) -> Request {

@@ -8,7 +8,7 @@ use common::folder::Folder;
 use serde_json::{Value, json};
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::dowel::{Ends, beta_l};
-use sweetspot::proof::validation::{CASES, bundled_bat};
+use sweetspot::proof::bundled::{CASES, bundled_bat};
 use sweetspot::study::advise::advice::{Advice, advise};
 use sweetspot::study::advise::effect::{Effect, Switch};
 use sweetspot::study::advise::part::Part;

@@ -4,7 +4,7 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const EXACTLY: Effort = Effort { accuracy: 1e-3, completed: false };

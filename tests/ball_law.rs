@@ -8,7 +8,7 @@ use sweetspot::collision::contact::force_law::{ForceLaw, Top};
 use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
 
 /// A linear spring without loss, of that stiffness (N/m).

@@ -4,7 +4,7 @@ mod common;
 
 use common::{cone, dowel};
 use sweetspot::modes::batch::{Found, Way, all, each};
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Mode, Request, Result, solve};
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];

@@ -9,7 +9,7 @@ use resvg::usvg::roxmltree::Document;
 use sweetspot::bat::profile::Interpolation;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::files::measured;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::picture::Picture;
 use sweetspot::show::plot::{self, compared};
 use sweetspot::study::comparison::contender::{Contender, Terms};

@@ -13,7 +13,7 @@ use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// Swing and pitch of the WPI report, a ball of 5 oz with k = 1e7 N/m^1.5.

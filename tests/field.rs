@@ -15,7 +15,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
 use sweetspot::collision::sweep::{Asked, Sweep, sweep};
 use sweetspot::collision::{Ball, SweetSpot};
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
 fn asked() -> Request {

@@ -5,7 +5,7 @@ use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const STANDARD_PIVOT: f64 = 0.1524;

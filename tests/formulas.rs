@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::report::json::{ShapePoints, modes};
 use sweetspot::{Bat, Request, solve};
 

@@ -9,7 +9,7 @@ use sweetspot::bat::profile::{Interpolation, Profile};
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::beam::mesh::Mesh;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
 fn frequencies(bat: &Bat) -> Vec<f64> {

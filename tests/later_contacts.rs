@@ -11,7 +11,7 @@ use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::energy_loss::{wpi_alpha, wpi_shape};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
 
 /// ω of a free uniform dowel with that first frequency (Hz) and how a ball (kg) feels it at a

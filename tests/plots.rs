@@ -16,7 +16,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::matrix::{FULL, Matrix};
 use sweetspot::show::plot::picture::Picture;
 use sweetspot::show::plot::sets::{self, Hits};

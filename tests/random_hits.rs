@@ -8,7 +8,7 @@ use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::struck::Struck;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
 
 /// Numbers that look random, the same in every run.

@@ -23,7 +23,7 @@ use sweetspot::files::schema::hit::HitFile;
 use sweetspot::files::schema::modes::ModesFile;
 use sweetspot::files::schema::{self, of};
 use sweetspot::modes::solve::Solver;
-use sweetspot::proof::validation::CASES;
+use sweetspot::proof::bundled::CASES;
 use sweetspot::show::formats::{self, FileKind};
 use sweetspot::show::report::hit_json;
 use sweetspot::show::report::json::{self, ShapePoints};

@@ -9,7 +9,7 @@ use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel_frequency};
 use serde_json::{Value, json};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::validation::CASES;
+use sweetspot::proof::bundled::CASES;
 use sweetspot::study::tuned::tuned;
 use sweetspot::{Bat, Request, Solution, solve};
 

@@ -10,7 +10,7 @@ use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
 use sweetspot::modes::solve::own_and_recomputed;
-use sweetspot::proof::validation::bundled_bat;
+use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Error, Request, Result, Solver, solve};
 
 type Solve = fn(&CscMatrix<f64>, &CscMatrix<f64>, f64, usize, f64) -> Result<Pairs>;

@@ -9,7 +9,8 @@ use common::{LENGTH, MODULUS, bat};
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::validation::{Truth, bundled_bat};
+use sweetspot::proof::bundled::bundled_bat;
+use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Solution, solve};
 
 /// A bat with the shear modulus of wood.

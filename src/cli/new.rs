@@ -7,7 +7,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
 use crate::base::units::inches;
 use crate::bat::body::Bat;
-use crate::proof::validation::bundled_bat;
+use crate::proof::bundled::bundled_bat;
 use crate::show::report::sketch::{self, Places, SketchRow};
 use crate::show::report::text;
 use crate::show::report::text::{Units, wrapped};

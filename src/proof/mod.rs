@@ -2,12 +2,15 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`known_hits`], [`validation`] | are known answers reproduced |
+//! | [`bundled`], [`known_hits`], [`case`](mod@case) | what is known, of which bats and hits |
+//! | [`validation`] | is it reproduced |
 //! | [`published`] | are published figures reproduced |
 //! | [`promise`], [`hit_promise`] | do stated errors hold, of modes and of hits |
 //! | [`extremes`] | does what no bat is stay right |
 
+pub mod bundled;
 pub mod known_hits;
+pub mod case;
 pub mod validation;
 pub mod published;
 pub mod promise;

@@ -9,7 +9,9 @@ use crate::base::telling::Tell;
 use crate::base::units::inches;
 use crate::bat::theory::Theory;
 use crate::modes::solve::{Request, solve};
-use crate::proof::validation::{CASES, Case, Check, Kind, Known, KnownNumber, run};
+use crate::proof::bundled::CASES;
+use crate::proof::case::{Case, Check, Kind, Known};
+use crate::proof::validation::{KnownNumber, run};
 
 /// A case with its rows, one for each check.
 #[derive(Debug)]

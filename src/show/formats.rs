@@ -17,7 +17,7 @@ use crate::files::schema::ring::RingFile;
 use crate::files::schema::trade::TradeFile;
 use crate::files::schema::u_curve::UCurveFile;
 use crate::files::schema::{DRAFT, id, of};
-use crate::proof::validation::Case;
+use crate::proof::case::Case;
 use crate::show::page::data::Data;
 
 /// A kind of file that has a schema.

@@ -4,8 +4,8 @@
 
 use crate::base::error::Result;
 use crate::modes::solve::{Request, solve};
+use crate::proof::case::{Case, Known, bundled_case};
 use crate::proof::known_hits::Seen;
-use crate::proof::validation::{Case, Known, bundled_case};
 use crate::show::plot::axis::Axis;
 use crate::show::plot::plane::{Frame, Plane};
 use crate::show::plot::series::{Series, legend};

@@ -7,10 +7,11 @@ use crate::bat::body::Bat;
 use crate::bat::material::Material;
 use crate::bat::profile::{Interpolation, Profile, Stations};
 use crate::modes::solve::{Request, Solution, solve};
+use crate::proof::bundled::bundled_bat;
 use crate::proof::extremes::Outcome;
 use crate::proof::extremes::judge::{against, apart, difference};
 use crate::proof::promise::largest;
-use crate::proof::validation::{Truth, bundled_bat};
+use crate::proof::validation::Truth;
 
 /// Twice the limit of what the same elements in another order may round differently.
 const ROUNDINGS: f64 = 1e-13;

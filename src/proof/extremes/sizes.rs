@@ -6,10 +6,11 @@ use crate::bat::material::Material;
 use crate::bat::profile::{Interpolation, Profile, Stations};
 use crate::beam::dowel::{Dowel, Ends};
 use crate::modes::solve::{Request, Solution, solve};
+use crate::proof::bundled::bundled_bat;
 use crate::proof::extremes::judge::{against, apart, difference, refusal};
 use crate::proof::extremes::{Outcome, Verdict};
 use crate::proof::promise::largest;
-use crate::proof::validation::{Truth, bundled_bat};
+use crate::proof::validation::Truth;
 
 /// A solid round bar in SI units; by default one like a bat.
 #[derive(Debug, Clone, Copy)]

@@ -167,7 +167,7 @@ mod tests {
     use crate::collision::hit::Effort;
     use crate::collision::hitter::Hitter;
     use crate::files::schema;
-    use crate::proof::validation::bundled_bat;
+    use crate::proof::bundled::bundled_bat;
     use crate::{Request, solve};
 
     /// A document's members are the columns, by their names; of the energies those of the ledger.

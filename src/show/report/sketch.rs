@@ -196,7 +196,7 @@ fn line_of(label: &str, drawing: &str, out: &mut String) {
 mod tests {
     use super::*;
     use crate::modes::solve::{Request, solve};
-    use crate::proof::validation::bundled_bat;
+    use crate::proof::bundled::bundled_bat;
 
     /// What a line draws, column by column.
     fn drawing(line: &str) -> Vec<char> {

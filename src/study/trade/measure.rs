@@ -290,7 +290,7 @@ fn median(samples: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::base::telling::nobody;
-    use crate::proof::validation::bundled_bat;
+    use crate::proof::bundled::bundled_bat;
     use crate::study::trade::front::front;
 
     #[test]

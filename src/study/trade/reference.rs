@@ -106,7 +106,7 @@ pub fn worst(errors: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::beam::dowel::{Dowel, Ends};
-    use crate::proof::validation::bundled_bat;
+    use crate::proof::bundled::bundled_bat;
 
     #[test]
     fn the_reference_of_the_dowel_is_its_closed_form() {

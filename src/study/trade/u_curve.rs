@@ -221,7 +221,7 @@ mod tests {
     use super::*;
     use crate::base::telling::nobody;
     use crate::bat::theory::Theory;
-    use crate::proof::validation::bundled_bat;
+    use crate::proof::bundled::bundled_bat;
 
     fn dowel(solvers: &[Solver], most: usize) -> Vec<Column> {
         let bat = bundled_bat("meshes/dowel.json").unwrap();
