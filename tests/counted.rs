@@ -24,7 +24,7 @@ fn with(fixtures: Fixtures) -> Bat {
 fn counted(bat: &Bat, omega: f64) -> Option<usize> {
     let mut statics = Statics::<f64, 6, 6>::empty(bat, Theory::EulerBernoulli);
     statics.assemble(&[bat], &[&Mesh::along(bat, 24)]);
-    slower(&statics, omega)
+    slower(&statics.view(), omega)
 }
 
 /// ρA (kg/m).

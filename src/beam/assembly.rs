@@ -7,7 +7,7 @@ use nalgebra_sparse::{CooMatrix, CscMatrix};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::degree::{OfDegree, of_degree};
-use crate::beam::element::{Element, Matrix};
+use crate::beam::element::Element;
 use crate::beam::hermite::elements;
 use crate::beam::mesh::Mesh;
 
@@ -37,26 +37,28 @@ impl Pencil {
         let (mut k, mut m) = (CooMatrix::new(size, size), CooMatrix::new(size, size));
         for (e, element) in elements.iter().enumerate() {
             let (stiffness, mass) = element.hermite();
-            let places = places::<W>(e);
-            scatter(&mut k, &places, &stiffness);
-            scatter(&mut m, &places, &mass);
+            let places = places(W, e);
+            scatter(&mut k, &places, stiffness.as_flattened());
+            scatter(&mut m, &places, mass.as_flattened());
         }
         Self { stiffness: CscMatrix::from(&k), mass: CscMatrix::from(&m) }
     }
 }
 
-/// Where the unknowns `[w₁, θ₁, w₂, θ₂, b₂ …, g₀ …]` of element `e` stand among all.
-pub fn places<const W: usize>(e: usize) -> [usize; W] {
-    let first = (W - 2) * e;
-    std::array::from_fn(|i| match i {
+/// Where the `width` unknowns `[w₁, θ₁, w₂, θ₂, b₂ …, g₀ …]` of element `e` stand among all.
+pub fn places(width: usize, e: usize) -> Vec<usize> {
+    let first = (width - 2) * e;
+    let place = |i| match i {
         0 | 1 => first + i,
-        2 | 3 => first + (W - 2) + (i - 2),
+        2 | 3 => first + (width - 2) + (i - 2),
         _ => first + 2 + (i - 4),
-    })
+    };
+    (0..width).map(place).collect()
 }
 
-fn scatter<const W: usize>(into: &mut CooMatrix<f64>, places: &[usize; W], block: &Matrix<f64, W>) {
-    for (i, row) in places.iter().zip(block) {
+/// Adds a block, row after row, at those places.
+fn scatter(into: &mut CooMatrix<f64>, places: &[usize], block: &[f64]) {
+    for (i, row) in places.iter().zip(block.chunks_exact(places.len())) {
         for (j, value) in places.iter().zip(row) {
             into.push(*i, *j, *value);
         }

@@ -6,10 +6,10 @@
 
 use crate::base::real::{Over, Real};
 use crate::beam::holds::Given;
-use crate::beam::motion::{Applied, Known, Motion};
+use crate::beam::motion::{Known, Motion};
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::statics::Statics;
-use crate::beam::sweep::Rigid;
+use crate::beam::sweep::{Loads, Rigid};
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
 
@@ -36,7 +36,7 @@ struct Way<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// After [`Self::apply`], the motion with those scaled strains as closely as wanted.
+    /// As [`Self::take`], as closely as wanted.
     #[inline(always)]
     pub fn look<S: Real>(
         &mut self,
@@ -238,7 +238,8 @@ impl<R: Real> Motion<R> {
 }
 
 impl Motion<f64> {
-    /// One motion alone, for large meshes, few calls and bats with anything on them.
+    /// One motion alone, for large meshes, few calls and bats with anything on them: scaled strains in
+    /// `known`, one motion after the other, are slower modes, whose round-off is taken out.
     pub fn take_alone<const N: usize, const W: usize>(
         &mut self,
         statics: &Statics<f64, N, W>,
@@ -246,11 +247,11 @@ impl Motion<f64> {
         known: &[f64],
         depth: Depth,
     ) {
-        let mut applied = Applied::default();
-        self.apply(statics, q, false, &mut applied);
-        let cell = |k: usize| statics.cell(k);
-        let known = Known { value: None, others: known };
-        self.look_alone(&statics.view(&cell), applied.rigid, q, known, depth);
+        let mut loads = Loads::default();
+        self.image.resize(q.len(), 0.0);
+        let rigid = statics.apply(q, &mut self.image, &mut loads);
+        (self.forces, self.reactions) = (loads.points, loads.contacts);
+        self.look_alone(&statics.view(), rigid, q, known, depth);
     }
 
     /// [`Self::look`], compiled once.
@@ -259,9 +260,9 @@ impl Motion<f64> {
         view: &View<f64>,
         rigid: Rigid<f64>,
         q: &[f64],
-        known: Known<f64, f64>,
+        known: &[f64],
         depth: Depth,
     ) {
-        self.look(view, rigid, q, known, depth);
+        self.look(view, rigid, q, Known { value: None, others: known }, depth);
     }
 }

@@ -17,9 +17,10 @@
 use std::ops::{Index, IndexMut};
 
 use crate::base::linear::{determinant, solve_two};
+use crate::beam::element::MOST_WIDTH;
 use crate::beam::fixed::unit;
 use crate::beam::placed::Placed;
-use crate::beam::statics::Statics;
+use crate::beam::view::View;
 use crate::beam::walk::{Run, What};
 
 /// A symmetric form in unknowns of which the last two are deflection and rotation.
@@ -48,13 +49,10 @@ impl IndexMut<(usize, usize)> for Form {
 
 /// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a
 /// pivot was too small to tell.
-pub fn slower<const N: usize, const W: usize>(
-    statics: &Statics<f64, N, W>,
-    omega: f64,
-) -> Option<usize> {
-    let tau = omega * omega / statics.energy_unit;
+pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
+    let tau = omega * omega / view.energy_unit;
     let mut count = 0;
-    let [knob, tip] = [0, 1].map(|side| inwards(statics, side, tau, &mut count));
+    let [knob, tip] = [0, 1].map(|side| inwards(view, side, tau, &mut count));
     let (mut knob, tip) = (knob?, tip?);
     // Outwards on the knob side a rotation has the other sign.
     let last = knob.size - 1;
@@ -64,24 +62,19 @@ pub fn slower<const N: usize, const W: usize>(
     }
     let mut whole = knob.beside(tip);
     count += whole.eliminate(0)? as isize;
-    let reactions = statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.contacts.len()) as isize;
+    let reactions = view.fixed.map_or(0, |fixed| fixed.placed.contacts.len()) as isize;
     usize::try_from(count - reactions).ok()
 }
 
 /// The form of one side at the root; adds its negative pivots.
-fn inwards<const N: usize, const W: usize>(
-    statics: &Statics<f64, N, W>,
-    side: usize,
-    tau: f64,
-    count: &mut isize,
-) -> Option<Form> {
+fn inwards(view: &View<f64>, side: usize, tau: f64, count: &mut isize) -> Option<Form> {
     let (mut form, mut next) = (Form::new(2), Form::default());
-    for Run { cells, stop } in statics.runs(side).rev() {
-        if let (Some(fixed), Some(what)) = (&statics.fixed, stop) {
+    for Run { cells, stop } in view.runs(side).rev() {
+        if let (Some(fixed), Some(what)) = (view.fixed, stop) {
             form.meet(&fixed.placed, what, tau);
         }
         for k in cells.rev() {
-            form.behind(statics, k, tau, &mut next);
+            form.behind(view, k, tau, &mut next);
             std::mem::swap(&mut form, &mut next);
             *count += form.eliminate(2)? as isize;
         }
@@ -166,37 +159,31 @@ impl Form {
 
     /// The form at the inner end of a cell, its strains and what was left not yet eliminated: the
     /// strains, then the unknowns of this form, then deflection and rotation. Below the diagonal.
-    fn behind<const N: usize, const W: usize>(
-        &self,
-        statics: &Statics<f64, N, W>,
-        k: usize,
-        tau: f64,
-        form: &mut Self,
-    ) {
-        let cell = &statics.cells[k];
-        let link = &cell.link;
-        let (strains, carried) = (W - 2, self.size - 2);
-        let placed = statics.fixed.iter().map(|fixed| &fixed.placed);
-        let beds = placed.filter_map(|placed| Some(&placed.contacts[placed.bed(k, N)?]));
+    fn behind(&self, view: &View<f64>, k: usize, tau: f64, form: &mut Self) {
+        let cell = view.cells.at(k);
+        let (strains, carried) = (view.strains, self.size - 2);
+        let width = strains + 2;
+        let placed = view.fixed.iter().map(|fixed| &fixed.placed);
+        let beds = placed.filter_map(|placed| Some(&placed.contacts[placed.bed(k, view.terms)?]));
         let beds = beds.flatten().filter_map(|contact| Some(contact.spring?.softness));
         let beds: Vec<f64> = beds.collect();
         let size = strains + carried + beds.len() + 2;
-        let place = |i: usize| if i < strains { i } else { size - W + i };
+        let place = |i: usize| if i < strains { i } else { size - width + i };
         form.clear(size);
-        for i in 0..W {
+        for i in 0..width {
             for j in 0..=i {
-                form[(place(i), place(j))] = -tau * link.mass[i][j];
+                form[(place(i), place(j))] = -tau * cell.mass[i * width + j];
             }
         }
         (0..strains).for_each(|i| form[(i, i)] += 1.0);
         // Deflection and rotation at the outer end.
-        let mut outer = [[0.0; 2]; W];
+        let mut outer = [[0.0; 2]; MOST_WIDTH];
         for i in 0..strains {
-            outer[i] = [link.lift[i], link.turn[i]];
+            outer[i] = [cell.lift[i], cell.turn[i]];
         }
-        (outer[W - 2], outer[W - 1]) = ([1.0, 0.0], [link.length, 1.0]);
+        (outer[strains], outer[strains + 1]) = ([1.0, 0.0], [cell.length, 1.0]);
         let ends = [carried, carried + 1];
-        for i in 0..W {
+        for i in 0..width {
             let row: [f64; 2] = std::array::from_fn(|e| {
                 outer[i][0] * self[(ends[0], ends[e])] + outer[i][1] * self[(ends[1], ends[e])]
             });
@@ -216,7 +203,7 @@ impl Form {
         }
         for (b, softness) in beds.into_iter().enumerate() {
             let reaction = strains + carried + b;
-            let on = statics.body().point_load(k, &unit(b));
+            let on = cell.point_load(&unit(view.terms, b));
             for (i, value) in on.into_iter().enumerate() {
                 form[(reaction, place(i))] += value;
                 form[(place(i), reaction)] += value;

@@ -68,6 +68,8 @@ pub struct Samples<'a, R> {
 pub const MOST_TERMS: usize = 13;
 /// Room for the strains of an element of any degree and theory.
 pub const MOST_STRAINS: usize = 2 * MOST_TERMS - 4;
+/// Room for these and the deflection and rotation at its inner end.
+pub const MOST_WIDTH: usize = MOST_STRAINS + 2;
 
 /// `1/(2k + 1)`.
 const ODD: [f64; 16] = {
@@ -113,39 +115,33 @@ pub fn integrated<S: Real, R: Over<S>>(
 /// The adjoint of [`integrated`] for its deflection: what loads on the Legendre polynomials are on
 /// the strains and, in the last two places, on `w` and `theta`.
 #[inline(always)]
-pub fn on_strains<R: Real, const N: usize, const W: usize>(
-    h: R,
-    load: &Vector<R, N>,
-) -> Vector<R, W> {
+pub fn on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     let half = R::splat(0.5) * h;
-    let mut slope = [R::default(); N];
+    let (n, w) = (load.len(), on.len());
+    let mut slope = [R::default(); MOST_TERMS];
     slope[0] = half * (load[1] + load[0]);
-    for k in 1..N - 1 {
+    for k in 1..n - 1 {
         slope[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
     }
-    let mut on = turning_on_strains(h, &slope);
-    if W > N {
-        on[N - 2..W - 2].copy_from_slice(&slope[..N - 2]);
+    turning_on_strains(h, &slope[..n], on);
+    if w > n {
+        on[n - 2..w - 2].copy_from_slice(&slope[..n - 2]);
     }
-    on[W - 2] = load[0];
-    on
+    on[w - 2] = load[0];
 }
 
 /// The adjoint of [`integrated`] for its rotation: what couples on the Legendre polynomials are on the
 /// strains and, in the last place, on `theta`.
 #[inline(always)]
-pub fn turning_on_strains<R: Real, const N: usize, const W: usize>(
-    h: R,
-    load: &Vector<R, N>,
-) -> Vector<R, W> {
+pub fn turning_on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     let half = R::splat(0.5) * h;
-    let mut on = [R::default(); W];
+    let (n, w) = (load.len(), on.len());
+    on.fill(R::default());
     on[0] = half * (load[1] + load[0]);
-    for k in 1..N - 2 {
+    for k in 1..n - 2 {
         on[k] = half * R::splat(ODD[k]) * (load[k + 1] - load[k - 1]);
     }
-    on[W - 1] = load[0];
-    on
+    on[w - 1] = load[0];
 }
 
 /// Adds `Σ value P_k P_l` at one point, for `k, l` below a count.
@@ -200,14 +196,14 @@ impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
         let mut rows = [[zero; W]; N];
         let mut columns = [[zero; W]; W];
         for k in 0..N {
-            rows[k] = on_strains::<R, N, W>(h, &self.mass[k]);
+            on_strains(h, &self.mass[k], &mut rows[k]);
         }
         for j in 0..W {
             let mut column = [zero; N];
             for k in 0..N {
                 column[k] = rows[k][j];
             }
-            columns[j] = on_strains(h, &column);
+            on_strains(h, &column, &mut columns[j]);
         }
         if let Some(beyond) = &self.beyond {
             beyond.add(h, &mut columns);
@@ -302,14 +298,15 @@ impl<R: Real, const N: usize> Beyond<R, N> {
     fn add<const W: usize>(&self, h: R, columns: &mut Matrix<R, W>) {
         let mut rows = [[R::default(); W]; N];
         for k in 0..N - 1 {
-            rows[k] = turning_on_strains::<R, N, W>(h, &self.turning[k]);
+            turning_on_strains(h, &self.turning[k], &mut rows[k]);
         }
         for j in 0..W {
             let mut column = [R::default(); N];
             for k in 0..N - 1 {
                 column[k] = rows[k][j];
             }
-            let on: Vector<R, W> = turning_on_strains(h, &column);
+            let mut on = [R::default(); W];
+            turning_on_strains(h, &column, &mut on);
             for k in 0..W {
                 columns[j][k] += on[k];
             }

@@ -16,7 +16,8 @@ use crate::beam::holds::{Border, Build, Given, Holds, Span, Under};
 use crate::beam::mesh::Mesh;
 use crate::beam::placed::Placed;
 use crate::beam::sweep::{Body, Inwards, Loads, Outwards, Rigid};
-use crate::beam::walk::{Run, What};
+use crate::beam::view::View;
+use crate::beam::walk::{Run, What, runs};
 
 /// What is on one bat and what holds it.
 #[derive(Debug, Clone)]
@@ -33,17 +34,13 @@ pub struct Fixed<S> {
 
 impl<S: Real> Fixed<S> {
     /// Everything that the bat's fixtures say, on that mesh.
-    pub fn new<const N: usize, const W: usize>(
-        body: &Body<S, N, W>,
-        bat: &Bat,
-        mesh: &Mesh,
-    ) -> Self {
-        let placed = Placed::new(body, bat, mesh);
-        let root = body.cells[body.split].arm;
+    pub fn new(view: &View<S>, bat: &Bat, mesh: &Mesh) -> Self {
+        let placed = Placed::new(view, bat, mesh);
+        let root = view.cells.at(view.split).arm;
         if placed.contacts.is_empty() {
             return Self { placed, root, ..Self::nothing() };
         }
-        let holds = Holds::of([0, 1].map(|side| met(&placed, body, side)));
+        let holds = Holds::of([0, 1].map(|side| met(&placed, view, side)));
         let (one, zero) = (S::splat(1.0), S::default());
         let free = match holds.held.map(|stiffness| stiffness > 0.0) {
             [true, true] => vec![],
@@ -77,9 +74,9 @@ impl<S: Real> Fixed<S> {
 
     /// `y = A q` of the held bat. Leaves the loads, the rigid motion taken out, and the forces of
     /// the contacts; returns the rigid motion.
-    pub fn compliance<R: Over<S>, const N: usize, const W: usize>(
+    pub fn compliance<R: Over<S>, const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
         q: &[R],
         y: &mut [R],
         loads: &mut Loads<R, W>,
@@ -90,32 +87,29 @@ impl<S: Real> Fixed<S> {
     }
 
     /// The scaled strains (times the unit of energy) of the held bat under a unit force at the
-    /// place `s` in [0, 1] outwards on a cell, in balance with the inertia of the rigid motions
+    /// place `s` in [0, 1] outwards on a cell, whose deflection has that many terms, in balance with the inertia of the rigid motions
     /// that are free.
     ///
     /// By Maxwell's theorem their product with any scaled strains is the deflection there, rigid
     /// motions taken out.
-    pub fn under_force<const N: usize, const W: usize>(
+    pub fn under_force<const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
+        terms: usize,
         cell: usize,
         s: f64,
     ) -> Vec<S> {
         let mut loads = Loads::default();
         self.make_room(body, &mut loads);
-        let values: Vec<f64> = legendre(N, 2.0 * s - 1.0);
-        let values: &[f64; N] = values[..N].try_into().expect("as many as asked for");
-        loads.cells[cell] = body.point_load(cell, values);
+        let values = legendre(terms, 2.0 * s - 1.0);
+        let load = body.cells[cell].view().point_load(&values[..terms]);
+        loads.cells[cell].copy_from_slice(&load);
         let mut strains = vec![S::default(); body.cells.len() * (W - 2) + self.placed.springs];
         self.strains_under(body, Rigid::default(), &mut loads, &mut strains);
         strains
     }
 
-    fn make_room<R: Real, const N: usize, const W: usize>(
-        &self,
-        body: &Body<S, N, W>,
-        loads: &mut Loads<R, W>,
-    ) {
+    fn make_room<R: Real, const W: usize>(&self, body: &Body<S, W>, loads: &mut Loads<R, W>) {
         loads.cells.resize(body.cells.len(), [R::default(); W]);
         loads.points.resize(self.placed.points.len(), [R::default(); 2]);
         loads.contacts.clear();
@@ -124,9 +118,9 @@ impl<S: Real> Fixed<S> {
 
     /// The strains of the held bat under these loads, of which the inertia of a rigid motion is taken
     /// out, and of those that are free what else they carry; returns the whole of that motion.
-    fn strains_under<R: Over<S>, const N: usize, const W: usize>(
+    fn strains_under<R: Over<S>, const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
         mut rigid: Rigid<R>,
         loads: &mut Loads<R, W>,
         y: &mut [R],
@@ -144,15 +138,15 @@ impl<S: Real> Fixed<S> {
     }
 
     /// Integrates strains from the root at rest and leaves the loads of their inertia.
-    fn outwards<R: Over<S>, const N: usize, const W: usize>(
+    fn outwards<R: Over<S>, const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
         q: &[R],
         loads: &mut Loads<R, W>,
     ) {
         for side in [0, 1] {
             let mut way = Outwards::<R, true>::default();
-            for Run { cells, stop } in self.placed.runs(body, side) {
+            for Run { cells, stop } in runs(body.side(side), &self.placed.stops[side]) {
                 let strains = &q[cells.start * (W - 2)..cells.end * (W - 2)];
                 way.over(&body.cells[cells.clone()], strains, &mut loads.cells[cells]);
                 match stop {
@@ -173,9 +167,9 @@ impl<S: Real> Fixed<S> {
 
     /// Takes the loads of a rigid motion out of these; force and moment about the balance point
     /// that are left.
-    fn take_out<R: Over<S>, const N: usize, const W: usize>(
+    fn take_out<R: Over<S>, const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
         rigid: Rigid<R>,
         loads: &mut Loads<R, W>,
     ) -> [R; 2] {
@@ -209,16 +203,16 @@ impl<S: Real> Fixed<S> {
     }
 
     /// The strains under loads of the bat clamped at its root.
-    fn inwards<R: Over<S>, const N: usize, const W: usize>(
+    fn inwards<R: Over<S>, const W: usize>(
         &self,
-        body: &Body<S, N, W>,
+        body: &Body<S, W>,
         loads: &Loads<R, W>,
         y: &mut [R],
     ) {
         y[body.cells.len() * (W - 2)..].fill(R::default());
         for side in [0, 1] {
             let mut way = Inwards::<R, true>::default();
-            for Run { cells, stop } in self.placed.runs(body, side).rev() {
+            for Run { cells, stop } in runs(body.side(side), &self.placed.stops[side]).rev() {
                 match stop {
                     Some(What::PointMass(k)) => {
                         let [force, couple] = loads.points[k];
@@ -276,13 +270,9 @@ impl<S: Real> Fixed<S> {
 }
 
 /// What is met on one side on the way inwards.
-fn met<S: Real, const N: usize, const W: usize>(
-    placed: &Placed<S>,
-    body: &Body<S, N, W>,
-    side: usize,
-) -> Build<S> {
+fn met<S: Real>(placed: &Placed<S>, view: &View<S>, side: usize) -> Build<S> {
     let mut build = Build::default();
-    for Run { cells, stop } in placed.runs(body, side).rev() {
+    for Run { cells, stop } in runs(view.side(side), &placed.stops[side]).rev() {
         match stop {
             Some(What::Joint(k)) => {
                 let Spring { place, softness } = placed.joints[k];
@@ -297,26 +287,27 @@ fn met<S: Real, const N: usize, const W: usize>(
             Some(What::PointMass(_)) | None => {}
         }
         for k in cells.rev() {
-            let link = &body.cells[k].link;
-            let adds = (0..W - 2).map(|i| [link.lift[i], link.turn[i]]).collect();
-            let span = Span { first: k * (W - 2), adds, length: link.length.lane(0) };
-            let Some(bed) = placed.bed(k, N) else {
+            let cell = view.cells.at(k);
+            let adds = cell.lift.iter().zip(cell.turn).map(|(lift, turn)| [*lift, *turn]).collect();
+            let span = Span { first: k * view.strains, adds, length: cell.length.lane(0) };
+            let Some(bed) = placed.bed(k, view.terms) else {
                 build.cross(span);
                 continue;
             };
             let springs = placed.contacts[bed.clone()].iter().filter_map(|contact| contact.spring);
             let (places, softness): (Vec<usize>, _) =
                 springs.map(|spring| (spring.place, spring.softness)).unzip();
-            let rows = (0..N).flat_map(|term| body.point_load(k, &unit(term))).collect();
+            let rows =
+                (0..view.terms).flat_map(|term| cell.point_load(&unit(view.terms, term))).collect();
             build.cross_bed(span, Under { contact: bed.start, place: places[0], softness, rows });
         }
     }
     build
 }
 
-/// The coefficients of one Legendre polynomial.
-pub fn unit<const N: usize>(term: usize) -> [f64; N] {
-    std::array::from_fn(|k| f64::from(u8::from(k == term)))
+/// The coefficients of one Legendre polynomial among so many.
+pub fn unit(terms: usize, term: usize) -> Vec<f64> {
+    (0..terms).map(|k| f64::from(u8::from(k == term))).collect()
 }
 
 #[cfg(test)]
@@ -355,7 +346,7 @@ mod tests {
         let fixed = statics.fixed.as_ref().unwrap();
         assert!(fixed.free().is_empty());
         // The root is the middle.
-        let strains = fixed.under_force(&statics.body(), 0, 0.0);
+        let strains = fixed.under_force(&statics.body(), 6, 0, 0.0);
         let square: f64 = strains.iter().map(|q| q * q).sum();
         let bending = youngs_modulus * std::f64::consts::PI / 4.0 * radius.powi(4);
         let exact = length.powi(3) / (48.0 * bending) + length * length / (16.0 * joint);

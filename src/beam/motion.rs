@@ -5,8 +5,7 @@ use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 use crate::beam::element::{MOST_STRAINS, MOST_TERMS, integrated};
 use crate::beam::rule::MOST_POINTS;
-use crate::beam::statics::Statics;
-use crate::beam::sweep::{Loads, Rigid};
+use crate::beam::sweep::Rigid;
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
 
@@ -49,25 +48,11 @@ pub struct Motion<R> {
     pub(super) point_changes: Vec<[R; 2]>,
     /// `qᵀq`.
     pub(super) strain: R,
-    /// `A q`, then `q − ω² A q`.
-    pub(super) image: Vec<R>,
+    /// `A q`, then `q − ω² A q`; nothing where the eigenvalue is known.
+    pub image: Vec<R>,
     /// Inertia of the point masses and reactions of the contacts.
     pub(super) forces: Vec<[R; 2]>,
     pub(super) reactions: Vec<R>,
-}
-
-/// The loads of a motion's inertia, with the memory for them.
-#[derive(Debug, Clone)]
-pub struct Applied<R, const W: usize> {
-    loads: Loads<R, W>,
-    /// The free rigid motion that carries them.
-    pub rigid: Rigid<R>,
-}
-
-impl<R: Real, const W: usize> Default for Applied<R, W> {
-    fn default() -> Self {
-        Self { loads: Loads::default(), rigid: Rigid::default() }
-    }
 }
 
 /// What is known of a motion beside its strains.
@@ -91,31 +76,8 @@ struct OneCell<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// What the inertia of the motion with those scaled strains does, for [`Self::take`]; with the
-    /// eigenvalue of a bare bat known, half of it.
-    #[inline(always)]
-    pub fn apply<S: Real, const N: usize, const W: usize>(
-        &mut self,
-        statics: &Statics<S, N, W>,
-        q: &[R],
-        value_known: bool,
-        applied: &mut Applied<R, W>,
-    ) where
-        R: Over<S>,
-    {
-        if value_known {
-            self.image.clear();
-            applied.rigid = statics.rigid(q, &mut applied.loads);
-            return;
-        }
-        self.image.resize(q.len(), R::default());
-        applied.rigid = statics.apply(q, &mut self.image, &mut applied.loads);
-        self.forces.clone_from(&applied.loads.points);
-        self.reactions.clone_from(&applied.loads.contacts);
-    }
-
-    /// The motion with those scaled strains and its energies, after [`Self::apply`]; leaves the loads
-    /// `ρA w` of its inertia in [`Self::changes`].
+    /// The motion with those scaled strains and its energies, once its [`Self::image`] is known or its
+    /// eigenvalue; leaves the loads `ρA w` of its inertia in [`Self::changes`].
     #[inline(always)]
     pub fn take<S: Real>(&mut self, view: &View<S>, rigid: Rigid<R>, q: &[R], known: Known<R, S>)
     where

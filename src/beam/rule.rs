@@ -143,10 +143,16 @@ impl Rule {
         self.points.len().next_multiple_of(BLOCK)
     }
 
+    /// As many Legendre polynomials at one point as a deflection has coefficients.
+    #[inline(always)]
+    pub fn polynomials(&self, point: usize, terms: usize) -> &[f64] {
+        &self.legendre[terms * point..][..terms]
+    }
+
     /// The `N` Legendre polynomials at one point.
     #[inline(always)]
     pub fn at<const N: usize>(&self, point: usize) -> &[f64; N] {
-        self.legendre[N * point..][..N].try_into().expect("a slice of that length")
+        self.polynomials(point, N).try_into().expect("a slice of that length")
     }
 
     /// The values at the points of `Σ c_k P_k`.

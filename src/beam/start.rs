@@ -2,39 +2,39 @@
 
 use crate::base::golden;
 use crate::base::real::Real;
+use crate::beam::element::MOST_STRAINS;
 use crate::beam::rule::MOST_POINTS;
-use crate::beam::statics::Statics;
+use crate::beam::view::View;
 
-impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
+impl<R: Real> View<'_, R> {
     /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
     /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
     /// the moments there.
     #[inline(always)]
     pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
-        out[(W - 2) * self.cells.len()..].fill(R::default());
         let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
         let balance = self.balance * scale;
-        for (place, (cell, q)) in self.cells.iter().zip(out.chunks_exact_mut(W - 2)).enumerate() {
-            let (first, step) = (cell.arm * scale, cell.link.length * scale);
+        let (cells, springs) = out.split_at_mut(self.strains * self.count);
+        springs.fill(R::default());
+        for (place, q) in cells.chunks_exact_mut(self.strains).enumerate() {
+            let cell = self.cells.at(place);
+            let (first, step) = (cell.arm * scale, cell.length * scale);
             let mut values = [R::default(); MOST_POINTS];
             for (s, point) in values.iter_mut().zip(&self.rule.points) {
                 let arm = first + R::splat(point.s) * step;
                 *s = if place < self.split { balance - arm } else { balance + arm };
             }
             moments(&mut values[..points]);
-            let mut work = [R::default(); N];
+            // Moments do no work on the shear strains.
+            let mut work = [R::default(); MOST_STRAINS];
             for (i, (value, point)) in values.iter().zip(&self.rule.points).enumerate() {
-                let share = R::splat(point.weight) * cell.link.length * *value;
-                for (work, p) in work.iter_mut().zip(self.rule.at::<N>(i)) {
+                let share = R::splat(point.weight) * cell.length * *value;
+                let polynomials = self.rule.polynomials(i, self.terms);
+                for (work, p) in work.iter_mut().zip(&polynomials[..self.terms - 2]) {
                     *work += share * R::splat(*p);
                 }
             }
-            q.fill(R::default());
-            for i in 0..N - 2 {
-                for j in 0..=i {
-                    q[i] += cell.inverse[i][j] * work[j];
-                }
-            }
+            cell.scaled_by_loads(&work[..self.strains], self.terms - 2, q);
         }
     }
 
@@ -79,6 +79,8 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         for (k, q) in out.iter_mut().enumerate() {
             *q += number(TOUCH * (golden::fraction(k) - 0.5)) * largest;
         }
-        self.fixed.iter().for_each(|fixed| fixed.project(out));
+        if let Some(fixed) = self.fixed {
+            fixed.project(out);
+        }
     }
 }

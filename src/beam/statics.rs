@@ -21,8 +21,11 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
+use pulp::{Simd, WithSimd};
+
+use crate::base::lanes::widest;
 use crate::base::quadrature::RunningSum;
-use crate::base::real::{Over, Real};
+use crate::base::real::Real;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::element::{Element, Samples};
@@ -31,7 +34,6 @@ use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
 use crate::beam::sections;
 use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
-use crate::beam::walk::{Run, runs, side_of};
 
 /// Sums over more elements than this carry their rounding errors along.
 const LONG: usize = 200;
@@ -156,7 +158,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         if !bats[0].fixtures().none_moving() {
             self.attach(bats[0]);
             debug_assert!(R::LANES == 1);
-            self.fixed = Some(Box::new(Fixed::new(&self.body(), bats[0], meshes[0])));
+            self.fixed = Some(Box::new(Fixed::new(&self.view(), bats[0], meshes[0])));
         }
     }
 
@@ -255,60 +257,65 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// The cells of one side from stop to stop.
-    pub fn runs(&self, side: usize) -> impl DoubleEndedIterator<Item = Run> {
-        let stops = self.fixed.as_ref().map_or(&[][..], |fixed| &fixed.placed.stops[side]);
-        runs(side_of(self.split, self.cells.len(), side), stops)
-    }
-
     /// Number of strains.
     pub fn dimension(&self) -> usize {
-        (W - 2) * self.cells.len() + self.fixed.as_ref().map_or(0, |fixed| fixed.placed.springs)
-    }
-
-    /// Number of rigid motions that nothing holds.
-    pub fn rigid_modes(&self) -> usize {
-        self.fixed.as_ref().map_or(2, |fixed| fixed.rigid_modes())
-    }
-
-    /// Number of the discrete bat's bending modes.
-    pub fn freedom(&self) -> usize {
-        self.dimension() - self.fixed.as_ref().map_or(0, |fixed| fixed.redundant())
+        self.view().dimension()
     }
 }
 
-impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
+impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     /// The bare bat.
-    pub fn body(&self) -> Body<'_, S, N, W> {
-        Body {
-            cells: &self.cells,
-            split: self.split,
-            mass: self.mass,
-            inertia: self.inertia,
-            balance: self.balance,
-            energy_unit: self.energy_unit,
-        }
+    pub fn body(&self) -> Body<'_, R, W> {
+        Body { cells: &self.cells, split: self.split, mass: self.mass, inertia: self.inertia }
     }
 
     /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was taken out of the
     /// motion with these strains when it is at rest at the root.
-    #[inline(always)]
-    pub fn apply<R: Over<S>>(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
-        match self.fixed.as_deref().filter(|_| R::LANES == 1) {
-            Some(fixed) => fixed.compliance(&self.body(), q, y, loads),
-            None if self.cells.len() > LONG => self.compliance::<R, true>(q, y, loads),
-            None => self.compliance::<R, false>(q, y, loads),
-        }
+    pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
+        let (body, fixed) = (self.body(), self.fixed.as_deref());
+        widest(Apply { body, fixed, q, y: Some(y), loads })
     }
 
+    /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
+    pub fn rigid(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
+        debug_assert!(self.fixed.is_none());
+        widest(Apply { body: self.body(), fixed: None, q, y: None, loads })
+    }
+}
+
+/// The compliance of a bat times the strains `q`, which go to `y` if they are asked for.
+struct Apply<'a, R, const W: usize> {
+    body: Body<'a, R, W>,
+    fixed: Option<&'a Fixed<R>>,
+    q: &'a [R],
+    y: Option<&'a mut [R]>,
+    loads: &'a mut Loads<R, W>,
+}
+
+impl<R: Real, const W: usize> WithSimd for Apply<'_, R, W> {
+    type Output = Rigid<R>;
+
     #[inline(always)]
-    fn compliance<R: Over<S>, const KEEP: bool>(
+    fn with_simd<V: Simd>(self, _: V) -> Rigid<R> {
+        let Self { body, fixed, q, y, loads } = self;
+        match (fixed, y) {
+            (Some(fixed), Some(y)) => fixed.compliance(&body, q, y, loads),
+            (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
+            (_, y) => body.compliance::<false>(q, y, loads),
+        }
+    }
+}
+
+impl<R: Real, const W: usize> Body<'_, R, W> {
+    #[inline(always)]
+    fn compliance<const KEEP: bool>(
         &self,
         q: &[R],
-        y: &mut [R],
+        y: Option<&mut [R]>,
         loads: &mut Loads<R, W>,
     ) -> Rigid<R> {
-        let rigid = self.balanced::<R, KEEP>(q, loads);
+        let rigid = self.balanced::<KEEP>(q, loads);
+        let Some(y) = y else { return rigid };
         let (knob, tip) = self.cells.split_at(self.split);
         let (knob_loads, tip_loads) = loads.cells.split_at(self.split);
         let (knob_y, tip_y) = y.split_at_mut((W - 2) * self.split);
@@ -317,20 +324,9 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
         rigid
     }
 
-    /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
-    #[inline(always)]
-    pub fn rigid<R: Over<S>>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
-        debug_assert!(self.fixed.is_none());
-        if self.cells.len() > LONG {
-            self.balanced::<R, true>(q, loads)
-        } else {
-            self.balanced::<R, false>(q, loads)
-        }
-    }
-
     /// Outwards on both sides: leaves the loads, returns the rigid motion they add up to.
     #[inline(always)]
-    fn balanced<R: Over<S>, const KEEP: bool>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
+    fn balanced<const KEEP: bool>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
         loads.cells.resize(self.cells.len(), [R::default(); W]);
         let (knob, tip) = self.cells.split_at(self.split);
         let (knob_loads, tip_loads) = loads.cells.split_at_mut(self.split);
@@ -341,8 +337,8 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
         let [knob_force, knob_moment] = [knob_side.force.value(), knob_side.moment.value()];
         let [tip_force, tip_moment] = [tip_side.force.value(), tip_side.moment.value()];
         Rigid {
-            push: (knob_force + tip_force) / R::of(self.mass),
-            turn: (tip_moment - knob_moment) / R::of(self.inertia),
+            push: (knob_force + tip_force) / self.mass,
+            turn: (tip_moment - knob_moment) / self.inertia,
         }
     }
 }

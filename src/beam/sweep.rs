@@ -4,7 +4,9 @@ use std::ops::Range;
 
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
-use crate::beam::element::{Link, Matrix, Vector, on_strains, over_strains};
+use crate::beam::element::{
+    Link, MOST_TERMS, MOST_WIDTH, Matrix, Vector, on_strains, over_strains,
+};
 use crate::beam::walk::side_of;
 
 /// An element on one side of the root, seen in that direction.
@@ -32,6 +34,7 @@ impl<S: Real, const W: usize> Cell<S, W> {
     pub fn view(&self) -> CellView<'_, S> {
         CellView {
             inverse: self.inverse.as_flattened(),
+            mass: self.link.mass.as_flattened(),
             lift: &self.link.lift[..W - 2],
             turn: &self.link.turn[..W - 2],
             length: self.link.length,
@@ -40,11 +43,13 @@ impl<S: Real, const W: usize> Cell<S, W> {
     }
 }
 
-/// A cell of any degree and theory, without what its motion loads.
+/// A cell of any degree and theory.
 #[derive(Debug, Clone, Copy)]
 pub struct CellView<'a, S> {
     /// Rows of `L⁻¹`, each with two numbers more than there are strains.
     inverse: &'a [S],
+    /// Rows of the mass matrix of its scaled strains, deflection and rotation.
+    pub mass: &'a [S],
     /// What its strains add to the deflection at its outer end (m).
     pub lift: &'a [S],
     /// What they add to the rotation there (rad).
@@ -69,6 +74,7 @@ impl<S: Real> CellView<'_, S> {
     }
 
     /// `L⁻¹ f`: scaled strains from what loads are on the strains, in blocks of that size.
+    #[inline(always)]
     pub fn scaled_by_loads(&self, loads: &[S], block: usize, q: &mut [S]) {
         let row = loads.len() + 2;
         for (i, q) in q.iter_mut().enumerate() {
@@ -77,6 +83,20 @@ impl<S: Real> CellView<'_, S> {
                 *q += self.inverse[i * row + j] * loads[j];
             }
         }
+    }
+
+    /// The loads on the cell, its scaled strains, deflection and rotation, of a unit force where
+    /// Legendre's polynomials have those values, as many as a deflection has coefficients.
+    pub fn point_load(&self, values: &[f64]) -> Vec<S> {
+        let mut polynomials = [S::default(); MOST_TERMS];
+        polynomials.iter_mut().zip(values).for_each(|(p, value)| *p = S::splat(*value));
+        let strains = self.lift.len();
+        let mut on = [S::default(); MOST_WIDTH];
+        let on = &mut on[..strains + 2];
+        on_strains(self.length, &polynomials[..values.len()], on);
+        let mut load = on.to_vec();
+        self.scaled_by_loads(&on[..strains], values.len() - 2, &mut load[..strains]);
+        load
     }
 }
 
@@ -125,7 +145,7 @@ impl<R: Real> Rigid<R> {
 
 /// A bare bat as the running sums see it.
 #[derive(Debug, Clone, Copy)]
-pub struct Body<'a, S, const N: usize, const W: usize> {
+pub struct Body<'a, S, const W: usize> {
     /// Elements of the bat, the knob side first, both sides from the root outwards.
     pub cells: &'a [Cell<S, W>],
     /// Number of elements on the knob side.
@@ -134,31 +154,12 @@ pub struct Body<'a, S, const N: usize, const W: usize> {
     pub mass: S,
     /// Moment of inertia about the balance point, with everything attached (kg m²).
     pub inertia: S,
-    /// Distance of the balance point from the knob end (m).
-    pub balance: S,
-    /// Energy of `½ qᵀq = 1` (J).
-    pub energy_unit: S,
 }
 
-impl<S: Real, const N: usize, const W: usize> Body<'_, S, N, W> {
+impl<S: Real, const W: usize> Body<'_, S, W> {
     /// The cells of the knob side, 0, or of the tip side, 1.
     pub fn side(&self, side: usize) -> Range<usize> {
         side_of(self.split, self.cells.len(), side)
-    }
-
-    /// The loads on a cell of a unit force where Legendre's polynomials have those values.
-    pub fn point_load(&self, cell: usize, values: &[f64; N]) -> Vector<S, W> {
-        let cell = &self.cells[cell];
-        let values = values.map(S::splat);
-        let on: Vector<S, W> = on_strains::<S, N, W>(cell.link.length, &values);
-        let mut load = on;
-        for i in 0..W - 2 {
-            load[i] = S::default();
-            for j in 0..=i {
-                load[i] += cell.inverse[i][j] * on[j];
-            }
-        }
-        load
     }
 }
 

@@ -8,10 +8,22 @@ use crate::beam::fixed::Fixed;
 use crate::beam::placed::Placed;
 use crate::beam::rule::Rule;
 use crate::beam::statics::Statics;
-use crate::beam::sweep::CellView;
+use crate::beam::sweep::{Cell, CellView};
 use crate::beam::walk::{Run, runs, side_of};
 
-/// A bat of elements of any degree and theory, without what a motion loads: what looks at motions
+/// Cells of any size.
+pub trait Cells<S> {
+    /// The cell of that number.
+    fn at(&self, number: usize) -> CellView<'_, S>;
+}
+
+impl<S: Real, const W: usize> Cells<S> for Vec<Cell<S, W>> {
+    fn at(&self, number: usize) -> CellView<'_, S> {
+        self[number].view()
+    }
+}
+
+/// A bat of elements of any degree and theory: what does not step through its strains time and again
 /// is then compiled once.
 #[derive(Clone, Copy)]
 pub struct View<'a, S> {
@@ -27,8 +39,8 @@ pub struct View<'a, S> {
     pub count: usize,
     /// How many of the cells are on the knob side.
     pub split: usize,
-    /// The cell of that number, the knob side first, both sides from the root outwards.
-    pub cell: &'a dyn Fn(usize) -> CellView<'a, S>,
+    /// The cells, the knob side first, both sides from the root outwards.
+    pub cells: &'a dyn Cells<S>,
     /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: &'a [S],
     /// ρA (kg/m) likewise.
@@ -41,6 +53,10 @@ pub struct View<'a, S> {
     pub mass: S,
     /// The theory's inertia about the balance point (kg m²).
     pub inertia: S,
+    /// Distance of the balance point from the knob end (m).
+    pub balance: S,
+    /// Length of the bat (m).
+    pub length: S,
     /// Energy of `½ qᵀq = 1` (J).
     pub energy_unit: S,
     /// What is on the bat and what holds it, if anything.
@@ -60,6 +76,21 @@ impl<'a, S: Real> View<'a, S> {
         runs(self.side(side), stops)
     }
 
+    /// Number of strains, those of springs with them.
+    pub fn dimension(&self) -> usize {
+        self.strains * self.count + self.fixed.map_or(0, |fixed| fixed.placed.springs)
+    }
+
+    /// Number of rigid motions that nothing holds.
+    pub fn rigid_modes(&self) -> usize {
+        self.fixed.map_or(2, Fixed::rigid_modes)
+    }
+
+    /// Number of the discrete bat's bending modes.
+    pub fn freedom(&self) -> usize {
+        self.dimension() - self.fixed.map_or(0, Fixed::redundant)
+    }
+
     /// The contacts of the bed under a cell.
     #[inline(always)]
     pub fn bed<R: Real>(&self, cell: usize) -> Option<Range<usize>> {
@@ -71,7 +102,7 @@ impl<'a, S: Real> View<'a, S> {
     pub fn at(&self, number: usize) -> Located<'a, S> {
         let of = |each: usize| number * each..(number + 1) * each;
         let (strains, terms, samples) = (of(self.strains), of(self.terms), of(self.rule.count()));
-        Located { number, cell: (self.cell)(number), strains, terms, samples }
+        Located { number, cell: self.cells.at(number), strains, terms, samples }
     }
 
     /// What is on the bat, and where; then motions are looked at one by one.
@@ -103,13 +134,8 @@ pub struct Located<'a, S> {
 }
 
 impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
-    /// A cell without its size in its type.
-    pub fn cell(&self, k: usize) -> CellView<'_, S> {
-        self.cells[k].view()
-    }
-
-    /// All but the loads, for a look at a motion; `cell` is [`Self::cell`].
-    pub fn view<'a>(&'a self, cell: &'a dyn Fn(usize) -> CellView<'a, S>) -> View<'a, S> {
+    /// The bat without the size of its elements in the type.
+    pub fn view(&self) -> View<'_, S> {
         View {
             rule: self.rule,
             theory: self.theory,
@@ -117,13 +143,15 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
             strains: W - 2,
             count: self.cells.len(),
             split: self.split,
-            cell,
+            cells: &self.cells,
             bending_stiffness: &self.bending_stiffness,
             mass_per_length: &self.mass_per_length,
             turning_per_length: &self.turning_per_length,
             shear_stiffness: &self.shear_stiffness,
             mass: self.mass,
             inertia: self.inertia,
+            balance: self.balance,
+            length: self.length,
             energy_unit: self.energy_unit,
             fixed: self.fixed.as_deref(),
         }

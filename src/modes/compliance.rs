@@ -13,21 +13,19 @@ use crate::base::linear::dot;
 use crate::base::quadrature::{gauss, legendre};
 use crate::bat::body::Bat;
 use crate::bat::layup::Worth;
-use crate::bat::theory::Theory;
 use crate::beam::attached::Spring;
 use crate::beam::changes::Depth;
-use crate::beam::degree::{Elements, OfDegree, of_degree};
+use crate::beam::degree::Elements;
 use crate::beam::element::MOST_STRAINS;
-use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::placed::in_grip;
-use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::beam::rule::MOST_POINTS;
 use crate::beam::sections::losses;
-use crate::beam::sweep::Loads;
 use crate::beam::view::View;
-use crate::modes::eigenpairs::Eigenpairs;
+use crate::eigen::lanczos::Lanczos;
 use crate::modes::mode::Shape;
+use crate::modes::pairs::{Pairs, pairs_of};
 
 /// A bat's strains on a mesh, and what forces and motions do with them.
 pub struct Flexible {
@@ -106,122 +104,19 @@ impl Drawn {
     }
 }
 
-/// Eigenpairs of any degree and theory.
-trait Pairs: Send + Sync {
-    fn assemble(&mut self, bat: &Bat, mesh: &Mesh);
-    /// ω (rad/s) and unit strains of the slowest modes, and how many of them are apart from the
-    /// others.
-    fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)>;
-    fn compliance(&self, q: &[f64], y: &mut [f64]);
-    fn row(&self, cell: usize, s: f64) -> Vec<f64>;
-    fn freedom(&self) -> usize;
-    fn see(&self, look: &mut dyn FnMut(&View<f64>));
-    fn motion(&self, q: &[f64]) -> Motion<f64>;
-    fn place(&self) -> Place;
-}
-
-/// What a motion of the whole bat needs to know.
-struct Place {
-    dimension: usize,
-    energy_unit: f64,
-    mass: f64,
-    inertia: f64,
-    balance: f64,
-    split: usize,
-    rule: &'static Rule,
-}
-
-impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
-    fn assemble(&mut self, bat: &Bat, mesh: &Mesh) {
-        Self::assemble(self, &[bat], &[mesh]);
-    }
-
-    fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
-        /// Residual that is as good as arithmetic allows.
-        const CONVERGED: f64 = 1e-13;
-        if count == 0 {
-            return Ok((vec![], vec![], 0));
-        }
-        self.solve(count, CONVERGED)?;
-        let apart = self.solve_apart(CONVERGED)?;
-        let unit = self.statics.energy_unit;
-        let omega = |value: &f64| (unit / value).sqrt();
-        let vectors = self.lanczos.vectors.chunks_exact(self.statics.dimension());
-        Ok((
-            self.lanczos.values.iter().map(omega).collect(),
-            vectors.map(<[f64]>::to_vec).collect(),
-            apart,
-        ))
-    }
-
-    fn compliance(&self, q: &[f64], y: &mut [f64]) {
-        self.apply(q, y, &mut Loads::default());
-    }
-
-    fn row(&self, cell: usize, s: f64) -> Vec<f64> {
-        let body = self.statics.body();
-        match &self.statics.fixed {
-            Some(fixed) => fixed.under_force(&body, cell, s),
-            None => Fixed::nothing().under_force(&body, cell, s),
-        }
-    }
-
-    fn freedom(&self) -> usize {
-        self.statics.freedom()
-    }
-
-    fn see(&self, look: &mut dyn FnMut(&View<f64>)) {
-        let cell = |k: usize| self.statics.cell(k);
-        look(&self.statics.view(&cell));
-    }
-
-    fn motion(&self, q: &[f64]) -> Motion<f64> {
-        let mut motion = Motion::default();
-        self.look_at_one(q, &[], Depth::Shape, &mut motion);
-        motion
-    }
-
-    fn place(&self) -> Place {
-        let s = &self.statics;
-        Place {
-            dimension: s.dimension(),
-            energy_unit: s.energy_unit,
-            mass: s.mass,
-            inertia: s.inertia,
-            balance: s.balance,
-            split: s.split,
-            rule: s.rule,
-        }
-    }
-}
-
-/// Eigenpairs of a bat.
-struct Empty<'a> {
-    bat: &'a Bat,
-    theory: Theory,
-}
-
-impl OfDegree for Empty<'_> {
-    type Output = Box<dyn Pairs>;
-
-    fn with<const N: usize, const W: usize>(self) -> Box<dyn Pairs> {
-        Box::new(Eigenpairs::<f64, N, W>::new(self.bat, self.theory))
-    }
-}
-
 impl Flexible {
     /// The bat on that mesh, with elements of that degree.
     pub fn new(bat: &Bat, elements: Elements) -> Self {
         let Elements { mesh, degree, theory } = elements;
-        let mut pairs = of_degree(degree, theory, Empty { bat, theory });
+        let mut pairs = pairs_of(bat, degree, theory);
         pairs.assemble(bat, mesh);
-        let Place { dimension, energy_unit, mass, inertia, balance, .. } = pairs.place();
-        let mut free = vec![[1.0, 0.0], [0.0, 1.0]];
-        pairs.see(&mut |view| {
-            if let Some(fixed) = view.fixed {
-                free = fixed.free().to_vec();
-            }
-        });
+        let view = pairs.view();
+        let View { energy_unit, mass, inertia, balance, fixed, .. } = view;
+        let free = fixed.map_or(vec![[1.0, 0.0], [0.0, 1.0]], |fixed| fixed.free().to_vec());
+        let points = fixed.iter().flat_map(|fixed| &fixed.placed.points);
+        let springs = points.filter_map(|point| point.spring);
+        let hung = springs.map(|s| Drawn::Spring(s.place, s.softness)).collect();
+        let dimension = view.dimension();
         let rigid = |[push, turn]: [f64; 2]| {
             let mass = push * push * mass + turn * turn * inertia;
             RigidMotion { push, turn, balance, mass }
@@ -234,14 +129,9 @@ impl Flexible {
             energy_unit,
             rigid: free.into_iter().map(rigid).collect(),
             dashpots: vec![],
-            hung: vec![],
+            hung,
             losses: vec![],
         };
-        flexible.pairs.see(&mut |view| {
-            let points = view.fixed.iter().flat_map(|fixed| &fixed.placed.points);
-            let springs = points.filter_map(|point| point.spring);
-            flexible.hung = springs.map(|s| Drawn::Spring(s.place, s.softness)).collect();
-        });
         flexible.dashpots = flexible.dashpots(bat);
         flexible.losses = flexible.losses(bat);
         flexible
@@ -254,28 +144,39 @@ impl Flexible {
     ///
     /// As [`crate::eigen::lanczos::Lanczos::largest`].
     pub fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
-        let count = count.min(self.pairs.freedom());
-        self.pairs.slowest(count)
+        /// Residual that is as good as arithmetic allows.
+        const CONVERGED: f64 = 1e-13;
+        let count = count.min(self.freedom());
+        if count == 0 {
+            return Ok((vec![], vec![], 0));
+        }
+        self.pairs.solve(count, CONVERGED)?;
+        let apart = self.pairs.solve_apart(CONVERGED)?;
+        let (unit, dimension) = (self.energy_unit, self.dimension);
+        let Lanczos { values, vectors, .. } = self.pairs.lanczos();
+        let omegas = values.iter().map(|value| (unit / value).sqrt()).collect();
+        let vectors = vectors.chunks_exact(dimension).map(<[f64]>::to_vec).collect();
+        Ok((omegas, vectors, apart))
     }
 
     /// Number of modes that there are.
     pub fn freedom(&self) -> usize {
-        self.pairs.freedom()
+        self.pairs.view().freedom()
     }
 
     /// `M q = A q/U` (s²): strains under the inertia of an acceleration q.
     pub fn inertia(&self, q: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; q.len()];
-        self.pairs.compliance(q, &mut y);
+        self.pairs.apply(q, &mut y);
         y.iter_mut().for_each(|y| *y /= self.energy_unit);
         y
     }
 
     /// Takes out of strains what the contacts do not allow.
     pub fn project(&self, strains: &mut [f64]) {
-        self.pairs.see(&mut |view| {
-            view.fixed.iter().for_each(|fixed| fixed.project(strains));
-        });
+        if let Some(fixed) = self.pairs.view().fixed {
+            fixed.project(strains);
+        }
     }
 
     /// What strains q give for the deflection at `x`: `w = row·q`, the free rigid motions left out.
@@ -284,10 +185,10 @@ impl Flexible {
         let elements = &self.mesh.elements;
         let e = elements.partition_point(|e| e.start <= x).max(1) - 1;
         let s = ((x - elements[e].start) / elements[e].length).clamp(0.0, 1.0);
-        let split = self.pairs.place().split;
+        let split = self.pairs.view().split;
         match e < split {
-            true => self.pairs.row(split - 1 - e, 1.0 - s),
-            false => self.pairs.row(e, s),
+            true => self.pairs.under_force(split - 1 - e, 1.0 - s),
+            false => self.pairs.under_force(e, s),
         }
     }
 
@@ -301,46 +202,43 @@ impl Flexible {
         static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss(10));
         let elements = &self.mesh.elements;
         let k = elements.partition_point(|e| e.start <= x).max(1) - 1;
-        let (e, split) = (&elements[k], self.pairs.place().split);
+        let view = self.pairs.view();
+        let (e, split) = (&elements[k], view.split);
         let knob_side = k < split;
         let along = ((x - e.start) / e.length).clamp(0.0, 1.0);
         // Outwards, as the cell is seen.
         let (cell, at) = if knob_side { (split - 1 - k, 1.0 - along) } else { (k, along) };
-        let mut missing = 0.0;
-        self.pairs.see(&mut |view| {
-            let (block, strains) = (view.terms - 2, view.strains);
-            let mut loads = [0.0; MOST_STRAINS];
-            let mut whole = 0.0;
-            for &(s, weight) in RULE.iter() {
-                let s = at + (1.0 - at) * s;
-                let share = weight * (1.0 - at) * e.length;
-                let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
-                let (here, arm) = (worth(place), (s - at) * e.length);
-                whole += share * arm * arm / here.bending;
-                let polynomials = legendre(block, 2.0 * s - 1.0);
-                for (j, p) in polynomials[..block].iter().enumerate() {
-                    loads[j] += share * arm * p;
-                    if strains > block {
-                        loads[block + j] += share * p;
-                    }
-                }
+        let (block, strains) = (view.terms - 2, view.strains);
+        let mut loads = [0.0; MOST_STRAINS];
+        let mut whole = 0.0;
+        for &(s, weight) in RULE.iter() {
+            let s = at + (1.0 - at) * s;
+            let share = weight * (1.0 - at) * e.length;
+            let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
+            let (here, arm) = (worth(place), (s - at) * e.length);
+            whole += share * arm * arm / here.bending;
+            let polynomials = legendre(block, 2.0 * s - 1.0);
+            for (j, p) in polynomials[..block].iter().enumerate() {
+                loads[j] += share * arm * p;
                 if strains > block {
-                    whole += share / here.shear;
+                    loads[block + j] += share * p;
                 }
             }
-            let mut scaled = [0.0; MOST_STRAINS];
-            (view.cell)(cell).scaled_by_loads(&loads[..strains], block, &mut scaled[..strains]);
-            missing = whole - dot(&scaled[..strains], &scaled[..strains]) / view.energy_unit;
-        });
+            if strains > block {
+                whole += share / here.shear;
+            }
+        }
+        let mut scaled = [0.0; MOST_STRAINS];
+        view.cells.at(cell).scaled_by_loads(&loads[..strains], block, &mut scaled[..strains]);
+        let missing = whole - dot(&scaled[..strains], &scaled[..strains]) / view.energy_unit;
         missing.max(0.0)
     }
 
     /// The deflections along the bat of these strains, the free rigid motions left out.
     pub fn shape(&self, q: &[f64]) -> Shape {
-        let motion = self.pairs.motion(q);
-        let mut shape = None;
-        self.pairs.see(&mut |view| shape = Some(Shape::of(view, &motion, &self.stretches)));
-        shape.expect("it was seen")
+        let mut motion = Motion::default();
+        self.pairs.look_at_one(q, &[], Depth::Shape, &mut motion);
+        Shape::of(&self.pairs.view(), &motion, &self.stretches)
     }
 
     /// Whether the materials lose anything.
@@ -357,28 +255,27 @@ impl Flexible {
         }
         let mut strains = [0.0; MOST_STRAINS];
         let [mut values, mut work] = [[0.0; MOST_POINTS]; 2];
-        self.pairs.see(&mut |view| {
-            let (points, block) = (view.rule.count(), view.terms - 2);
-            for k in 0..view.count {
-                let cell = (view.cell)(k);
-                let range = k * view.strains..(k + 1) * view.strains;
-                let strains = &mut strains[..view.strains];
-                cell.strains(&q[range.clone()], block, strains);
-                work.fill(0.0);
-                for part in 0..view.strains / block {
-                    let stiffness =
-                        if part == 0 { view.bending_stiffness } else { view.shear_stiffness };
-                    view.rule.values(&strains[part * block..(part + 1) * block], &mut values);
-                    for (i, point) in view.rule.points.iter().enumerate() {
-                        let at = k * points + i;
-                        let share = point.weight * cell.length / view.energy_unit;
-                        values[i] *= share * stiffness[at] * self.losses[at][part];
-                    }
-                    view.rule.moments(&values, &mut work[part * block..(part + 1) * block]);
+        let view = self.pairs.view();
+        let (points, block) = (view.rule.count(), view.terms - 2);
+        for k in 0..view.count {
+            let cell = view.cells.at(k);
+            let range = k * view.strains..(k + 1) * view.strains;
+            let strains = &mut strains[..view.strains];
+            cell.strains(&q[range.clone()], block, strains);
+            work.fill(0.0);
+            for part in 0..view.strains / block {
+                let stiffness =
+                    if part == 0 { view.bending_stiffness } else { view.shear_stiffness };
+                view.rule.values(&strains[part * block..(part + 1) * block], &mut values);
+                for (i, point) in view.rule.points.iter().enumerate() {
+                    let at = k * points + i;
+                    let share = point.weight * cell.length / view.energy_unit;
+                    values[i] *= share * stiffness[at] * self.losses[at][part];
                 }
-                cell.scaled_by_loads(&work[..view.strains], block, &mut out[range]);
+                view.rule.moments(&values, &mut work[part * block..(part + 1) * block]);
             }
-        });
+            cell.scaled_by_loads(&work[..view.strains], block, &mut out[range]);
+        }
         out
     }
 
@@ -387,7 +284,7 @@ impl Flexible {
         if bat.layups().iter().all(|layup| layup.materials().all(|m| m.loss_factor == 0.0)) {
             return vec![];
         }
-        let Place { split, rule, .. } = self.pairs.place();
+        let View { split, rule, .. } = self.pairs.view();
         let points = rule.count();
         let mut all = vec![[0.0; 2]; self.mesh.len() * points];
         for (k, e) in self.mesh.elements.iter().enumerate() {
@@ -400,12 +297,10 @@ impl Flexible {
 
     /// Everything that takes energy out of the bat but its materials.
     fn dashpots(&self, bat: &Bat) -> Vec<Dashpot> {
-        let mut bed = vec![];
-        self.pairs.see(&mut |view| {
-            let Some(fixed) = view.fixed else { return };
-            let beds = fixed.placed.contacts.iter().filter(|contact| contact.in_a_bed());
-            bed = beds.filter_map(|contact| contact.spring).collect();
-        });
+        let View { energy_unit, split, rule, fixed, .. } = self.pairs.view();
+        let contacts = fixed.iter().flat_map(|fixed| &fixed.placed.contacts);
+        let beds = contacts.filter(|contact| contact.in_a_bed());
+        let bed: Vec<Spring<f64>> = beds.filter_map(|contact| contact.spring).collect();
         let none = vec![0.0; self.rigid.len()];
         let beside =
             |constant: f64, strains: Drawn| Dashpot { constant, rigid: none.clone(), strains };
@@ -414,7 +309,6 @@ impl Flexible {
             hung.map(|(absorber, drawn)| beside(absorber.damping, drawn.clone())).collect();
         if let Some(grip) = bat.fixtures().grip.filter(|grip| grip.damping > 0.0) {
             // One for every point of the bed, of its share: the same as for its spring.
-            let Place { energy_unit, split, rule, .. } = self.pairs.place();
             let per_stiffness = grip.damping / grip.stiffness;
             let of = |softness: f64| per_stiffness * energy_unit / (softness * softness);
             let spring = |s: &Spring<f64>| Drawn::Spring(s.place, s.softness);

@@ -6,6 +6,8 @@
 //! Results are equal to the last bit with any vector width and in every lane: nothing is added in
 //! another order, and no product is fused with a sum.
 
+use std::ops::Range;
+
 use pulp::{Simd, WithSimd};
 
 use crate::base::error::Result;
@@ -15,7 +17,7 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::changes::Depth;
 use crate::beam::mesh::Mesh;
-use crate::beam::motion::{Applied, Known, Motion};
+use crate::beam::motion::{Known, Motion};
 use crate::beam::statics::Statics;
 use crate::beam::sweep::{Loads, Rigid};
 use crate::beam::view::View;
@@ -31,10 +33,10 @@ pub struct Eigenpairs<R, const N: usize, const W: usize> {
     /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
     /// mode.
     pub motions: Motion<Lanes>,
-    applied: Applied<Lanes, W>,
-    loads: Loads<R, W>,
     /// Their scaled strains.
     strains: Vec<Lanes>,
+    loads: Loads<R, W>,
+    image: Vec<R>,
 }
 
 impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
@@ -50,9 +52,9 @@ where
             statics: Statics::empty(bat, theory),
             lanczos: Lanczos::default(),
             motions: Motion::default(),
-            applied: Applied::default(),
-            loads: Loads::default(),
             strains: vec![],
+            loads: Loads::default(),
+            image: vec![],
         }
     }
 
@@ -72,7 +74,7 @@ where
     }
 
     /// Finds the `count` slowest motions to that residual from the caller's start vector: bending
-    /// moments as [`Statics::strains_of_moments`] asks for them.
+    /// moments as [`View::strains_of_moments`] asks for them.
     ///
     /// # Errors
     ///
@@ -85,7 +87,7 @@ where
     ) -> Result<()> {
         let wanted = self.wanted(count, residual, 0);
         let mut start = vec![R::default(); self.statics.dimension()];
-        self.statics.strains_of_moments(&mut start, moments);
+        self.statics.view().strains_of_moments(&mut start, moments);
         self.run(wanted, &[], &mut |_, next| next.copy_from_slice(&start))
     }
 
@@ -107,7 +109,7 @@ where
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
         let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
-            widest(Start { statics, count: wanted.count, next });
+            widest(Start { view: statics.view(), count: wanted.count, next });
         };
         self.run(wanted, &[], start)
     }
@@ -128,7 +130,9 @@ where
             // What the contacts do not allow: a step divides by a small number, and would let it
             // grow.
             allow: &mut |next| statics.fixed.iter().for_each(|fixed| fixed.project(next)),
-            apply: &mut |q, y| widest(Apply { statics, q, y, loads }),
+            apply: &mut |q, y| {
+                statics.apply(q, y, loads);
+            },
         })
     }
 
@@ -142,39 +146,46 @@ where
             let k = (first + lane / R::LANES).min(last);
             values.set_lane(lane, self.lanczos.values[k].lane(lane % R::LANES));
         }
-        self.gather(&vectors, first);
+        self.look_closely(&vectors, first, Some(values), depth);
         self.lanczos.vectors = vectors;
-        self.look_closely(Some(values), depth);
     }
 
     /// Looks at the motions of these scaled strains, which come one after the other, from number `first`
     /// on; their frequencies are taken from both energies.
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
-        self.gather(vectors, first);
-        self.look_closely(None, depth);
+        self.look_closely(vectors, first, None, depth);
     }
 
-    fn look_closely(&mut self, value: Option<Lanes>, depth: Depth) {
-        let Self { statics, motions, applied, strains, .. } = self;
-        let known = value.is_some();
-        widest(Inertia { statics, motions, strains, known, applied });
-        let cell = |k: usize| statics.cell(k);
-        let (view, rigid) = (statics.view(&cell), applied.rigid);
-        widest(Look { view, rigid, motions, strains, value, depth });
-    }
-
-    /// Strains side by side; the last motion again where there are no more.
-    fn gather(&mut self, vectors: &[R], first: usize) {
-        let dimension = self.statics.dimension();
+    /// Strains side by side, and what their inertia does; the last motion again where there are no more.
+    fn look_closely(&mut self, vectors: &[R], first: usize, value: Option<Lanes>, depth: Depth) {
+        let Self { statics, motions, strains, loads, image, .. } = self;
+        let dimension = statics.dimension();
         let last = vectors.len() / dimension - 1;
-        self.strains.resize(dimension, Lanes::default());
-        for lane in 0..WIDTH {
-            let k = (first + lane / R::LANES).min(last);
-            let from = &vectors[k * dimension..(k + 1) * dimension];
-            for (strain, from) in self.strains.iter_mut().zip(from) {
-                strain.set_lane(lane, from.lane(lane % R::LANES));
-            }
+        strains.resize(dimension, Lanes::default());
+        image.resize(dimension, R::default());
+        let images = if value.is_some() { 0 } else { dimension };
+        motions.image.resize(images, Lanes::default());
+        let mut rigid = Rigid::<Lanes>::default();
+        for k in 0..Self::TOGETHER {
+            let own = &vectors[(first + k).min(last) * dimension..][..dimension];
+            let taken = match value {
+                Some(_) => statics.rigid(own, loads),
+                None => statics.apply(own, image, loads),
+            };
+            let lanes = k * R::LANES..(k + 1) * R::LANES;
+            side_by_side(&[taken.push], std::slice::from_mut(&mut rigid.push), lanes.clone());
+            side_by_side(&[taken.turn], std::slice::from_mut(&mut rigid.turn), lanes.clone());
+            side_by_side(own, strains, lanes.clone());
+            side_by_side(image, &mut motions.image, lanes);
         }
+        widest(Look { view: statics.view(), rigid, motions, strains, value, depth });
+    }
+}
+
+/// Puts the lanes of numbers into those of others, as many numbers as both have.
+fn side_by_side<R: Real>(from: &[R], into: &mut [Lanes], lanes: Range<usize>) {
+    for (into, from) in into.iter_mut().zip(from) {
+        lanes.clone().enumerate().for_each(|(k, lane)| into.set_lane(lane, from.lane(k)));
     }
 }
 
@@ -215,7 +226,7 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         let steps = self.lanczos.steps;
         let earliest = steps_beyond(self.statics.theory, count, residual);
         self.run(self.wanted(count, residual, earliest), &vectors, &mut |statics, next| {
-            statics.start(count, next);
+            statics.view().start(count, next);
         })?;
         values.append(&mut self.lanczos.values);
         residuals.append(&mut self.lanczos.residuals);
@@ -224,25 +235,6 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
         (lanczos.values, lanczos.residuals, lanczos.vectors) = (values, residuals, vectors);
         lanczos.steps += steps;
         Ok(apart)
-    }
-
-    /// `y = A q`; `loads` is scratch space.
-    pub fn apply(&self, q: &[f64], y: &mut [f64], loads: &mut Loads<f64, W>) {
-        widest(Apply { statics: &self.statics, q, y, loads });
-    }
-
-    /// Looks at one motion alone, in the memory that one takes, as [`Self::look_at`].
-    ///
-    /// Scaled strains in `known`, one motion after the other, are slower modes, whose round-off is
-    /// taken out.
-    pub fn look_at_one(
-        &self,
-        strains: &[f64],
-        known: &[f64],
-        depth: Depth,
-        motion: &mut Motion<f64>,
-    ) {
-        motion.take_alone(&self.statics, strains, known, depth);
     }
 }
 
@@ -282,51 +274,19 @@ impl<R: Real> WithSimd for Iteration<'_, R> {
     }
 }
 
-struct Start<'a, R, const N: usize, const W: usize> {
-    statics: &'a Statics<R, N, W>,
+/// The start of the iteration, one for all degrees and theories.
+struct Start<'a, R> {
+    view: View<'a, R>,
     count: usize,
     next: &'a mut [R],
 }
 
-impl<R: Real, const N: usize, const W: usize> WithSimd for Start<'_, R, N, W> {
+impl<R: Real> WithSimd for Start<'_, R> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.statics.start(self.count, self.next);
-    }
-}
-
-struct Apply<'a, R, const N: usize, const W: usize> {
-    statics: &'a Statics<R, N, W>,
-    q: &'a [R],
-    y: &'a mut [R],
-    loads: &'a mut Loads<R, W>,
-}
-
-impl<R: Real, const N: usize, const W: usize> WithSimd for Apply<'_, R, N, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.statics.apply(self.q, self.y, self.loads);
-    }
-}
-
-struct Inertia<'a, S, R, const N: usize, const W: usize> {
-    statics: &'a Statics<S, N, W>,
-    motions: &'a mut Motion<R>,
-    strains: &'a [R],
-    known: bool,
-    applied: &'a mut Applied<R, W>,
-}
-
-impl<S: Real, R: Over<S>, const N: usize, const W: usize> WithSimd for Inertia<'_, S, R, N, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<V: Simd>(self, _: V) {
-        self.motions.apply(self.statics, self.strains, self.known, self.applied);
+        self.view.start(self.count, self.next);
     }
 }
 

@@ -11,6 +11,7 @@
 //! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
 //! | [`certificate`] | how far may each be off |
 //! | [`referee`] | what do other solvers say |
+//! | [`pairs`] | the lowest motions whatever the degree of the elements |
 //! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`compliance`] | how the bat gives way at a place |
@@ -27,6 +28,7 @@ pub(crate) mod free_motions;
 pub mod damping;
 pub mod certificate;
 pub mod referee;
+pub mod pairs;
 pub mod survey;
 pub mod plan;
 pub(crate) mod memory;

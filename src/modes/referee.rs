@@ -162,7 +162,7 @@ fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
 /// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
 fn shift<const N: usize, const W: usize>(statics: &Statics<f64, N, W>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
-    statics.start(1, &mut start);
+    statics.view().start(1, &mut start);
     let mut motion = Motion::default();
     motion.take_alone(statics, &start, &[], Depth::Shape);
     motion.omega.powi(2)
@@ -178,7 +178,7 @@ fn strains_of<const N: usize, const W: usize>(
     for (place, cell) in statics.cells.iter().enumerate() {
         let knob_side = place < statics.split;
         let e = if knob_side { statics.split - 1 - place } else { place };
-        let own = places::<W>(e).map(|at| u[at]);
+        let own: Vec<f64> = places(W, e).into_iter().map(|at| u[at]).collect();
         let mut c = elements[e].strains_of_hermite(&own);
         if knob_side {
             // Odd polynomials change their sign, and so does the shear strain itself.

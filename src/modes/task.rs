@@ -8,18 +8,17 @@ use crate::base::lanes::WIDTH;
 use crate::bat::body::Bat;
 use crate::beam::changes::Depth;
 use crate::beam::count;
-use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::motion::Motion;
 use crate::beam::rule::Rule;
 use crate::beam::sections;
-use crate::beam::statics::Statics;
+use crate::beam::view::View;
 use crate::eigen::lanczos::Lanczos;
 use crate::modes::certificate::{account, add_neighbours, add_sections, is_twin};
 use crate::modes::damping::Damping;
-use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::mode::{Mode, Shape};
+use crate::modes::pairs::{Pairs, pairs_of};
 use crate::modes::plan::Plan;
-use crate::modes::referee::{self, Found, Solver};
+use crate::modes::referee::{Found, Solver};
 use crate::modes::request::{CONVERGED, LARGE, Request};
 use crate::modes::solution::{Solution, Timing};
 
@@ -71,83 +70,59 @@ pub struct Task<'a> {
     pub coarse: Option<&'a Moments<'a>>,
 }
 
-/// A task and the time that its parts take.
-struct Timed<'a> {
-    task: &'a Task<'a>,
-    timing: &'a mut Timing,
-}
-
-impl OfDegree for Timed<'_> {
-    type Output = Result<Answer>;
-
-    fn with<const N: usize, const W: usize>(self) -> Result<Answer> {
-        self.task.of_degree::<N, W>(self.timing)
-    }
-}
-
 impl Task<'_> {
     /// The modes on the mesh, whatever accuracy that gives.
     pub fn run(&self, timing: &mut Timing) -> Result<Answer> {
-        of_degree(self.plan.degree, self.request.theory, Timed { task: self, timing })
-    }
-
-    fn of_degree<const N: usize, const W: usize>(&self, timing: &mut Timing) -> Result<Answer> {
         let Self { bat, plan, request, .. } = *self;
         let started = Clock::start();
-        let mut pairs = Eigenpairs::<f64, N, W>::new(bat, request.theory);
-        pairs.assemble(&[bat], &[&plan.mesh]);
+        let mut pairs = pairs_of(bat, plan.degree, request.theory);
+        pairs.assemble(bat, &plan.mesh);
         let assembled = Clock::start();
         timing.assemble += started.elapsed();
-        if pairs.statics.freedom() < request.modes {
-            let least = request.modes.div_ceil(W - 2) + 1;
+        if pairs.view().freedom() < request.modes {
+            let least = request.modes.div_ceil(pairs.view().strains) + 1;
             let found = plan.mesh.len();
             return Err(Error::TooFewElements { wanted: request.modes, least, found });
         }
-        let found = self.strains(&mut pairs)?;
-        let (mut modes, defects) = self.modes(&mut pairs, &found);
+        let found = self.strains(&mut *pairs)?;
+        let (mut modes, defects) = self.modes(&mut *pairs, &found);
         let factored = request.solver != Solver::Statics;
         add_neighbours(&mut modes, found.beyond, &found.residuals, factored);
-        let none_missing = none_missing(&pairs.statics, &modes, found.beyond, self.residual);
+        let none_missing = none_missing(&pairs.view(), &modes, found.beyond, self.residual);
         // Those beyond were looked at for their near twins' sake.
         modes.truncate(request.modes);
         timing.solve += assembled.elapsed();
-        let (steps, rigid_modes) = (found.steps, pairs.statics.rigid_modes());
+        let (steps, rigid_modes) = (found.steps, pairs.view().rigid_modes());
         Ok(Answer { modes, steps, defects, none_missing, rigid_modes })
     }
 
     /// Modes of strains, each with its own errors, and each element's part in the worst defect.
-    fn modes<const N: usize, const W: usize>(
-        &self,
-        pairs: &mut Eigenpairs<f64, N, W>,
-        found: &Found,
-    ) -> (Vec<Mode>, Vec<f64>) {
+    fn modes(&self, pairs: &mut dyn Pairs, found: &Found) -> (Vec<Mode>, Vec<f64>) {
         let stretches = Arc::new(self.plan.mesh.stretches());
-        let mut account = self.account(pairs.statics.rule, found);
+        let mut account = self.account(pairs.view().rule, found);
         let mut defects = vec![0.0; self.plan.mesh.len()];
-        let (size, split) = (pairs.statics.dimension(), pairs.statics.split);
+        let view = pairs.view();
+        let (size, split, held) = (view.dimension(), view.split, view.fixed.is_some());
         let strains = &found.strains;
-        if size > LARGE || pairs.statics.fixed.is_some() || found.apart > 0 {
+        if size > LARGE || held || found.apart > 0 {
             let mut motion = Motion::<f64>::default();
             for (k, own) in strains.chunks_exact(size).enumerate() {
                 // The compliance's rounding in the slower modes is no part of this one; of a large
                 // mesh that would cost the square of the modes.
                 let slower = if size > LARGE || k < found.apart { 0 } else { k };
                 pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, &mut motion);
-                let cell = |k: usize| pairs.statics.cell(k);
-                let view = pairs.statics.view(&cell);
-                account.add(Mode::new(k + 1, &view, &motion, 0, &stretches));
+                account.add(Mode::new(k + 1, &pairs.view(), &motion, 0, &stretches));
                 motion.add_defects(split, &mut defects);
             }
         } else {
             let count = strains.len() / size;
             for first in (0..count).step_by(WIDTH) {
                 pairs.look_at(strains, first, Depth::Changes);
-                let cell = |k: usize| pairs.statics.cell(k);
-                let view = pairs.statics.view(&cell);
+                let (view, motions) = pairs.looked_at();
                 for k in first..count.min(first + WIDTH) {
-                    account.add(Mode::new(k + 1, &view, &pairs.motions, k - first, &stretches));
+                    account.add(Mode::new(k + 1, &view, motions, k - first, &stretches));
                 }
-                pairs.motions.add_defects(split, &mut defects);
+                motions.add_defects(split, &mut defects);
             }
         }
         (account.modes, defects)
@@ -168,30 +143,23 @@ impl Task<'_> {
     }
 
     /// Scaled strains of the wanted modes.
-    fn strains<const N: usize, const W: usize>(
-        &self,
-        pairs: &mut Eigenpairs<f64, N, W>,
-    ) -> Result<Found> {
+    fn strains(&self, pairs: &mut dyn Pairs) -> Result<Found> {
         let Self { bat, plan, request, residual, coarse } = *self;
         if request.modes == 0 {
             return Ok(Found::default());
         }
         if request.solver != Solver::Statics {
-            return referee::strains(
-                bat,
-                &plan.mesh,
-                &pairs.statics,
-                request.modes,
-                request.solver,
-            );
+            return pairs.factored(bat, &plan.mesh, request.modes, request.solver);
         }
-        let most = (request.modes + MOST_TWINS).min(pairs.statics.freedom());
+        let most = (request.modes + MOST_TWINS).min(pairs.view().freedom());
         for count in request.modes..=most {
             match coarse {
-                Some(coarse) => pairs.solve_from(count, residual, |places| coarse.at(places))?,
+                Some(coarse) => {
+                    pairs.solve_from(count, residual, &mut |places| coarse.at(places))?
+                }
                 None => pairs.solve(count, residual)?,
             }
-            let Lanczos { values, beyond, .. } = &pairs.lanczos;
+            let Lanczos { values, beyond, .. } = pairs.lanczos();
             let twin = |beyond: f64| is_twin(beyond / values[count - 1], count);
             if !beyond.is_some_and(twin) {
                 break;
@@ -200,8 +168,8 @@ impl Task<'_> {
         // Bats of far slower modes are stiff parts on soft ones, whose modes may be twins:
         // these are told apart at the end of the iteration only.
         let apart = pairs.solve_apart(CONVERGED)?;
-        let lanczos = std::mem::take(&mut pairs.lanczos);
-        let omega = |value: f64| (pairs.statics.energy_unit / value).sqrt();
+        let lanczos = std::mem::take(pairs.lanczos());
+        let omega = |value: f64| (pairs.view().energy_unit / value).sqrt();
         let (steps, beyond) = (lanczos.steps, lanczos.beyond.map(omega));
         let residuals = lanczos.residuals;
         Ok(Found { strains: lanczos.vectors, steps, beyond, residuals, apart })
@@ -239,14 +207,14 @@ impl Account<'_> {
 /// frequency in the last gap of the list that is wide enough. Where that cannot be counted, or the
 /// iteration tells as much as the count would, the nodes do: mode n of a free Euler-Bernoulli bat
 /// has n + 1.
-fn none_missing<const N: usize, const W: usize>(
-    statics: &Statics<f64, N, W>,
+fn none_missing(
+    view: &View<f64>,
     modes: &[Mode],
     beyond: Option<f64>,
     residual: f64,
 ) -> Option<bool> {
     const WIDE: f64 = 1e-9;
-    let oscillates = statics.fixed.is_none() && !statics.theory.turns();
+    let oscillates = view.fixed.is_none() && !view.theory.turns();
     let by_nodes = (oscillates && modes.iter().all(Mode::has_its_nodes)).then_some(true);
     if residual < WIDE && by_nodes.is_some() {
         return by_nodes;
@@ -256,8 +224,8 @@ fn none_missing<const N: usize, const W: usize>(
     let gap = (1..omegas.len()).rev().find(|&k| omegas[k] > (1.0 + WIDE) * omegas[k - 1]);
     let Some(below) = gap else { return by_nodes.or(modes.is_empty().then_some(true)) };
     let between = (omegas[below - 1] * omegas[below]).sqrt();
-    let Some(slower) = count::slower(statics, between) else { return by_nodes };
-    Some(slower == below + statics.rigid_modes())
+    let Some(slower) = count::slower(view, between) else { return by_nodes };
+    Some(slower == below + view.rigid_modes())
 }
 
 /// So many motions beyond the wanted ones are looked at where they are near twins of these.

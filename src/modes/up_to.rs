@@ -7,7 +7,7 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::count;
 use crate::beam::mesh::Mesh;
-use crate::beam::statics::Statics;
+use crate::modes::pairs::pairs_of;
 use crate::modes::plan::{Plan, Wanted};
 use crate::modes::solve::{Request, Solver, solve};
 
@@ -68,10 +68,7 @@ fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
         let degree = Some(DEGREE);
         let wanted = Wanted { modes, tolerance: ACCURACY, degree, most_unknowns, theory };
         let mesh = Plan::cheapest(bat, &wanted).mesh;
-        let slower = match theory.shears() {
-            true => slower::<{ DEGREE + 1 }, { 2 * DEGREE }>(bat, &mesh, theory, limit)?,
-            false => slower::<{ DEGREE + 1 }, { DEGREE + 1 }>(bat, &mesh, theory, limit)?,
-        };
+        let slower = slower(bat, &mesh, theory, limit)?;
         if slower <= modes {
             return Some(slower);
         }
@@ -84,16 +81,12 @@ fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
 const DEGREE: usize = 7;
 
 /// How many bending modes are slower than the limit on that mesh.
-fn slower<const N: usize, const W: usize>(
-    bat: &Bat,
-    mesh: &Mesh,
-    theory: Theory,
-    limit: f64,
-) -> Option<usize> {
-    let mut statics = Statics::<f64, N, W>::empty(bat, theory);
-    statics.assemble(&[bat], &[mesh]);
+fn slower(bat: &Bat, mesh: &Mesh, theory: Theory, limit: f64) -> Option<usize> {
+    let mut pairs = pairs_of(bat, DEGREE, theory);
+    pairs.assemble(bat, mesh);
+    let view = pairs.view();
     // A frequency that is the mesh's own to the last digit cannot be counted at; one beside it can.
     let nearby = (0..8).map(|k| TAU * limit * (1.0 + 1e-13 * f64::from(k * k)));
-    let all = nearby.into_iter().find_map(|omega| count::slower(&statics, omega))?;
-    Some(all.saturating_sub(statics.rigid_modes()))
+    let all = nearby.into_iter().find_map(|omega| count::slower(&view, omega))?;
+    Some(all.saturating_sub(view.rigid_modes()))
 }
