@@ -26,7 +26,7 @@ fn taken<const N: usize, const W: usize>(
         let (mut lanczos, mut loads) = (Lanczos::default(), Loads::default());
         let wanted = Wanted { count, residual, earliest, clustered: 0 };
         let space = Space { known: &[], allow: &mut |_: &mut [f64]| {} };
-        let start = |next: &mut [f64]| statics.start(count, next);
+        let start = |next: &mut [f64]| statics.view().start(count, next);
         lanczos.largest(statics.dimension(), wanted, space, start, |q, y| {
             statics.apply(q, y, &mut loads);
         })?;
