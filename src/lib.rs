@@ -91,6 +91,9 @@
 //! | [`show`] | how is it said, drawn and exchanged |
 //! | [`cli`] | what did the user type |
 //!
+//! What this documentation passes over, from [`eigen`] and [`beam`] to [`show`] and [`cli`], is how the
+//! library works inside: open to the tests and the program, and no part of what a version promises.
+//!
 //! # What is promised
 //!
 //! True errors of frequencies, nodes, modal masses and exit speeds are within three times the stated ones,
@@ -177,7 +180,9 @@
 
 pub mod base;
 pub mod bat;
+#[doc(hidden)]
 pub mod eigen;
+#[doc(hidden)]
 pub mod beam;
 pub mod modes;
 pub mod motion;
@@ -185,10 +190,13 @@ pub mod collision;
 pub mod study;
 pub mod files;
 #[cfg(feature = "show")]
+#[doc(hidden)]
 pub mod proof;
 #[cfg(feature = "show")]
+#[doc(hidden)]
 pub mod show;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 
 pub use base::error::{Error, Result};

@@ -19,13 +19,22 @@ pub(crate) mod mistakes;
 pub mod telling;
 pub(crate) mod clock;
 pub(crate) mod threads;
+#[doc(hidden)]
 pub mod file;
 pub mod units;
+#[doc(hidden)]
 pub mod number;
+#[doc(hidden)]
 pub mod real;
+#[doc(hidden)]
 pub mod lanes;
+#[doc(hidden)]
 pub mod linear;
+#[doc(hidden)]
 pub mod golden;
+#[doc(hidden)]
 pub mod quadrature;
+#[doc(hidden)]
 pub mod interval;
+#[doc(hidden)]
 pub mod xml;

@@ -18,8 +18,10 @@
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
+#[doc(hidden)]
 pub mod contact;
 pub mod ball;
+#[doc(hidden)]
 pub mod struck;
 pub mod rigid;
 pub mod energy_loss;
@@ -27,10 +29,13 @@ pub mod pulse;
 pub mod aftermath;
 pub mod history;
 pub mod hit;
+#[doc(hidden)]
 pub mod columns;
+#[doc(hidden)]
 pub mod stated;
 pub mod hitter;
 pub(crate) mod answer;
+#[doc(hidden)]
 pub mod strike;
 pub mod strength;
 pub mod sweet_spot;

@@ -26,6 +26,7 @@ pub mod force_file;
 #[cfg(feature = "show")]
 pub mod schema;
 #[cfg(feature = "show")]
+#[doc(hidden)]
 pub mod uff;
 #[cfg(feature = "show")]
 pub mod measured;

@@ -20,20 +20,29 @@
 pub mod shape;
 pub(crate) mod landmarks;
 pub mod mode;
+#[doc(hidden)]
 pub mod eigenpairs;
+#[doc(hidden)]
 pub mod compliance;
+#[doc(hidden)]
 pub mod pole;
+#[doc(hidden)]
 pub mod reduced;
 pub(crate) mod free_motions;
 pub mod damping;
+#[doc(hidden)]
 pub mod certificate;
+#[doc(hidden)]
 pub mod referee;
+#[doc(hidden)]
 pub mod pairs;
+#[doc(hidden)]
 pub mod survey;
 pub mod plan;
 pub(crate) mod memory;
 pub mod request;
 pub mod solution;
+#[doc(hidden)]
 pub mod task;
 pub mod solve;
 pub mod up_to;

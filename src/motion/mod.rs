@@ -11,6 +11,7 @@
 //! | [`ringing`] | how does the bat move in time |
 //! | [`frf`] | how does it answer at a frequency |
 
+#[doc(hidden)]
 pub mod phi;
 pub mod force;
 pub mod shape;
