@@ -102,7 +102,7 @@ impl Weighed {
 }
 
 /// What a bat is as a rigid body; positions from the knob end, inertias transverse.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Inertia {
     /// Mass M (kg).
     pub mass: f64,

@@ -3,8 +3,11 @@
 //! A [`Theory`] goes into [`crate::modes::solve::Request::theory`]; [`crate::study::theory_choice::theory`] chooses the
 //! simplest that will do.
 
+use serde::Serialize;
+
 /// The beam theories, each the limit of the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Theory {
     /// Sections have mass but no rotary inertia and stay at right angles to the axis.
     #[default]

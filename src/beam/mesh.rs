@@ -1,9 +1,11 @@
 //! Where are the elements: stretches of the bat, none across a station or a step.
 
+use serde::Serialize;
+
 use crate::bat::body::Bat;
 
 /// One element: a part of one piece of the profile.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Element {
     /// Index of the piece of the profile it lies in.
     pub piece: usize,
@@ -18,7 +20,7 @@ pub struct Element {
 }
 
 /// The elements of a bat from knob to tip.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Mesh {
     /// Knob first, each beginning where the last ends.
     pub elements: Vec<Element>,

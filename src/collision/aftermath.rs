@@ -13,6 +13,8 @@
 
 use faer::c64;
 
+use serde::Serialize;
+
 use crate::bat::body::Bat;
 use crate::collision::contact::collocation::polynomial;
 use crate::collision::contact::table::Piece;
@@ -57,7 +59,8 @@ pub struct Instant {
 }
 
 /// The largest strain.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Strained {
     /// Place of the largest strain (m).
     pub x: f64,
@@ -79,7 +82,8 @@ pub struct Line {
 }
 
 /// What a place feels in a span of time.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Sting {
     /// Largest displacement (m), velocity (m/s) and acceleration (m/s²), without sign.
     pub peak: [f64; 3],

@@ -10,6 +10,8 @@
 //! with Q from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit
 //! speed relative to the closing speed, so that BBCOR may be off by `1 + r` times as much.
 
+use serde::Serialize;
+
 use crate::base::error::{Error, Result};
 use crate::base::telling::Tell;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -52,7 +54,8 @@ pub struct Protocol {
 }
 
 /// One place of the scan.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Place {
     /// The hit; its exit speed is the rebound.
     pub impact: Impact,
@@ -63,11 +66,14 @@ pub struct Place {
 }
 
 /// A bat that was tested.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Tested {
     /// The bat as it was held in the test.
+    #[serde(skip)]
     pub bat: Bat,
     /// What was done.
+    #[serde(skip)]
     pub protocol: Protocol,
     /// Every place, from the first to the last.
     pub places: Vec<Place>,

@@ -2,6 +2,8 @@
 //!
 //! They are computed, from this project's models; nothing here is a certificate of any standard.
 
+use serde::Serialize;
+
 use crate::base::error::Result;
 use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -33,7 +35,8 @@ impl SwingLaw {
 }
 
 /// A swing and the fastest ball it gives.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Swung {
     /// n of the law.
     pub exponent: f64,
@@ -44,7 +47,8 @@ pub struct Swung {
 }
 
 /// What tests and catalogues state of a bat, and where and why it is best.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Figures {
     /// Where the bat is best, by every definition.
     pub spot: SweetSpot,

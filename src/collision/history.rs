@@ -6,12 +6,15 @@
 
 use faer::c64;
 
+use serde::Serialize;
+
 use crate::collision::contact::collocation::polynomial;
 use crate::collision::contact::table::Piece;
 use crate::collision::contact::touch::Felt;
 
 /// The ball at an instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Moment {
     /// Time since the first touch (s).
     pub time: f64,

@@ -1,5 +1,7 @@
 //! What a hit is: model, swing, pitch and ball; exit speed, impulse and where the energy went.
 
+use serde::Serialize;
+
 use crate::base::error::{Error, Result};
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
@@ -9,6 +11,7 @@ use crate::collision::pulse::Pulse;
 
 /// How the bat's bending is counted; each model is a limit of the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Model {
     /// The bat does not bend.
     Rigid,
@@ -21,7 +24,7 @@ pub enum Model {
 }
 
 /// How a contact is computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
     /// Relative accuracy of the force in the steps.
     pub accuracy: f64,
@@ -120,7 +123,8 @@ pub struct Wall {
 }
 
 /// One impact. What does not exist (no real solution, no contact) is None.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Impact {
     /// Distance of the impact point from the knob end (m).
     pub x: f64,
@@ -135,7 +139,8 @@ pub struct Impact {
 }
 
 /// What the hit left behind.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Speed of the ball off the bat once it is gone for good (m/s).
     pub exit_speed: f64,
@@ -169,7 +174,8 @@ pub struct Outcome {
 }
 
 /// The moment at which the ball leaves the bat for the first time. It may be caught again.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Separation {
     /// Time since the first touch (s).
     pub time: f64,
@@ -178,7 +184,8 @@ pub struct Separation {
 }
 
 /// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Energy {
     /// Energy of ball and bat before the hit.
     pub initial: f64,

@@ -5,6 +5,8 @@
 //! grain, knots, dents and earlier hits are not known here, nor how much more than in a slow test the
 //! wood bears for a millisecond.
 
+use serde::Serialize;
+
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
 use crate::collision::aftermath::{Aftermath, Strained};
@@ -13,7 +15,7 @@ use crate::collision::hitter::Hitter;
 use crate::modes::solve::Solution;
 
 /// What a strength is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Limit {
     /// Limit of the stress in slow bending (Pa).
     Stress,
@@ -35,7 +37,8 @@ impl Limit {
 }
 
 /// Where a hit comes nearest to a limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Load {
     /// Which limit.
     pub limit: Limit,
@@ -68,7 +71,8 @@ const FOUND: f64 = 1e-3;
 const MOST: usize = 60;
 
 /// A hit's nearness to every limit that is known, and the swing (rad/s) that takes the bat to it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Strength {
     /// Where the ball meets the bat (m).
     pub x: f64,

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use serde::Serialize;
+
 use crate::base::error::Result;
 use crate::base::telling::{Tell, nobody};
 use crate::base::threads;
@@ -12,7 +14,8 @@ use crate::collision::strike::UNRESOLVED;
 use crate::modes::solve::{Request, Solution, solve};
 
 /// The impacts along a bat.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Sweep {
     /// The modes that were struck.
     pub solution: Solution,

@@ -1,5 +1,7 @@
 //! Where is the sweet spot, by each of its definitions.
 
+use serde::Serialize;
+
 use crate::base::golden;
 use crate::base::threads;
 use crate::bat::body::Bat;
@@ -9,7 +11,7 @@ use crate::collision::strike::Glance;
 use crate::modes::solve::Solution;
 
 /// A place and the value there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Peak {
     /// Position from the knob end (m).
     pub x: f64,
@@ -18,7 +20,8 @@ pub struct Peak {
 }
 
 /// The sweet spot of the outer half of a bat, by every definition there is a number for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,

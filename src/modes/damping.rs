@@ -16,6 +16,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::beam::degree::Elements;
@@ -25,7 +27,8 @@ use crate::modes::pole::Group;
 use crate::modes::reduced::Reduced;
 
 /// How one mode dies out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Damped {
     /// Natural angular frequency `|s|` (rad/s); of two real s, `√(s₁ s₂)`.
     pub natural: f64,
@@ -85,7 +88,8 @@ impl Damped {
 }
 
 /// How a bat's modes die out.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Damping {
     /// One for each mode of the solution; empty without any damping.
     pub modes: Vec<Damped>,
@@ -106,7 +110,8 @@ impl Damping {
 }
 
 /// How it was found.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub enum Kind {
     /// Nothing damps the bat.
     #[default]

@@ -6,6 +6,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use crate::base::real::Real;
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
@@ -14,7 +16,8 @@ use crate::modes::landmarks::Track;
 pub use crate::modes::shape::Shape;
 
 /// One bending mode of a bat.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Mode {
     /// Number of the mode: 1 for the lowest bending mode.
     pub order: usize,
@@ -31,7 +34,8 @@ pub struct Mode {
 }
 
 /// How far a mode's numbers may be off.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ModeError {
     /// Relative error of the frequency because the mesh is finite.
     pub discretization: f64,

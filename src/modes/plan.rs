@@ -34,6 +34,8 @@
 use std::fmt;
 use std::time::Duration;
 
+use serde::Serialize;
+
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
@@ -53,7 +55,8 @@ pub struct Plan {
 }
 
 /// Why a plan is as it is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub enum Reason {
     /// The user asked for it.
     #[default]

@@ -2,6 +2,8 @@
 //!
 //! They are the outside checks: ask for one by [`Solver`] in [`crate::modes::solve::Request::solver`].
 
+use serde::Serialize;
+
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -17,7 +19,8 @@ use crate::eigen::{dense, shift_invert};
 type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
 /// How the eigenvalues are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub enum Solver {
     /// Lanczos on the compliance by running sums: any size, round-off of order ε.
     Statics,

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use crate::base::real::Real;
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
 
 /// A deflection along the bat, a polynomial on every element.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Shape {
     /// Middle and length of every element (m); shared by the modes of one solution.
     pub(super) stretches: Arc<Vec<(f64, f64)>>,

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::Serialize;
+
 use crate::bat::theory::Theory;
 use crate::beam::degree::Elements;
 use crate::beam::mesh::Mesh;
@@ -11,7 +13,8 @@ use crate::modes::plan::Reason;
 use crate::modes::referee::Solver;
 
 /// The modes of a bat, how they were found and how far they may be trusted.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Solution {
     /// The bending modes, by rising frequency.
     pub modes: Vec<Mode>,
@@ -91,7 +94,8 @@ impl Solution {
 }
 
 /// Where the time went.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[non_exhaustive]
 pub struct Timing {
     /// Planning.
     pub plan: Duration,

@@ -16,6 +16,8 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
+use serde::{Serialize, Serializer};
+
 use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
@@ -68,14 +70,21 @@ impl Kind {
 }
 
 /// The receptance at one frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Sample {
     /// Frequency (Hz).
     pub frequency: f64,
     /// Deflection per force (m/N).
+    #[serde(serialize_with = "parts")]
     pub receptance: c64,
     /// How much of it may be missing for the strains left out (m/N).
     pub truncation: f64,
+}
+
+/// A complex number as its real and imaginary part.
+fn parts<S: Serializer>(value: &c64, to: S) -> std::result::Result<S::Ok, S::Error> {
+    [value.re, value.im].serialize(to)
 }
 
 /// A bat, a point that is forced, one that is watched, and all that is needed for any frequency.

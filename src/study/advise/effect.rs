@@ -12,6 +12,7 @@ use crate::study::ignored::with_typical_shear;
 
 /// What is switched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Switch {
     /// The sections' own rotary inertia: from Euler–Bernoulli to Rayleigh.
     RotaryInertia,

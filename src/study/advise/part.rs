@@ -5,6 +5,7 @@ use crate::bat::fixtures::{Attachment, Fixtures};
 
 /// A kind of thing that a model of a bat may have or leave out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Part {
     /// The materials of `regions`; without them the bat's own is everywhere and bores are empty.
     Materials,
