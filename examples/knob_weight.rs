@@ -11,7 +11,7 @@ use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches};
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::fixtures::Attachment;
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::Looked;
 use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::study::theory_choice;
@@ -45,8 +45,9 @@ fn main() -> Result<()> {
     let bare = Bat::from_file(path)?;
     let reference = bare.inertia().about(STANDARD_PIVOT);
     let batter = SwingLaw { exponent: 0.5, reference, of_reference: SWING };
-    let mut request = Request { tolerance: 1e-5, ..Request::default() };
-    request.theory = theory_choice::theory(&bare, &request)?.theory;
+    let request = Request { tolerance: 1e-5, ..Request::default() };
+    let theory = theory_choice::theory(&bare, &request)?.theory;
+    let accuracy = Accuracy { exit_speed: 1e-5, theory, ..Accuracy::default() };
 
     println!("{}, with a weight {:.2} in from the knob end", bare.name(), inches(KNOB));
     println!("                                                      sweet     fastest ball, mph,");
@@ -56,7 +57,7 @@ fn main() -> Result<()> {
     for count in [0.0, 1.0, 2.0, 3.0] {
         let bat = if count > 0.0 { weighted(&bare, count * OUNCE)? } else { bare.clone() };
         let scene = Scene { swing: SWING, ..Scene::default() };
-        let sweep = sweep(&bat, Model::Contact, &scene, &request, false, &[0.8 * bat.length()])?;
+        let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;
         let [x, same, off] = best(&bat, SWING, &sweep)?;
         let [_, energy, also_off] = best(&bat, batter.swing(&bat), &sweep)?;
         error = error.max(miles_per_hour(off.max(also_off)));

@@ -13,7 +13,7 @@ use sweetspot::base::units::{miles_per_hour, ounce_square_inches};
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::profile::Radii;
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::sweet_spot::Looked;
 use sweetspot::collision::{Effort, Hitter, Model, Scene};
 use sweetspot::study::theory_choice;
@@ -62,7 +62,9 @@ fn main() -> Result<()> {
     let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
     request.theory = theory_choice::theory(&bat, &request)?.theory;
     let scene = Scene { swing: SWING, ..Scene::default() };
-    let sweep = sweep(&bat, Model::Contact, &scene, &request, false, &[0.8 * bat.length()])?;
+    let accuracy =
+        Accuracy { exit_speed: TOLERANCE, theory: request.theory, ..Accuracy::default() };
+    let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;
     request = Request { modes: sweep.solution.modes.len(), tolerance: 1e-9, ..request };
     let solution = solve(&bat, &request)?;
     let body = bat.inertia();

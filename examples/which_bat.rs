@@ -9,7 +9,7 @@ use std::env;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::figures::{Figures, SwingLaw};
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::study::theory_choice;
 use sweetspot::{Bat, Request, Result};
@@ -26,10 +26,11 @@ fn from_tip(k: usize) -> f64 {
 /// Exit speeds at the impact points and the largest of their errors (mph), the bat described.
 fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let scene = Scene { swing: batter.swing(bat), ..Scene::default() };
-    let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
-    request.theory = theory_choice::theory(bat, &request)?.theory;
+    let request = Request { tolerance: TOLERANCE, ..Request::default() };
+    let theory = theory_choice::theory(bat, &request)?.theory;
+    let accuracy = Accuracy { exit_speed: TOLERANCE, theory, ..Accuracy::default() };
     let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
-    let sweep = sweep(bat, Model::Contact, &scene, &request, false, &places)?;
+    let sweep = sweep(bat, Model::Contact, &scene, &accuracy, &places)?;
 
     let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
     let spot = Figures::new(bat, &hitter, None)?.spot;

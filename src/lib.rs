@@ -17,7 +17,8 @@
 //! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
 //!
 //! ```
-//! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot, sweep::sweep};
+//! use sweetspot::collision::sweep::{Accuracy, sweep};
+//! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
 //! use sweetspot::bat::profile::{Interpolation, Stations};
 //! use sweetspot::{Bat, Material, Profile, Request, Theory, solve};
 //!
@@ -43,15 +44,15 @@
 //!
 //! // A swing meets a pitch; exit speeds within 1e-4 of the closing speed.
 //! let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
-//! let asked = Request { tolerance: 1e-4, theory, ..Request::default() };
-//! let hits = sweep(&bat, Model::Contact, &scene, &asked, false, &[0.6, 0.7, 0.8])?;
+//! let accuracy = Accuracy { exit_speed: 1e-4, theory, ..Accuracy::default() };
+//! let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.6, 0.7, 0.8])?;
 //! for (x, outcome) in hits.impacts.iter().filter_map(|at| Some((at.x, at.outcome.as_ref()?))) {
 //!     println!("a ball met {x} m from the knob leaves at {:.2} m/s", outcome.exit_speed);
 //! }
 //!
 //! // The sweet spot, and why it is there.
 //! let hitter = Hitter::new(Model::Contact, &scene, &bat, &hits.solution, hits.effort)?;
-//! let spot = SweetSpot::find(&bat, &scene, &hits.solution, &hitter);
+//! let spot = SweetSpot::find(&hitter);
 //! let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
 //! let energy = hitter.strike(best.x).outcome.expect("it met it there").energy;
 //! println!("fastest, {:.2} m/s, at {:.3} m; of {:.0} J", best.value, best.x, energy.initial);

@@ -42,7 +42,7 @@ fn the_elements_reproduce_the_peaks_of_the_wpi_report() {
         let cases = [(Model::Rigid, rigid), (Model::EnergyLoss(EnergyLoss::default()), lossy)];
         for (model, (place, speed)) in cases {
             let hitter = Hitter::new(model, &scene, &bat, &solution, Effort::default()).unwrap();
-            let peak = SweetSpot::find(&bat, &scene, &solution, &hitter).exit_speed_max.unwrap();
+            let peak = SweetSpot::find(&hitter).exit_speed_max.unwrap();
             assert!((peak.x / bat.length() - place).abs() < 1e-4, "{swing} {}", peak.x);
             let ratio = peak.value / scene.ball_speed;
             assert!((ratio / speed - 1.0).abs() < 2e-4, "{swing} {ratio} {speed}");
@@ -114,7 +114,7 @@ fn a_ball_that_is_not_met_has_no_outcome() {
     let impact = hitter.strike(0.6);
     assert!(impact.outcome.is_none() && impact.rigid_exit_speed.is_none());
     assert_eq!(impact.flags, ["no_contact"]);
-    let spot = SweetSpot::find(&bat, &still, &solution, &hitter);
+    let spot = SweetSpot::find(&hitter);
     assert!(spot.exit_speed_max.is_none() && spot.zone.is_none() && spot.node_mode_1.is_some());
 }
 
@@ -123,7 +123,7 @@ fn the_sweet_spot_is_a_maximum_and_its_zone_ends_one_per_cent_below() {
     let (bat, solution) = solved("meshes/torpedo.json");
     let scene = scene(45.0);
     let hitter = empirical(&scene, &bat, &solution);
-    let spot = SweetSpot::find(&bat, &scene, &solution, &hitter);
+    let spot = SweetSpot::find(&hitter);
     let peak = spot.exit_speed_max.unwrap();
     let speed = |x: f64| hitter.glance(x).unwrap().exit_speed;
     assert!(speed(peak.x - 1e-4) < peak.value && speed(peak.x + 1e-4) < peak.value);

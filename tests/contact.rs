@@ -11,7 +11,7 @@ use sweetspot::collision::hit::{Effort, Impact, Model, Outcome, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::struck::Struck;
-use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
@@ -49,7 +49,7 @@ fn known_bat(name: &str) -> Bat {
 
 fn spot(sweep: &Sweep, model: Model, bat: &Bat, scene: &Scene) -> SweetSpot {
     let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort).unwrap();
-    SweetSpot::find(bat, scene, &sweep.solution, &hitter)
+    SweetSpot::find(&hitter)
 }
 
 fn outcome(impact: Impact) -> Outcome {
@@ -166,9 +166,10 @@ fn the_sweet_spots_are_those_of_an_independent_calculation() {
     ] {
         let bat = known_bat(file);
         for (swing, place, speed) in known {
-            let request = Request { modes: 15, tolerance: 1e-6, ..Request::default() };
+            let modes = Some(15);
+            let accuracy = Accuracy { exit_speed: 1e-6, modes, ..Accuracy::default() };
             let scene = scene(swing, 0.5);
-            let sweep = sweep(&bat, Model::Contact, &scene, &request, true, &[0.6]).unwrap();
+            let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.6]).unwrap();
             let spot = spot(&sweep, Model::Contact, &bat, &scene);
             let peak = spot.exit_speed_max.unwrap();
             assert!((peak.x / bat.length() - place).abs() < 1e-4, "{file} {swing} {}", peak.x);
@@ -190,9 +191,9 @@ fn the_pulse_has_its_known_sweet_spots() {
     ] {
         let bat = known_bat(file);
         for (swing, place, speed) in known {
-            let request = Request { tolerance: 1e-6, ..Request::default() };
+            let accuracy = Accuracy { exit_speed: 1e-6, ..Accuracy::default() };
             let (model, scene) = (Model::Pulse(Pulse::default()), scene(swing, 0.5));
-            let sweep = sweep(&bat, model, &scene, &request, false, &[0.6, 0.7]).unwrap();
+            let sweep = sweep(&bat, model, &scene, &accuracy, &[0.6, 0.7]).unwrap();
             assert!(sweep.met);
             let peak = spot(&sweep, model, &bat, &scene).exit_speed_max.unwrap();
             assert!((peak.x / bat.length() - place).abs() < 1e-4, "{file} {swing} {}", peak.x);

@@ -13,18 +13,22 @@ use sweetspot::collision::bbcor::{Protocol, Tested};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
-use sweetspot::collision::sweep::{Asked, Sweep, sweep};
+use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::{Ball, SweetSpot};
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
-fn asked() -> Request {
-    Request { tolerance: 1e-4, theory: Theory::Timoshenko, ..Request::default() }
+fn accuracy() -> Accuracy {
+    Accuracy { exit_speed: 1e-4, theory: Theory::Timoshenko, ..Accuracy::default() }
+}
+
+fn request(modes: usize) -> Request {
+    Request { modes, tolerance: 1e-4, theory: Theory::Timoshenko, ..Request::default() }
 }
 
 fn tested(bat: &Bat) -> Tested {
     let protocol = Protocol::of(bat, Ball::baseball());
-    protocol.test(bat, Asked { request: &asked(), exactly: false }, &nobody).unwrap()
+    protocol.test(bat, &accuracy(), &nobody).unwrap()
 }
 
 /// The corked bat of the project and the bat that it was before it was bored.
@@ -39,9 +43,9 @@ fn corked_and_solid() -> [Bat; 2] {
 }
 
 fn fastest(bat: &Bat, scene: &Scene) -> f64 {
-    let hits: Sweep = sweep(bat, Model::Contact, scene, &asked(), false, &[0.7]).unwrap();
+    let hits: Sweep = sweep(bat, Model::Contact, scene, &accuracy(), &[0.7]).unwrap();
     let hitter = Hitter::new(Model::Contact, scene, bat, &hits.solution, hits.effort).unwrap();
-    SweetSpot::find(bat, scene, &hits.solution, &hitter).exit_speed_max.unwrap().value
+    SweetSpot::find(&hitter).exit_speed_max.unwrap().value
 }
 
 /// The pivot is felt when the ball has gone; 30.7 mph is an explicit integration of 84 slices.
@@ -51,7 +55,7 @@ fn a_bat_on_the_laboratories_pivot_sends_the_ball_back_like_a_free_one() {
     let pivoted = tested(&bat);
     let scene = Scene { swing: 0.0, ball_speed: pivoted.protocol.ball_speed, ..Scene::default() };
     let places: Vec<f64> = pivoted.places.iter().map(|place| place.impact.x).collect();
-    let free = sweep(&bat, Model::Contact, &scene, &asked(), false, &places).unwrap();
+    let free = sweep(&bat, Model::Contact, &scene, &accuracy(), &places).unwrap();
     let mut most = f64::NEG_INFINITY;
     for (held, free) in pivoted.places.iter().zip(&free.impacts) {
         let [held, free] = [&held.impact, free].map(|i| i.outcome.as_ref().unwrap().exit_speed);
@@ -131,7 +135,7 @@ fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let ball = Ball { cor: 1.0, ..Ball::softball() }.linear(1.2e6).unwrap();
     let scene = Scene { cor: 1.0, ball, ..Scene::default() };
-    let request = Request { modes: 0, ..asked() };
+    let request = request(0);
     let solution = solve(&bat, &request).unwrap();
     let effort = Effort { accuracy: 1e-8, completed: false };
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
@@ -150,7 +154,7 @@ fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
 fn a_hit_at_the_breaking_swing_reaches_the_strength() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let bat = bat.with(|parts| parts.material.strength = Some(300e6)).unwrap();
-    let request = Request { modes: 20, ..asked() };
+    let request = request(20);
     let solution = solve(&bat, &request).unwrap();
     let effort = Effort { completed: false, ..Effort::default() };
     let (scene, x, until) = (Scene::default(), 0.6, 0.02);

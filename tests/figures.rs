@@ -28,7 +28,7 @@ fn stiff_hands_feel_nothing_at_their_centre_of_percussion() {
         let scene = Scene { hands, ..Scene::default() };
         let effort = Effort::default();
         let hitter = Hitter::new(Model::Rigid, &scene, &bat, &solution, effort).unwrap();
-        let spot = SweetSpot::find(&bat, &scene, &solution, &hitter);
+        let spot = SweetSpot::find(&hitter);
         let least = spot.hands_velocity_min.unwrap();
         let exact =
             body.balance_point + body.about_balance / (body.mass * (body.balance_point - hands));
@@ -44,7 +44,7 @@ fn sweet_spots_are_the_best_of_their_kind() {
     let (bat, solution) = r161();
     let scene = Scene::default();
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
-    let spot = SweetSpot::find(&bat, &scene, &solution, &hitter);
+    let spot = SweetSpot::find(&hitter);
     let fastest = spot.exit_speed_max.unwrap();
     for k in 0..=200 {
         let x = bat.length() * (0.5 + 0.0025 * f64::from(k));

@@ -14,7 +14,7 @@ use sweetspot::collision::history::loop_area;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
-use sweetspot::collision::sweep::{Sweep, sweep};
+use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::matrix::{FULL, Matrix};
@@ -56,9 +56,9 @@ fn struck(bat: Bat, model: Model, scene: Scene) -> Struck {
     let solution = solve(&bat, &request).unwrap();
     let half = 0.5 * bat.length();
     let places: Vec<f64> = (0..=40).map(|k| half * (1.0 + f64::from(k) / 40.0)).collect();
-    let sweep = sweep(&bat, model, &scene, &request, false, &places).unwrap();
+    let sweep = sweep(&bat, model, &scene, &Accuracy::default(), &places).unwrap();
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort).unwrap();
-    let spot = SweetSpot::find(&bat, &scene, &sweep.solution, &hitter);
+    let spot = SweetSpot::find(&hitter);
     Struck { bat, solution, sweep, spot, scene: scene.clone() }
 }
 

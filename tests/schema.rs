@@ -17,7 +17,7 @@ use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::hit::HitFile;
 use sweetspot::files::schema::modes::ModesFile;
@@ -199,9 +199,9 @@ fn hits_of_all_models_are_valid_and_so_are_those_that_come_to_nothing() {
             if held && matches!(model, Model::EnergyLoss(_)) {
                 continue;
             }
-            let request = Request { modes: 3, tolerance: 1e-2, ..Request::default() };
+            let accuracy = Accuracy { exit_speed: 1e-2, modes: Some(3), ..Accuracy::default() };
             let places = [0.6 * bat.length(), bat.length()];
-            let hits = sweep(&bat, model, scene, &request, true, &places).unwrap();
+            let hits = sweep(&bat, model, scene, &accuracy, &places).unwrap();
             let law = SwingLaw { exponent: 0.3, reference: 0.2, of_reference: 50.0 };
             let law = (model == Model::Rigid).then_some(law);
             let effort = Effort { completed: false, ..hits.effort };

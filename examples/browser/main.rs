@@ -11,7 +11,7 @@ use std::cell::RefCell;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use sweetspot::collision::sweep::sweep;
+use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Model, Scene};
 use sweetspot::{Bat, Request, Result, Theory, solve};
 
@@ -51,8 +51,8 @@ fn answered(text: &str) -> Result<Value> {
     let asked = Request { modes: 5, tolerance: 1e-6, theory, ..Request::default() };
     let solution = solve(&bat, &asked)?;
     let frequencies: Vec<f64> = solution.modes.iter().map(|mode| mode.frequency()).collect();
-    let asked = Request { tolerance: 1e-4, theory, ..Request::default() };
-    let hits = sweep(&bat, Model::Contact, &Scene::default(), &asked, false, &[IMPACT])?;
+    let accuracy = Accuracy { exit_speed: 1e-4, theory, ..Accuracy::default() };
+    let hits = sweep(&bat, Model::Contact, &Scene::default(), &accuracy, &[IMPACT])?;
     let speed = hits.impacts[0].outcome.as_ref().map(|outcome| outcome.exit_speed);
     Ok(json!({
         "name": bat.name(),

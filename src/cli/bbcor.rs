@@ -7,7 +7,8 @@ use crate::base::file;
 use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::bbcor::{Protocol, TEST_SPEED};
-use crate::collision::sweep::Asked;
+use crate::collision::hit::{Model, Scene};
+use crate::collision::sweep::Trial;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
@@ -97,8 +98,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);
-    let asked = Asked { request: &request, exactly: args.bat.asked() };
-    let tested = protocol.test(&bat, asked, &tell)?;
+    let trial = Trial { model: Model::Contact, scene: &Scene::default() };
+    let accuracy = trial.accuracy(&request, args.bat.asked());
+    let tested = protocol.test(&bat, &accuracy, &tell)?;
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
     if let Some(folder) = &args.plots {

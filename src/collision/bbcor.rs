@@ -18,7 +18,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::fixtures::{Fixtures, Held, Support};
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Impact, Model, Scene};
-use crate::collision::sweep::{Asked, Sweep, Trial, sweep_telling};
+use crate::collision::sweep::{Accuracy, Sweep, Trial, sweep_telling};
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
@@ -124,14 +124,13 @@ impl Protocol {
         Scene { swing: 0.0, ball, ball_speed, cor, ..Scene::default() }
     }
 
-    /// Shoots the ball at every place, with as many modes as the accuracy needs, or exactly those asked
-    /// for.
+    /// Shoots the ball at every place.
     ///
     /// # Errors
     ///
     /// [`Error::Value`] if there is no place to shoot at, and as
     /// [`sweep`](crate::collision::sweep::sweep).
-    pub fn test(self, bat: &Bat, asked: Asked, tell: Tell) -> Result<Tested> {
+    pub fn test(self, bat: &Bat, accuracy: &Accuracy, tell: Tell) -> Result<Tested> {
         let beyond = |x: &f64| *x > STANDARD_PIVOT && *x <= bat.length();
         let places: Vec<f64> = self.places(bat.length()).into_iter().filter(beyond).collect();
         if places.is_empty() {
@@ -142,7 +141,7 @@ impl Protocol {
         }
         let (bat, scene) = (pivoted(bat)?, self.scene());
         let trial = Trial { model: Model::Contact, scene: &scene };
-        let sweep = sweep_telling(&bat, trial, asked, &places, tell)?;
+        let sweep = sweep_telling(&bat, trial, accuracy, &places, tell)?;
         let inertia = bat.inertia().about(STANDARD_PIVOT);
         let place = |impact: &Impact| {
             let ratio = self.ball.mass * (impact.x - STANDARD_PIVOT).powi(2) / inertia;

@@ -83,7 +83,7 @@ impl Figures {
         let Hitter { scene, solution, effort, .. } = *hitter;
         let find = |scene: &Scene| -> Result<SweetSpot> {
             let hitter = hitter.in_scene(scene, bat)?;
-            Ok(SweetSpot::within(&Looked::by(outer, FEW, &hitter), bat, scene, solution))
+            Ok(SweetSpot::within(&Looked::by(outer, FEW, &hitter)))
         };
         let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
         let rigid_best = Looked::new(outer, &rigid).greatest(|seen| Some(seen.exit_speed));
@@ -104,7 +104,7 @@ impl Figures {
                 swings.push(Swung { exponent, swing, best });
             }
         }
-        let spot = SweetSpot::within(&looked, bat, scene, solution);
+        let spot = SweetSpot::within(&looked);
         let changes = changes(scene);
         let moved = threads::map(changes.len(), |k| find(&changes[k].1));
         let moves = changes.into_iter().zip(moved).map(|((what, _), spot)| Ok((what, spot?)));

@@ -9,7 +9,8 @@ use crate::modes::solve::Solution;
 
 /// A bat's rigid motions, its modes and the flexibility of all others.
 pub struct Struck<'a> {
-    bat: &'a Bat,
+    /// What is struck.
+    pub bat: &'a Bat,
     /// The modes that are struck.
     pub solution: &'a Solution,
     flexible: Flexible,

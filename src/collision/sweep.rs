@@ -8,10 +8,11 @@ use crate::base::error::Result;
 use crate::base::telling::{Tell, nobody};
 use crate::base::threads;
 use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
 use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::UNRESOLVED;
-use crate::modes::solve::{Request, Solution, solve};
+use crate::modes::solve::{Request, Solution, Solver, solve};
 
 /// The impacts along a bat.
 #[derive(Debug, Clone, Serialize)]
@@ -51,20 +52,44 @@ pub struct Trial<'a> {
     pub scene: &'a Scene,
 }
 
-/// The modes that are asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Asked<'a> {
-    /// Its tolerance is the allowed error of the exit speed relative to the closing speed, unless it
-    /// fixes the elements.
-    pub request: &'a Request,
-    /// Whether the pulse and the contact have the request's modes and nothing else; else they have as
-    /// many as they need.
-    pub exactly: bool,
+/// How accurate the exit speeds are to be, and what they may be computed from.
+///
+/// The accuracy of the modes follows from it: they are found as well as the exit speeds need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Allowed error of an exit speed, relative to the closing speed; not enforced where `elements` is
+    /// given.
+    pub exit_speed: f64,
+    /// Number of modes, and no others; None counts as many as the exit speeds need, and where ball and
+    /// modes do not act on each other those of [`Request::default`].
+    pub modes: Option<usize>,
+    /// Fixed number of elements; None plans it.
+    pub elements: Option<usize>,
+    /// Fixed degree of the elements, as [`Request::degree`].
+    pub degree: Option<usize>,
+    /// How the modes are found.
+    pub solver: Solver,
+    /// The beam theory.
+    pub theory: Theory,
 }
 
-/// Strikes the bat at all places (m); the request's tolerance is the allowed error of the exit
-/// speed relative to the closing speed, unless the request fixes the elements. With `exactly` the
-/// pulse and the contact have the request's modes and nothing else; else as many as they need.
+impl Default for Accuracy {
+    fn default() -> Self {
+        let Request { tolerance, elements, degree, solver, theory, .. } = Request::default();
+        Self { exit_speed: tolerance, modes: None, elements, degree, solver, theory }
+    }
+}
+
+impl Accuracy {
+    /// The request of modes that an accuracy starts from.
+    fn request(&self) -> Request {
+        let Self { exit_speed, modes, elements, degree, solver, theory } = *self;
+        let modes = modes.unwrap_or(Request::default().modes);
+        Request { modes, tolerance: exit_speed, elements, degree, solver, theory }
+    }
+}
+
+/// Strikes the bat at all places (m from the knob end).
 ///
 /// # Errors
 ///
@@ -73,11 +98,10 @@ pub fn sweep(
     bat: &Bat,
     model: Model,
     scene: &Scene,
-    request: &Request,
-    exactly: bool,
+    accuracy: &Accuracy,
     places: &[f64],
 ) -> Result<Sweep> {
-    sweep_telling(bat, Trial { model, scene }, Asked { request, exactly }, places, &nobody)
+    sweep_telling(bat, Trial { model, scene }, accuracy, places, &nobody)
 }
 
 /// Strikes the bat at all places as [`sweep`] does, and tells how many of them have been struck.
@@ -88,12 +112,12 @@ pub fn sweep(
 pub fn sweep_telling(
     bat: &Bat,
     trial: Trial,
-    asked: Asked,
+    accuracy: &Accuracy,
     places: &[f64],
     tell: Tell,
 ) -> Result<Sweep> {
-    let Asked { request, .. } = asked;
-    let planned = trial.touches() && !asked.exactly;
+    let request = &accuracy.request();
+    let planned = trial.touches() && accuracy.modes.is_none();
     let mut now = Round::first(bat, trial, request, planned);
     tell(0.0, "modes");
     let mut solution = solve(bat, &now.request)?;
@@ -152,6 +176,14 @@ impl Trial<'_> {
     /// Whether ball and modes act on each other, so that modes are planned for the hit.
     fn touches(&self) -> bool {
         matches!(self.model, Model::Pulse(_) | Model::Contact)
+    }
+
+    /// Of a request whose tolerance is that of exit speeds: with its modes and no others if they are
+    /// asked for, or if their number is nothing to the model.
+    pub(crate) fn accuracy(&self, request: &Request, asked: bool) -> Accuracy {
+        let Request { modes, tolerance, elements, degree, solver, theory } = *request;
+        let modes = (asked || !self.touches()).then_some(modes);
+        Accuracy { exit_speed: tolerance, modes, elements, degree, solver, theory }
     }
 }
 

@@ -4,11 +4,8 @@ use serde::Serialize;
 
 use crate::base::golden;
 use crate::base::threads;
-use crate::bat::body::Bat;
-use crate::collision::hit::Scene;
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
-use crate::modes::solve::Solution;
 
 /// A place and the value there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -51,13 +48,15 @@ const INCH: f64 = 0.0254;
 
 impl SweetSpot {
     /// Searched from the middle of the bat to its tip.
-    pub fn find(bat: &Bat, scene: &Scene, solution: &Solution, hitter: &Hitter) -> Self {
-        let outer = [0.5 * bat.length(), bat.length()];
-        Self::within(&Looked::new(outer, hitter), bat, scene, solution)
+    pub fn find(hitter: &Hitter) -> Self {
+        let length = hitter.struck.bat.length();
+        Self::within(&Looked::new([0.5 * length, length], hitter))
     }
 
     /// Searched on a stretch that was looked along.
-    pub fn within(looked: &Looked, bat: &Bat, scene: &Scene, solution: &Solution) -> Self {
+    pub fn within(looked: &Looked) -> Self {
+        let Hitter { scene, solution, .. } = *looked.hitter;
+        let bat = looked.hitter.struck.bat;
         let exit_speed_max = looked.greatest(|glance| Some(glance.exit_speed));
         let least = |of: fn(&Glance) -> Option<f64>| {
             let greatest = looked.greatest(|glance| of(glance).map(|value| -value))?;

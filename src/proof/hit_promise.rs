@@ -24,7 +24,7 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Model, Scene, Wall};
-use crate::collision::sweep::sweep;
+use crate::collision::sweep::{Trial, sweep};
 use crate::modes::solve::Request;
 use crate::proof::promise::{ALWAYS, MOSTLY, VISIBLE};
 
@@ -197,7 +197,9 @@ pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
 
 fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
     let scene = hit.scene();
-    let swept = sweep(bat, Model::Contact, &scene, &hit.request()?, hit.modes.is_some(), &[hit.x])?;
+    let trial = Trial { model: Model::Contact, scene: &scene };
+    let accuracy = trial.accuracy(&hit.request()?, hit.modes.is_some());
+    let swept = sweep(bat, Model::Contact, &scene, &accuracy, &[hit.x])?;
     let closing = hit.swing * (hit.x + hit.pivot) + hit.pitch;
     let outcome = swept.impacts[0].outcome.as_ref();
     let off = |speed: f64| (speed - hit.exit_speed).abs() / closing;

@@ -162,7 +162,7 @@ impl Throw {
         let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
         let seen = |&(seen, at): &(Seen, f64)| {
             if matches!(seen, Seen::BestPlaceM | Seen::BestExitSpeedMPerS) {
-                let best = SweetSpot::find(bat, &scene, solution, &hitter).exit_speed_max?;
+                let best = SweetSpot::find(&hitter).exit_speed_max?;
                 return Some(if seen == Seen::BestPlaceM { best.x } else { best.value });
             }
             let impact = hitter.strike(at);

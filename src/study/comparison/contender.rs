@@ -21,7 +21,7 @@ use crate::collision::figures::SwingLaw;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
-use crate::collision::sweep::{Sweep, sweep};
+use crate::collision::sweep::{Sweep, Trial, sweep};
 use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
 use crate::modes::solve::Request;
 
@@ -127,9 +127,11 @@ impl Contender {
         terms: &Terms,
         places: &[f64],
     ) -> Result<Self> {
-        let sweep = sweep(&bat, terms.model, &scene, request, terms.exactly, places)?;
+        let trial = Trial { model: terms.model, scene: &scene };
+        let accuracy = trial.accuracy(request, terms.exactly);
+        let sweep = sweep(&bat, terms.model, &scene, &accuracy, places)?;
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
-        let spot = SweetSpot::find(&bat, &scene, &sweep.solution, &hitter);
+        let spot = SweetSpot::find(&hitter);
         let sought = Sought { length: bat.length(), scene: &scene, hitter: &hitter };
         let looked = Looked::new([0.5 * bat.length(), bat.length()], &hitter);
         let largest = |k: usize| match hitter.modes_used() {
