@@ -109,7 +109,7 @@ pub enum Error {
 
     /// A problem too large for the solver that was asked for.
     #[error(
-        "the dense solver takes at most {most} unknowns, this mesh has {found}: use --solver statics"
+        "the dense solver takes at most {most} unknowns, this mesh has {found}: use the solver statics"
     )]
     TooLarge {
         /// The most unknowns it takes.

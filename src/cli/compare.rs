@@ -173,7 +173,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
     }
     args.scene.warn(&args.output);
     let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
-    let compared = Comparison::new(entries, terms).map_err(as_option)?;
+    let compared = Comparison::new(entries, terms)?;
     if let Some(folder) = &args.plots {
         pictures::write(folder, &plot::compared::pictures(&compared)?, args.output.quiet)?;
     }
@@ -189,16 +189,6 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
-}
-
-/// The place step as it is called on the command line.
-fn as_option(error: Error) -> Error {
-    match error {
-        Error::Value(complaint) if complaint.field == "every" => {
-            Error::value("--every", complaint.found, complaint.expected)
-        }
-        other => other,
-    }
 }
 
 /// The exit code, after a word about bats whose exit speeds are less accurate than asked.

@@ -28,15 +28,32 @@ pub fn render(error: &Error, coloured: bool) -> String {
 fn group(error: &Error) -> Group<'static> {
     match error {
         Error::Input { place, complaint } => input(place, complaint),
-        Error::Value(complaint) if !complaint.hint.is_empty() => {
-            let plain = Complaint { hint: String::new(), ..complaint.clone() };
-            advised(&plain.to_string(), &complaint.hint)
+        Error::Value(complaint) => {
+            let field = option(&complaint.field).to_owned();
+            let plain = Complaint { field, hint: String::new(), ..complaint.clone() };
+            match &complaint.hint {
+                hint if hint.is_empty() => titled(&plain.to_string()),
+                hint => advised(&plain.to_string(), hint),
+            }
         }
         Error::NotYet { what, advice } => advised(&format!("{what} is not supported yet"), advice),
         Error::NotBuilt { what, advice } => {
             advised(&format!("{what} is not in this build"), advice)
         }
         other => titled(&other.to_string()),
+    }
+}
+
+/// What the library calls a value, as it is asked for on the command line.
+fn option(field: &str) -> &str {
+    match field {
+        "every" => "--every",
+        "place of the force" => "--at",
+        "place that is watched" | "end of the scan" => "--to",
+        "model energy-loss" => "--model energy-loss",
+        "stiffness of the ball" => "--ball-stiffness",
+        "measured modes" => "--measured",
+        other => other,
     }
 }
 

@@ -85,7 +85,7 @@ impl Ball {
     pub fn linear(self, stiffness: f64) -> Result<Self> {
         if !(1.0..=1e12).contains(&stiffness) {
             let found = format!("{stiffness:?} N/m");
-            return Err(Error::value("--ball-stiffness", found, "1 to 1e12 N/m"));
+            return Err(Error::value("stiffness of the ball", found, "1 to 1e12 N/m"));
         }
         let source = format!("{}; a linear spring of {stiffness} N/m, as was asked", self.source);
         Ok(Self {

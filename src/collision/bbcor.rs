@@ -103,7 +103,7 @@ impl Protocol {
         let [from, to] = self.scan;
         if to < from {
             let expected = format!("a place at {from:.4} m or beyond, where the scan begins");
-            return Err(Error::value("--to", format!("{to:.4} m"), expected));
+            return Err(Error::value("end of the scan", format!("{to:.4} m"), expected));
         }
         Ok(self)
     }

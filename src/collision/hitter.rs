@@ -86,7 +86,7 @@ impl<'a> Hitter<'a> {
         let held = bat.fixtures().holding();
         if held && matches!(model, Model::EnergyLoss(_)) {
             let expected = "a free bat, which the report's fit is for, or another model";
-            return Err(Error::value("--model energy-loss", "a bat that is held", expected));
+            return Err(Error::value("model energy-loss", "a bat that is held", expected));
         }
         let solution = struck.solution;
         let body = bat.inertia();

@@ -310,7 +310,7 @@ impl<'a> Object<'a> {
                  get the version that it was written for",
                 env!("CARGO_PKG_VERSION")
             ),
-            ball if ball == "sweetspot-ball" => "this is a ball: give it with --ball".to_owned(),
+            ball if ball == "sweetspot-ball" => "this is a ball, not a bat".to_owned(),
             bat if bat == "sweetspot-bat" => "this is a bat, not a ball".to_owned(),
             result if result.starts_with("sweetspot-") => {
                 "this is a result of sweetspot, not what it was made from".to_owned()

@@ -110,7 +110,7 @@ impl Frf {
     ///
     /// [`Error::Value`] for a point that is not on the bat; those of [`solve`].
     pub fn new(bat: &Bat, request: &Request, at: f64, to: f64) -> Result<Self> {
-        for (name, x) in [("--at", at), ("--to", to)] {
+        for (name, x) in [("place of the force", at), ("place that is watched", to)] {
             if !(x >= 0.0 && x <= bat.length()) {
                 let expected = format!("a place on the bat, 0 to {} m", bat.length());
                 return Err(Error::value(name, format!("{x} m"), expected));

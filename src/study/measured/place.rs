@@ -127,7 +127,7 @@ fn choose(wanted: Option<End>, knob: Result<Way>, tip: Result<Way>) -> Result<Ch
             d if d > BETTER => (tip, fits[0], Some("so the shapes fit better")),
             d if d < -BETTER => (knob, fits[1], Some("so the shapes fit better")),
             _ => {
-                let alike = "both ways fit alike, and the knob end is taken (--tip-first turns it)";
+                let alike = "both ways fit alike, and the knob end is taken (say that the tip comes first to turn it)";
                 (knob, fits[1], Some(alike))
             }
         },

@@ -129,8 +129,9 @@ impl Study {
         let (slowest, bending): (Vec<usize>, Vec<usize>) =
             (0..measured.modes.len()).partition(slow);
         if !measured.has_shapes() && told != Told::default() {
-            let expected = "a file with shapes, or neither --origin, --knob-first nor --tip-first";
-            return Err(Error::value("--measured", "frequencies alone", expected));
+            let expected =
+                "a file with shapes, or nothing said of where they begin and which end comes first";
+            return Err(Error::value("measured modes", "frequencies alone", expected));
         }
         let fit = |x: &[f64], shapes: &[Vec<c64>]| {
             let own = sampled(&solution, x);

@@ -79,7 +79,7 @@ pub fn planner(runs: &[Run]) -> Vec<String> {
     }
     words.extend(broken);
     if alone && !runs.is_empty() {
-        words.push("there was time for the planner's choices only: give more with --budget".into());
+        words.push("there was time for the planner's choices only: give it a larger budget".into());
     }
     words
 }
@@ -151,7 +151,7 @@ mod tests {
         assert!(words[0].contains("4.0 to 4.0 times as long"), "{words:?}");
         assert_eq!(words[1], "the planner's choice for 1e-8 has 1.0e-6");
         assert!(planner(&runs[..2]).is_empty());
-        assert!(planner(&runs[2..]).last().unwrap().contains("--budget"));
+        assert!(planner(&runs[2..]).last().unwrap().contains("budget"));
     }
 
     #[test]
