@@ -28,6 +28,8 @@ pub mod words;
 pub mod route;
 pub mod svg;
 #[cfg(feature = "png")]
+pub mod font;
+#[cfg(feature = "png")]
 pub mod png;
 pub mod picture;
 pub mod axis;

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
+#[cfg(feature = "png")]
+use crate::show::plot::png::png;
 use crate::show::plot::svg::{BEGINNING, Svg};
 
 /// One picture.
@@ -19,13 +21,16 @@ pub struct Picture {
     pub alt: String,
     /// The whole picture, which needs nothing beside it: `<svg …>…</svg>`.
     pub svg: String,
+    /// What was drawn, of which `svg` was written.
+    pub drawing: Svg,
 }
 
 impl Picture {
     /// What was drawn, under that name.
     pub fn new(name: &str, title: &str, alt: &str, svg: Svg) -> Self {
         let whole = svg.finish(title, alt);
-        Self { name: name.into(), title: title.into(), alt: alt.into(), svg: whole }
+        let [name, title, alt] = [name, title, alt].map(str::to_owned);
+        Self { name, title, alt, svg: whole, drawing: svg }
     }
 }
 
@@ -43,7 +48,7 @@ pub fn write(folder: &Path, pictures: &[Picture]) -> Result<Vec<String>> {
         let path = folder.join(format!("{}.svg", picture.name));
         file::write(&path, picture.svg.as_bytes())?;
         #[cfg(feature = "png")]
-        file::write(&path.with_extension("png"), &crate::show::plot::png::png(&picture.svg, 2.0))?;
+        file::write(&path.with_extension("png"), &png(&picture.drawing, 2.0))?;
     }
     Ok(others(folder, pictures))
 }

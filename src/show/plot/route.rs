@@ -18,7 +18,7 @@ pub fn route(points: &[Point]) -> String {
 
 /// The first point, the last one, and between them those without which a line would pass another by
 /// more than can be seen.
-fn bends(points: &[Point]) -> Vec<Point> {
+pub fn bends(points: &[Point]) -> Vec<Point> {
     /// px
     const SEEN: f64 = 0.06;
     /// No more points than this are left out in a row.
@@ -45,14 +45,18 @@ fn distance([x, y]: Point, [a, b]: Point, [c, d]: Point) -> f64 {
     (x - a - share * along).hypot(y - b - share * up)
 }
 
-/// A coordinate to a tenth of a pixel, as short as it can be; a missing coordinate is drawn at 0.
-pub fn px(value: f64) -> String {
+/// A coordinate to a tenth of a pixel; a missing coordinate is drawn at 0.
+pub fn tenth(value: f64) -> f64 {
     if !value.is_finite() {
-        return "0".into();
+        return 0.0;
     }
-    let rounded = (10.0 * value.clamp(-1e6, 1e6)).round() / 10.0;
     // Not −0.
-    format!("{}", rounded + 0.0)
+    (10.0 * value.clamp(-1e6, 1e6)).round() / 10.0 + 0.0
+}
+
+/// A coordinate to a tenth of a pixel, as short as it can be.
+pub fn px(value: f64) -> String {
+    tenth(value).to_string()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
-//! Lines, areas and words as plain SVG.
+//! Lines, areas and words, kept as a list of shapes and written as plain SVG.
 //!
-//! Coordinates are pixels from the upper left, written to a tenth. No picture needs a file beside
+//! Data flows one way: what is drawn becomes a shape, and the shapes become text here and pixels in
+//! `png`. Coordinates are pixels from the upper left, written to a tenth. No picture needs a file beside
 //! it, a font of its own or a name that another picture in the same page might have too.
 
 use std::fmt::Write;
@@ -14,7 +15,7 @@ use crate::show::plot::words::{Anchor, Type};
 pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\"";
 
 /// A picture in the making.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Svg {
     /// Width of the paper (px).
     pub width: f64,
@@ -23,7 +24,7 @@ pub struct Svg {
     /// Left, upper, right and lower edge (px) of the frame in which places along the bat can be read
     /// off, from the first place to the last, for a page that does so.
     pub read_off: Option<[f64; 4]>,
-    body: String,
+    shapes: Vec<Shape>,
 }
 
 /// How a line is drawn.
@@ -55,6 +56,63 @@ impl Pen {
     }
 }
 
+/// How a shape is filled and drawn around.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// Colour within and how much of it covers what is below, from 0 to 1; none shows what is below.
+    pub fill: Option<(Ink, f64)>,
+    /// What the edge is drawn with, if it is.
+    pub pen: Option<Pen>,
+}
+
+/// One thing on the paper; what was drawn later covers what was drawn before.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// Words.
+    Words {
+        /// Where their base line begins, has its middle or ends, as their type says.
+        at: Point,
+        /// How they look.
+        look: Type,
+        /// The words.
+        words: String,
+    },
+    /// A line through points.
+    Line {
+        /// The points in order, two and more.
+        points: Vec<Point>,
+        /// What it is drawn with.
+        pen: Pen,
+    },
+    /// An outline that closes itself.
+    Area {
+        /// Its corners in order, three and more.
+        outline: Vec<Point>,
+        /// How it is filled and drawn around.
+        look: Look,
+    },
+    /// A level rectangle.
+    Rect {
+        /// Its upper left corner.
+        corner: Point,
+        /// Its width and its height (px).
+        sides: [f64; 2],
+        /// How it is filled and drawn around.
+        look: Look,
+    },
+    /// A circle.
+    Circle {
+        /// Its middle.
+        middle: Point,
+        /// Its radius (px).
+        radius: f64,
+        /// How it is filled and drawn around.
+        look: Look,
+    },
+    /// Words that show where a pointer rests; nothing of them can be seen on paper.
+    Hover(Vec<(Point, String)>),
+}
+
 /// Marks that differ in form, in the order in which they are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
@@ -79,16 +137,25 @@ pub const MARKS: [Mark; 6] =
 impl Svg {
     /// Empty paper.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, read_off: None, body: String::new() }
+        Self { width, height, read_off: None, shapes: vec![] }
+    }
+
+    /// What was drawn so far, in that order.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    /// Width and height of the paper in whole pixels.
+    pub fn sides(&self) -> [f64; 2] {
+        [self.width, self.height].map(f64::ceil)
     }
 
     /// The picture with its title and, for those who cannot see it, what is to be seen.
-    pub fn finish(self, title: &str, description: &str) -> String {
-        let Self { width, height, read_off, body } = self;
-        // No pixel of the paper is half a one.
-        let [width, height] = [width, height].map(f64::ceil).map(px);
-        let read_off = read_off
-            .map_or(String::new(), |edges| format!(" data-frame=\"{}\"", edges.map(px).join(" ")));
+    pub fn finish(&self, title: &str, description: &str) -> String {
+        let [width, height] = self.sides().map(px);
+        let edges = |edges: [f64; 4]| format!(" data-frame=\"{}\"", edges.map(px).join(" "));
+        let read_off = self.read_off.map_or(String::new(), edges);
+        let body: String = self.shapes.iter().map(written).collect();
         format!(
             "{BEGINNING} role=\"img\" \
              viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
@@ -104,59 +171,39 @@ impl Svg {
     }
 
     /// Words on a base line.
-    pub fn text(&mut self, [x, y]: Point, look: Type, words: &str) {
-        let Type { ink, size, bold, anchor, upwards } = look;
-        let anchor = match anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let weight = if bold { " font-weight=\"600\"" } else { "" };
-        let (x, y) = (px(x), px(y));
-        let turn = if upwards { format!(" transform=\"rotate(-90 {x} {y})\"") } else { "".into() };
-        let _ = writeln!(
-            self.body,
-            "<text x=\"{x}\" y=\"{y}\"{anchor}{turn} font-size=\"{}\"{weight}{}>{}</text>",
-            px(size),
-            fill(ink),
-            escaped(words)
-        );
+    pub fn text(&mut self, at: Point, look: Type, words: &str) {
+        self.shapes.push(Shape::Words { at, look, words: words.into() });
     }
 
     /// A line through points.
     pub fn line(&mut self, points: &[Point], pen: Pen) {
         if points.len() > 1 {
-            let _ = writeln!(self.body, "<path d=\"{}\"{}/>", route(points), stroke(pen));
+            self.shapes.push(Shape::Line { points: points.into(), pen });
         }
     }
 
     /// A closed outline that is filled, so opaque, and drawn around if there is a pen.
     pub fn area(&mut self, outline: &[Point], ink: Ink, opacity: f64, pen: Option<Pen>) {
-        if outline.len() < 3 {
-            return;
+        if outline.len() > 2 {
+            let look = Look { fill: Some((ink, opacity)), pen };
+            self.shapes.push(Shape::Area { outline: outline.into(), look });
         }
-        let _ =
-            writeln!(self.body, "<path d=\"{}Z\"{}/>", route(outline), filled(ink, opacity, pen));
     }
 
     /// A rectangle from its upper left to its lower right.
     pub fn rect(&mut self, [from, to]: [Point; 2], ink: Ink, opacity: f64, pen: Option<Pen>) {
-        let [x, y, w, h] = [from[0], from[1], to[0] - from[0], to[1] - from[1]].map(px);
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"{}/>",
-            filled(ink, opacity, pen)
-        );
+        let sides = [to[0] - from[0], to[1] - from[1]];
+        let look = Look { fill: Some((ink, opacity)), pen };
+        self.shapes.push(Shape::Rect { corner: from, sides, look });
     }
 
     /// A mark of that half width (px): paper within, or filled.
     pub fn mark(&mut self, mark: Mark, [x, y]: Point, half: f64, ink: Ink, solid: bool) {
         let inner = if solid { ink } else { PAPER };
-        let look = filled(inner, 1.0, Some(Pen::new(ink, 1.8)));
-        let shape: &[Point] = match mark {
+        let look = Look { fill: Some((inner, 1.0)), pen: Some(Pen::new(ink, 1.8)) };
+        let corners: &[Point] = match mark {
             Mark::Circle => {
-                let [x, y, half] = [x, y, half].map(px);
-                let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{half}\"{look}/>");
+                self.shapes.push(Shape::Circle { middle: [x, y], radius: half, look });
                 return;
             }
             Mark::Square => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
@@ -171,57 +218,93 @@ impl Svg {
                 return;
             }
         };
-        let shape: Vec<Point> = shape.iter().map(|[a, b]| [x + a * half, y + b * half]).collect();
-        let _ = writeln!(self.body, "<path d=\"{}Z\"{look}/>", route(&shape));
+        let outline = corners.iter().map(|[a, b]| [x + a * half, y + b * half]).collect();
+        self.shapes.push(Shape::Area { outline, look });
     }
 
     /// A circle that shows what is under it.
     pub fn ring(&mut self, at: Point, radius: f64, pen: Pen) {
-        let [x, y, radius] = [at[0], at[1], radius].map(px);
-        let look = stroke(pen);
-        let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{look}/>");
+        let look = Look { fill: None, pen: Some(pen) };
+        self.shapes.push(Shape::Circle { middle: at, radius, look });
     }
 
     /// Words that show where a pointer rests, at so many of the points at most.
     pub fn hover(&mut self, points: &[(Point, String)], most: usize) {
-        if points.is_empty() {
-            return;
+        if !points.is_empty() {
+            let every = points.len().div_ceil(most.max(1));
+            self.shapes.push(Shape::Hover(points.iter().step_by(every).cloned().collect()));
         }
-        self.body += "<g class=\"ss-hover\" fill=\"#000\" fill-opacity=\"0\">\n";
-        let every = points.len().div_ceil(most.max(1));
-        for ([x, y], words) in points.iter().step_by(every) {
-            let (x, y) = (px(*x), px(*y));
-            let words = escaped(words);
-            let _ = writeln!(
-                self.body,
-                "<circle cx=\"{x}\" cy=\"{y}\" r=\"7\"><title>{words}</title></circle>"
-            );
-        }
-        self.body += "</g>\n";
     }
 }
 
-fn fill(ink: Ink) -> String {
-    format!(" class=\"ss-f-{}\" fill=\"{}\"", ink.name, ink.light)
+/// A shape as a line of SVG, or several.
+fn written(shape: &Shape) -> String {
+    match shape {
+        Shape::Words { at, look, words } => text(*at, *look, words),
+        Shape::Line { points, pen } => {
+            let look = Look { fill: None, pen: Some(*pen) };
+            format!("<path d=\"{}\"{}/>\n", route(points), attributes(look))
+        }
+        Shape::Area { outline, look } => {
+            format!("<path d=\"{}Z\"{}/>\n", route(outline), attributes(*look))
+        }
+        Shape::Rect { corner: [x, y], sides: [wide, high], look } => {
+            let [x, y, wide, high] = [*x, *y, *wide, *high].map(px);
+            let look = attributes(*look);
+            format!("<rect x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{high}\"{look}/>\n")
+        }
+        Shape::Circle { middle: [x, y], radius, look } => {
+            let [x, y, radius] = [*x, *y, *radius].map(px);
+            format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}/>\n", attributes(*look))
+        }
+        Shape::Hover(points) => hover(points),
+    }
 }
 
-fn stroke(pen: Pen) -> String {
-    format!(" class=\"ss-s-{}\"{}", pen.ink.name, line_of(pen))
-}
-
-fn line_of(pen: Pen) -> String {
-    let dash = match pen.dash {
-        "" => String::new(),
-        dash => format!(" stroke-dasharray=\"{dash}\""),
+fn text([x, y]: Point, look: Type, words: &str) -> String {
+    let Type { ink, size, bold, anchor, upwards } = look;
+    let anchor = match anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
     };
-    format!(" stroke=\"{}\" stroke-width=\"{}\"{dash}", pen.ink.light, px(pen.width))
+    let weight = if bold { " font-weight=\"600\"" } else { "" };
+    let [x, y, size] = [x, y, size].map(px);
+    let turn = if upwards { format!(" transform=\"rotate(-90 {x} {y})\"") } else { "".into() };
+    let fill = attributes(Look { fill: Some((ink, 1.0)), pen: None });
+    let words = escaped(words);
+    format!(
+        "<text x=\"{x}\" y=\"{y}\"{anchor}{turn} font-size=\"{size}\"{weight}{fill}>{words}</text>\n"
+    )
 }
 
-fn filled(ink: Ink, opacity: f64, pen: Option<Pen>) -> String {
-    let faint = if opacity < 1.0 { format!(" fill-opacity=\"{opacity}\"") } else { "".into() };
-    let (class, line) = match pen {
-        Some(pen) => (format!(" ss-s-{}", pen.ink.name), line_of(pen)),
-        None => Default::default(),
-    };
-    format!(" class=\"ss-f-{}{class}\" fill=\"{}\"{faint}{line}", ink.name, ink.light)
+fn hover(points: &[(Point, String)]) -> String {
+    let mut out = String::from("<g class=\"ss-hover\" fill=\"#000\" fill-opacity=\"0\">\n");
+    for ([x, y], words) in points {
+        let [x, y] = [*x, *y].map(px);
+        let words = escaped(words);
+        let _ =
+            writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"7\"><title>{words}</title></circle>");
+    }
+    out + "</g>\n"
+}
+
+/// Classes for dark paper, colours for light.
+fn attributes(look: Look) -> String {
+    let (mut classes, mut colours) = (vec![], String::new());
+    if let Some((ink, opacity)) = look.fill {
+        classes.push(format!("ss-f-{}", ink.name));
+        let _ = write!(colours, " fill=\"{}\"", ink.light);
+        if opacity < 1.0 {
+            let _ = write!(colours, " fill-opacity=\"{opacity}\"");
+        }
+    }
+    if let Some(Pen { ink, width, dash }) = look.pen {
+        classes.push(format!("ss-s-{}", ink.name));
+        let _ = write!(colours, " stroke=\"{}\" stroke-width=\"{}\"", ink.light, px(width));
+        if !dash.is_empty() {
+            let _ = write!(colours, " stroke-dasharray=\"{dash}\"");
+        }
+    }
+    format!(" class=\"{}\"{colours}", classes.join(" "))
 }
