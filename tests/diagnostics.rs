@@ -364,7 +364,7 @@ fn another_major_version_is_refused_with_what_to_do() {
         assert_eq!(each[0].expected, "\"sweetspot-ball/1\"");
         assert!(each[0].help.starts_with(help), "{each:?}");
     }
-    for (format, help) in [("sweetspot-ball/1", "--ball"), ("sweetspot-modes/1", "a result")] {
+    for (format, help) in [("sweetspot-ball/1", "a ball"), ("sweetspot-modes/1", "a result")] {
         let said = of_bat(&folder, &GOOD.replace("sweetspot-bat/1", format));
         assert!(diagnostics(&said).0[0].help.contains(help), "{said}");
     }

@@ -15,8 +15,7 @@ use crate::beam::attached::{Contact, Spring};
 use crate::beam::holds::{Border, Build, Given, Holds, Span, Under};
 use crate::beam::mesh::Mesh;
 use crate::beam::placed::Placed;
-use crate::beam::sweep::{Body, Inwards, Loads, Outwards, Rigid};
-use crate::beam::view::View;
+use crate::beam::sweep::{Bare, Body, Inwards, Loads, Outwards, Rigid};
 use crate::beam::walk::{Run, What, runs};
 
 /// What is on one bat and what holds it.
@@ -34,13 +33,13 @@ pub struct Fixed<S> {
 
 impl<S: Real> Fixed<S> {
     /// Everything that the bat's fixtures say, on that mesh.
-    pub fn new(view: &View<S>, bat: &Bat, mesh: &Mesh) -> Self {
-        let placed = Placed::new(view, bat, mesh);
-        let root = view.cells.at(view.split).arm;
+    pub fn new(bare: &Bare<S>, bat: &Bat, mesh: &Mesh) -> Self {
+        let placed = Placed::new(bare, bat, mesh);
+        let root = bare.cells.at(bare.split).arm;
         if placed.contacts.is_empty() {
             return Self { placed, root, ..Self::nothing() };
         }
-        let holds = Holds::of([0, 1].map(|side| met(&placed, view, side)));
+        let holds = Holds::of([0, 1].map(|side| met(&placed, bare, side)));
         let (one, zero) = (S::splat(1.0), S::default());
         let free = match holds.held.map(|stiffness| stiffness > 0.0) {
             [true, true] => vec![],
@@ -270,9 +269,9 @@ impl<S: Real> Fixed<S> {
 }
 
 /// What is met on one side on the way inwards.
-fn met<S: Real>(placed: &Placed<S>, view: &View<S>, side: usize) -> Build<S> {
+fn met<S: Real>(placed: &Placed<S>, bare: &Bare<S>, side: usize) -> Build<S> {
     let mut build = Build::default();
-    for Run { cells, stop } in runs(view.side(side), &placed.stops[side]).rev() {
+    for Run { cells, stop } in runs(bare.side(side), &placed.stops[side]).rev() {
         match stop {
             Some(What::Joint(k)) => {
                 let Spring { place, softness } = placed.joints[k];
@@ -287,10 +286,10 @@ fn met<S: Real>(placed: &Placed<S>, view: &View<S>, side: usize) -> Build<S> {
             Some(What::PointMass(_)) | None => {}
         }
         for k in cells.rev() {
-            let cell = view.cells.at(k);
+            let cell = bare.cells.at(k);
             let adds = cell.lift.iter().zip(cell.turn).map(|(lift, turn)| [*lift, *turn]).collect();
-            let span = Span { first: k * view.strains, adds, length: cell.length.lane(0) };
-            let Some(bed) = placed.bed(k, view.terms) else {
+            let span = Span { first: k * bare.strains, adds, length: cell.length.lane(0) };
+            let Some(bed) = placed.bed(k, bare.terms) else {
                 build.cross(span);
                 continue;
             };
@@ -298,7 +297,7 @@ fn met<S: Real>(placed: &Placed<S>, view: &View<S>, side: usize) -> Build<S> {
             let (places, softness): (Vec<usize>, _) =
                 springs.map(|spring| (spring.place, spring.softness)).unzip();
             let rows =
-                (0..view.terms).flat_map(|term| cell.point_load(&unit(view.terms, term))).collect();
+                (0..bare.terms).flat_map(|term| cell.point_load(&unit(bare.terms, term))).collect();
             build.cross_bed(span, Under { contact: bed.start, place: places[0], softness, rows });
         }
     }

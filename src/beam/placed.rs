@@ -7,7 +7,7 @@ use crate::bat::body::Bat;
 use crate::bat::fixtures::Held;
 use crate::beam::attached::{At, Contact, PointMass, Spring};
 use crate::beam::mesh::Mesh;
-use crate::beam::view::View;
+use crate::beam::sweep::Bare;
 use crate::beam::walk::{Stop, What};
 
 /// A bat's fixtures, each at its place on the mesh.
@@ -31,14 +31,14 @@ pub struct Placed<S> {
 
 impl<S: Real> Placed<S> {
     /// Everything that the bat's fixtures say, on that mesh.
-    pub fn new(view: &View<S>, bat: &Bat, mesh: &Mesh) -> Self {
+    pub fn new(bare: &Bare<S>, bat: &Bat, mesh: &Mesh) -> Self {
         let clamped = bat.fixtures().supports.iter().filter(|s| s.kind == Held::Clamped);
         let clamps = clamped.map(|support| support.x).collect();
         let mut placed = Self { clamps, ..Self::default() };
-        placed.add_joints(view, bat, mesh);
-        placed.add_points(view, bat, mesh);
-        placed.add_holds(view, bat, mesh);
-        placed.add_grip(view, bat, mesh);
+        placed.add_joints(bare, bat, mesh);
+        placed.add_points(bare, bat, mesh);
+        placed.add_holds(bare, bat, mesh);
+        placed.add_grip(bare, bat, mesh);
         // Outwards; at one place the knob's part comes first from the knob and last from the tip.
         let order = |side: usize, what: What| match what {
             What::Joint(_) => usize::from(side == 1) * 2,
@@ -62,10 +62,10 @@ impl<S: Real> Placed<S> {
     }
 
     /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
-    fn spring(&mut self, view: &View<S>, stiffness: f64) -> Spring<S> {
-        let place = view.count * view.strains + self.springs;
+    fn spring(&mut self, bare: &Bare<S>, stiffness: f64) -> Spring<S> {
+        let place = bare.count * bare.strains + self.springs;
         self.springs += 1;
-        Spring { place, softness: (view.energy_unit / S::splat(stiffness)).sqrt() }
+        Spring { place, softness: (bare.energy_unit / S::splat(stiffness)).sqrt() }
     }
 
     /// Adds a stop where node `node` is; its side, 1 for the tip's.
@@ -77,16 +77,16 @@ impl<S: Real> Placed<S> {
         usize::from(tip_side)
     }
 
-    fn add_joints(&mut self, view: &View<S>, bat: &Bat, mesh: &Mesh) {
+    fn add_joints(&mut self, bare: &Bare<S>, bat: &Bat, mesh: &Mesh) {
         for joint in &bat.fixtures().joints {
-            let spring = self.spring(view, joint.rotational_stiffness);
+            let spring = self.spring(bare, joint.rotational_stiffness);
             self.joints.push(spring);
             let what = What::Joint(self.joints.len() - 1);
-            self.stop(view.split, node_at(bat, mesh, joint.x), what);
+            self.stop(bare.split, node_at(bat, mesh, joint.x), what);
         }
     }
 
-    fn add_points(&mut self, view: &View<S>, bat: &Bat, mesh: &Mesh) {
+    fn add_points(&mut self, bare: &Bare<S>, bat: &Bat, mesh: &Mesh) {
         let number = S::splat;
         let masses = bat.fixtures().attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
         let fixed = masses.map(|a| (a.x, [a.mass, a.offset, a.rotary_inertia], None));
@@ -94,11 +94,11 @@ impl<S: Real> Placed<S> {
         let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
         for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
             let what = What::PointMass(self.points.len());
-            let side = self.stop(view.split, node_at(bat, mesh, x), what);
-            let spring = stiffness.map(|stiffness| self.spring(view, stiffness));
+            let side = self.stop(bare.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| self.spring(bare, stiffness));
             let outwards = if side == 1 { 1.0 } else { -1.0 };
             self.points.push(PointMass {
-                arm: number(outwards) * (number(x) - view.balance),
+                arm: number(outwards) * (number(x) - bare.balance),
                 mass: number(mass),
                 offset: number(outwards * offset),
                 inertia: number(inertia),
@@ -108,11 +108,11 @@ impl<S: Real> Placed<S> {
     }
 
     /// Adds supports and springs to ground.
-    fn add_holds(&mut self, view: &View<S>, bat: &Bat, mesh: &Mesh) {
+    fn add_holds(&mut self, bare: &Bare<S>, bat: &Bat, mesh: &Mesh) {
         let mut add = |x: f64, turning: bool, stiffness: Option<f64>| {
             let what = What::Contact(self.contacts.len());
-            let side = self.stop(view.split, node_at(bat, mesh, x), what);
-            let spring = stiffness.map(|stiffness| self.spring(view, stiffness));
+            let side = self.stop(bare.split, node_at(bat, mesh, x), what);
+            let spring = stiffness.map(|stiffness| self.spring(bare, stiffness));
             let sign = S::splat(if turning && side == 0 { -1.0 } else { 1.0 });
             self.contacts.push(Contact { at: At::Border, turning, sign, spring });
         };
@@ -131,15 +131,15 @@ impl<S: Real> Placed<S> {
     }
 
     /// Adds the elastic bed of the hands.
-    fn add_grip(&mut self, view: &View<S>, bat: &Bat, mesh: &Mesh) {
+    fn add_grip(&mut self, bare: &Bare<S>, bat: &Bat, mesh: &Mesh) {
         let Some(grip) = bat.fixtures().grip.filter(|grip| grip.stiffness > 0.0) else { return };
         self.beds = vec![None; mesh.len()];
-        for (cell, e) in in_grip(bat, mesh, view.split) {
+        for (cell, e) in in_grip(bat, mesh, bare.split) {
             self.beds[cell] = Some(self.contacts.len());
-            for term in 0..view.terms {
+            for term in 0..bare.terms {
                 // ∫P_k² dx.
                 let share = mesh.elements[e].length / (2 * term + 1) as f64;
-                let spring = Some(self.spring(view, grip.stiffness * share));
+                let spring = Some(self.spring(bare, grip.stiffness * share));
                 let (at, turning, sign) = (At::Bed, false, S::splat(1.0));
                 self.contacts.push(Contact { at, turning, sign, spring });
             }

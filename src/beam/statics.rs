@@ -158,7 +158,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         if !bats[0].fixtures().none_moving() {
             self.attach(bats[0]);
             debug_assert!(R::LANES == 1);
-            self.fixed = Some(Box::new(Fixed::new(&self.view(), bats[0], meshes[0])));
+            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats[0], meshes[0])));
         }
     }
 

@@ -163,6 +163,48 @@ impl<S: Real, const W: usize> Body<'_, S, W> {
     }
 }
 
+/// Cells of any size.
+pub trait Cells<S> {
+    /// The cell of that number.
+    fn at(&self, number: usize) -> CellView<'_, S>;
+}
+
+impl<S: Real, const W: usize> Cells<S> for Vec<Cell<S, W>> {
+    fn at(&self, number: usize) -> CellView<'_, S> {
+        self[number].view()
+    }
+}
+
+/// A bare bat of elements of any degree and theory.
+#[derive(Clone, Copy)]
+pub struct Bare<'a, S> {
+    /// Legendre polynomials of a deflection of an element.
+    pub terms: usize,
+    /// Strains of an element.
+    pub strains: usize,
+    /// Number of cells.
+    pub count: usize,
+    /// How many of the cells are on the knob side.
+    pub split: usize,
+    /// The cells, the knob side first, both sides from the root outwards.
+    pub cells: &'a dyn Cells<S>,
+    /// Mass with everything attached (kg).
+    pub mass: S,
+    /// The theory's inertia about the balance point (kg m²).
+    pub inertia: S,
+    /// Distance of the balance point from the knob end (m).
+    pub balance: S,
+    /// Energy of `½ qᵀq = 1` (J).
+    pub energy_unit: S,
+}
+
+impl<S> Bare<'_, S> {
+    /// The places of the cells of one side, outwards.
+    pub fn side(&self, side: usize) -> Range<usize> {
+        side_of(self.split, self.count, side)
+    }
+}
+
 /// What a motion's inertia loads: the cells, and, where something is on the bat or holds it, force
 /// and couple of every point mass (outwards) and the force of every contact.
 #[derive(Debug, Clone, Default)]

@@ -1,6 +1,6 @@
 //! A bat on its elements, whatever their degree and theory.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use crate::base::real::Real;
 use crate::bat::theory::Theory;
@@ -8,39 +8,19 @@ use crate::beam::fixed::Fixed;
 use crate::beam::placed::Placed;
 use crate::beam::rule::Rule;
 use crate::beam::statics::Statics;
-use crate::beam::sweep::{Cell, CellView};
-use crate::beam::walk::{Run, runs, side_of};
-
-/// Cells of any size.
-pub trait Cells<S> {
-    /// The cell of that number.
-    fn at(&self, number: usize) -> CellView<'_, S>;
-}
-
-impl<S: Real, const W: usize> Cells<S> for Vec<Cell<S, W>> {
-    fn at(&self, number: usize) -> CellView<'_, S> {
-        self[number].view()
-    }
-}
+use crate::beam::sweep::{Bare, CellView};
+use crate::beam::walk::{Run, runs};
 
 /// A bat of elements of any degree and theory: what does not step through its strains time and again
 /// is then compiled once.
 #[derive(Clone, Copy)]
 pub struct View<'a, S> {
+    /// The bare bat; its fields are read as the view's own.
+    pub bare: Bare<'a, S>,
     /// Where the elements are sampled.
     pub rule: &'static Rule,
     /// The beam theory.
     pub theory: Theory,
-    /// Legendre polynomials of a deflection of an element.
-    pub terms: usize,
-    /// Strains of an element.
-    pub strains: usize,
-    /// Number of cells.
-    pub count: usize,
-    /// How many of the cells are on the knob side.
-    pub split: usize,
-    /// The cells, the knob side first, both sides from the root outwards.
-    pub cells: &'a dyn Cells<S>,
     /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: &'a [S],
     /// ρA (kg/m) likewise.
@@ -49,26 +29,22 @@ pub struct View<'a, S> {
     pub turning_per_length: &'a [S],
     /// κGA (N) likewise; empty without shear.
     pub shear_stiffness: &'a [S],
-    /// Mass with everything attached (kg).
-    pub mass: S,
-    /// The theory's inertia about the balance point (kg m²).
-    pub inertia: S,
-    /// Distance of the balance point from the knob end (m).
-    pub balance: S,
     /// Length of the bat (m).
     pub length: S,
-    /// Energy of `½ qᵀq = 1` (J).
-    pub energy_unit: S,
     /// What is on the bat and what holds it, if anything.
     pub fixed: Option<&'a Fixed<S>>,
 }
 
-impl<'a, S: Real> View<'a, S> {
-    /// The places of the cells of one side, outwards.
-    pub fn side(&self, side: usize) -> Range<usize> {
-        side_of(self.split, self.count, side)
-    }
+impl<'a, S> Deref for View<'a, S> {
+    type Target = Bare<'a, S>;
 
+    #[inline(always)]
+    fn deref(&self) -> &Bare<'a, S> {
+        &self.bare
+    }
+}
+
+impl<'a, S: Real> View<'a, S> {
     /// The cells of one side from stop to stop.
     #[inline(always)]
     pub fn runs(&self, side: usize) -> impl DoubleEndedIterator<Item = Run> + use<'a, S> {
@@ -134,25 +110,32 @@ pub struct Located<'a, S> {
 }
 
 impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
-    /// The bat without the size of its elements in the type.
-    pub fn view(&self) -> View<'_, S> {
-        View {
-            rule: self.rule,
-            theory: self.theory,
+    /// The bare bat without the size of its elements in the type.
+    pub fn bare(&self) -> Bare<'_, S> {
+        Bare {
             terms: N,
             strains: W - 2,
             count: self.cells.len(),
             split: self.split,
             cells: &self.cells,
+            mass: self.mass,
+            inertia: self.inertia,
+            balance: self.balance,
+            energy_unit: self.energy_unit,
+        }
+    }
+
+    /// The bat without the size of its elements in the type.
+    pub fn view(&self) -> View<'_, S> {
+        View {
+            bare: self.bare(),
+            rule: self.rule,
+            theory: self.theory,
             bending_stiffness: &self.bending_stiffness,
             mass_per_length: &self.mass_per_length,
             turning_per_length: &self.turning_per_length,
             shear_stiffness: &self.shear_stiffness,
-            mass: self.mass,
-            inertia: self.inertia,
-            balance: self.balance,
             length: self.length,
-            energy_unit: self.energy_unit,
             fixed: self.fixed.as_deref(),
         }
     }

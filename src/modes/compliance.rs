@@ -22,6 +22,7 @@ use crate::beam::motion::Motion;
 use crate::beam::placed::in_grip;
 use crate::beam::rule::MOST_POINTS;
 use crate::beam::sections::losses;
+use crate::beam::sweep::Bare;
 use crate::beam::view::View;
 use crate::eigen::lanczos::Lanczos;
 use crate::modes::mode::Shape;
@@ -111,7 +112,7 @@ impl Flexible {
         let mut pairs = pairs_of(bat, degree, theory);
         pairs.assemble(bat, mesh);
         let view = pairs.view();
-        let View { energy_unit, mass, inertia, balance, fixed, .. } = view;
+        let View { bare: Bare { energy_unit, mass, inertia, balance, .. }, fixed, .. } = view;
         let free = fixed.map_or(vec![[1.0, 0.0], [0.0, 1.0]], |fixed| fixed.free().to_vec());
         let points = fixed.iter().flat_map(|fixed| &fixed.placed.points);
         let springs = points.filter_map(|point| point.spring);
@@ -284,7 +285,7 @@ impl Flexible {
         if bat.layups().iter().all(|layup| layup.materials().all(|m| m.loss_factor == 0.0)) {
             return vec![];
         }
-        let View { split, rule, .. } = self.pairs.view();
+        let View { bare: Bare { split, .. }, rule, .. } = self.pairs.view();
         let points = rule.count();
         let mut all = vec![[0.0; 2]; self.mesh.len() * points];
         for (k, e) in self.mesh.elements.iter().enumerate() {
@@ -297,7 +298,7 @@ impl Flexible {
 
     /// Everything that takes energy out of the bat but its materials.
     fn dashpots(&self, bat: &Bat) -> Vec<Dashpot> {
-        let View { energy_unit, split, rule, fixed, .. } = self.pairs.view();
+        let View { bare: Bare { energy_unit, split, .. }, rule, fixed, .. } = self.pairs.view();
         let contacts = fixed.iter().flat_map(|fixed| &fixed.placed.contacts);
         let beds = contacts.filter(|contact| contact.in_a_bed());
         let bed: Vec<Spring<f64>> = beds.filter_map(|contact| contact.spring).collect();

@@ -23,6 +23,10 @@ pub mod mode;
 #[doc(hidden)]
 pub mod eigenpairs;
 #[doc(hidden)]
+pub mod referee;
+#[doc(hidden)]
+pub mod pairs;
+#[doc(hidden)]
 pub mod compliance;
 #[doc(hidden)]
 pub mod pole;
@@ -32,10 +36,6 @@ pub(crate) mod free_motions;
 pub mod damping;
 #[doc(hidden)]
 pub mod certificate;
-#[doc(hidden)]
-pub mod referee;
-#[doc(hidden)]
-pub mod pairs;
 #[doc(hidden)]
 pub mod survey;
 pub mod plan;
