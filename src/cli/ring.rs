@@ -268,14 +268,8 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         file::write(path, aftermath::history(&after, &report).as_bytes())?;
     }
     if let Some(path) = args.csv.as_ref().filter(|path| path.as_os_str() != "-") {
-        let last = f64::from(args.shape_points - 1);
-        let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
-        let places: Vec<f64> = places.collect();
-        let mut times = times(args, &solution);
-        times.sort_by(f64::total_cmp);
-        let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();
-        let frames: Vec<Vec<f64>> = after.at(&times).iter().map(deflections).collect();
-        file::write(path, csv(&places, &times, &frames).as_bytes())?;
+        let frames = frames_after(args, &bat, &solution, &after);
+        file::write(path, frames.as_bytes())?;
     }
     let code = args.solve.verdict(&solution, &args.output);
     let document = || {
@@ -283,6 +277,18 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// The bat's deflections after a hit as CSV, the instants in their order.
+fn frames_after(args: &Args, bat: &Bat, solution: &Solution, after: &Aftermath) -> String {
+    let last = f64::from(args.shape_points - 1);
+    let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
+    let places: Vec<f64> = places.collect();
+    let mut times = times(args, solution);
+    times.sort_by(f64::total_cmp);
+    let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();
+    let frames: Vec<Vec<f64>> = after.at(&times).iter().map(deflections).collect();
+    csv(&places, &times, &frames)
 }
 
 /// A place on that bat (m); a tip given in inches may be a rounding beyond it.
