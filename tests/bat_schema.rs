@@ -9,11 +9,11 @@ use std::path::Path;
 use common::folder::Folder;
 use jsonschema::Validator;
 use serde_json::{Value, json};
-use sweetspot::Bat;
 use sweetspot::collision::ball::Ball;
 use sweetspot::files::schema::ball::BallFile;
 use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::of;
+use sweetspot::{Bat, Material};
 
 /// A bat with everything on it and under it.
 const FULL: &str = r#"{
@@ -48,6 +48,14 @@ const FORMULAS: &str = r#"{
 const CSV: &str = r#"{
   "format": "sweetspot-bat/1", "material": "white-ash",
   "profile": { "csv": "profile.csv", "unit": "in", "interpolation": "pchip" }
+}"#;
+
+/// A built-in material of which one number is known better.
+const LIGHTER: &str = r#"{
+  "format": "sweetspot-bat/1",
+  "material": { "name": "white-ash-dynamic", "density": 631, "shear_modulus": "1.1 GPa" },
+  "profile": { "x": [0, 0.84], "radius": [0.02, 0.02] },
+  "regions": [ { "from": 0.6, "to": 0.84, "material": { "name": "sugar-maple", "loss_factor": 0.02 } } ]
 }"#;
 
 fn validator() -> Validator {
@@ -118,7 +126,7 @@ fn every_bat_of_this_project_is_valid() {
     bats.extend(
         files("validation").iter().map(|case| case["bat"].clone()).filter(Value::is_object),
     );
-    bats.extend([FULL, FORMULAS, CSV].map(parsed));
+    bats.extend([FULL, FORMULAS, CSV, LIGHTER].map(parsed));
     assert!(bats.len() > 80, "{}", bats.len());
     let validator = validator();
     for bat in &bats {
@@ -294,6 +302,22 @@ fn reader_and_schema_know_the_same_members() {
     let objects = schema["$defs"].as_object().unwrap().values().filter(with_members).count() + 1;
     let tried: BTreeSet<&str> = PLACES.iter().map(|(name, _)| *name).collect();
     assert_eq!(tried.len(), objects);
+}
+
+#[test]
+fn a_named_material_keeps_what_is_not_said_of_it() {
+    let read = |text: &str| Bat::from_text("bat.json", text, Path::new("")).unwrap();
+    let [bat, named] = [LIGHTER, &LIGHTER.replace(", \"density\": 631", "")].map(read);
+    let ash = Material::named("white-ash-dynamic").unwrap();
+    assert_eq!((bat.material().density, named.material().density), (631.0, ash.density));
+    assert_eq!(bat.material().youngs_modulus, ash.youngs_modulus);
+    assert_eq!(bat.material().shear_modulus, Some(1.1e9));
+    let maple = Material::named("sugar-maple").unwrap();
+    let region = &bat.layups()[1].outer;
+    assert_eq!((region.density, region.loss_factor), (maple.density, 0.02));
+    let wrong = LIGHTER.replace("white-ash-dynamic", "white-oak");
+    let said = Bat::from_text("bat.json", &wrong, Path::new("")).unwrap_err().to_string();
+    assert!(said.contains("material.name: found \"white-oak\""), "{said}");
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn hit(bat: &Bat, model: Model, scene: &Scene, x: f64) -> Outcome {
 
 fn held(fixtures: Fixtures) -> Bat {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let weighed = sweetspot::bat::body::Weighed::default();
+    let weighed = sweetspot::bat::weighed::Weighed::default();
     Bat::builder(bat.profile().clone(), bat.material().clone())
         .name("held")
         .fixtures(fixtures)

@@ -3,7 +3,7 @@
 //! [`Bat::builder`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
 //! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
@@ -11,8 +11,9 @@ use crate::base::quadrature::{RunningSum, converged, gauss};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
-use crate::bat::part::{on_the_bat, positive};
+use crate::bat::part::Part as _;
 use crate::bat::profile::{Piece, Profile, Radii, Section};
+use crate::bat::weighed::Weighed;
 
 /// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
 pub const STANDARD_PIVOT: f64 = 0.1524;
@@ -69,38 +70,6 @@ pub struct Parts {
     pub fixtures: Fixtures,
 }
 
-/// What a scale and a tap said, where they were asked.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
-pub struct Weighed {
-    /// Mass with everything attached (kg).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass: Option<f64>,
-    /// Balance point from the knob end (m): a check.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub balance_point: Option<f64>,
-    /// The first bending frequency of the bat as described (Hz).
-    #[serde(rename = "first_bending_hz", skip_serializing_if = "Option::is_none")]
-    pub first_bending: Option<f64>,
-}
-
-impl Weighed {
-    /// Every value in its possible range, of a bat of that length (m).
-    pub(crate) fn check(&self, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        if let Some(mass) = self.mass.filter(|mass| *mass <= 0.0 || !mass.is_finite()) {
-            mistakes.add(Error::value("weighed.mass", format!("{mass} kg"), "a mass above 0"));
-        }
-        if let Some(x) = self.balance_point {
-            mistakes.note(on_the_bat("weighed.balance_point", x, length));
-        }
-        if let Some(frequency) = self.first_bending {
-            mistakes.note(positive("weighed.first_bending_hz", frequency, "Hz"));
-        }
-        mistakes.end(())
-    }
-}
-
 /// What a bat is as a rigid body; positions from the knob end, inertias transverse.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Inertia {
@@ -154,7 +123,7 @@ impl Builder {
     /// [`Error::Value`], its field the path of a key in a bat file, or several of them.
     pub fn build(self) -> Result<Bat> {
         let mut mistakes = Mistakes::default();
-        mistakes.note(self.weighed.check(self.parts.profile.length()));
+        mistakes.note(self.weighed.check("weighed", self.parts.profile.length()));
         let bat = mistakes.some(Bat::of(self.parts, self.weighed, [1.0; 2]));
         mistakes.end(())?;
         let mut bat = bat.expect("what could not be made was noted");

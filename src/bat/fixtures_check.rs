@@ -1,9 +1,9 @@
 //! Whether what is on a bat can be there.
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Error, Result};
 use crate::base::mistakes::{self, Mistakes};
-use crate::bat::fixtures::{Attachment, Fixtures, Held, Region, Support};
-use crate::bat::part::{Part, SOFTEST, on_the_bat, stretch};
+use crate::bat::fixtures::{Attachment, Fixtures, Held, Region};
+use crate::bat::part::{Part, SOFTEST};
 use crate::bat::profile::SAME_PLACE;
 
 /// Frequencies nearer to each other, relative, are not counted apart.
@@ -17,13 +17,12 @@ impl Fixtures {
     /// [`Error::Value`] with the path of the key in a bat file as its field, or several of them.
     pub fn check(&self, length: f64) -> Result<()> {
         let mut mistakes = Mistakes::default();
-        let mut list = |read: Result<Vec<()>>| _ = mistakes.note(read);
-        list(each("regions", &self.regions, |path, region| region.check(path, length)));
-        list(each("attachments", &self.attachments, |path, a| a.check(path, length)));
-        list(each("tapes", &self.tapes, |path, tape| tape.check(path, length)));
-        list(each("absorbers", &self.absorbers, |path, a| a.check(path, length)));
-        list(each("joints", &self.joints, |path, joint| joint.check(path, length)));
-        list(each("supports", &self.supports, |path, support| support.check(path, length)));
+        mistakes.note(each("regions", &self.regions, length));
+        mistakes.note(each("attachments", &self.attachments, length));
+        mistakes.note(each("tapes", &self.tapes, length));
+        mistakes.note(each("absorbers", &self.absorbers, length));
+        mistakes.note(each("joints", &self.joints, length));
+        mistakes.note(each("supports", &self.supports, length));
         if let Some(grip) = &self.grip {
             mistakes.note(grip.check("grip", length));
         }
@@ -109,35 +108,8 @@ impl Fixtures {
     }
 }
 
-/// What is wrong with the items of a list; each is told its path.
-fn each<T>(list: &str, items: &[T], check: impl Fn(&str, &T) -> Result<()>) -> Result<Vec<()>> {
-    let items = items.iter().enumerate();
-    mistakes::all(items.map(|(k, item)| check(&format!("{list}[{k}]"), item)))
-}
-
-// What is wrong with one part on a bat of that length (m), its path in a bat file before each field.
-
-impl Region {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
-        mistakes.note(stretch(path, [self.from, self.to], length));
-        for (key, material) in ["material", "core"].iter().zip(self.layup.materials()) {
-            let checked = material.check();
-            mistakes.note(checked.map_err(|error| within(&format!("{path}.{key}"), error)));
-        }
-        mistakes.end(())
-    }
-}
-
-impl Support {
-    pub(crate) fn check(&self, path: &str, length: f64) -> Result<()> {
-        on_the_bat(format!("{path}.x"), self.x, length)
-    }
-}
-
-/// An error about a part, as one about the whole: its field is a path from there.
-fn within(path: &str, error: Error) -> Error {
-    error.placed(|complaint| {
-        Error::Value(Complaint { field: format!("{path}.{}", complaint.field), ..complaint })
-    })
+/// What is wrong with the parts in a list, on a bat of that length (m).
+fn each<P: Part>(list: &str, parts: &[P], length: f64) -> Result<()> {
+    let parts = parts.iter().enumerate();
+    mistakes::all(parts.map(|(k, part)| part.check(&format!("{list}[{k}]"), length))).map(|_| ())
 }

@@ -5,9 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
 use crate::base::interval::Rectangle;
-use crate::base::mistakes::Mistakes;
 
 /// A material, along the bat's axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,7 +43,7 @@ impl Material {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] if one of them is not a positive number.
+    /// [`crate::Error::Value`] if one of them is not a positive number.
     pub fn new(density: f64, youngs_modulus: f64) -> Result<Self> {
         let material = Self {
             name: None,
@@ -59,40 +58,6 @@ impl Material {
         };
         material.check()?;
         Ok(material)
-    }
-
-    /// Every value in its possible range: ρ, E, G, κ and the strength positive, η not negative,
-    /// −1 < ν ≤ ½, a strain to failure above 0 and below 1.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] with the key of the bat file as its field, or several of them.
-    pub fn check(&self) -> Result<()> {
-        let positive = |key: &str, value: Option<f64>, unit: &str| match value {
-            Some(v) if !(v > 0.0 && v.is_finite()) => {
-                Err(Error::value(key, format!("{v:?} {unit}").trim(), "a number above 0"))
-            }
-            _ => Ok(()),
-        };
-        let mut mistakes = Mistakes::default();
-        mistakes.note(positive("density", Some(self.density), "kg/m³"));
-        mistakes.note(positive("youngs_modulus", Some(self.youngs_modulus), "Pa"));
-        mistakes.note(positive("shear_coefficient", self.shear_coefficient, ""));
-        if !(self.loss_factor >= 0.0 && self.loss_factor < 2.0) {
-            let expected = "0 or more and below 2 (a damping ratio below 1)";
-            mistakes.add(Error::value("loss_factor", self.loss_factor, expected));
-        }
-        if let Some(nu) = self.poisson_ratio.filter(|nu| !(*nu > -1.0 && *nu <= 0.5)) {
-            mistakes.add(Error::value("poisson_ratio", nu, "a number above -1, 0.5 at most"));
-        }
-        mistakes.note(positive("strength", self.strength, "Pa"));
-        if let Some(strain) = self.strain_to_failure.filter(|e| !(*e > 0.0 && *e < 1.0)) {
-            let expected = "a number above 0 and below 1, such as 0.02";
-            mistakes.add(Error::value("strain_to_failure", strain, expected));
-        }
-        mistakes.end(())?;
-        // After the modulus and the ratio, which it may have been made from.
-        positive("shear_modulus", self.shear_modulus, "Pa")
     }
 
     /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own,

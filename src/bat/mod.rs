@@ -10,7 +10,8 @@
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
 //! | [`layup`] | what is the section worth: stiffness and mass per length |
-//! | [`fixtures`], `part`, `fixtures_check` | masses, springs, supports, grips, joints; their numbers; are they possible |
+//! | [`fixtures`], [`weighed`] | masses, springs, supports, grips, joints; what a scale and a tap said |
+//! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; can they be there |
 //! | [`body`] | the whole bat |
 
 pub mod material;
@@ -26,6 +27,8 @@ pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
 pub mod layup;
 pub mod fixtures;
+pub mod weighed;
 pub(crate) mod part;
+mod members;
 pub(crate) mod fixtures_check;
 pub mod body;

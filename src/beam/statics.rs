@@ -353,10 +353,10 @@ fn power_of_two_below(value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::base::linear::dot;
-    use crate::bat::body::Weighed;
     use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
     use crate::bat::material::Material;
     use crate::bat::profile::{Interpolation, Profile, Stations};
+    use crate::bat::weighed::Weighed;
     use crate::beam::changes::Depth;
     use crate::beam::hermite::elements;
     use crate::beam::motion::Motion;

@@ -7,15 +7,16 @@ use std::path::{Component, Path, PathBuf};
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
-use crate::bat::body::{Bat, Weighed};
+use crate::bat::body::Bat;
 use crate::bat::formula::Formula;
 use crate::bat::material::Material;
 use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
+use crate::bat::weighed::Weighed;
 use crate::files::document::Document;
 use crate::files::fixtures_file;
 use crate::files::json_node::{Node, Object};
-use crate::files::material_file;
-use crate::files::station_table::StationTable;
+use crate::files::part_file;
+use crate::files::station_table::{COLUMNS, StationTable};
 
 const KEYS: &[&str] = &[
     "format",
@@ -33,19 +34,8 @@ const KEYS: &[&str] = &[
     "grip",
     "$schema",
 ];
-const PROFILE_KEYS: &[&str] = &[
-    "interpolation",
-    "unit",
-    "measured_from",
-    "csv",
-    "pieces",
-    "x",
-    "radius",
-    "diameter",
-    "inner_radius",
-    "inner_diameter",
-    "wall_thickness",
-];
+/// The members of a profile beside its columns.
+const OF_PROFILE: [&str; 5] = ["interpolation", "unit", "measured_from", "csv", "pieces"];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),
     ("linear", Interpolation::Linear),
@@ -149,20 +139,17 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     mistakes.note(root.string("$schema"));
     let name = mistakes.note(root.string("name"));
     let source = mistakes.note(root.string("source"));
-    let weighed = mistakes.some(fixtures_file::weighed(&root));
-    let material = mistakes.some(material(&root, weighed.as_ref()));
     let node = mistakes.some(root.require("profile", "a profile"));
     let profile = node.and_then(|node| profile(node, folder, &mut mistakes));
     let length = profile.as_ref().map(Profile::length);
+    let weighed = mistakes.some(fixtures_file::weighed(&root, length));
+    let material = mistakes.some(material(&root, weighed.as_ref()));
     // Something sound stands in for a material that could not be read: no bat is made of it.
     let sound = || Material::new(700.0, 14e9).expect("both are above 0");
     let material = material.unwrap_or_else(sound);
     let on = fixtures_file::On { material: &material, length };
     let fixtures = fixtures_file::read(&root, &on, &mut mistakes);
     let placed = |error: Error| error.placed(|complaint| root.node.locate(complaint));
-    if let (Some(weighed), Some(length)) = (weighed, length) {
-        mistakes.note(weighed.check(length).map_err(placed));
-    }
     let weighed = weighed.unwrap_or_default();
     mistakes.end(())?;
     let profile = profile.expect("a profile that could not be read was noted");
@@ -191,12 +178,13 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
         // The tap will set it; a wood's is a good beginning.
         (Some(Some(_)), false) | (None, _) => Ok(1e10),
     };
-    material_file::read(root.require("material", "a material")?, without_density, without_modulus)
+    part_file::material(root.require("material", "a material")?, without_density, without_modulus)
 }
 
 /// The profile, if there is nothing wrong with it but its keys.
 fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Profile> {
-    let object = node.object(PROFILE_KEYS, mistakes);
+    let keys = [&OF_PROFILE[..], &COLUMNS].concat();
+    let object = node.object(&keys, mistakes);
     let object = mistakes.some(object)?;
     let from_tip = object.get("measured_from");
     let from_tip = from_tip.map(|node| node.word(&[("knob", false), ("tip", true)])).transpose();
@@ -212,7 +200,8 @@ fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Prof
 /// Formulas, in the `pieces` of a `profile` object.
 fn formulas(object: &Object, node: &Node) -> Result<Profile> {
     let mut mistakes = Mistakes::default();
-    for key in PROFILE_KEYS.iter().filter(|key| !["pieces", "measured_from"].contains(key)) {
+    let own = |key: &&&str| !["pieces", "measured_from"].contains(*key);
+    for key in OF_PROFILE.iter().filter(own).chain(&COLUMNS) {
         if let Some(node) = object.get(key) {
             let expected = "\"pieces\" alone: formulas give the radius in m from x in m";
             mistakes.add(node.key().error(format!("\"{key}\" beside \"pieces\""), expected));
@@ -284,8 +273,7 @@ fn columns(object: Object, folder: &Folder) -> Result<Profile> {
 fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<StationTable<'a>> {
     let Some(node) = object.get("csv") else { return StationTable::from_json(object, unit) };
     let mut mistakes = Mistakes::default();
-    let columns = ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
-    for key in columns {
+    for key in COLUMNS {
         if let Some(node) = object.get(key) {
             let found = format!("\"{key}\" beside \"csv\"");
             mistakes.add(node.key().error(found, "the columns in the csv file alone"));

@@ -357,14 +357,6 @@ impl<'a> Object<'a> {
         Ok(found)
     }
 
-    pub fn number(&self, key: &str) -> Result<Option<f64>> {
-        self.get(key).map(Node::number).transpose()
-    }
-
-    pub fn quantity(&self, key: &str, quantity: Quantity) -> Result<Option<f64>> {
-        self.get(key).map(|node| node.quantity(quantity)).transpose()
-    }
-
     pub fn string(&self, key: &str) -> Result<Option<String>> {
         self.get(key).map(Node::string).transpose()
     }
@@ -468,8 +460,8 @@ mod tests {
     fn a_misspelt_key_is_told_once_and_taken_for_what_it_means() {
         let document = Document::new("f".into(), "{\"densty\": 1, \"Mass\": 2, \"mass\": 3}");
         let object = object(&document, &["density", "mass"]);
-        assert_eq!(object.number("density").unwrap(), Some(1.0));
-        assert_eq!(object.number("mass").unwrap(), Some(3.0));
+        assert_eq!(object.get("density").unwrap().number().unwrap(), 1.0);
+        assert_eq!(object.get("mass").unwrap().number().unwrap(), 3.0);
         let found = told(&document.text, &["density", "mass"]);
         assert!(found.len() == 2 && found[0].ends_with("; did you mean density?"), "{found:?}");
     }

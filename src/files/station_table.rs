@@ -11,8 +11,11 @@ use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 
-const OUTER: [&str; 2] = ["radius", "diameter"];
-const INNER: [&str; 3] = ["inner_radius", "inner_diameter", "wall_thickness"];
+/// The columns that a profile may have.
+pub(crate) const COLUMNS: [&str; 6] =
+    ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
+const OUTER: [&str; 2] = [COLUMNS[1], COLUMNS[2]];
+const INNER: [&str; 3] = [COLUMNS[3], COLUMNS[4], COLUMNS[5]];
 
 /// One column: its key and its values in metres.
 struct Column {
@@ -72,8 +75,7 @@ impl<'a> StationTable<'a> {
     /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
     pub fn from_csv(path: &Path, unit: f64) -> Result<StationTable<'static>> {
         let document = Document::read(path)?;
-        let keys: Vec<&'static str> = ["x"].into_iter().chain(OUTER).chain(INNER).collect();
-        let csv = Csv::read(&document, &keys, Quantity::Length, unit)?;
+        let csv = Csv::read(&document, &COLUMNS, Quantity::Length, unit)?;
         let header = |found: String, expected: &str| {
             Err(csv.error(&document, "", None, Complaint::new("header", found, expected)))
         };

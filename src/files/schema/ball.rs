@@ -6,7 +6,7 @@ use schemars::generate::Contract;
 use crate::base::units::Quantity;
 use crate::files::schema::amount::{Amount, Measures};
 use crate::files::schema::document::{Document, Format};
-use crate::files::schema::material::Comment;
+use crate::files::schema::part::Comment;
 
 /// A ball: its size, its force law F = k u^alpha (N, m) under compression, and how it comes back. A
 /// bare number is SI, a text carries its unit.

@@ -10,13 +10,14 @@ use schemars::generate::Contract;
 use serde_json::{Value, json};
 
 use crate::base::units::Quantity;
-use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Tape};
+use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
 use crate::bat::profile::Interpolation;
+use crate::bat::weighed::Weighed;
 use crate::files::schema::amount::{Amount, Measures, column};
 use crate::files::schema::document::{Document, Format};
-use crate::files::schema::fixtures::{InFile, Region, Support};
-use crate::files::schema::material::{Comment, Material};
+use crate::files::schema::part::{self, Comment, InFile, Material};
 use crate::files::schema::resolved::End;
+use crate::files::station_table::COLUMNS;
 
 /// A baseball bat: its shape, what it is made of, what is on it and what holds it. A bare number is
 /// SI, a text carries its unit. Positions count from the knob end.
@@ -44,10 +45,11 @@ pub struct BatFile {
     pub material: Material,
     /// Outer and inner radius along the bat, as columns of stations or as formulas.
     pub profile: Profile,
-    /// What a scale and a tap said of the bat.
-    pub weighed: Option<Weighed>,
+    /// What a scale and a tap said of the bat. The mass sets one factor on all densities, the frequency
+    /// one on all moduli; the balance point is compared.
+    pub weighed: Option<InFile<Weighed>>,
     /// Stretches of other materials, which do not overlap.
-    pub regions: Option<Vec<Region>>,
+    pub regions: Option<Vec<InFile<Region>>>,
     /// Weights and springs to ground.
     pub attachments: Option<Vec<InFile<Attachment>>>,
     /// Bat tape: mass without stiffness.
@@ -57,7 +59,7 @@ pub struct BatFile {
     /// Places that give way to bending, one joint at one place.
     pub joints: Option<Vec<InFile<Joint>>>,
     /// Places that are held, one support at one place; without supports the bat is free.
-    pub supports: Option<Vec<Support>>,
+    pub supports: Option<Vec<InFile<Support>>>,
     /// Hands that hold the bat as an elastic bed.
     pub grip: Option<InFile<Grip>>,
 }
@@ -70,9 +72,8 @@ impl Document for BatFile {
 /// Either the material has that number or something that was measured stands in for it, which is
 /// one factor and so cannot be had beside regions.
 fn without(number: &str, measured: &str) -> Value {
-    let given = json!({ "anyOf": [{ "type": "string" }, { "required": [number] }] });
     json!({ "anyOf": [
-        { "properties": { "material": given } },
+        { "properties": { "material": part::with(&[number]) } },
         {
             "properties": { "weighed": { "required": [measured] }, "regions": false },
             "required": ["weighed"],
@@ -136,9 +137,6 @@ pub struct Profile {
     pub pieces: Option<Vec<Piece>>,
 }
 
-const COLUMNS: [&str; 6] =
-    ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
-
 /// None of these members may be there.
 fn nothing_of(keys: &[&str]) -> Value {
     keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect()
@@ -162,28 +160,4 @@ pub struct Piece {
     pub formula: String,
     /// Inner radius in m as a formula of x in m; solid without it.
     pub inner_formula: Option<String>,
-}
-
-/// What a scale and a tap said. The mass sets one factor on all densities, the frequency one on all
-/// moduli; the balance point is compared.
-#[derive(Debug, Clone, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
-#[schemars(extend("anyOf" = [
-    { "required": ["mass"] },
-    { "required": ["balance_point"] },
-    { "required": ["first_bending_hz"] },
-]))]
-pub struct Weighed {
-    /// A remark for people, which programs pass over.
-    pub comment: Option<Comment>,
-    /// Mass with everything attached.
-    #[schemars(transform = Measures(Quantity::Mass), extend("exclusiveMinimum" = 0))]
-    pub mass: Option<Amount>,
-    /// Distance of the balance point from the knob end.
-    #[schemars(transform = Measures(Quantity::Length), extend("minimum" = 0))]
-    pub balance_point: Option<Amount>,
-    /// First bending frequency of the bat as described here.
-    #[schemars(transform = Measures(Quantity::Frequency))]
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1e100))]
-    pub first_bending_hz: Option<Amount>,
 }

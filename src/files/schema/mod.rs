@@ -13,8 +13,7 @@
 pub mod amount;
 pub mod document;
 pub mod resolved;
-pub mod material;
-pub mod fixtures;
+pub mod part;
 pub mod bat;
 pub mod ball;
 pub mod materials;

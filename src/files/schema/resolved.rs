@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bat::body::Weighed;
 use crate::bat::fixtures::Fixtures;
 use crate::bat::material::Material;
 use crate::bat::profile::Interpolation;
+use crate::bat::weighed::Weighed;
 use crate::files::schema::document::{Document, Format};
 
 /// The bat as it was understood: SI, defaults filled in, materials as they were weighed. A bat file

@@ -3,7 +3,8 @@
 //! Numbers are written in the shortest form that reads back to the same bits; there is never a
 //! NaN or an infinity. What does not exist is null.
 
-use crate::bat::body::{Bat, STANDARD_PIVOT, Weighed};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::weighed::Weighed;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::modes as file;
 use crate::modes::solve::Solution;

@@ -1,7 +1,8 @@
 //! The bat in the JSON files: as it was understood, and a bat file in its own right.
 
-use crate::bat::body::{Bat, Weighed};
+use crate::bat::body::Bat;
 use crate::bat::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
+use crate::bat::weighed::Weighed;
 use crate::files::schema::document::Format;
 use crate::files::schema::resolved as file;
 use crate::files::schema::resolved::ResolvedBat;

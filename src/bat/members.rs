@@ -1,0 +1,201 @@
+//! Which members has a material, or a part on the bat?
+//!
+//! One list for each: the reader of bat files, the check of a bat that is made otherwise, and the schema
+//! follow from it.
+
+use std::f64::consts::TAU;
+
+use crate::base::error::Result;
+use crate::base::units::Quantity;
+use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
+use crate::bat::material::Material;
+use crate::bat::part::Slot::{self, Number, Unknown};
+use crate::bat::part::{Bound, Field, Instead, Kind, PLACE, Part, Range};
+use crate::bat::weighed::Weighed;
+
+impl Material {
+    /// Every value in its possible range: ρ, E, G, κ and the strength positive, η not negative,
+    /// −1 < ν ≤ ½, a strain to failure above 0 and below 1.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Value`] with the key of the bat file as its field, or several of them.
+    pub fn check(&self) -> Result<()> {
+        // A material has no places on the bat.
+        Part::check(self, "", 0.0)
+    }
+}
+
+impl Part for Material {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("density", Quantity::Density, Range::Positive, |m| {
+            Number(&mut m.density)
+        }),
+        Field::<Self>::new("youngs_modulus", Quantity::Pressure, Range::Positive, |m| {
+            Number(&mut m.youngs_modulus)
+        }),
+        Field::<Self>::new("shear_modulus", Quantity::Pressure, Range::Positive, |m| {
+            Unknown(&mut m.shear_modulus)
+        }),
+        Field::<Self>::ratio("poisson_ratio", POISSON, |m| Unknown(&mut m.poisson_ratio))
+            .like("0.33"),
+        Field::<Self>::ratio("shear_coefficient", Range::Positive, |m| {
+            Unknown(&mut m.shear_coefficient)
+        })
+        .like("0.9"),
+        Field::<Self>::ratio("loss_factor", LOSS, |m| Number(&mut m.loss_factor)).like("0.01"),
+        Field::<Self>::new("strength", Quantity::Pressure, Range::Positive, |m| {
+            Unknown(&mut m.strength)
+        })
+        .like("103 MPa"),
+        Field::<Self>::ratio("strain_to_failure", STRAIN, |m| Unknown(&mut m.strain_to_failure))
+            .like("0.02"),
+    ];
+}
+
+/// Poisson's ratio: a positive bulk and shear modulus.
+const POISSON: Range =
+    Range::Between(Bound::Beyond(-1.0), Bound::At(0.5), "a number above -1, 0.5 at most");
+const LOSS: Range = Range::Between(
+    Bound::At(0.0),
+    Bound::Beyond(2.0),
+    "0 or more and below 2 (a damping ratio below 1)",
+);
+const STRAIN: Range = Range::Between(
+    Bound::Beyond(0.0),
+    Bound::Beyond(1.0),
+    "a number above 0 and below 1, such as 0.02",
+);
+
+impl Part for Weighed {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("mass", Quantity::Mass, Range::Positive, |w| Unknown(&mut w.mass)),
+        Field::<Self>::new("balance_point", Quantity::Length, Range::OnBat, |w| {
+            Unknown(&mut w.balance_point)
+        })
+        .like("22 in"),
+        Field::<Self>::new("first_bending_hz", Quantity::Frequency, Range::Positive, |w| {
+            Unknown(&mut w.first_bending)
+        }),
+    ];
+    const SOME: &'static [&'static str] = &["mass", "balance_point", "first_bending_hz"];
+}
+
+impl Part for Region {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |region| Number(&mut region.from)),
+        Field::<Self>::place("to", |region| Number(&mut region.to)),
+        Field::<Self>::of_kind("material", Kind::Material, |region| {
+            Slot::Material(&mut region.layup.outer)
+        }),
+        Field::<Self>::of_kind("core", Kind::Material, |region| Slot::Core(&mut region.layup.core)),
+    ];
+    const SOME: &'static [&'static str] = &["material", "core"];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Support {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("x", |support| Number(&mut support.x)),
+        Field::<Self>::of_kind("type", Kind::Held, |support| Slot::Held(&mut support.kind))
+            .needed("\"type\": \"pinned\" or \"clamped\""),
+    ];
+}
+
+impl Part for Attachment {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("x", |a| Number(&mut a.x)),
+        Field::<Self>::new("mass", Quantity::Mass, Range::Mass, |a| Number(&mut a.mass))
+            .like("1 oz"),
+        Field::<Self>::new("offset", Quantity::Length, Range::Distance, |a| Number(&mut a.offset))
+            .with("mass", "the \"mass\" whose centre has that \"offset\"")
+            .like("0.5 in"),
+        Field::<Self>::new("rotary_inertia", Quantity::Inertia, Range::Mass, |a| {
+            Number(&mut a.rotary_inertia)
+        })
+        .like("0.5 oz in^2"),
+        Field::<Self>::new("stiffness", Quantity::Stiffness, Range::Spring, |a| {
+            Number(&mut a.stiffness)
+        }),
+        Field::<Self>::new(
+            "rotational_stiffness",
+            Quantity::RotationalStiffness,
+            Range::Spring,
+            |a| Number(&mut a.rotational_stiffness),
+        ),
+    ];
+    const SOME: &'static [&'static str] =
+        &["mass", "rotary_inertia", "stiffness", "rotational_stiffness"];
+}
+
+impl Part for Tape {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |tape| Number(&mut tape.from)),
+        Field::<Self>::place("to", |tape| Number(&mut tape.to)),
+        Field::<Self>::new("mass", Quantity::Mass, Range::Mass, |tape| Number(&mut tape.mass))
+            .needed("the \"mass\" that is spread there")
+            .like("0.7 oz"),
+    ];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Absorber {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("x", |a| Number(&mut a.x)),
+        Field::<Self>::new("mass", Quantity::Mass, Range::SomeMass, |a| Number(&mut a.mass))
+            .needed("the \"mass\" that hangs there")
+            .like("1 oz"),
+        Field::<Self>::new("stiffness", Quantity::Stiffness, Range::SomeSpring, |a| {
+            Number(&mut a.stiffness)
+        }),
+        Field::<Self>::new("damping", Quantity::Damping, Range::NotNegative, |a| {
+            Number(&mut a.damping)
+        }),
+    ];
+    const INSTEAD: Option<Instead<Self>> = Some(Instead {
+        key: "frequency",
+        quantity: Quantity::Frequency,
+        said: "Frequency of the absorber on a fixed bat, in place of the stiffness.",
+        of: "stiffness",
+        expected: "one of them: the spring, or how fast it swings alone",
+        set: |a, frequency| a.stiffness = a.mass * (TAU * frequency).powi(2),
+    });
+}
+
+impl Part for Joint {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("x", Quantity::Length, Range::Inside, |joint| Number(&mut joint.x))
+            .needed(PLACE),
+        Field::<Self>::new(
+            "rotational_stiffness",
+            Quantity::RotationalStiffness,
+            Range::SomeSpring,
+            |joint| Number(&mut joint.rotational_stiffness),
+        )
+        .needed("\"rotational_stiffness\": the bending moment per angle"),
+    ];
+}
+
+impl Part for Grip {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |grip| Number(&mut grip.from)),
+        Field::<Self>::place("to", |grip| Number(&mut grip.to)),
+        Field::<Self>::new("stiffness", Quantity::BedStiffness, Range::Spring, |grip| {
+            Number(&mut grip.stiffness)
+        }),
+        Field::<Self>::new("damping", Quantity::BedDamping, Range::NotNegative, |grip| {
+            Number(&mut grip.damping)
+        }),
+    ];
+    const SOME: &'static [&'static str] = &["stiffness", "damping"];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}

@@ -1,0 +1,173 @@
+//! How a material, and a part on the bat, is written down: read as its list of members says.
+
+use crate::base::error::{Error, Result};
+use crate::base::mistakes::Mistakes;
+use crate::bat::fixtures::Held;
+use crate::bat::material::{BUILT_IN, Material};
+use crate::bat::part::{Field, Instead, Kind, Part, Slot};
+use crate::files::json_node::{Node, Object};
+
+/// What a support may be called.
+const HELD: [(&str, Held); 2] = [("pinned", Held::Pinned), ("clamped", Held::Clamped)];
+
+/// A number that stands in for one the file does not give, or the words for what is expected.
+pub(crate) type Without<'a> = std::result::Result<f64, &'a str>;
+
+/// A part on a bat of that length (m), if that is known; what the file does not say is as in `start`.
+///
+/// # Errors
+///
+/// What is wrong with its keys and its values; only where all values could be read also what is wrong
+/// with the part as a whole.
+pub(crate) fn part<P: Part>(node: &Node, start: P, length: Option<f64>) -> Result<P> {
+    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
+    let object = node.object(&known::<P>(), &mut keys)?;
+    if !P::SOME.is_empty() {
+        values.note(object.require_some(P::SOME));
+    }
+    let part = filled(&object, start, length, &mut values);
+    let part = values.end(part).and_then(|part| match length {
+        Some(length) => checked(node, part, length),
+        None => Ok(part),
+    });
+    keys.and(part)
+}
+
+/// A material by name, by numbers, or by name with other numbers; and what it is without a density or
+/// without a modulus.
+pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Result<Material> {
+    if !node.is_object() {
+        return named(node);
+    }
+    let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
+    let own: Vec<&str> = known::<Material>().into_iter().chain(["name"]).collect();
+    let object = node.object(&own, &mut keys)?;
+    let start = match object.get("name") {
+        Some(name) => values.some(named(name)),
+        None => {
+            values.note(needed(&object, "density", density));
+            // A shear modulus would grow with one that is only a beginning.
+            let modulus = match object.get("shear_modulus") {
+                Some(_) => Err("\"youngs_modulus\" beside \"shear_modulus\", such as \"18.1 GPa\""),
+                None => modulus,
+            };
+            values.note(needed(&object, "youngs_modulus", modulus));
+            None
+        }
+    };
+    // What was not read must not be found wrong besides.
+    let blank = || Material::new(density.unwrap_or(1.0), modulus.unwrap_or(1.0));
+    let start = start.unwrap_or_else(|| blank().expect("both are above 0"));
+    let material = filled(&object, start, None, &mut values);
+    // What could not be read is still as it was in the beginning, and that is possible.
+    let material = checked(node, material, 0.0);
+    keys.and(values.and(material).map(|mut material| {
+        let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
+        let made = nu.map(|nu| e / (2.0 * (1.0 + nu)));
+        material.shear_modulus = material.shear_modulus.or(made);
+        // With numbers of its own it is no longer the one of that name.
+        let changed = Material::FIELDS.iter().any(|field| object.get(field.key).is_some());
+        material.name = material.name.filter(|_| !changed);
+        material
+    }))
+}
+
+/// A material of the built-in list.
+fn named(node: &Node) -> Result<Material> {
+    let names: Vec<(&str, &str)> = BUILT_IN.iter().map(|m| (m.name, m.name)).collect();
+    let name = node.word(&names)?;
+    Ok(Material::named(name).expect("the list holds its own names"))
+}
+
+fn needed(object: &Object, key: &str, without: Without) -> Result<()> {
+    match without {
+        Err(expected) => object.require(key, expected).map(|_| ()),
+        Ok(_) => Ok(()),
+    }
+}
+
+/// The keys that a part may have.
+fn known<P: Part>() -> Vec<&'static str> {
+    let fields = P::FIELDS.iter().map(|field| field.key);
+    fields.chain(P::INSTEAD.map(|instead| instead.key)).collect()
+}
+
+/// The part with every member that is there.
+fn filled<P: Part>(
+    object: &Object,
+    mut part: P,
+    length: Option<f64>,
+    mistakes: &mut Mistakes,
+) -> P {
+    for field in P::FIELDS {
+        mistakes.note(member(object, field, length, &mut part));
+        if let Some((other, expected)) = field.with.filter(|_| object.get(field.key).is_some()) {
+            mistakes.note(object.require(other, expected).map(|_| ()));
+        }
+    }
+    if let Some(instead) = P::INSTEAD {
+        mistakes.note(replaced(object, &instead, &mut part));
+    }
+    part
+}
+
+/// The part, if it can be on a bat of that length (m).
+fn checked<P: Part>(node: &Node, part: P, length: f64) -> Result<P> {
+    let placed = |error: Error| error.placed(|complaint| node.locate(complaint));
+    part.check(&node.path, length).map_err(placed).map(|()| part)
+}
+
+/// Reads one member, if it is there.
+fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut P) -> Result<()> {
+    let node = match (object.get(field.key), field.needed) {
+        (Some(node), _) => node,
+        (None, None) => return Ok(()),
+        (None, Some(expected)) if field.is_place() => {
+            return object
+                .require(field.key, &format!("\"{}\": {expected}", field.key))
+                .map(|_| ());
+        }
+        (None, Some(expected)) => return object.require(field.key, expected).map(|_| ()),
+    };
+    let whole = || {
+        let density = Err("\"density\", such as \"0.6 g/cm^3\"");
+        let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
+        material(node, density, modulus)
+    };
+    match (field.of)(part) {
+        Slot::Number(value) => *value = number(node, field, length)?,
+        Slot::Unknown(value) => *value = Some(number(node, field, length)?),
+        Slot::Held(held) => *held = node.word(&HELD)?,
+        Slot::Material(outer) => *outer = whole()?,
+        Slot::Core(core) => *core = Some(whole()?),
+    }
+    Ok(())
+}
+
+/// A number; the tip in other digits than the profile's is the tip.
+fn number<P>(node: &Node, field: &Field<P>, length: Option<f64>) -> Result<f64> {
+    let Kind::Number(Some(quantity), _) = field.kind else { return node.number() };
+    let value = node.quantity(quantity)?;
+    let near = |length: &f64| field.is_place() && (value - length).abs() <= 1e-12 * length;
+    Ok(length.filter(near).unwrap_or(value))
+}
+
+/// Sets the number that is given by something else, if it is.
+fn replaced<P>(object: &Object, instead: &Instead<P>, part: &mut P) -> Result<()> {
+    let Instead { key, of, quantity, .. } = *instead;
+    match object.one_of(&[of, key])? {
+        Some((found, node)) if found == key => {
+            let value = node.quantity(quantity)?;
+            if value <= 0.0 {
+                return Err(node.error(node.shown(), format!("{} above 0", quantity.name())));
+            }
+            (instead.set)(part, value);
+            Ok(())
+        }
+        Some(_) => Ok(()),
+        None => {
+            let found = format!("no \"{of}\" and no \"{key}\"");
+            Err(object.node.error(found, instead.expected))
+        }
+    }
+}
