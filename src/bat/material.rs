@@ -89,6 +89,13 @@ impl Material {
     }
 
     /// The built-in material of that name.
+    ///
+    /// ```
+    /// use sweetspot::Material;
+    ///
+    /// let ash = Material::named("white-ash-dynamic").expect("it is built in");
+    /// assert!(ash.shear_modulus.is_some() && Material::named("willow").is_none());
+    /// ```
     pub fn named(name: &str) -> Option<Self> {
         BUILT_IN.iter().find(|m| m.name == name).map(|m| Self {
             name: Some(m.name.to_owned()),

@@ -168,6 +168,19 @@ pub struct Profile {
 impl Profile {
     /// The profile through the stations.
     ///
+    /// ```
+    /// use sweetspot::Profile;
+    /// use sweetspot::bat::profile::{Interpolation, Stations};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// let (x, outer) = (vec![0.0, 0.4, 0.84], vec![0.012, 0.015, 0.033]); // in m
+    /// let (inner, interpolation) = (vec![0.0; 3], Interpolation::Pchip);
+    /// let profile = Profile::new(Stations { x, outer, inner, interpolation })?;
+    /// assert_eq!(profile.at(0.4).outer, 0.015);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     ///
     /// [`Error::Value`] whose field is `x[k]`, `outer[k]` or `inner[k]`, `k` the station, or several

@@ -91,6 +91,26 @@ impl Accuracy {
 
 /// Strikes the bat at all places (m from the knob end).
 ///
+/// ```
+/// use sweetspot::Bat;
+/// use sweetspot::collision::sweep::{Accuracy, sweep};
+/// use sweetspot::collision::{Model, Scene};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() }; // rad/s, m/s
+/// let hits = sweep(&bat, Model::Contact, &scene, &Accuracy::default(), &[0.6, 0.7])?;
+/// assert!(hits.met);
+/// for impact in &hits.impacts {
+///     let outcome = impact.outcome.as_ref().expect("they meet");
+///     println!("{:.2} m/s within {:.0e}", outcome.exit_speed, outcome.error);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// As [`solve`] and [`Hitter::new`].

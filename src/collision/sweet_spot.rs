@@ -48,6 +48,24 @@ const INCH: f64 = 0.0254;
 
 impl SweetSpot {
     /// Searched from the middle of the bat to its tip.
+    ///
+    /// ```
+    /// use sweetspot::Bat;
+    /// use sweetspot::collision::sweep::{Accuracy, sweep};
+    /// use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
+    /// let hits = sweep(&bat, Model::Contact, &scene, &Accuracy::default(), &[0.7])?;
+    /// let hitter = Hitter::new(Model::Contact, &scene, &bat, &hits.solution, hits.effort)?;
+    /// let best = SweetSpot::find(&hitter).exit_speed_max.expect("they meet somewhere");
+    /// assert!(best.x > 0.42 && best.x < bat.length());
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn find(hitter: &Hitter) -> Self {
         let length = hitter.struck.bat.length();
         Self::within(&Looked::new([0.5 * length, length], hitter))

@@ -81,6 +81,21 @@ impl Bat {
 
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
     ///
+    /// ```
+    /// use sweetspot::Bat;
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// let text = r#"{ "format": "sweetspot-bat/1", "name": "dowel", "material": "white-ash",
+    ///     "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
+    /// let bat = Bat::from_text("dowel.json", text, "".as_ref())?;
+    /// assert_eq!(bat.length(), 33.0 * 0.0254);
+    /// let wrong = Bat::from_text("dowel.json", &text.replace("1.7]", "\"1.7 oz\"]"), "".as_ref());
+    /// let said = wrong.unwrap_err().to_string();
+    /// assert!(said.starts_with("dowel.json:2:64: profile.diameter[1]: found unit \"oz\""), "{said}");
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     ///
     /// As [`Self::from_file`].

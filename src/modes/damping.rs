@@ -148,6 +148,22 @@ impl fmt::Display for Kind {
 /// How the modes of a bat die out, found on those elements; complex where the dashpots move a frequency
 /// or a damping ratio by more than `tolerance`.
 ///
+/// ```
+/// use sweetspot::modes::damping::damping;
+/// use sweetspot::{Bat, Request, solve};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let lossy = bat.with(|parts| parts.material.loss_factor = 0.01)?;
+/// let solution = solve(&lossy, &Request::default())?;
+/// let found = damping(&lossy, solution.elements(), &solution.modes, 1e-4)?;
+/// assert!((found.modes[0].ratio - 0.5 * 0.01).abs() < 1e-12); // ζ = η/2
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// [`crate::Error::NotConverged`] if the modes, or those of the damped bat, cannot be found again.

@@ -25,6 +25,23 @@ const MOST_ROUNDS: usize = 12;
 
 /// Finds the lowest bending modes of a free bat, as accurately as asked.
 ///
+/// ```
+/// use sweetspot::{Bat, Request, Theory, solve};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let asked = Request { modes: 3, tolerance: 1e-9, theory: Theory::Timoshenko, ..Request::default() };
+/// let solution = solve(&bat, &asked)?;
+/// assert!(solution.met && solution.complete()); // no mode is missing
+/// for mode in &solution.modes {
+///     println!("{:.6} Hz within {:.0e}", mode.frequency(), mode.error.total());
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// Those of [`Request::check`]; [`Error::TooFewElements`] where the asked elements cannot bend in
@@ -129,6 +146,21 @@ fn coarse<'a>(bat: &'a Bat, plan: &Plan, request: &Request) -> Option<Moments<'a
 /// The most accurate answer that a time allows: one digit after the other, until the next would
 /// take too long by the time that the last took. The first digit is given in any case, `met` false
 /// if it took longer.
+///
+/// ```
+/// use std::time::Duration;
+/// use sweetspot::modes::solve::solve_within;
+/// use sweetspot::{Bat, Request};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let solution = solve_within(&bat, &Request::default(), Duration::from_millis(50))?;
+/// println!("within {:.0e} after 50 ms", solution.worst());
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 ///

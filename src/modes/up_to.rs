@@ -26,6 +26,21 @@ const ACCURACY: f64 = 1e-6;
 /// tolerance tells, or the request has elements of its own, it is solved to see on which side the
 /// answer has it.
 ///
+/// ```
+/// use sweetspot::modes::up_to::modes_up_to;
+/// use sweetspot::{Bat, Request, solve};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let modes = modes_up_to(&bat, &Request::default(), 2000.0)?;
+/// let solution = solve(&bat, &Request { modes, ..Request::default() })?;
+/// assert!(solution.modes.iter().all(|mode| mode.frequency() <= 2000.0));
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// [`Error::Value`] for a limit that is not above 0 or has more than [`MOST`] modes below it; those

@@ -83,6 +83,24 @@ impl Ringing {
     /// The bat's rigid motions that are free, left out if `bending_only`, and as many bending ones
     /// as the solution has modes; complex ones are found for that tolerance.
     ///
+    /// ```
+    /// use sweetspot::motion::ringing::Ringing;
+    /// use sweetspot::{Bat, Request, solve};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let solution = solve(&bat, &Request::default())?;
+    /// let ringing = Ringing::new(&bat, &solution, 1e-4, true)?;
+    /// // A blow of 1 N s in the middle, and how the tip stands 2 ms later.
+    /// let parts = ringing.amplitudes(&ringing.blow(0.42, 1.0), 2e-3);
+    /// let tip: f64 = ringing.shapes(&[bat.length()]).iter().zip(&parts).map(|(w, q)| w[0] * q).sum();
+    /// assert!(tip.is_finite());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     ///
     /// As [`Reduced::free_motions`].

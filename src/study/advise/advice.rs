@@ -66,6 +66,20 @@ pub const MOST_MODES: usize = 100;
 /// Every model is solved to an accuracy far below the tolerance and the effects. The stiffness that
 /// a tapped frequency gives is found once, with everything on, and kept when parts are taken off.
 ///
+/// ```
+/// use sweetspot::Bat;
+/// use sweetspot::study::advise::advice::advise;
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let advice = advise(&bat, 3, 0.01)?;
+/// println!("within 1 % without {:?}", advice.left_out());
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// [`Error::Value`] for a number of modes that is not 1 to [`MOST_MODES`] or a tolerance that is
