@@ -268,8 +268,8 @@ fn what_cannot_be_compared_is_refused() {
     let folder = meshes("refused");
     let seven = ["r161.json"; 7];
     let cases: [(&[&str], &str); 5] = [
-        (&["r161.json"], "expected 2 to 6 bat files"),
-        (&seven, "expected 2 to 6 bat files"),
+        (&["r161.json"], "expected 2 to 6 that can be compared"),
+        (&seven, "expected 2 to 6 that can be compared"),
         (&["r161.json", "house.json", "--every", "0"], "--every: found 0.0 m"),
         (&["r161.json", "house.json", "--csv", "-", "--json", "-"], "one of them"),
         (&["r161.json", "missing.json"], "missing.json"),

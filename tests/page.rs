@@ -81,7 +81,7 @@ fn the_page_is_one_file_that_fetches_nothing() {
     let folder = Folder::new("page-alone");
     let (page, _) = made(&folder, &mesh("northwestern_aluminium"), &[]);
     assert_eq!(folder.names(), ["page.html"]);
-    assert!(page.len() < 400_000, "{} bytes", page.len());
+    assert!(page.len() < 700_000, "{} bytes", page.len());
     assert!(page.contains("default-src 'none'"));
     for tag in tags(&page) {
         assert!(!["link", "iframe", "object", "embed", "base", "img"].contains(&tag.name.as_str()));
@@ -105,7 +105,7 @@ fn every_tag_ends_every_name_is_one_and_every_control_is_named() {
         let tags = tags(&page);
         let (mut open, mut ids, mut level) = (vec![], BTreeSet::new(), 0);
         let mut links = vec![];
-        for tag in &tags {
+        for (k, tag) in tags.iter().enumerate() {
             let name = tag.name.as_str();
             if tag.closes {
                 assert_eq!(open.pop(), Some(name), "{bat}");
@@ -123,9 +123,12 @@ fn every_tag_ends_every_name_is_one_and_every_control_is_named() {
             let named = tag.get("aria-label").is_some_and(|label| !label.is_empty());
             match name {
                 "input" => assert!(named || open.contains(&"label"), "{bat}"),
-                "button" | "summary" | "a" | "legend" => {
+                // A section opens by its heading.
+                "summary" => assert!(!(tag.text.clone() + &tags[k + 1].text).trim().is_empty()),
+                "button" | "a" | "legend" => {
                     assert!(named || !tag.text.trim().is_empty(), "{bat}: {name}")
                 }
+                "svg" => {}
                 _ if tag.get("role").is_some() && name != "svg" => assert!(named, "{bat}: {name}"),
                 _ => {}
             }
@@ -158,7 +161,7 @@ fn whatever_a_bat_is_called_it_is_shown_as_text() {
     assert!(!page.contains("<script>alert") && !page.contains("<img") && !page.contains("<b>"));
     let shown = "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;";
     assert!(between(&page, "<h1>", "</h1>").contains(shown));
-    assert!(page.matches(shown).count() > 4);
+    assert!(page.matches(shown).count() > 3);
     data(&page);
 
     folder.text(&["analyze", "<b>.json", "--ball", "ball.json", "--report", "a b.md", "--quiet"]);
@@ -194,49 +197,195 @@ fn the_summary_has_the_numbers_of_the_analysis() {
         let zone = summary["zone_m"][1].as_f64().unwrap() - summary["zone_m"][0].as_f64().unwrap();
         let number = |key: &str| summary[key].as_f64().unwrap();
         for (key, value, within) in [
-            ("length_m", 100.0 * number("length_m"), 0.005),
-            ("mass_kg", number("mass_kg"), 5e-5),
-            ("balance_point_m", 100.0 * number("balance_point_m"), 0.005),
-            ("inertia_pivot_kg_m2", number("inertia_pivot_kg_m2"), 5e-6),
-            ("center_of_percussion_m", 100.0 * number("center_of_percussion_m"), 0.005),
+            ("length_m", 100.0 * number("length_m"), 0.05),
+            ("mass_kg", 1e3 * number("mass_kg"), 0.05),
+            ("balance_point_m", 100.0 * number("balance_point_m"), 0.05),
+            ("inertia_pivot_kg_m2", number("inertia_pivot_kg_m2"), 5e-5),
+            ("center_of_percussion_m", 100.0 * number("center_of_percussion_m"), 0.05),
             ("frequencies_hz", summary["frequencies_hz"][0].as_f64().unwrap(), 0.05),
-            ("sweet_spot_m", 100.0 * number("sweet_spot_m"), 0.005),
+            ("sweet_spot_m", 100.0 * number("sweet_spot_m"), 0.05),
             ("exit_speed_m_s", number("exit_speed_m_s"), 0.005),
-            ("zone_m", 100.0 * zone, 0.005),
+            ("zone_m", 100.0 * zone, 0.05),
             ("bbcor", number("bbcor"), 5e-4),
         ] {
-            let shown =
-                between(&page, &format!("data-key=\"{key}\"><span class=\"first\">"), "</span>");
+            // SI stands first in the page, whichever is shown.
+            let shown = between(&page, &format!("data-key=\"{key}\">"), "</dd>");
             let seen: f64 = shown.split(' ').next().unwrap().parse().unwrap();
             assert!((seen - value).abs() <= within * (1.0 + 1e-9), "{key}: {shown}, {value}");
         }
-        // The curve too.
+        // The curve too, and the sweet spot is one of its places.
         let curve = &data(&page)["curve"];
-        for (k, impact) in hit["impacts"].as_array().unwrap().iter().enumerate() {
-            let apart = |a: &Value, b: &Value| (a.as_f64().unwrap() - b.as_f64().unwrap()).abs();
+        let apart = |a: &Value, b: &Value| (a.as_f64().unwrap() - b.as_f64().unwrap()).abs();
+        let places = curve["x_m"].as_array().unwrap();
+        let spot = places.iter().position(|x| apart(x, &summary["sweet_spot_m"]) < 1e-7).unwrap();
+        assert!(apart(&curve["exit_speed_m_s"][spot], &summary["exit_speed_m_s"]) < 1e-3);
+        for impact in hit["impacts"].as_array().unwrap() {
+            let near = |x: &Value| apart(x, &impact["x_m"]) < 1e-7;
+            let k = places.iter().position(near).unwrap();
             assert!(apart(&curve["exit_speed_m_s"][k], &impact["exit_speed_m_s"]) <= 5.1e-4);
             assert!(apart(&curve["vibration_j"][k], &impact["energy_j"]["vibration"]) <= 5.1e-4);
-            assert!(apart(&curve["x_m"][k], &impact["x_m"]) <= 5.1e-7);
         }
     }
 }
 
+/// Whether US units are the ones that a page shows at first.
+fn in_us(page: &str) -> bool {
+    let chosen = |k: u8| page.contains(&format!("id=\"units-{k}\" value=\"{k}\" checked"));
+    assert_ne!(chosen(0), chosen(1));
+    chosen(1)
+}
+
 #[test]
-fn inches_stand_first_where_they_were_asked_for() {
+fn a_page_is_first_in_the_unit_of_the_bat_file() {
     let folder = Folder::new("page-inches");
-    let (page, _) = made(&folder, &mesh("r161"), &["--units", "us"]);
-    let (metric, _) = made(&folder, &mesh("r161"), &[]);
-    for key in ["sweet_spot_m", "mass_kg"] {
-        let fact = |page: &str| {
-            between(page, &format!("data-key=\"{key}\"><span class=\"first\">"), "</dd>").to_owned()
-        };
-        let [us, si] = [fact(&page), fact(&metric)];
-        let parts = |text: &str| {
-            let (first, beside) = text.split_once("</span><span class=\"beside\">").unwrap();
-            [first.to_owned(), beside.trim_end_matches("</span>").to_owned()]
-        };
-        let [[first, beside], [other, same]] = [parts(&us), parts(&si)];
-        assert!([&first, &beside] == [&same, &other] && first != beside, "{key} {us} {si}");
+    assert!(!in_us(&made(&folder, &mesh("r161"), &[]).0));
+    assert!(in_us(&made(&folder, &mesh("two_piece"), &[]).0));
+    assert!(in_us(&made(&folder, &mesh("r161"), &["--units", "us"]).0));
+    assert!(!in_us(&made(&folder, &mesh("two_piece"), &["--units", "si"]).0));
+    // A CSV file has its unit in its header, and a single value its own.
+    folder.write("turned.csv", "x_in,diameter_in\n0,1\n17,1.3\n33,2.6\n");
+    let start = r#"{ "format": "sweetspot-bat/1", "material": "white-ash", "profile": "#;
+    folder.write("csv.json", format!("{start} {{ \"csv\": \"turned.csv\" }} }}"));
+    assert!(in_us(&made(&folder, "csv.json", &[]).0));
+    let columns = r#"{ "x": ["0 in", "33 in"], "radius": ["1 in", "1 in"] }"#;
+    folder.write("strings.json", format!("{start} {columns} }}"));
+    assert!(in_us(&made(&folder, "strings.json", &[]).0));
+}
+
+/// What the switch shows of a page: text within elements of the other system left out, what is folded too.
+fn seen(page: &str, us: bool) -> String {
+    const VOID: [&str; 5] = ["meta", "input", "br", "img", "link"];
+    let hidden = if us { "si" } else { "us" };
+    let (mut open, mut told): (Vec<(String, bool)>, String) = (vec![], String::new());
+    for tag in tags(page) {
+        if tag.closes {
+            open.pop();
+        } else if !tag.empty && !VOID.contains(&tag.name.as_str()) {
+            let class = tag.get("class").unwrap_or_default();
+            let away = class == hidden || class.contains("ss-hover");
+            let skipped = ["script", "style", "noscript", "desc", "title"].contains(&&*tag.name);
+            open.push((tag.name.clone(), away || skipped));
+        }
+        if !open.iter().any(|(_, away)| *away) {
+            told += &tag.text;
+            told.push(' ');
+        }
+    }
+    told
+}
+
+#[test]
+fn one_switch_changes_every_number_axis_and_caption() {
+    let folder = Folder::new("page-switch");
+    let (page, _) = made(&folder, &mesh("torpedo"), &[]);
+    let [si, us] = [false, true].map(|us| seen(&page, us));
+    // What went in, and the names of files and bats, are as they were written.
+    let cut = |text: &str| {
+        let (_, rest) = text.split_once("How fast the ball leaves").unwrap();
+        rest.split_once("What was left out").unwrap().0.to_owned()
+    };
+    let words = |text: &str| -> Vec<String> {
+        let split = |c: char| c.is_whitespace() || "();,:".contains(c);
+        cut(text).split(split).map(str::to_owned).collect()
+    };
+    for unit in ["in", "mph", "oz", "oz in²"] {
+        let shown = words(&si).windows(2).any(|pair| {
+            pair[1] == unit && pair[0].parse::<f64>().is_ok() && pair[0] != "6" && pair[0] != "1"
+        });
+        assert!(!shown, "{unit} in SI");
+    }
+    for unit in ["cm", "m/s", "kg", "g", "mm/s"] {
+        let shown =
+            words(&us).windows(2).any(|pair| pair[1] == unit && pair[0].parse::<f64>().is_ok());
+        assert!(!shown, "{unit} in US units: {:?}", words(&us));
+    }
+    for (text, labels) in [
+        (&si, ["from the knob end (cm)", "exit speed (m/s)", "from the tip (cm)", "diameter (cm)"]),
+        (&us, ["from the knob end (in)", "exit speed (mph)", "from the tip (in)", "diameter (in)"]),
+    ] {
+        assert!(labels.iter().all(|label| text.contains(label)), "{labels:?}");
+    }
+}
+
+/// Words that a reader sees before opening anything.
+#[test]
+fn before_anything_is_opened_there_are_at_most_seven_hundred_words() {
+    let folder = Folder::new("page-words");
+    for bat in ["r161", "two_piece", "corked"] {
+        let (page, _) = made(&folder, &mesh(bat), &[]);
+        let (mut rest, mut open) = (page.as_str(), String::new());
+        while let Some((before, after)) = rest.split_once("<details") {
+            open += before;
+            // None of them holds another before it ends.
+            rest = after.split_once("</summary>").unwrap().1;
+            let mut depth = 1;
+            while depth > 0 {
+                let end = rest.find("</details>").unwrap();
+                depth += rest[..end].matches("<details").count();
+                depth -= 1;
+                rest = &rest[end + "</details>".len()..];
+            }
+        }
+        open += rest;
+        let words = seen(&open, false).split_whitespace().count();
+        assert!((100..=700).contains(&words), "{bat}: {words} words");
+    }
+}
+
+#[test]
+fn round_off_is_nothing_for_people_to_read() {
+    let folder = Folder::new("page-round-off");
+    let (page, _) = made(&folder, &mesh("r161"), &[]);
+    assert!(!page.contains("not accounted for") && !page.contains("10⁻¹³ J"));
+    // A model that does lose energy says so.
+    let (page, _) = made(&folder, &mesh("r161"), &["--model", "energy-loss"]);
+    assert!(page.contains("not accounted for by this model"));
+}
+
+#[test]
+fn the_bat_can_be_heard_by_its_own_modes() {
+    let folder = Folder::new("page-sound");
+    let (page, told) = made(&folder, &mesh("r161"), &["--json", "-"]);
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let data = data(&page);
+    let tones = data["tap"]["tones"].as_array().unwrap();
+    for (tone, mode) in tones.iter().zip(told["modes"]["modes"].as_array().unwrap()) {
+        assert_eq!(tone["frequency_hz"], mode["frequency_hz"]);
+    }
+    assert!(page.contains("data-sound=\"tap\"") && page.contains("data-sound=\"hit\""));
+    let loss = data["tap"]["assumed_loss_factor"].as_f64().unwrap();
+    assert!(page.contains(&format!("the sound takes a loss factor of {loss}")));
+    let (page, _) = made(&folder, &mesh("r161"), &["--model", "rigid"]);
+    assert!(page.contains("data-sound=\"tap\"") && !page.contains("data-sound=\"hit\""));
+}
+
+#[test]
+fn bats_side_by_side_have_a_page_with_what_differs_first() {
+    let folder = Folder::new("page-compared");
+    let bats = ["r161", "torpedo", "house"].map(mesh);
+    let [a, b, c] = bats.each_ref().map(String::as_str);
+    let told = folder.text(&["compare", a, b, c, "--report", "page.html", "--csv", "-"]);
+    let page = folder.read("page.html");
+    assert!(page.len() < 1_200_000 && !page.contains("NaN"));
+    for tag in tags(&page) {
+        assert!(!["link", "iframe", "object", "base", "img"].contains(&tag.name.as_str()));
+    }
+    let (first, folded) = page.split_once("<details class=\"screen\"").unwrap();
+    assert!(first.contains("best exit speed, mph") && first.contains("best exit speed, m/s"));
+    assert!(!first.contains("node 1") && folded.contains("mode 1, node 1"));
+    // The speeds are those of the table.
+    let row = told.lines().find(|line| line.starts_with("best_exit_speed_m_s")).unwrap();
+    let speed: f64 = row.split(',').nth(3).unwrap().parse().unwrap();
+    assert!(between(first, "best exit speed, m/s</th>", "</td>").contains(&format!("{speed:.2}")));
+    // A bat beside itself differs in nothing.
+    folder.text(&["compare", a, a, "--report", "same.html"]);
+    let page = folder.read("same.html");
+    let before = page.split_once("<details class=\"screen\"").unwrap().0;
+    assert!(!before.contains("best exit speed") && page.contains("No significant difference"));
+    for name in ["page.pdf", "page.md"] {
+        let output = folder.run(&["compare", a, b, "--report", name]);
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(".html"));
     }
 }
 

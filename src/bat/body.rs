@@ -24,6 +24,7 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 pub struct Bat {
     name: String,
     source: String,
+    inches: bool,
     profile: Profile,
     layups: Vec<Layup>,
     fixtures: Fixtures,
@@ -62,6 +63,9 @@ pub struct Parts {
     pub name: String,
     /// Where the numbers of the bat come from.
     pub source: String,
+    /// Whether its lengths are counted in inches, as its file has them: what is said of the bat to
+    /// people is said in that unit first.
+    pub inches: bool,
     /// Shape of the bat.
     pub profile: Profile,
     /// The bat's own material.
@@ -94,6 +98,12 @@ impl Builder {
     /// Where its numbers come from.
     pub fn source(mut self, source: impl Into<String>) -> Self {
         self.parts.source = source.into();
+        self
+    }
+
+    /// Counted in inches, as in a file in inches: see [`Bat::inches`].
+    pub fn inches(mut self, inches: bool) -> Self {
+        self.parts.inches = inches;
         self
     }
 
@@ -145,7 +155,7 @@ impl Bat {
     /// A bat of a shape and a material, to which more can be told before it is built.
     pub fn builder(profile: Profile, material: Material) -> Builder {
         let (name, source, fixtures) = (String::new(), String::new(), Fixtures::default());
-        let parts = Parts { name, source, profile, material, fixtures };
+        let parts = Parts { name, source, inches: false, profile, material, fixtures };
         Builder { parts, weighed: Weighed::default() }
     }
 
@@ -159,6 +169,7 @@ impl Bat {
         let mut parts = Parts {
             name: self.name.clone(),
             source: self.source.clone(),
+            inches: self.inches,
             profile: self.profile.clone(),
             material: self.material().clone(),
             fixtures: self.fixtures.clone(),
@@ -168,14 +179,19 @@ impl Bat {
     }
 
     fn of(parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
-        let Parts { name, source, profile, material, mut fixtures } = parts;
+        let Parts { name, source, inches, profile, material, mut fixtures } = parts;
         let layups = vec![Layup::of(material)];
         fixtures.check(profile.length())?;
         fixtures.settle(&profile.borders());
-        let mut bat = Self { name, source, profile, layups, fixtures, weighed, factors };
+        let mut bat = Self { name, source, inches, profile, layups, fixtures, weighed, factors };
         bat.lay_out();
         bat.check_range()?;
         Ok(bat)
+    }
+
+    /// Whether the bat's file has its lengths in inches: people who measure so are answered so.
+    pub fn inches(&self) -> bool {
+        self.inches
     }
 
     /// Name of the bat.

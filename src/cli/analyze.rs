@@ -18,12 +18,12 @@ use crate::show::page::inputs::Input;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::sketch::{self, SketchRow};
-use crate::show::report::text::{self, Units};
+use crate::show::report::text;
 use crate::show::report::{advice, aftermath, hit_json, hit_text};
 use serde::Serialize;
 
 use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, examples, printed, read_with_text,
+    BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed, read_with_text,
 };
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
@@ -115,11 +115,15 @@ pub fn run(args: &Args) -> Result<Done> {
         write_out(args, &analysis, folder)?;
     }
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &sets::of_analysis(&analysis)?, args.output.quiet)?;
+        pictures::write(
+            folder,
+            &sets::of_analysis(args.output.sheet(&analysis.bat), &analysis)?,
+            args.output.quiet,
+        )?;
     }
     if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
-        let us_first = args.output.units == Units::Us;
-        let report = Report { us_first, ..Report::new(&analysis, command(), inputs)? };
+        let us = args.output.sheet(&analysis.bat).us;
+        let report = Report { us, ..Report::new(&analysis, command_line(), inputs)? };
         page::file::write(path, &report)?;
     }
     let all = || AnalysisFile {
@@ -156,17 +160,6 @@ fn rows(analysis: &Analysis) -> Vec<SketchRow> {
     rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
     rows.extend(sketch::of_sweet_spot(&analysis.figures.spot));
     rows
-}
-
-/// The command as it was typed, so that a shell reads it again.
-fn command() -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
-    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
-        true => arg,
-        false => format!("'{}'", arg.replace('\'', "'\\''")),
-    };
-    let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
-    std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
 }
 
 /// Everything on one screen.

@@ -104,7 +104,8 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
     if let Some(folder) = &args.plots {
-        let picture: Vec<_> = plot::picture(&tested).into_iter().collect();
+        let picture: Vec<_> =
+            plot::picture(args.output.sheet(&tested.bat), &tested).into_iter().collect();
         pictures::write(folder, &picture, args.output.quiet)?;
     }
     let source = report::cor_source(&tested, args.cor.is_some());

@@ -13,6 +13,7 @@ use crate::files::bat_file::Named;
 use crate::files::schema;
 use crate::modes::solve::{self, Request, Solution, Solver};
 use crate::modes::up_to::modes_up_to;
+use crate::show::plot::sheet::Sheet;
 use crate::show::report::sketch::{self, Glyphs, SketchRow};
 use crate::show::report::text::Units;
 use crate::study::theory_choice;
@@ -248,7 +249,8 @@ pub struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 
-    /// Units of the tables, and of a report's first numbers: si, us or both
+    /// Units of the tables, and of pictures and reports, which count in one: si, us or both [pictures
+    /// and reports: as the bat file]
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
           hide_possible_values = true)]
     pub units: Units,
@@ -270,6 +272,14 @@ impl OutputArgs {
             Some(path) if path.as_os_str() == "-" => Ok(text()),
             Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(&table)),
             None => Ok(style::table(&table)),
+        }
+    }
+
+    /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
+    pub fn sheet(&self, bat: &Bat) -> Sheet {
+        match self.units {
+            Units::Both => Sheet::of(bat),
+            units => Sheet::file(units == Units::Us),
         }
     }
 
@@ -360,4 +370,15 @@ pub fn warn(text: &str, quiet: bool) {
             let _ = writeln!(std::io::stderr(), "{}", printable(text));
         });
     }
+}
+
+/// The command as it was typed, so that a shell reads it again.
+pub fn command_line() -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
+    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
+        true => arg,
+        false => format!("'{}'", arg.replace('\'', "'\\''")),
+    };
+    let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
+    std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
 }

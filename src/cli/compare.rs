@@ -6,14 +6,14 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::units::Quantity;
 use crate::files::measured;
-use crate::show::plot;
 use crate::show::report::{self, comparison, comparison_data};
+use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
 use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
-use crate::cli::common::{OutputArgs, Prepared, SolveArgs, read};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, read};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
@@ -73,6 +73,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
+    /// Write all of it on one page for people into this file (.html): what differs first
+    #[arg(long, value_name = "FILE", conflicts_with = "measured")]
+    report: Option<PathBuf>,
+
     #[command(flatten)]
     scene: SceneArgs,
 
@@ -87,6 +91,9 @@ const EXAMPLES: &str = "\
 Examples:
   sweetspot compare meshes/r161.json meshes/torpedo.json --units us
       which hits harder, and where
+
+  sweetspot compare meshes/r161.json meshes/torpedo.json --report bats.html
+      and on a page of its own, to look at, to print and to send
 
   sweetspot compare meshes/r161.json meshes/house.json \\
       --reference-inertia \"0.19 kg m^2\" --swing-exponent 0.3 --plots compared
@@ -141,7 +148,11 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &plot::measured::pictures(bat.name(), &study), args.output.quiet)?;
+        pictures::write(
+            folder,
+            &plot::measured::pictures(args.output.sheet(&bat), bat.name(), &study),
+            args.output.quiet,
+        )?;
     }
     let text = report::measured::text(&bat, &study, args.output.units);
     let name = path.display().to_string();
@@ -157,8 +168,14 @@ fn bats_beside(args: &Args) -> Result<Done> {
         return Err(Error::value("--csv", "- beside --json -", expected));
     }
     if !(2..=MOST).contains(&args.bats.len()) {
-        let found = format!("{} bat file(s)", args.bats.len());
-        return Err(Error::value("compare", found, format!("2 to {MOST} bat files")));
+        let found = match args.bats.len() {
+            1 => "1 bat".to_owned(),
+            count => format!("{count} bats"),
+        };
+        return Err(Error::value("compare", found, format!("2 to {MOST} that can be compared")));
+    }
+    if let Some(path) = &args.report {
+        page::file::expected_page(path)?;
     }
     let model = args.scene.model()?;
     let mut warnings = vec![];
@@ -175,7 +192,16 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
     let compared = Comparison::new(entries, terms)?;
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &plot::compared::pictures(&compared)?, args.output.quiet)?;
+        pictures::write(
+            folder,
+            &plot::compared::pictures(args.output.sheet(&compared.bats[0].bat), &compared)?,
+            args.output.quiet,
+        )?;
+    }
+    if let Some(path) = &args.report {
+        let us = args.output.sheet(&compared.bats[0].bat).us;
+        let page = page::compared::page(&compared, &command_line(), us)?;
+        file::write(path, page.as_bytes())?;
     }
     let text = match &args.csv {
         Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),

@@ -134,11 +134,12 @@ pub fn run(args: &Args) -> Result<Done> {
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
     let figures = Figures::new(&bat, &hitter, law)?;
     if let Some(folder) = &args.plots {
+        let sheet = args.output.sheet(&bat);
         let subject =
             profile::Subject { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
-        let mut pictures = vec![profile::picture(&[subject])];
-        pictures.extend(hits.pictures(args.place.at)?);
+        let mut pictures = vec![profile::picture(sheet, &[subject])];
+        pictures.extend(hits.pictures(sheet, args.place.at)?);
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     drop(progress);

@@ -71,7 +71,11 @@ pub fn run(args: &Args) -> Result<Done> {
         write_matrices(folder, &bat, &solution)?;
     }
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &sets::of_modes(&bat, &solution, None), args.output.quiet)?;
+        pictures::write(
+            folder,
+            &sets::of_modes(args.output.sheet(&bat), &bat, &solution, None),
+            args.output.quiet,
+        )?;
     }
     let table = format!(
         "{}\n{}\n{}\n{}",

@@ -1,6 +1,6 @@
 //! `sweetspot ring BAT`: motion after a hit or a blow, under a force or from an initial shape.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
@@ -18,7 +18,10 @@ use crate::modes::solve::{Solution, solve};
 use crate::motion::force::ForceHistory;
 use crate::motion::ringing::Ringing;
 use crate::motion::shape::InitialShape;
+use crate::motion::sound::Sound;
+use crate::show::exchange::wav;
 use crate::show::report::aftermath::{self, AfterHit};
+use crate::show::report::text::wrapped;
 use crate::show::report::{hit_json, hit_text};
 use crate::study::ignored;
 
@@ -114,6 +117,12 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
+    /// Write what it sounds like to this file (.wav), where it was struck: after a hit or a blow
+    ///
+    /// A material without a loss factor gets one for the sound only, and that is said.
+    #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with_all = ["initial", "force"])]
+    wav: Option<PathBuf>,
+
     #[command(flatten)]
     solve: SolveArgs,
 
@@ -129,7 +138,10 @@ Examples:
 
   sweetspot ring meshes/dowel.json --at \"0.6 m\" --impulse \"1 N s\" --modes 5 \\
       --times \"0,1 ms,2 ms\"
-      the deflected dowel after a blow, at three instants";
+      the deflected dowel after a blow, at three instants
+
+  sweetspot ring meshes/r161.json --hit \"60 cm\" --wav sting.wav
+      the crack of a ball hit 10 cm closer to the handle than it should be";
 
 pub fn run(args: &Args) -> Result<Done> {
     let _progress = args.output.progress("modes and motion");
@@ -151,6 +163,11 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
+    if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse))
+        && let Some(told) = write_sound(path, &Sound::of_blow(&solution, x, [impulse, 0.0]))?
+    {
+        args.output.warn(&format!("note: {told}"));
+    }
     let times = times(args, &solution);
     let shapes = ringing.shapes(&x);
     let frames: Vec<Vec<f64>> = times
@@ -258,12 +275,17 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
     let units = args.output.units;
-    let text = format!(
+    let mut text = format!(
         "{}{}{}",
         hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
         aftermath::impact(&impact, units),
         aftermath::text(&report, units)
     );
+    if let Some(path) = &args.wav
+        && let Some(told) = write_sound(path, &after.sound(&solution))?
+    {
+        text += &wrapped(&format!("Sound: {told}"), 2);
+    }
     if let Some(path) = &args.history {
         file::write(path, aftermath::history(&after, &report).as_bytes())?;
     }
@@ -277,6 +299,17 @@ fn after_hit(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// Writes a sound; what was assumed for it is given back.
+fn write_sound(path: &Path, sound: &Sound) -> Result<Option<String>> {
+    file::write(path, &wav::file(&sound.samples(wav::RATE)))?;
+    Ok(sound.assumed_loss_factor.map(|loss| {
+        format!(
+            "the bat has no damping of its own; a loss factor of {loss} is taken for the sound only \
+             (give the material a \"loss_factor\")"
+        )
+    }))
 }
 
 /// The bat's deflections after a hit as CSV, the instants in their order.

@@ -23,6 +23,7 @@ use crate::modes::compliance::RigidMotion;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
 use crate::motion::phi::exponential;
+use crate::motion::sound::Sound;
 
 /// A bat driven by a recorded force.
 pub struct Aftermath<'a> {
@@ -251,6 +252,11 @@ impl<'a> Aftermath<'a> {
             }
         };
         self.modes.iter().zip(&now.modes).map(line).collect()
+    }
+
+    /// What the hit sounds like, where the ball met the bat; the solution is the one it was made of.
+    pub fn sound(&self, solution: &Solution) -> Sound {
+        Sound::new(solution, self.lines(self.place).iter().map(|line| line.amplitude[2]))
     }
 
     /// Nothing has moved yet.

@@ -156,7 +156,7 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let source = mistakes.note(root.string("source"));
     let node = mistakes.some(root.require("profile", "a profile"));
     let profile = node.and_then(|node| profile(node, folder, &mut mistakes));
-    let length = profile.as_ref().map(Profile::length);
+    let length = profile.as_ref().map(|(profile, _)| profile.length());
     let weighed = mistakes.some(fixtures_file::weighed(&root, length));
     let material = mistakes.some(material(&root, weighed.as_ref()));
     // Something sound stands in for a material that could not be read: no bat is made of it.
@@ -167,10 +167,10 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let placed = |error: Error| error.placed(|complaint| root.node.locate(complaint));
     let weighed = weighed.unwrap_or_default();
     mistakes.end(())?;
-    let profile = profile.expect("a profile that could not be read was noted");
+    let (profile, inches) = profile.expect("a profile that could not be read was noted");
     let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
     let bat = Bat::builder(profile, material).name(name).source(source.unwrap_or_default());
-    bat.fixtures(fixtures).weighed(weighed).build().map_err(placed)
+    bat.inches(inches).fixtures(fixtures).weighed(weighed).build().map_err(placed)
 }
 
 /// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is
@@ -196,8 +196,8 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
     part_file::material(root.require("material", "a material")?, without_density, without_modulus)
 }
 
-/// The profile, if there is nothing wrong with it but its keys.
-fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Profile> {
+/// The profile and whether it is in inches, if there is nothing wrong with it but its keys.
+fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<(Profile, bool)> {
     let keys = [&OF_PROFILE[..], &COLUMNS].concat();
     let object = node.object(&keys, mistakes);
     let object = mistakes.some(object)?;
@@ -205,11 +205,12 @@ fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<Prof
     let from_tip = from_tip.map(|node| node.word(&[("knob", false), ("tip", true)])).transpose();
     let from_tip = mistakes.some(from_tip);
     let profile = match object.get("pieces") {
-        Some(pieces) => formulas(&object, pieces),
+        Some(pieces) => formulas(&object, pieces).map(|profile| (profile, false)),
         None => columns(object, folder),
     };
-    let profile = mistakes.some(profile)?;
-    Some(if from_tip?.unwrap_or(false) { profile.reversed() } else { profile })
+    let (profile, inches) = mistakes.some(profile)?;
+    let from_tip = from_tip?.unwrap_or(false);
+    Some((if from_tip { profile.reversed() } else { profile }, inches))
 }
 
 /// Formulas, in the `pieces` of a `profile` object.
@@ -254,8 +255,9 @@ fn formula_piece(node: &Node) -> Result<FormulaPiece> {
     mistakes.and(outer.map(|outer| FormulaPiece { from, to, outer, inner }))
 }
 
-/// Columns of stations, in a `profile` object itself or in the CSV file that it names.
-fn columns(object: Object, folder: &Folder) -> Result<Profile> {
+/// Columns of stations, in a `profile` object itself or in the CSV file that it names, and whether they
+/// are in inches.
+fn columns(object: Object, folder: &Folder) -> Result<(Profile, bool)> {
     let mut mistakes = Mistakes::default();
     let unit = match object.get("unit") {
         Some(node) => node.string().and_then(|unit| {
@@ -279,7 +281,8 @@ fn columns(object: Object, folder: &Folder) -> Result<Profile> {
     let profile = unit.and_then(|_| {
         let Some(table) = table else { return Ok(None) };
         let profile = table.stations(interpolation).and_then(Profile::new);
-        profile.map(Some).map_err(|error| table.locate(error))
+        let inches = table.in_inches();
+        profile.map(|profile| Some((profile, inches))).map_err(|error| table.locate(error))
     });
     mistakes.and(profile).map(|profile| profile.expect("a table that could not be read was noted"))
 }

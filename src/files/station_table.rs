@@ -131,6 +131,13 @@ impl<'a> StationTable<'a> {
         mistakes::all(outer.iter().zip(wall).enumerate().map(bore))
     }
 
+    /// Whether the places of the stations are written in inches or feet.
+    pub fn in_inches(&self) -> bool {
+        let last = self.written("x", self.x.values.len().saturating_sub(1));
+        let unit = last.trim_matches('"').trim_start_matches(|c: char| !c.is_alphabetic());
+        ["in", "inch", "inches", "ft", "foot", "feet"].contains(&unit)
+    }
+
     /// Gives an error about stations its places in the file.
     pub fn locate(&self, error: Error) -> Error {
         error.placed(|complaint| self.placed(complaint))

@@ -10,6 +10,7 @@
 //! | [`oscillator`] | how does one mode answer, damped or not |
 //! | [`ringing`] | how does the bat move in time |
 //! | [`frf`] | how does it answer at a frequency |
+//! | [`sound`] | what does it sound like |
 
 #[doc(hidden)]
 pub mod phi;
@@ -18,3 +19,4 @@ pub mod shape;
 pub mod oscillator;
 pub mod ringing;
 pub mod frf;
+pub mod sound;

@@ -8,7 +8,7 @@ use crate::proof::case::{Case, Known, bundled_case};
 use crate::proof::known_hits::Seen;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::plane::{Frame, Plane};
-use crate::show::plot::series::{Series, legend};
+use crate::show::plot::series::{Series, legend_between};
 use crate::show::plot::svg::{Mark, Pen, Svg};
 use crate::show::plot::theme::SERIES;
 use crate::show::plot::words::{Anchor, LABEL};
@@ -62,7 +62,7 @@ fn diagram(svg: &mut Svg, left: f64, (title, most): (&str, f64), series: &[Serie
     series.iter().for_each(|series| series.draw(svg, &plane));
     plane.below(svg);
     let all: Vec<&Series> = series.iter().collect();
-    legend(svg, &all, [left, 50.0, frame.right]);
+    legend_between(svg, &all, [left, 50.0, frame.right]);
 }
 
 /// Ours, the rigid bat's and the WPI report's loss.

@@ -1,5 +1,5 @@
-//! Results in the files of other programs: universal files (UFF), VTK, NumPy, CSV, and our own
-//! JSON read back.
+//! Results in the files of other programs: universal files (UFF), VTK, NumPy, CSV, sound (WAV), and
+//! our own JSON read back.
 //!
 //! In all of them the bat lies along the global x axis, knob at 0; it deflects along y, and its
 //! sections turn about z, right-handed, so that without shear a rotation is dw/dx. Lengths
@@ -13,3 +13,4 @@ pub mod csv;
 pub mod npz;
 pub mod solid;
 pub mod vtu;
+pub mod wav;

@@ -2,7 +2,7 @@
 
 use crate::bat::theory::Theory;
 use crate::show::analysis::Analysis;
-use crate::show::page::shown::{self, inline, speed};
+use crate::show::page::shown::{self, length, speed};
 use crate::show::report::advice;
 use crate::show::report::hit_text;
 use crate::show::report::text::Units;
@@ -10,7 +10,7 @@ use crate::study::ignored::{ignored, in_hit};
 use crate::study::trade::reference::solver_name;
 
 /// What is certified, a sentence each.
-pub fn certified(analysis: &Analysis) -> Vec<String> {
+pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
     let Analysis { solution, task, .. } = analysis;
     let tolerance = task.hits.tolerance;
     let mut told = vec![];
@@ -44,8 +44,8 @@ pub fn certified(analysis: &Analysis) -> Vec<String> {
         shown::error(proof.truth),
         shown::error(proof.stated)
     ));
-    told.extend(exit_speeds(analysis));
-    told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, Units::Both)));
+    told.extend(exit_speeds(analysis, units));
+    told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, units)));
     told.iter().map(|text| shown::sentence(text)).collect()
 }
 
@@ -62,7 +62,7 @@ fn count_of_modes(analysis: &Analysis) -> &'static str {
 }
 
 /// The largest error of an exit speed, as the model has it.
-fn exit_speeds(analysis: &Analysis) -> Option<String> {
+fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
     let hits = &analysis.hits;
     let fastest = hits.impacts.iter().map(|i| i.bat_speed + analysis.task.scene.ball_speed);
     let fastest = fastest.fold(0.0, f64::max);
@@ -77,17 +77,17 @@ fn exit_speeds(analysis: &Analysis) -> Option<String> {
         "Exit speeds: each within {} of the closing speed, {} at most, by estimate, as this model \
          has them{verdict}.",
         shown::error(worst),
-        inline(small(worst * fastest)),
+        small(units, worst * fastest),
     ))
 }
 
 /// A small speed: one digit.
-fn small(value: f64) -> [String; 2] {
+fn small(units: Units, value: f64) -> String {
     let mph = crate::base::units::miles_per_hour(value);
     if value >= 0.01 {
-        return speed(value);
+        return speed(units, value);
     }
-    [format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph))]
+    units.show(format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph)))
 }
 
 /// How it was computed, a sentence each.
@@ -134,8 +134,20 @@ pub fn needed(analysis: &Analysis) -> Vec<String> {
 }
 
 /// Why the ball leaves fastest where it does.
-pub fn why(analysis: &Analysis) -> Option<String> {
-    one_line(&hit_text::why(&analysis.figures, Units::Both))
+pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
+    let figures = &analysis.figures;
+    let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
+    let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+    let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
+        return Some("Further out the bat gives way more than its speed makes up for.".to_owned());
+    };
+    Some(format!(
+        "A bat that does not bend would be best at {}, but there this one loses {there:.0} J to \
+         vibration, and at its sweet spot, {} from there, {:.0} J.",
+        length(units, rigid.x),
+        length(units, (peak.x - rigid.x).abs()),
+        here.energy.vibration(),
+    ))
 }
 
 /// A text made for a terminal as one line; None if it is empty.

@@ -1,16 +1,23 @@
 //! What a report says, in order, whatever it is written as.
 
 use crate::base::error::Result;
+use crate::collision::aftermath::Aftermath;
 use crate::collision::hit::Model;
+use crate::collision::hitter::Hitter;
+use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
 use crate::show::page::accuracy;
+use crate::show::page::data::Data;
+use crate::show::page::figure::Figure;
+use crate::show::page::html::Page;
 use crate::show::page::inputs::{self, Input};
 use crate::show::page::moment::{Moment, moments};
+use crate::show::page::part::{Fold, Part, Section};
+use crate::show::page::players;
 use crate::show::page::summary::{NO_HIT, Summary};
-use crate::show::page::table::Table;
 use crate::show::page::tables;
-use crate::show::plot::picture::Picture;
 use crate::show::plot::sets::of_analysis;
+use crate::show::report::text::Units;
 
 /// What a report is made from.
 #[derive(Debug, Clone)]
@@ -22,53 +29,15 @@ pub struct Report<'a> {
     /// The files as they were written.
     pub inputs: Vec<Input>,
     /// Every picture of the analysis.
-    pub pictures: Vec<Picture>,
+    pub figures: Vec<Figure>,
     /// Hits in time; none where the model knows no force in time.
     pub moments: Vec<Moment>,
+    /// What a tap on the tip and the hit at the sweet spot sound like; no hit where there is no force.
+    pub sounds: (Sound, Option<Sound>),
     /// The numbers at the top.
     pub summary: Summary,
-    /// Whether inches stand before centimetres there.
-    pub us_first: bool,
-}
-
-/// A part of the report under a heading.
-#[derive(Debug, Clone)]
-pub struct Section<'a> {
-    /// What links call it.
-    pub id: &'static str,
-    /// The heading as people read it.
-    pub title: &'static str,
-    /// What stands under it, from top to bottom.
-    pub parts: Vec<Part<'a>>,
-}
-
-/// What stands in a section.
-#[derive(Debug, Clone)]
-pub enum Part<'a> {
-    /// A heading of second order.
-    Heading(&'static str),
-    /// A paragraph.
-    Text(String),
-    /// What there is not, and why.
-    Missing(&'static str),
-    /// One line for each item.
-    List(Vec<String>),
-    /// Numbers or words in rows.
-    Table(Table),
-    /// A drawing with its caption.
-    Picture(&'a Picture),
-    /// A picture of something along the barrel, which a script can read off place by place.
-    Hovered(&'a Picture),
-    /// How the report was made.
-    Command(&'a str),
-    /// A file of the user's.
-    File(&'a Input),
-    /// Something long under a line that opens it.
-    Folded(&'static str, Vec<Part<'a>>),
-    /// What moves, where there is a script.
-    Modes,
-    /// The moment of the hit.
-    Moment,
+    /// Whether US units are shown first: as in the bat's file, unless others are asked for.
+    pub us: bool,
 }
 
 const STRANGE: &str = "This is unusual for a bat. If it is a slip, mend the bat file and make the \
@@ -90,41 +59,55 @@ impl<'a> Report<'a> {
     ///
     /// Those of a hit that cannot be computed, as of [`crate::collision::hitter::Hitter::new`].
     pub fn new(analysis: &'a Analysis, command: String, inputs: Vec<Input>) -> Result<Self> {
-        let (pictures, moments) = (of_analysis(analysis)?, moments(analysis)?);
-        let summary = Summary::new(analysis);
-        Ok(Self { analysis, command, inputs, pictures, moments, summary, us_first: false })
+        let figures = Figure::all(|sheet| of_analysis(sheet, analysis))?;
+        let (moments, sounds) = (moments(analysis)?, sounds(analysis)?);
+        let (summary, us) = (Summary::new(analysis), analysis.bat.inches());
+        Ok(Self { analysis, command, inputs, figures, moments, sounds, summary, us })
     }
 
-    /// Everything below the summary, in order.
-    pub fn sections(&'a self) -> Vec<Section<'a>> {
-        let section = |id, title, parts| Section { id, title, parts };
+    /// The report as one page.
+    pub fn page(&'a self) -> String {
+        let Self { analysis, summary, moments, sounds, .. } = self;
+        let data = Data::new(analysis, summary, moments, sounds);
+        let data = serde_json::to_string(&data).expect("numbers and words are JSON");
+        let bat = &self.analysis.bat;
+        let page = Page {
+            kind: "Bat report",
+            name: [bat.name(), ": what it does to a ball"],
+            source: bat.source(),
+            us: self.us,
+            sections: [Units::Si, Units::Us].map(|units| self.sections(units)),
+            figures: &self.figures,
+            data: Some(data),
+        };
+        page.text()
+    }
+
+    /// Everything, in order, in one system of units.
+    pub fn sections(&'a self, units: Units) -> Vec<Section<'a>> {
+        let section = |fold, id, title, parts| Section { fold, id, title, parts };
         let strange = self.analysis.bat.warnings();
         let strange = (!strange.is_empty()).then(|| {
             let parts = vec![Part::Text(STRANGE.to_owned()), Part::List(strange)];
-            section("look", "Look at this first", parts)
+            section(Fold::Open, "look", "Look at this first", parts)
         });
+        use Fold::{Folded, Open, ScreenOnly};
         let rest = [
-            section("bat", "The bat", self.pictured(&["profile"])),
-            section("sweet-spot", "The sweet spot", self.sweet_spot()),
-            section("energy", "Where the energy goes", self.energy()),
-            section("hit", "The moment of the hit", self.hit()),
-            section("modes", "How the bat vibrates", self.modes()),
-            section("figures", "Figures", self.figures()),
-            section("accuracy", "How far to trust this", self.accuracy()),
-            section("inputs", "What went in", self.inputs()),
-            section("provenance", "Where it comes from", self.provenance()),
+            section(Open, "summary", "The sweet spot", self.answers(units)),
+            section(Open, "speed", "How fast the ball leaves", self.speed()),
+            section(Open, "hit", "The hit, slowed down", self.hit()),
+            section(Folded, "bat", "The bat", self.bat(units)),
+            section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
+            section(Folded, "energy", "Where the energy goes", self.energy()),
+            section(Folded, "modes", "How the bat vibrates", self.modes()),
+            section(Folded, "figures", "Figures", self.standard(units)),
+            section(Folded, "accuracy", "How far to trust this", self.accuracy(units)),
+            section(ScreenOnly, "contact", "The ball on the bat, and the hands", self.contact()),
+            section(ScreenOnly, "more", "More numbers", self.more(units)),
+            section(ScreenOnly, "inputs", "What went in", self.inputs(units)),
+            section(ScreenOnly, "provenance", "Where it comes from", self.provenance()),
         ];
         strange.into_iter().chain(rest).collect()
-    }
-
-    /// The pictures of those names.
-    fn pictured(&'a self, names: &[&str]) -> Vec<Part<'a>> {
-        let named = |picture: &&Picture| names.contains(&picture.name.as_str());
-        self.pictures.iter().filter(named).map(Part::Picture).collect()
-    }
-
-    fn hovered(&'a self, name: &str) -> impl Iterator<Item = Part<'a>> {
-        self.pictures.iter().filter(move |p| p.name == name).map(Part::Hovered)
     }
 
     /// Whether a ball is hit anywhere.
@@ -132,17 +115,32 @@ impl<'a> Report<'a> {
         self.analysis.figures.spot.exit_speed_max.is_some()
     }
 
-    fn sweet_spot(&'a self) -> Vec<Part<'a>> {
+    /// Where, how fast, how wide, and why.
+    fn answers(&'a self, units: Units) -> Vec<Part<'a>> {
         if !self.hits() {
             return vec![Part::Missing(NO_HIT)];
         }
-        let mut parts: Vec<Part> =
-            accuracy::why(self.analysis).map(Part::Text).into_iter().collect();
-        parts.extend(accuracy::left_out_of_hit(self.analysis).into_iter().map(Part::Text));
-        parts.extend(self.hovered("exit_speed"));
-        parts.push(Part::Table(tables::sweet_spots(self.analysis)));
-        parts.extend(self.pictured(&["hands"]));
-        parts
+        let headline = Part::Facts("headline", self.summary.headline(units));
+        let why = accuracy::why(self.analysis, units).map(Part::Text);
+        [Part::Picture("sweet_spot"), headline].into_iter().chain(why).collect()
+    }
+
+    fn speed(&'a self) -> Vec<Part<'a>> {
+        match self.hits() {
+            true => vec![Part::Hovered("exit_speed")],
+            false => vec![Part::Missing(NOTHING)],
+        }
+    }
+
+    fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
+        vec![Part::Facts("facts", self.summary.facts(units)), Part::Picture("profile")]
+    }
+
+    fn spots(&'a self, units: Units) -> Vec<Part<'a>> {
+        match self.hits() {
+            true => vec![Part::Table(tables::sweet_spots(self.analysis, units))],
+            false => vec![Part::Missing(NOTHING)],
+        }
     }
 
     fn energy(&'a self) -> Vec<Part<'a>> {
@@ -156,7 +154,7 @@ impl<'a> Report<'a> {
         if matches!(self.analysis.task.model, Model::Rigid) {
             parts.push(Part::Missing("A bat that does not bend takes no vibration."));
         }
-        parts.extend(self.hovered("ledger"));
+        parts.push(Part::Hovered("ledger"));
         parts.push(Part::Table(tables::ledger(self.analysis)));
         parts
     }
@@ -165,15 +163,25 @@ impl<'a> Report<'a> {
         if !self.hits() {
             return vec![Part::Missing(NOTHING)];
         }
-        if self.moments.is_empty() {
-            return vec![Part::Missing(match self.analysis.task.model {
-                Model::Pulse(_) => NO_CONTACT,
-                _ => NO_FORCE,
-            })];
+        let film = match (self.moments.is_empty(), self.analysis.task.model) {
+            (false, _) => Part::Moving(players::moment(&self.moments)),
+            (true, Model::Pulse(_)) => Part::Missing(NO_CONTACT),
+            (true, _) => Part::Missing(NO_FORCE),
+        };
+        let (tap, hit) = &self.sounds;
+        vec![film, Part::Moving(players::sounds(tap, hit.as_ref()))]
+    }
+
+    fn more(&'a self, units: Units) -> Vec<Part<'a>> {
+        let moves = tables::moves(self.analysis, units);
+        vec![Part::Table(moves), Part::Table(tables::nodes(self.analysis, units))]
+    }
+
+    fn contact(&'a self) -> Vec<Part<'a>> {
+        match self.moments.is_empty() {
+            true => vec![Part::Missing(NOTHING)],
+            false => ["contact", "hysteresis", "hands"].map(Part::Picture).to_vec(),
         }
-        let mut parts = vec![Part::Moment];
-        parts.extend(self.pictured(&["contact", "hysteresis"]));
-        parts
     }
 
     fn modes(&'a self) -> Vec<Part<'a>> {
@@ -181,25 +189,26 @@ impl<'a> Report<'a> {
             return vec![Part::Missing(NO_MODES)];
         }
         let freedom = self.analysis.bat.fixtures().freedom();
-        let mut parts = vec![Part::Text(format!("Bending modes, {freedom}.")), Part::Modes];
-        parts.extend(self.pictured(&["shapes"]));
-        parts.push(Part::Table(tables::modes(self.analysis)));
-        parts.push(Part::Table(tables::nodes(self.analysis)));
-        parts
+        vec![
+            Part::Text(format!("Bending modes, {freedom}.")),
+            Part::Moving(players::modes(self.analysis)),
+            Part::Picture("shapes"),
+            Part::Table(tables::modes(self.analysis)),
+        ]
     }
 
-    fn figures(&'a self) -> Vec<Part<'a>> {
-        let figures = tables::figures(self.analysis);
-        if figures.rows.is_empty() {
-            return vec![Part::Missing(NOTHING)];
+    fn standard(&'a self, units: Units) -> Vec<Part<'a>> {
+        let figures = tables::figures(self.analysis, units);
+        match figures.rows.is_empty() {
+            true => vec![Part::Missing(NOTHING)],
+            false => vec![Part::Table(figures)],
         }
-        vec![Part::Table(figures), Part::Table(tables::moves(self.analysis))]
     }
 
-    fn accuracy(&'a self) -> Vec<Part<'a>> {
+    fn accuracy(&'a self, units: Units) -> Vec<Part<'a>> {
         let mut parts = vec![
             Part::Heading("What is certified"),
-            Part::List(accuracy::certified(self.analysis)),
+            Part::List(accuracy::certified(self.analysis, units)),
             Part::Heading("What was left out, and what that costs"),
             Part::List(accuracy::left_out(self.analysis)),
         ];
@@ -210,9 +219,9 @@ impl<'a> Report<'a> {
         parts
     }
 
-    fn inputs(&'a self) -> Vec<Part<'a>> {
+    fn inputs(&'a self, units: Units) -> Vec<Part<'a>> {
         let mut parts = vec![Part::Command(&self.command)];
-        parts.push(Part::Table(inputs::scene(self.analysis)));
+        parts.push(Part::Table(inputs::scene(self.analysis, units)));
         let files = self.inputs.iter().map(Part::File).collect();
         parts.push(Part::Folded("The files as they were written, with their own units", files));
         let values = inputs::values(self.analysis);
@@ -233,6 +242,18 @@ impl<'a> Report<'a> {
             Part::List(SOURCES.map(str::to_owned).to_vec()),
         ]
     }
+}
+
+/// A tap on the tip, and the hit at the sweet spot where its force is known.
+fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let tap = Sound::of_tap(solution);
+    let Some(best) = figures.spot.exit_speed_max else { return Ok((tap, None)) };
+    let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
+    let hit = hitter
+        .force(best.x)
+        .map(|force| Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution));
+    Ok((tap, hit))
 }
 
 /// Where the physics comes from.

@@ -8,6 +8,7 @@ use crate::bat::profile::{Piece, Profile};
 use crate::collision::columns::{self, Column};
 use crate::collision::hit::{Energy, Impact};
 use crate::files::schema::document::{Document, Format};
+use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
 use crate::show::page::moment::Moment;
 use crate::show::page::summary::Summary;
@@ -30,6 +31,10 @@ pub struct Data<'a> {
     pub modes: Vec<MovingMode>,
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
+    /// What a tap on the tip sounds like.
+    pub tap: &'a Sound,
+    /// What the hit at the sweet spot sounds like; null where the model knows no force in time.
+    pub crack: Option<&'a Sound>,
     /// How large the ball is drawn (mm).
     pub ball_radius_mm: f64,
 }
@@ -88,7 +93,12 @@ pub const MOVING: usize = 6;
 
 impl<'a> Data<'a> {
     /// The numbers of an analysis, rounded but for the summary.
-    pub fn new(analysis: &Analysis, summary: &'a Summary, moments: &'a [Moment]) -> Self {
+    pub fn new(
+        analysis: &Analysis,
+        summary: &'a Summary,
+        moments: &'a [Moment],
+        (tap, crack): &'a (Sound, Option<Sound>),
+    ) -> Self {
         let outline = Outline::new(analysis.bat.profile());
         let modes = analysis.solution.modes.iter().take(MOVING);
         let modes = modes.map(|mode| MovingMode {
@@ -102,13 +112,29 @@ impl<'a> Data<'a> {
         Self {
             format: Format::new(),
             summary,
-            curve: Curve::new(&analysis.hits.impacts),
+            curve: Curve::new(&read_off(analysis)),
             modes: modes.collect(),
             outline,
             moments,
+            tap,
+            crack: crack.as_ref(),
             ball_radius_mm: rounded(1e3 * analysis.task.scene.ball.radius, 2),
         }
     }
+}
+
+/// The hits along the barrel, and the one at the sweet spot in its place among them: whoever reads the
+/// curve off can stand on it.
+fn read_off(analysis: &Analysis) -> Vec<Impact> {
+    let mut all = analysis.hits.impacts.clone();
+    let best = analysis.figures.best.iter().filter(|best| best.outcome.is_some());
+    for best in best {
+        let place = all.partition_point(|impact| impact.x < best.x);
+        if all.get(place).is_none_or(|impact| impact.x != best.x) {
+            all.insert(place, best.clone());
+        }
+    }
+    all
 }
 
 impl Outline {
@@ -146,7 +172,7 @@ impl Curve {
             outcomes().map(|o| o.map(|o| round(of(&o.energy)))).collect()
         };
         Self {
-            x_m: impacts.iter().map(|impact| rounded(impact.x, 6)).collect(),
+            x_m: impacts.iter().map(|impact| rounded(impact.x, 7)).collect(),
             exit_speed_m_s: along(columns::EXIT_SPEED),
             rigid_exit_speed_m_s: along(columns::RIGID_EXIT_SPEED),
             vibration_j: along(columns::VIBRATION),

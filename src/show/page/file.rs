@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::show::page::content::Report;
-use crate::show::page::{html, markdown};
+use crate::show::page::markdown;
+use crate::show::plot::sets::of_analysis;
+use crate::show::plot::sheet::Sheet;
 
 /// What a report is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,6 +49,20 @@ pub fn expected(path: &Path) -> Result<Kind> {
     is_one.map(|_| kind).map_err(|source| Error::Write { path: path.to_owned(), source })
 }
 
+/// Whether a page can be expected there, before it is made.
+///
+/// # Errors
+///
+/// As [`expected`], and [`Error::Value`] for a name of Markdown.
+pub fn expected_page(path: &Path) -> Result<()> {
+    match expected(path)? {
+        Kind::Html => Ok(()),
+        Kind::Markdown => {
+            Err(Error::value("--report", path.display(), "a file name that ends in .html"))
+        }
+    }
+}
+
 /// Where the pictures of a report in Markdown are: `report.md` has `report_pictures`.
 pub fn pictures_of(path: &Path) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -60,12 +76,13 @@ pub fn pictures_of(path: &Path) -> PathBuf {
 /// [`Error::Write`], and those of [`Kind::of`].
 pub fn write(path: &Path, report: &Report) -> Result<()> {
     if Kind::of(path)? == Kind::Html {
-        return file::write(path, html::page(report).as_bytes());
+        return file::write(path, report.page().as_bytes());
     }
+    let us = report.us;
     let folder = pictures_of(path);
     let failed = |source| Error::Write { path: folder.clone(), source };
     std::fs::create_dir_all(&folder).map_err(failed)?;
-    for picture in &report.pictures {
+    for picture in &of_analysis(Sheet::file(us), report.analysis)? {
         let path = folder.join(format!("{}.svg", picture.name));
         file::write(&path, picture.svg.as_bytes())?;
     }

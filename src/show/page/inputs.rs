@@ -8,10 +8,11 @@ use crate::base::error::{Error, Result};
 use crate::collision::hit::{Model, Scene};
 use crate::files::schema;
 use crate::show::analysis::Analysis;
-use crate::show::page::shown::{self, NONE, inline, length, speed};
+use crate::show::page::shown::{self, NONE, length, speed};
 use crate::show::page::table::Table;
 use crate::show::report::hit_json::model_name;
 use crate::show::report::resolved::resolved;
+use crate::show::report::text::Units;
 
 /// A file as the user wrote it.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,16 +71,16 @@ impl Input {
     }
 }
 
-/// Swing, pitch and ball, in both units.
-pub fn scene(analysis: &Analysis) -> Table {
+/// Swing, pitch and ball.
+pub fn scene(analysis: &Analysis, units: Units) -> Table {
     let scene = &analysis.task.scene;
     let mut table = Table::of_words("The scene", &["What", "Value"]);
     let mut line = |(what, value): (&str, String)| table.row([what.to_owned(), value]);
     model(analysis).into_iter().for_each(&mut line);
-    swing(analysis).into_iter().for_each(&mut line);
-    line(("pitch", inline(speed(scene.ball_speed))));
-    ball(scene).into_iter().for_each(&mut line);
-    line(("hands feel the hit at", format!("{} from the knob", shown::place(scene.hands))));
+    swing(analysis, units).into_iter().for_each(&mut line);
+    line(("pitch", speed(units, scene.ball_speed)));
+    ball(scene, units).into_iter().for_each(&mut line);
+    line(("hands feel the hit at", format!("{} from the knob", length(units, scene.hands))));
     if let Some(wall) = scene.wall {
         line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
         line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
@@ -110,28 +111,28 @@ fn model(analysis: &Analysis) -> Vec<Line> {
     lines
 }
 
-fn swing(analysis: &Analysis) -> Vec<Line> {
+fn swing(analysis: &Analysis, units: Units) -> Vec<Line> {
     let scene = &analysis.task.scene;
     let mut lines = vec![("swing", format!("{:.2} rad/s", scene.swing))];
     if let Some(law) = analysis.task.law {
         lines.extend([
             ("  of the reference bat", format!("{:.2} rad/s", law.of_reference)),
-            ("  which has a swing weight of", inline(shown::inertia(law.reference))),
+            ("  which has a swing weight of", shown::inertia(units, law.reference)),
             ("  speed against swing weight, exponent", shown::plain(law.exponent)),
         ]);
     }
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
-    let pivot = inline(length(scene.pivot.abs()));
+    let pivot = length(units, scene.pivot.abs());
     lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
     lines
 }
 
-fn ball(scene: &Scene) -> Vec<Line> {
+fn ball(scene: &Scene, units: Units) -> Vec<Line> {
     let ball = &scene.ball;
     let mut lines = vec![
         ("ball", ball.name.clone()),
-        ("  its mass", inline(shown::mass(ball.mass))),
-        ("  its radius", inline(length(ball.radius))),
+        ("  its mass", shown::mass(units, ball.mass)),
+        ("  its radius", length(units, ball.radius)),
     ];
     if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
         let [k, alpha] = [stiffness, exponent].map(shown::plain);

@@ -2,12 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::show::page::content::{Part, Report, Section};
+use crate::show::page::content::Report;
 use crate::show::page::escape::{fence, markdown as escaped, markdown_line};
 use crate::show::page::inputs::Input;
-use crate::show::page::summary::{Fact, NO_HIT};
+use crate::show::page::part::{Part, Section};
+use crate::show::page::summary::Fact;
 use crate::show::page::table::Table;
 use crate::show::plot::picture::Picture;
+use crate::show::report::text::Units;
 
 /// The whole text; `pictures` is the folder of the pictures as seen from it.
 pub fn text(report: &Report, pictures: &str) -> String {
@@ -16,26 +18,15 @@ pub fn text(report: &Report, pictures: &str) -> String {
     if !bat.source().is_empty() {
         let _ = writeln!(out, "Source: {}\n", escaped(bat.source()));
     }
-    out += "## Summary\n\n";
-    let headline = report.summary.headline();
-    if headline.is_empty() {
-        let _ = writeln!(out, "{}\n", escaped(NO_HIT));
-    }
-    let mut table = Table::of_words("Computed, not certified", &["What", "SI", "US", "Remark"]);
-    for Fact { label, values: [si, us], note, .. } in
-        headline.into_iter().chain(report.summary.facts())
-    {
-        table.row([label.to_owned(), si, us, note]);
-    }
-    out += &table.markdown();
-    for Section { title, parts, .. } in report.sections() {
+    let units = if report.us { Units::Us } else { Units::Si };
+    for Section { title, parts, .. } in report.sections(units) {
         let _ = writeln!(out, "## {title}\n");
-        parts.iter().for_each(|one| out += &part(one, pictures));
+        parts.iter().for_each(|one| out += &part(report, one, pictures));
     }
     out
 }
 
-fn part(one: &Part, pictures: &str) -> String {
+fn part(report: &Report, one: &Part, pictures: &str) -> String {
     match one {
         Part::Heading(title) => format!("### {title}\n\n"),
         Part::Text(text) => format!("{}\n\n", markdown_line(text)),
@@ -45,24 +36,35 @@ fn part(one: &Part, pictures: &str) -> String {
                 items.iter().map(|item| format!("- {}\n", markdown_line(item))).collect();
             format!("{}\n", items.concat())
         }
+        Part::Facts(_, facts) => {
+            let mut table =
+                Table::of_words("Computed, not certified", &["What", "Value", "Remark"]);
+            for Fact { label, value, note, .. } in facts {
+                table.row([*label, value, note]);
+            }
+            table.markdown()
+        }
         Part::Table(table) => table.markdown(),
-        Part::Picture(picture) | Part::Hovered(picture) => image(picture, pictures),
+        Part::Picture(name) | Part::Hovered(name) => image(report, name, pictures),
         Part::Command(command) => {
             let fence = fence(command);
             format!("Made with\n\n{fence}text\n{command}\n{fence}\n\n")
         }
         Part::File(input) => file(input),
         Part::Folded(title, parts) => {
-            let inner: String = parts.iter().map(|inner| part(inner, pictures)).collect();
+            let inner: String = parts.iter().map(|inner| part(report, inner, pictures)).collect();
             format!("### {title}\n\n{inner}")
         }
         // What moves needs a page.
-        Part::Modes | Part::Moment => String::new(),
+        Part::Moving(_) => String::new(),
     }
 }
 
-fn image(picture: &Picture, pictures: &str) -> String {
-    let Picture { name, title, alt, .. } = picture;
+fn image(report: &Report, name: &str, pictures: &str) -> String {
+    let Some(figure) = report.figures.iter().find(|figure| figure.name == name) else {
+        return String::new();
+    };
+    let Picture { title, alt, .. } = &figure.forms[0][usize::from(report.us)];
     // Signs that end a link's target are written as in an address.
     let folder: String = pictures.chars().map(address).collect();
     let title = escaped(title).replace('"', "\\\"");

@@ -1,8 +1,9 @@
 //! The report: everything about a bat on one page, for whoever makes or swings it.
 //!
-//! What it says ([`content`]) is the same whether it is written as a page ([`html`]) or as Markdown
-//! ([`markdown`]). The page is one file that fetches nothing; what moves on it is drawn by its own
-//! script from the numbers in [`data`], and all the rest is there without.
+//! What it says of one bat ([`content`]) or of several ([`compared`]) is a list of [`part`]s, the same
+//! whether it is written as a page ([`html`]) or as Markdown ([`markdown`]). The page is one file that
+//! fetches nothing and is told in both systems of units; what moves on it is drawn by its own script
+//! from the numbers in [`data`], and all the rest is there without.
 
 pub mod escape;
 pub mod shown;
@@ -13,8 +14,11 @@ pub mod accuracy;
 pub mod inputs;
 pub mod moment;
 pub mod data;
-pub mod content;
 pub mod players;
+pub mod part;
+pub mod figure;
 pub mod html;
+pub mod content;
+pub mod compared;
 pub mod markdown;
 pub mod file;

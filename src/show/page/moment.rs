@@ -25,7 +25,8 @@ pub struct Moment {
     pub x_m: f64,
     /// Time from the first touch to the last (ms).
     pub contact_ms: f64,
-    /// How many times larger than it is the bending should be drawn.
+    /// How many times larger than it is the bending should be drawn: the same in every hit of a page,
+    /// so that a hit that bends the bat more is seen to.
     pub factor: u32,
     /// Instants (ms), 0 at the first touch.
     pub times_ms: Vec<f64>,
@@ -49,7 +50,7 @@ const PARTS: usize = 24;
 /// How far inside the sweet spot the other hit is (m).
 const INSIDE: f64 = 0.1;
 
-/// The hits at the sweet spot and 10 cm closer to the handle; empty where the model has no force in
+/// The hits at the sweet spot and a hand's width, 10 cm, closer to the handle; empty where the model has no force in
 /// time or no ball is hit.
 ///
 /// # Errors
@@ -62,9 +63,13 @@ pub fn moments(analysis: &Analysis) -> Result<Vec<Moment>> {
     };
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
     let inside = best.x - INSIDE;
-    let places = [("at the sweet spot", best.x), ("10 cm closer to the handle", inside)];
+    let places = [("at the sweet spot", best.x), ("a hand's width closer to the handle", inside)];
     let places = places.into_iter().filter(|(_, x)| *x >= 0.0);
-    Ok(places.filter_map(|(label, x)| moment(analysis, &hitter, label, x)).collect())
+    let mut all: Vec<Moment> =
+        places.filter_map(|(label, x)| moment(analysis, &hitter, label, x)).collect();
+    let factor = all.iter().map(|moment| moment.factor).min().unwrap_or(1);
+    all.iter_mut().for_each(|moment| moment.factor = factor);
+    Ok(all)
 }
 
 /// One hit in time; None where ball and bat do not meet.
@@ -157,7 +162,7 @@ fn times(analysis: &Analysis, end: f64) -> Vec<f64> {
 fn factor(share: f64) -> u32 {
     const SEEN: f64 = 0.1;
     let most = SEEN / share.max(1e-9);
-    [100, 50, 20, 10, 5, 2].into_iter().find(|f| f64::from(*f) <= most).unwrap_or(1)
+    [100, 50, 20, 10, 5, 4, 3, 2].into_iter().find(|f| f64::from(*f) <= most).unwrap_or(1)
 }
 
 /// The bat as seen by who moves with it: the straight motion that carries its mass is taken off.

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
+use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
 use crate::show::page::data::MOVING;
 use crate::show::page::escape::html as escaped;
 use crate::show::page::moment::Moment;
 use crate::show::page::shown::decimals;
-use crate::show::plot::picture::Picture;
 
 const NO_SCRIPT: &str = "<noscript><p class=\"missing\">What moves here needs JavaScript; everything \
                          else on this page does without.</p></noscript>\n";
@@ -17,7 +17,7 @@ pub fn modes(analysis: &Analysis) -> String {
     let modes = analysis.solution.modes.iter().take(MOVING);
     let names = modes.map(|mode| format!("{} · {} Hz", mode.order, decimals(mode.frequency(), 0)));
     let names: Vec<String> = names.collect();
-    let choice = choice("mode", "Mode", &names);
+    let choice = choice("mode", "Mode", &names, 0);
     let note = "The bending is drawn much larger and slower than it is; dots are the nodes, which \
                 stay at rest.";
     player("modes-player", "The bat bending in the chosen mode", &choice, note)
@@ -26,21 +26,47 @@ pub fn modes(analysis: &Analysis) -> String {
 /// Ball and bat at the moment of the hit.
 pub fn moment(moments: &[Moment]) -> String {
     let names: Vec<String> = moments.iter().map(|moment| moment.label.clone()).collect();
-    let choice = choice("moment", "The ball is hit", &names);
-    let note = "Seen by someone who moves with the bat, which swings upwards. Ball, flight and squeeze \
-                are to scale, and so is the bat's motion where it meets the ball: the bending is \
-                enlarged about that place.";
-    player("moment-player", "Ball and bat at the moment of the hit", &choice, note)
+    let choice = choice("moment", "The ball is hit", &names, 0);
+    let factor = moments.first().map_or(1, |moment| moment.factor);
+    let note = format!(
+        "Seen by someone who moves with the bat, which swings upwards. Ball, flight and squeeze are to \
+         scale; the bat's bending about the ball is drawn {factor} times larger than it is, in both hits."
+    );
+    player("moment-player", "Ball and bat at the moment of the hit", &choice, &note)
 }
 
-/// Buttons of which one is chosen.
-fn choice(name: &str, legend: &str, labels: &[String]) -> String {
-    let mut out = format!("<fieldset class=\"choice\"><legend>{}</legend>\n", escaped(legend));
+/// Buttons that let the bat be heard.
+pub fn sounds(tap: &Sound, hit: Option<&Sound>) -> String {
+    if tap.tones.is_empty() {
+        return String::new();
+    }
+    let button = |key: &str, words: &str| {
+        format!("<button type=\"button\" class=\"hear\" data-sound=\"{key}\">{words}</button>\n")
+    };
+    let hit = hit.map_or(String::new(), |_| button("hit", "Hear the hit"));
+    let loss = match tap.assumed_loss_factor {
+        Some(loss) => {
+            format!(" The bat has no damping of its own: the sound takes a loss factor of {loss}.")
+        }
+        None => String::new(),
+    };
+    format!(
+        "<div class=\"sounds moving\">\n<div class=\"controls\">\n{hit}{}</div>\n\
+         <p class=\"remark\">The bat's own modes, as they ring and die out where it is struck.{loss}</p>\n\
+         </div>\n",
+        button("tap", "Hear a tap on the tip")
+    )
+}
+
+/// Buttons of which one is chosen, at first that one.
+pub fn choice(name: &str, legend: &str, labels: &[String], first: usize) -> String {
+    let mut out =
+        format!("<fieldset class=\"choice {name}\"><legend>{}</legend>\n", escaped(legend));
     for (k, label) in labels.iter().enumerate() {
-        let checked = if k == 0 { " checked" } else { "" };
+        let checked = if k == first { " checked" } else { "" };
         let _ = writeln!(
             out,
-            "<label><input type=\"radio\" name=\"{name}\" value=\"{k}\"{checked}>\
+            "<label><input type=\"radio\" name=\"{name}\" id=\"{name}-{k}\" value=\"{k}\"{checked}>\
              <span>{}</span></label>",
             escaped(label)
         );
@@ -66,11 +92,11 @@ fn player(id: &str, title: &str, choice: &str, note: &str) -> String {
 }
 
 /// The slider of a hair-line that reads a picture off, by pointer and by keyboard.
-pub fn hair_line(picture: &Picture) -> String {
+pub fn hair_line(name: &str) -> String {
+    let of = escaped(&name.replace('_', " "));
     format!(
-        "<div class=\"moving hair\">\n<input type=\"range\" min=\"0\" max=\"100\" value=\"0\" \
-         aria-label=\"Position along the barrel: {}\">\n</div>\n",
-        escaped(&picture.title)
+        "<div class=\"moving hair\">\n<input type=\"range\" min=\"0\" max=\"1000\" value=\"0\" step=\"any\" \
+         aria-label=\"Position along the barrel: {of}\">\n</div>\n"
     )
 }
 

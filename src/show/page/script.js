@@ -1,4 +1,5 @@
-// What moves on the page: modes, the moment of the hit, and hair-lines that read pictures off.
+// What moves and sounds on the page: modes, the moment of the hit, hair-lines that read pictures off, and
+// the bat as it is heard.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -19,6 +20,11 @@
     else target.removeAttribute("tabindex");
   }));
   document.querySelectorAll(".scroll").forEach((part) => scrolls.observe(part));
+
+  /** Whether inches and miles an hour are shown, and what is called when that changes. */
+  const inUs = () => document.getElementById("units-1").checked;
+  const whenUnits = (then) => document.querySelectorAll("input[name=units]")
+    .forEach((input) => input.addEventListener("change", then));
 
   /** The value at a share between 0 and 1 of a list of even samples. */
   const at = (list, share) => {
@@ -87,7 +93,7 @@
       if (playing) requestAnimationFrame(step);
     };
     play.addEventListener("click", () => {
-      // What ends begins anew, and what has not been looked at yet from its beginning.
+      // What has ended begins anew, and what has not been looked at yet from its beginning.
       if (!playing && !round && (share >= 1 || untouched)) share = 0;
       untouched = false;
       set(!playing);
@@ -141,14 +147,7 @@
         `shown ${Math.round(seconds * mode.frequency_hz)} times slower`,
     });
     chosen(root, "mode", (k) => { mode = data.modes[k]; mark(); film.show(); });
-    // It begins by itself when it is first seen, where nobody asked for less motion.
-    if (!calm.matches) {
-      const watch = new IntersectionObserver((seen) => {
-        if (seen.some((entry) => entry.isIntersecting)) { watch.disconnect(); film.play(); }
-      }, { threshold: 0.6 });
-      watch.observe(stage);
-      calm.addEventListener("change", () => { if (calm.matches) film.rewind(); });
-    }
+    once(stage, film);
   };
 
   const moment = (root) => {
@@ -194,24 +193,47 @@
       const state = time < 0 ? "the ball is coming in" : time > hit.contact_ms ? "the ball is gone"
         : `the ball is squeezed by ${Math.max(0, -gap).toFixed(1)} mm`;
       return `${time.toFixed(2)} ms: force ${at(hit.force_kn, share).toFixed(1)} kN, ${state}. ` +
-        `Bending drawn ${hit.factor} times larger than it is, ${Math.round(1000 * seconds / span())} times slower than life`;
+        `${Math.round(1000 * seconds / span())} times slower than life`;
     };
-    // Until it is played, the instant of the largest force is shown.
-    const first = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);
+    // Who asked for less motion, and paper, see the instant of the largest force.
+    const peak = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);
+    const first = () => calm.matches ? peak() : 0;
     const film = player(root, { seconds: 12, round: false, first: first(), draw, say });
-    chosen(root, "moment", (k) => { hit = data.moments[k]; film.rewind(first()); });
+    chosen(root, "moment", (k) => {
+      hit = data.moments[k];
+      film.rewind(first());
+      if (!calm.matches) film.play();
+    });
+    addEventListener("beforeprint", () => film.rewind(peak()));
+    return once(stage, film);
+  };
+
+  /** A film begins by itself when it is first seen, where nobody asked for less motion. */
+  const once = (stage, film) => {
+    if (calm.matches) return;
+    const watch = new IntersectionObserver((seen) => {
+      if (seen.some((entry) => entry.isIntersecting)) { watch.disconnect(); film.play(); }
+    }, { threshold: 0.6 });
+    watch.observe(stage);
+    calm.addEventListener("change", () => { if (calm.matches) film.rewind(); });
   };
 
   /** A hair-line over every picture of something along the barrel; all of them go together. */
   const hairs = [];
-  const places = data.curve.x_m;
-  const point = (k) => hairs.forEach((hair) => hair(k));
+  const places = data.curve.x_m, last = places.length - 1;
+  const spot = data.summary.sweet_spot_m ?? places[0];
+  /** The number of the place nearest to one (m). */
+  const nearest = (x) => places.reduce((best, place, k) =>
+    Math.abs(place - x) < Math.abs(places[best] - x) ? k : best, 0);
+  let shownAt = 0;
+  const point = (k) => { shownAt = k; hairs.forEach((hair) => hair(k)); };
   const shown = (value, digits, unit) => value === null ? "none" : `${value.toFixed(digits)} ${unit}`;
   const told = (k, energies) => {
-    const x = places[k], tip = data.summary.length_m - x, { curve } = data;
-    const place = (x) => `${(100 * x).toFixed(1)} cm (${(x / 0.0254).toFixed(1)} in)`;
-    const speed = (v) => v === null ? "none" : `${v.toFixed(2)} m/s (${(v / 0.44704).toFixed(1)} mph)`;
-    return [["From the knob", place(x)], ["From the tip", place(tip)], ...(energies ? [
+    const x = places[k], tip = data.summary.length_m - x, { curve } = data, us = inUs();
+    const place = (x) => us ? `${(x / 0.0254).toFixed(2)} in` : `${(100 * x).toFixed(1)} cm`;
+    const speed = (v) => v === null ? "none" : us ? `${(v / 0.44704).toFixed(1)} mph` : `${v.toFixed(2)} m/s`;
+    const here = Math.abs(x - spot) < 1e-6 ? " (sweet spot)" : "";
+    return [["From the knob", place(x) + here], ["From the tip", place(tip)], ...(energies ? [
       ["Ball, after", shown(curve.ball_j[k], 1, "J")],
       ["Lost in the ball", shown(curve.lost_in_ball_j[k], 1, "J")],
       ["Vibration", shown(curve.vibration_j[k], 2, "J")],
@@ -222,24 +244,38 @@
       ["Left in vibration", shown(curve.vibration_j[k], 2, "J")],
     ])];
   };
-  const hair = (picture) => {
-    const sheet = picture.parentElement, slider = sheet.querySelector(".hair input");
+  /** How far along the places one of them is, and back. */
+  const share = (k) => (places[k] - places[0]) / (places[last] - places[0]);
+  const atShare = (s) => nearest(places[0] + s * (places[last] - places[0]));
+  const hair = (sheet) => {
+    const slider = sheet.querySelector(".hair input"), holder = slider.parentElement;
     const reading = sheet.closest("figure").querySelector(".reading");
     const energies = sheet.closest("figure").id === "plot-ledger";
-    const [left, top, right, bottom] = picture.dataset.frame.split(" ").map(Number);
-    const [, , width] = picture.getAttribute("viewBox").split(" ").map(Number);
-    const line = drawn(picture, "line", { class: "hairline", y1: top, y2: bottom });
-    const holder = slider.parentElement;
-    // The middle of the slider's handle stands below the line.
-    holder.style.paddingLeft = `calc(${100 * left / width}% - 8px)`;
-    holder.style.paddingRight = `calc(${100 * (1 - right / width)}% - 8px)`;
-    slider.max = places.length - 1;
-    const last = places.length - 1, [from, to] = [places[0], places[last]];
+    const forms = [...sheet.querySelectorAll("svg[data-frame]")].map((picture) => {
+      const [left, top, right, bottom] = picture.dataset.frame.split(" ").map(Number);
+      const [, , width] = picture.getAttribute("viewBox").split(" ").map(Number);
+      const line = drawn(picture, "line", { class: "hairline", y1: top, y2: bottom });
+      return { picture, line, left, right, width };
+    });
+    slider.max = 1000;
+    // The middle of the slider's handle stands below the line of the form that is shown.
+    const fit = () => {
+      const form = forms.find(({ picture }) => picture.checkVisibility());
+      if (!form) return;
+      const across = form.picture.getBoundingClientRect(), around = sheet.getBoundingClientRect();
+      const pad = (x) => `${across.left - around.left + x / form.width * across.width - 8}px`;
+      holder.style.paddingLeft = pad(form.left);
+      holder.style.paddingRight = `${around.right - across.right + (1 - form.right / form.width) * across.width - 8}px`;
+    };
+    new ResizeObserver(fit).observe(sheet);
+    whenUnits(fit);
     hairs.push((k) => {
-      const x = left + (right - left) * (places[k] - from) / (to - from);
-      line.setAttribute("x1", x);
-      line.setAttribute("x2", x);
-      slider.value = k;
+      for (const { line, left, right } of forms) {
+        const x = left + (right - left) * share(k);
+        line.setAttribute("x1", x);
+        line.setAttribute("x2", x);
+      }
+      slider.value = 1000 * share(k);
       const words = told(k, energies);
       slider.setAttribute("aria-valuetext", words.slice(0, 2).map((pair) => pair.join(" ")).join(", "));
       reading.replaceChildren(...words.map(([what, value]) => {
@@ -249,32 +285,59 @@
         return span;
       }));
     });
-    const follow = (event) => {
-      const box = picture.getBoundingClientRect();
-      const share = ((event.clientX - box.left) / box.width * width - left) / (right - left);
-      if (share >= -0.02 && share <= 1.02) point(Math.round(Math.min(Math.max(share, 0), 1) * last));
-    };
-    picture.addEventListener("pointermove", follow);
-    picture.addEventListener("pointerdown", follow);
-    slider.addEventListener("input", () => point(Number(slider.value)));
-    // On a narrow screen the line is in sight.
-    const scroll = sheet.parentElement;
-    requestAnimationFrame(() => {
-      const x = line.getAttribute("x1") / width * sheet.clientWidth;
-      scroll.scrollLeft = x - scroll.clientWidth / 2;
+    for (const { picture, left, right, width } of forms) {
+      const follow = (event) => {
+        const box = picture.getBoundingClientRect();
+        const at = ((event.clientX - box.left) / box.width * width - left) / (right - left);
+        if (at >= -0.02 && at <= 1.02) point(atShare(Math.min(Math.max(at, 0), 1)));
+      };
+      picture.addEventListener("pointermove", follow);
+      picture.addEventListener("pointerdown", follow);
+    }
+    slider.addEventListener("input", () => point(atShare(slider.value / 1000)));
+    // Arrows go from place to place, and so over the sweet spot.
+    const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
+    slider.addEventListener("keydown", (event) => {
+      if (!(event.key in steps)) return;
+      event.preventDefault();
+      point(Math.min(Math.max(shownAt + steps[event.key], 0), last));
     });
   };
+
+  /** The bat as it is heard: its modes, each a tone that dies out. */
+  let speaker = null;
+  const heard = ({ tones }) => {
+    speaker ??= new AudioContext();
+    speaker.resume();
+    const rate = speaker.sampleRate, slowest = Math.min(...tones.map((tone) => tone.decay_1_s));
+    const seconds = Math.min(Math.max(Math.log(1000) / slowest, 0.3), 3);
+    const buffer = speaker.createBuffer(1, Math.ceil(seconds * rate), rate), wave = buffer.getChannelData(0);
+    for (const { frequency_hz: f, decay_1_s: decay, amplitude_m_s2: a } of tones) {
+      for (let k = 0; k < wave.length; k += 1) {
+        wave[k] += a * Math.exp(-decay * k / rate) * Math.sin(2 * Math.PI * f * k / rate);
+      }
+    }
+    const largest = wave.reduce((most, p) => Math.max(most, Math.abs(p)), 0);
+    wave.forEach((p, k) => { wave[k] = 0.9 * p / largest; });
+    const source = speaker.createBufferSource();
+    source.buffer = buffer;
+    source.connect(speaker.destination);
+    source.start();
+    return wave;
+  };
+  for (const button of document.querySelectorAll(".hear")) {
+    button.addEventListener("click", () => heard(button.dataset.sound === "tap" ? data.tap : data.crack));
+  }
 
   const [film, hit] = ["modes-player", "moment-player"].map((id) => document.getElementById(id));
   if (film) modes(film);
   if (hit) moment(hit);
   if (places.length > 1) {
-    document.querySelectorAll("svg[data-frame]").forEach(hair);
-    const spot = data.summary.sweet_spot_m ?? places[0];
-    const near = (best, x, k) => Math.abs(x - spot) < Math.abs(places[best] - spot) ? k : best;
-    if (hairs.length) point(places.reduce(near, 0));
+    new Set([...document.querySelectorAll("svg[data-frame]")].map((picture) => picture.closest(".sheet"))).forEach(hair);
+    if (hairs.length) point(nearest(spot));
+    whenUnits(() => point(shownAt));
   }
-  // A closed part is no part of a printed page.
+  // A closed part would be missing on paper.
   addEventListener("beforeprint", () =>
-    document.querySelectorAll("details:not(.source)").forEach((part) => { part.open = true; }));
+    document.querySelectorAll("details:not(.screen)").forEach((part) => { part.open = true; }));
 })();

@@ -1,50 +1,42 @@
-//! Numbers as a person reads them: in SI and in US units, errors as powers of ten.
+//! Numbers as a person reads them: in SI or in US units, errors as powers of ten.
 
 use crate::base::number::rounded;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::show::report::text::Units;
 
 /// What there is no number for.
 pub const NONE: &str = "–";
 
-/// A length along the bat in centimetres, for a sentence or a table; `x` in metres.
-pub fn centimetres(x: f64) -> String {
-    format!("{:.2}", rounded(100.0 * x, 2))
+/// A length along the bat (m), without its unit.
+pub fn bare(units: Units, x: f64) -> String {
+    let shown = |value: f64, places: i32| format!("{:.*}", places as usize, rounded(value, places));
+    units.show(shown(100.0 * x, 1), shown(inches(x), 2))
 }
 
-/// Length in inches, for a sentence or a table; `x` in metres.
-pub fn in_inches(x: f64) -> String {
-    format!("{:.2}", rounded(inches(x), 2))
+/// A length along the bat (m).
+pub fn length(units: Units, x: f64) -> String {
+    format!("{} {}", bare(units, x), length_unit(units))
 }
 
-/// A length along the bat in running text.
-pub fn place(x: f64) -> String {
-    format!("{} cm ({} in)", centimetres(x), in_inches(x))
+/// What lengths along the bat are counted in.
+pub fn length_unit(units: Units) -> &'static str {
+    if units == Units::Us { "in" } else { "cm" }
 }
 
-/// A length in both units.
-pub fn length(x: f64) -> [String; 2] {
-    [format!("{} cm", centimetres(x)), format!("{} in", in_inches(x))]
+/// A mass (kg).
+pub fn mass(units: Units, value: f64) -> String {
+    units.show(format!("{:.1} g", 1e3 * value), format!("{:.2} oz", ounces(value)))
 }
 
-/// A mass (kg) in kilograms and in ounces.
-pub fn mass(value: f64) -> [String; 2] {
-    [format!("{value:.4} kg"), format!("{:.2} oz", ounces(value))]
+/// A moment of inertia (kg m²).
+pub fn inertia(units: Units, value: f64) -> String {
+    units.show(format!("{value:.4} kg m²"), format!("{:.0} oz in²", ounce_square_inches(value)))
 }
 
-/// A moment of inertia (kg m²) in kg m² and in oz in².
-pub fn inertia(value: f64) -> [String; 2] {
-    [format!("{value:.5} kg m²"), format!("{:.0} oz in²", ounce_square_inches(value))]
-}
-
-/// A speed (m/s) in m/s and in miles per hour.
-pub fn speed(value: f64) -> [String; 2] {
+/// A speed (m/s).
+pub fn speed(units: Units, value: f64) -> String {
     let us = rounded(miles_per_hour(value), 1);
-    [format!("{:.2} m/s", rounded(value, 2)), format!("{us:.1} mph")]
-}
-
-/// Two units in running text.
-pub fn inline([si, us]: [String; 2]) -> String {
-    format!("{si} ({us})")
+    units.show(format!("{:.2} m/s", rounded(value, 2)), format!("{us:.1} mph"))
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long; 0 is not −0.
@@ -145,6 +137,7 @@ mod tests {
             "within 1.5 × 10⁻⁴, x (3 × 10⁻³ m/s) e2 2e"
         );
         assert_eq!(sentence("hands: none, 1e-4"), "Hands: none, 10⁻⁴.");
-        assert_eq!(place(0.3048), "30.48 cm (12.00 in)");
+        assert_eq!(length(Units::Si, 0.3048), "30.5 cm");
+        assert_eq!(length(Units::Us, 0.3048), "12.00 in");
     }
 }

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
-use crate::show::page::shown;
+use crate::show::page::shown::{self, length};
+use crate::show::report::text::Units;
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -38,15 +39,15 @@ pub struct Summary {
     pub ball_speed_m_s: f64,
 }
 
-/// One number of the summary, in SI and in US units, and what it is.
+/// One number of the summary in one system of units, and what it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fact {
     /// What it is called in the page's data.
     pub key: &'static str,
     /// What people call it.
     pub label: &'static str,
-    /// The number with its unit, in SI and in US units; the second may be empty.
-    pub values: [String; 2],
+    /// The number with its unit.
+    pub value: String,
     /// A word more; may be empty.
     pub note: String,
 }
@@ -74,92 +75,74 @@ impl Summary {
         }
     }
 
-    /// What stands out: sweet spot, exit speed, zone. Empty where no ball is hit.
-    pub fn headline(&self) -> Vec<Fact> {
+    /// The three answers: where, how fast, how wide. Empty where no ball is hit.
+    pub fn headline(&self, units: Units) -> Vec<Fact> {
         let (Some(x), Some(speed), Some([from, to])) =
             (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
         else {
             return vec![];
         };
+        let tip = format!("{} from the tip", length(units, self.length_m - x));
+        let scene = format!(
+            "swing {} rad/s, pitch {}",
+            shown::decimals(self.swing_rad_s, 1),
+            shown::speed(units, self.ball_speed_m_s)
+        );
+        let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
+        let (place, width) = (length(units, x), length(units, to - from));
         vec![
-            Fact {
-                key: "sweet_spot_m",
-                label: "Sweet spot, from the knob",
-                values: shown::length(x),
-                note: format!("{} from the tip", shown::place(self.length_m - x)),
-            },
-            Fact {
-                key: "exit_speed_m_s",
-                label: "Best exit speed",
-                values: shown::speed(speed),
-                note: format!(
-                    "swing {} rad/s, pitch {}",
-                    shown::decimals(self.swing_rad_s, 1),
-                    shown::inline(shown::speed(self.ball_speed_m_s))
-                ),
-            },
-            Fact {
-                key: "zone_m",
-                label: "Sweet zone, within 1 %",
-                values: shown::length(to - from),
-                note: format!(
-                    "from {} to {} cm ({} to {} in)",
-                    shown::centimetres(from),
-                    shown::centimetres(to),
-                    shown::in_inches(from),
-                    shown::in_inches(to)
-                ),
-            },
+            fact("sweet_spot_m", "Sweet spot, from the knob", place, tip),
+            fact("exit_speed_m_s", "Fastest ball", shown::speed(units, speed), scene),
+            fact("zone_m", "Sweet zone, within 1 % of it", width, zone),
         ]
     }
 
     /// All the rest, those left out that there are no numbers for.
-    pub fn facts(&self) -> Vec<Fact> {
-        let mut facts = self.body();
+    pub fn facts(&self, units: Units) -> Vec<Fact> {
+        let mut facts = self.body(units);
         if let Some((first, others)) = self.frequencies_hz.split_first() {
             let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
             let note = match others.is_empty() {
                 true => String::new(),
                 false => format!("then {} Hz", others.join(" and ")),
             };
-            let values = [format!("{} Hz", shown::decimals(*first, 1)), String::new()];
-            let label = "First bending frequency";
-            facts.push(Fact { key: "frequencies_hz", label, values, note });
+            let value = format!("{} Hz", shown::decimals(*first, 1));
+            facts.push(fact("frequencies_hz", "First bending frequency", value, note));
         }
         if let (Some(free), Some(held)) = (self.bbcor, self.bbcor_pivoted) {
-            let note =
-                format!("{held:.3} of a bat held 6 in from the knob; computed, not certified");
-            let values = [format!("{free:.3}"), String::new()];
-            facts.push(Fact { key: "bbcor", label: "BBCOR-like figure", values, note });
+            let note = format!("{held:.3} held 6 in from the knob; computed, not certified");
+            facts.push(fact("bbcor", "BBCOR-like figure", format!("{free:.3}"), note));
         }
         facts
     }
 
     /// The bat as a rigid body.
-    fn body(&self) -> Vec<Fact> {
-        let fact = |key, label, values, note: String| Fact { key, label, values, note };
-        let from_tip = |x: f64| format!("{} from the tip", shown::place(self.length_m - x));
-        let along = shown::length;
-        let about = "moment of inertia about a point 6 in from the knob".to_owned();
-        let (balance, weight) = (self.balance_point_m, shown::inertia(self.inertia_pivot_kg_m2));
+    fn body(&self, units: Units) -> Vec<Fact> {
+        let from_tip = |x: f64| format!("{} from the tip", length(units, self.length_m - x));
+        let (balance, weight) = (self.balance_point_m, self.inertia_pivot_kg_m2);
+        let along = |x: f64| length(units, x);
         let mut facts = vec![
             fact("length_m", "Length", along(self.length_m), String::new()),
-            fact("mass_kg", "Mass", shown::mass(self.mass_kg), String::new()),
+            fact("mass_kg", "Mass", shown::mass(units, self.mass_kg), String::new()),
+            fact("balance_point_m", "Balance point", along(balance), from_tip(balance)),
             fact(
-                "balance_point_m",
-                "Balance point, from the knob",
-                along(balance),
-                from_tip(balance),
+                "inertia_pivot_kg_m2",
+                "Swing weight",
+                shown::inertia(units, weight),
+                "about 6 in from the knob".to_owned(),
             ),
-            fact("inertia_pivot_kg_m2", "Swing weight", weight, about),
         ];
         if let Some(x) = self.center_of_percussion_m {
-            let note = format!("{}, pivot 6 in from the knob", from_tip(x));
-            let label = "Centre of percussion, from the knob";
+            let label = "Centre of percussion";
+            let note = "of a pivot 6 in from the knob".to_owned();
             facts.push(fact("center_of_percussion_m", label, along(x), note));
         }
         facts
     }
+}
+
+fn fact(key: &'static str, label: &'static str, value: String, note: String) -> Fact {
+    Fact { key, label, value, note }
 }
 
 /// Why there is no headline.

@@ -1,5 +1,7 @@
 //! From a value to a place along an axis, and the round values at which its ticks stand.
 
+use crate::show::plot::sheet::Unit;
+
 /// How an axis counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
@@ -18,6 +20,9 @@ pub struct Axis {
     pub from: f64,
     /// The value at the right or upper end.
     pub to: f64,
+    /// How many of the unit that the ticks count in are one of the values: 100 for values in m and
+    /// ticks in cm.
+    pub per: f64,
     /// How values lie between the ends.
     pub scale: Scale,
 }
@@ -25,7 +30,7 @@ pub struct Axis {
 /// A value with a tick, and how it is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// Where it is, in the unit of the axis.
+    /// The value of the axis that it stands at.
     pub value: f64,
     /// What is written there.
     pub text: String,
@@ -43,7 +48,7 @@ impl Axis {
         let by = if least == 0.0 { 1.0 } else { least };
         let same = (to - from).abs() <= least;
         let [from, to] = if same { [from.min(to) - by, from.max(to) + by] } else { [from, to] };
-        Self { label: label.into(), from, to, scale: Scale::Linear }
+        Self { label: label.into(), from, to, per: 1.0, scale: Scale::Linear }
     }
 
     /// As long as those values need, with a tick at both ends, and no more ticks than that.
@@ -65,7 +70,15 @@ impl Axis {
         let [low, high] = ends(values.filter(|v| *v > 0.0)).unwrap_or([1.0, 10.0]);
         let from = (low.log10() + 1e-9).floor();
         let to = (high.log10() - 1e-9).ceil().max(from + 1.0);
-        Self { label: label.into(), from: 10f64.powf(from), to: 10f64.powf(to), scale: Scale::Log }
+        let [from, to] = [from, to].map(|power| 10f64.powf(power));
+        Self { label: label.into(), from, to, per: 1.0, scale: Scale::Log }
+    }
+
+    /// This axis, whose ends were given in that unit, for values in SI.
+    pub fn counted_in(self, unit: Unit) -> Self {
+        let Unit { name, per } = unit;
+        let label = format!("{} ({name})", self.label);
+        Self { label, from: self.from / per, to: self.to / per, per, ..self }
     }
 
     /// How far along the axis a value is: 0 at its beginning, 1 at its end.
@@ -84,7 +97,8 @@ impl Axis {
     /// Round values on the axis, at most so many: 1, 2 or 5 times a power of ten apart, or powers of
     /// ten.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
-        let [low, high] = [self.from.min(self.to), self.from.max(self.to)];
+        let [from, to] = [self.from * self.per, self.to * self.per];
+        let [low, high] = [from.min(to), from.max(to)];
         match self.scale {
             Scale::Linear => {
                 let step = step(high - low, most);
@@ -92,14 +106,16 @@ impl Axis {
                     [(low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64];
                 let tick = |k: i64| {
                     let value = k as f64 * step;
-                    Tick { value, text: shown(value, step) }
+                    Tick { value: value / self.per, text: shown(value, step) }
                 };
                 (first..=last).map(tick).collect()
             }
             Scale::Log => {
                 let [first, last] = [low, high].map(|value| value.log10().round() as i32);
                 let every = ((last - first) as usize).div_ceil(most.clamp(1, DECADES)).max(1);
-                let power = |k: i32| Tick { value: 10f64.powi(k), text: power_of_ten(k) };
+                let plain = first >= -2 && last <= 3;
+                let power =
+                    |k: i32| Tick { value: 10f64.powi(k) / self.per, text: power_of_ten(k, plain) };
                 (first..=last).step_by(every).map(power).collect()
             }
         }
@@ -139,11 +155,11 @@ pub fn shown(value: f64, step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-fn power_of_ten(k: i32) -> String {
-    match k {
-        0..=3 => 10i64.pow(k as u32).to_string(),
-        -2..=-1 => format!("{:.*}", -k as usize, 10f64.powi(k)),
-        _ => format!("1e{k}").replace('-', "−"),
+/// A tick's power of ten, in full or as a power: the ticks of an axis are of one style.
+fn power_of_ten(k: i32, plain: bool) -> String {
+    match plain {
+        true => format!("{:.*}", (-k).max(0) as usize, 10f64.powi(k)),
+        false => format!("1e{k}").replace('-', "−"),
     }
 }
 
@@ -177,7 +193,21 @@ mod tests {
         let all = [(0.3, 0.1), (-0.0, 0.1), (5.0, 5.0), (0.25, 0.05), (-20.0, 10.0), (2e-7, 1e-7)];
         let texts = all.map(|(value, step)| shown(value, step));
         assert_eq!(texts, ["0.3", "0", "5", "0.25", "−20", "2e−7"]);
-        assert_eq!([-13, -2, 0, 3, 5].map(power_of_ten), ["1e−13", "0.01", "1", "1000", "1e5"]);
+        assert_eq!([-2, 0, 3].map(|k| power_of_ten(k, true)), ["0.01", "1", "1000"]);
+        assert_eq!([-13, 0, 5].map(|k| power_of_ten(k, false)), ["1e−13", "1e0", "1e5"]);
+    }
+
+    #[test]
+    fn an_axis_counted_in_another_unit_has_round_ticks_there() {
+        let unit = Unit { name: "in", per: 1.0 / 0.0254 };
+        let axis = Axis::around("from the knob end", [0.0, 33.0].into_iter(), 6).counted_in(unit);
+        assert_eq!(axis.label, "from the knob end (in)");
+        let ticks = axis.ticks(6);
+        assert!(
+            ticks.iter().any(|t| t.text == "20" && (t.value - 0.508).abs() < 1e-12),
+            "{ticks:?}"
+        );
+        assert!(axis.holds(0.838) && !axis.holds(1.2));
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use crate::collision::bbcor::{LIMIT, Tested};
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM};
-use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::show::plot::place;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, hover, legend};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::SERIES;
 
@@ -13,26 +14,25 @@ use crate::show::plot::theme::SERIES;
 const DIAGRAM: f64 = 230.0;
 
 /// BBCOR against place; picture `bbcor`. None without two places.
-pub fn picture(tested: &Tested) -> Option<Picture> {
-    let points: Vec<_> =
-        tested.places.iter().map(|at| Some([CM * at.impact.x, at.bbcor?])).collect();
+pub fn picture(sheet: Sheet, tested: &Tested) -> Option<Picture> {
+    let points: Vec<_> = tested.places.iter().map(|at| Some([at.impact.x, at.bbcor?])).collect();
     let known: Vec<[f64; 2]> = points.iter().flatten().copied().collect();
     let (from, to) = (known.first()?[0], known.last()?[0]);
     if from >= to {
         return None;
     }
-    let curve = Series::curve("computed", 0, points).units("cm", "");
+    let curve = Series::curve("computed", 0, points).units(sheet.length().name, "");
     let line = vec![Some([from, LIMIT]), Some([to, LIMIT])];
     let limit = Series::curve("limit", 0, line).pen(Pen::new(SERIES[5], 1.4));
     let title = "BBCOR along the bat";
     let facts = "bat at rest on a pivot 6 in from the knob; computed, not certified";
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let mut svg = Svg::on(sheet);
     head(&mut svg, title, [tested.bat.name(), facts]);
-    let top = legend(&mut svg, &[&curve, &limit], [LEFT, HEAD + 10.0, WIDTH - 12.0]);
+    let top = legend(&mut svg, &[&curve, &limit]);
     let top = top + 12.0 + NUMBERS;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
+    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
     svg.height = frame.bottom + NUMBERS + 4.0;
-    let [x, tip] = place::axes([from / CM, to / CM], &[(tested.bat.name(), tested.bat.length())]);
+    let [x, tip] = place::axes(sheet, [from, to], &[(tested.bat.name(), tested.bat.length())]);
     let values = known.iter().map(|[_, bbcor]| *bbcor).chain([LIMIT]);
     let y = Axis::around("BBCOR", values, ticks_up(DIAGRAM));
     let plane = Plane { frame, x, y };
@@ -43,7 +43,7 @@ pub fn picture(tested: &Tested) -> Option<Picture> {
     plane.below(&mut svg);
     let most = tested.most().and_then(|most| Some((most.bbcor?, most.impact.x)));
     let most = most.map_or(String::new(), |(bbcor, x)| {
-        format!(" Largest {bbcor:.3}, {}.", place::shown(x, tested.bat.length()))
+        format!(" Largest {bbcor:.3}, {}.", place::shown(sheet, x, tested.bat.length()))
     });
     let alt = format!("{}: BBCOR against place, {facts}.{most}", tested.bat.name());
     Some(Picture::new("bbcor", title, &alt, svg))

@@ -6,19 +6,20 @@ use crate::collision::history::Moment;
 use crate::collision::hitter::Hitter;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{CM, mark, tenths};
-use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::show::plot::place::{along, mark};
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::route::Point;
 use crate::show::plot::series::{Series, bats, digits, hover};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Mark, Pen, Svg};
 use crate::show::plot::theme::{Ink, SERIES, TEXT, TINT};
-use crate::show::plot::words::{Anchor, LABEL};
+use crate::show::plot::words::SMALL;
 
 /// Instants in every piece of the recorded force.
 const PARTS: usize = 6;
 /// Of each of the diagrams in time, and between them (px).
 const DIAGRAM: f64 = 150.0;
-const BETWEEN: f64 = 18.0;
+const BETWEEN: f64 = 32.0;
 
 /// A hit in time, and what the bat is called.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,45 +50,44 @@ impl<'a> Subject<'a> {
 
 /// Force and compression against time (`contact`), and force against compression (`hysteresis`); none
 /// without a hit.
-pub fn pictures(subjects: &[Subject]) -> Vec<Picture> {
+pub fn pictures(sheet: Sheet, subjects: &[Subject]) -> Vec<Picture> {
     match subjects {
         [] => vec![],
-        _ => vec![in_time(subjects), hysteresis(subjects)],
+        _ => vec![in_time(sheet, subjects), hysteresis(sheet, subjects)],
     }
 }
 
 /// What a picture's second line says: of one bat where it is hit, of several that each is hit at its
 /// own place.
-fn second<'a>(subjects: &[Subject<'a>]) -> [Cow<'a, str>; 2] {
+fn second<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> [Cow<'a, str>; 2] {
     match subjects {
-        [one] => {
-            [one.name.into(), format!("hit {} cm from the knob end", tenths(CM * one.x)).into()]
-        }
+        [one] => [one.name.into(), format!("hit {} from the knob end", along(sheet, one.x)).into()],
         _ => ["".into(), "each hit at its own sweet spot".into()],
     }
 }
 
 /// The names of several bats and where each is hit; where they end (px).
 fn names(svg: &mut Svg, subjects: &[Subject]) -> f64 {
-    let name = |s: &Subject| format!("{}, {} cm", s.name, tenths(CM * s.x));
+    let sheet = svg.sheet;
+    let name = |s: &Subject| format!("{}, {}", s.name, along(sheet, s.x));
     let names: Vec<String> = subjects.iter().map(name).collect();
     bats(svg, &names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Force and compression, one below the other.
-fn in_time(subjects: &[Subject]) -> Picture {
-    let mut svg = Svg::new(WIDTH, 0.0);
+fn in_time(sheet: Sheet, subjects: &[Subject]) -> Picture {
+    let mut svg = Svg::on(sheet);
     let title = "The ball on the bat";
     let end = subjects.iter().map(Subject::end).fold(0.0, f64::max);
-    let [name, mut facts] = second(subjects);
+    let [name, mut facts] = second(sheet, subjects);
     if subjects.len() == 1 {
         facts = format!("{facts}, over after {} ms", digits(end, 3)).into();
     }
     head(&mut svg, title, [&name, &facts]);
-    let top = names(&mut svg, subjects) + 14.0;
+    let top = names(&mut svg, subjects) + 20.0;
     let frame = |k: usize| {
         let top = top + k as f64 * (DIAGRAM + BETWEEN);
-        Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
+        Frame::across(sheet, [top, top + DIAGRAM])
     };
     svg.height = frame(1).bottom + NUMBERS + 4.0;
     let x = Axis::new("time since the first touch (ms)", [0.0, end]);
@@ -126,7 +126,8 @@ fn diagram(
         let words =
             format!("at most {} {unit}, after {} ms", digits(peak[1], 3), digits(peak[0], 3));
         if alone {
-            name_peak(svg, &plane, peak, &words);
+            svg.mark(Mark::Circle, plane.at(peak), 3.0, TEXT, true);
+            svg.text([frame.left, frame.top - 8.0], SMALL, &words);
         } else {
             mark(svg, k, plane.at(peak));
         }
@@ -136,26 +137,17 @@ fn diagram(
     if alone { told.concat() } else { format!("{what}: {}", told.join(", ")) }
 }
 
-/// A dot on a peak, and its words where the curve is low.
-fn name_peak(svg: &mut Svg, plane: &Plane, peak: [f64; 2], words: &str) {
-    svg.mark(Mark::Circle, plane.at(peak), 3.0, TEXT, true);
-    let Frame { left, top, right, .. } = plane.frame;
-    let late = plane.x.share(peak[0]) > 0.6;
-    let (x, anchor) = if late { (left + 12.0, Anchor::Start) } else { (right - 8.0, Anchor::End) };
-    svg.text([x, top + 16.0], LABEL.at(anchor), words);
-}
-
 /// Force against compression.
-fn hysteresis(subjects: &[Subject]) -> Picture {
+fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
     const HEIGHT: f64 = 320.0;
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let mut svg = Svg::on(sheet);
     let title = "What the ball takes and gives back";
-    let ([name, facts], lost) = (second(subjects), lost(subjects));
+    let ([name, facts], lost) = (second(sheet, subjects), lost(subjects));
     let alone = subjects.len() == 1;
     let told = format!("{facts}; {lost}");
     head(&mut svg, title, [&name, if alone { &facts } else { &told }]);
-    let top = names(&mut svg, subjects) + 14.0;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + HEIGHT };
+    let top = names(&mut svg, subjects) + 20.0;
+    let frame = Frame::across(sheet, [top, top + HEIGHT]);
     svg.height = frame.bottom + NUMBERS + 4.0;
     let curve = |(k, s)| Series::curve("ball", k, around(s)).units("mm", "kN");
     let curves: Vec<Series> = subjects.iter().enumerate().map(curve).collect();
@@ -174,7 +166,7 @@ fn hysteresis(subjects: &[Subject]) -> Picture {
         arrows(&mut svg, &around, curve.pen.ink);
     }
     if alone {
-        svg.text([LEFT + 24.0, top + 30.0], LABEL, &lost);
+        svg.text([frame.left, top - 8.0], SMALL, &lost);
     }
     plane.below(&mut svg);
     hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());

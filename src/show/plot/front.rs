@@ -3,8 +3,9 @@
 use crate::modes::solve::Solver;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::show::plot::series::{Series, legend, short};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::show::plot::theme::{SERIES, TEXT};
 use crate::show::plot::words::{Anchor, SMALL, width};
@@ -32,11 +33,12 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
     let planner = Series { joined: false, mark: Some(Mark::Circle), pen, ..planner };
     let title = "Speed against accuracy";
     let facts = format!("{} frequencies, every run measured here and now", reference.omegas.len());
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let sheet = Sheet::file(false);
+    let mut svg = Svg::on(sheet);
     head(&mut svg, title, [name, &facts]);
     let keys: Vec<&Series> = solvers.iter().chain([&best, &planner]).collect();
-    let top = legend(&mut svg, &keys, [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 16.0;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
+    let top = legend(&mut svg, &keys) + 16.0;
+    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
     svg.height = frame.bottom + NUMBERS + 4.0;
     let x = Axis::logarithmic("time (µs)", runs.iter().map(|run| at(run)[0]));
     let errors = runs.iter().map(|run| at(run)[1]);

@@ -3,9 +3,10 @@
 use crate::collision::aftermath::{Aftermath, Instant};
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{CM, tenths};
-use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head, ticks_up};
+use crate::show::plot::place::along;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, bats, hover, short};
+use crate::show::plot::sheet::{Paper, Sheet};
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{FRAME, SERIES};
 use crate::show::plot::words::SMALL;
@@ -30,7 +31,7 @@ pub struct Subject<'a> {
 }
 
 /// Displacement and velocity at the hands against time; picture `hands`. None where there is no force.
-pub fn picture(subjects: &[Subject]) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
     let until = subjects.iter().map(|s| span(&s.after, s.x)).fold(0.0, f64::max);
     if until <= 0.0 {
         return None;
@@ -38,14 +39,14 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
     let instants = INSTANTS.min(IN_ALL / subjects.len());
     let times: Vec<f64> = (0..=instants).map(|k| until * k as f64 / instants as f64).collect();
     let motions: Vec<_> = subjects.iter().map(|s| motions(&s.after, s.x, &times)).collect();
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let mut svg = Svg::on(sheet);
     let title = "What the hands feel";
-    let (name, facts) = words(subjects);
+    let (name, facts) = words(sheet, subjects);
     head(&mut svg, title, [name, &facts]);
     let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + 14.0;
     let frame = |k: usize| {
         let top = top + 6.0 + k as f64 * (DIAGRAM + BETWEEN);
-        Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM }
+        Frame::across(sheet, [top, top + DIAGRAM])
     };
     svg.height = frame(1).bottom + NUMBERS + 4.0;
     let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
@@ -59,17 +60,20 @@ pub fn picture(subjects: &[Subject]) -> Option<Picture> {
         let most = values().map(f64::abs).fold(0.0, f64::max);
         peaks.push(format!("{what} up to {} {unit}", short(most)));
     }
-    svg.text([LEFT, frame(0).top - 6.0], SMALL, told(subjects));
+    match sheet.paper {
+        Paper::File => svg.text([sheet.left(), frame(0).top - 6.0], SMALL, told(subjects)),
+        _ => svg.facts = format!("{facts}; {}", told(subjects)),
+    }
     let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
     Some(Picture::new("hands", title, &alt, svg))
 }
 
 /// What the second line says.
-fn words<'a>(subjects: &[Subject<'a>]) -> (&'a str, String) {
+fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'a str, String) {
     match subjects {
         [one] => {
-            let [held, hit] = [one.x, one.after.place].map(|x| tenths(CM * x));
-            (one.name, format!("{held} cm from the knob end, hit at {hit} cm"))
+            let [held, hit] = [one.x, one.after.place].map(|x| along(sheet, x));
+            (one.name, format!("at {held}, hit at {hit} from the knob end"))
         }
         _ => ("", "each hit at its own sweet spot".to_owned()),
     }

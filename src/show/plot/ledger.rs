@@ -4,12 +4,14 @@ use crate::bat::body::Bat;
 use crate::collision::hit::{Energy, Impact};
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM};
-use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head, ticks_up};
+use crate::show::plot::place;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::route::Point;
 use crate::show::plot::series::{Tag, digits, room, short, tags};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
+use crate::show::plot::words::{LABEL, width};
 
 /// Modes that have a layer each.
 const MODES: usize = 3;
@@ -71,7 +73,13 @@ pub fn greatest(impacts: &[Impact]) -> f64 {
 
 /// The energies stacked, picture `ledger`, up to those (J) at least. None without two hits side by
 /// side.
-pub fn picture(name: &str, bat: &Bat, impacts: &[Impact], up_to: f64) -> Option<Picture> {
+pub fn picture(
+    sheet: Sheet,
+    name: &str,
+    bat: &Bat,
+    impacts: &[Impact],
+    up_to: f64,
+) -> Option<Picture> {
     let initial: Vec<f64> =
         impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.initial)).collect();
     let greatest = greatest(impacts);
@@ -82,15 +90,17 @@ pub fn picture(name: &str, bat: &Bat, impacts: &[Impact], up_to: f64) -> Option<
     let seen = |layer: &Layer| layer.energies.iter().flatten().any(|e| *e > UNSEEN * greatest);
     let layers: Vec<Layer> = layers(impacts).into_iter().filter(seen).collect();
     let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
-    let [knob, tip] = place::axes([first, last], &[(name, bat.length())]);
-    let top = HEAD + NUMBERS;
-    let right = WIDTH - room(&names, 220.0);
-    let frame = Frame { left: LEFT, top, right, bottom: top + DIAGRAM };
+    let [knob, tip] = place::axes(sheet, [first, last], &[(name, bat.length())]);
+    let mut svg = Svg::on(sheet);
+    let top = if sheet.narrow() { keys(&mut svg, &layers) } else { sheet.head() } + NUMBERS;
+    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
+    let beside = sheet.width() - room(&names, 220.0);
+    let frame = Frame { right: if sheet.narrow() { frame.right } else { beside }, ..frame };
     let stacks = stacked(&layers);
     let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest, up_to]);
     let y = Axis::around("energy (J)", heights, ticks_up(DIAGRAM));
     let plane = Plane { frame, x: knob, y };
-    let mut svg = Svg::new(WIDTH, frame.bottom + NUMBERS + 4.0);
+    svg.height = frame.bottom + NUMBERS + 4.0;
     svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
     let least = initial.iter().copied().fold(f64::INFINITY, f64::min);
     let sum = if greatest - least < 1e-6 * greatest {
@@ -147,7 +157,7 @@ fn draw(
     let below = std::iter::once(&floor).chain(stacks);
     let mut names: Vec<Tag> = vec![];
     for (layer, (below, above)) in layers.iter().zip(below.zip(stacks)) {
-        let at = |i: &Impact, v: &Option<f64>| Some(plane.at([CM * i.x, (*v)?]));
+        let at = |i: &Impact, v: &Option<f64>| Some(plane.at([i.x, (*v)?]));
         let edges: Edges = impacts
             .iter()
             .zip(below.iter().zip(above))
@@ -165,13 +175,31 @@ fn draw(
         let told: Vec<_> = edges.iter().zip(&layer.energies).filter_map(told).collect();
         svg.hover(&told, 60 / layers.len().max(1));
     }
-    let before = |i: &Impact| Some(plane.at([CM * i.x, i.outcome.as_ref()?.energy.initial]));
+    let before = |i: &Impact| Some(plane.at([i.x, i.outcome.as_ref()?.energy.initial]));
     let line: Vec<Option<Point>> = impacts.iter().map(before).collect();
     for run in line.split(Option::is_none) {
         let run: Vec<Point> = run.iter().flatten().copied().collect();
         svg.line(&run, Pen::new(TEXT, 1.5));
     }
-    tags(svg, plane.frame, &names);
+    if !svg.sheet.narrow() {
+        tags(svg, plane.frame, &names);
+    }
+}
+
+/// The layers' names above the diagram, each with its colour; where they end (px).
+fn keys(svg: &mut Svg, layers: &[Layer]) -> f64 {
+    const SIDE: f64 = 11.0;
+    let (mut x, mut y) = (12.0, svg.sheet.head() + 10.0);
+    for Layer { name, look: (ink, opacity), .. } in layers {
+        let wide = SIDE + 6.0 + width(name, LABEL);
+        if x > 12.0 && x + wide > svg.width - 4.0 {
+            (x, y) = (12.0, y + 18.0);
+        }
+        svg.rect([[x, y - SIDE + 1.0], [x + SIDE, y + 1.0]], *ink, *opacity, None);
+        svg.text([x + SIDE + 6.0, y], LABEL, name);
+        x += wide + 14.0;
+    }
+    y + 8.0
 }
 
 /// A layer wherever there were hits.

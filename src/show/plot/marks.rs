@@ -6,6 +6,7 @@ use crate::bat::fixtures::{Held, Region};
 use crate::bat::material::Material;
 use crate::show::plot::place::{self, PlaceRow};
 use crate::show::plot::series::{digits, short};
+use crate::show::plot::sheet::Sheet;
 
 /// A bat, the name it has in the picture, and where its swing turns.
 #[derive(Debug, Clone, Copy)]
@@ -19,14 +20,14 @@ pub struct Subject<'a> {
 }
 
 /// Balance points, pivots, centres of percussion; what one bat is made of and bears.
-pub fn marked(subjects: &[Subject]) -> Vec<PlaceRow> {
+pub fn marked(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
     let of = |what: &str, place: &dyn Fn(&Subject) -> Option<f64>| {
         let places: Vec<(usize, f64)> =
             subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
         let label = match (subjects, places.as_slice()) {
-            ([one], [(_, x)]) => format!("{what}: {}", place::shown(*x, one.bat.length())),
+            ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
             _ => {
-                format!("{what}: {}", place::listed(&places))
+                format!("{what}: {}", place::listed(sheet, &places))
             }
         };
         (!places.is_empty()).then(|| PlaceRow::of_places(label, places))
@@ -37,37 +38,40 @@ pub fn marked(subjects: &[Subject]) -> Vec<PlaceRow> {
     let mut rows: Vec<PlaceRow> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),
-        of("its centre of percussion", &standard),
+        of("centre of percussion of that pivot", &standard),
         of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
-        of("its centre of percussion", &swung),
+        of("centre of percussion of the swing", &swung),
     ]
     .into_iter()
     .flatten()
     .collect();
     if let [subject] = subjects {
-        rows.extend(fastened(subject.bat));
+        rows.extend(fastened(sheet, subject.bat));
     }
     rows
 }
 
 /// Other materials, weights, joints, supports and hands, as rows; more than a dozen would
 /// crowd the picture.
-fn fastened(bat: &Bat) -> Vec<PlaceRow> {
+fn fastened(sheet: Sheet, bat: &Bat) -> Vec<PlaceRow> {
     const MOST: usize = 12;
     let fixtures = bat.fixtures();
     let stretch = |label: String, from, to| PlaceRow::of_stretches(label, vec![(0, [from, to])]);
     let place = |label: String, x| PlaceRow::of_places(label, vec![(0, x)]);
     let made =
         fixtures.regions.iter().filter_map(|r| Some(stretch(made_of(bat, r)?, r.from, r.to)));
-    let taped =
-        fixtures.tapes.iter().map(|tape| stretch(weight("tape", tape.mass), tape.from, tape.to));
+    let taped = fixtures
+        .tapes
+        .iter()
+        .map(|tape| stretch(weight(sheet, "tape", tape.mass), tape.from, tape.to));
     let held = fixtures.grip.iter().map(|grip| stretch("hands".into(), grip.from, grip.to));
     let joints = fixtures.joints.iter().map(|joint| place("joint".into(), joint.x));
     let attached = fixtures.attachments.iter().map(|a| {
         let spring = a.mass == 0.0;
-        place(if spring { "spring".into() } else { weight("weight", a.mass) }, a.x)
+        place(if spring { "spring".into() } else { weight(sheet, "weight", a.mass) }, a.x)
     });
-    let absorbers = fixtures.absorbers.iter().map(|a| place(weight("absorber", a.mass), a.x));
+    let absorbers =
+        fixtures.absorbers.iter().map(|a| place(weight(sheet, "absorber", a.mass), a.x));
     let supports = fixtures.supports.iter().map(|support| {
         let label = if support.kind == Held::Pinned { "pinned" } else { "clamped" };
         place(label.into(), support.x)
@@ -76,8 +80,11 @@ fn fastened(bat: &Bat) -> Vec<PlaceRow> {
     all.chain(attached).chain(absorbers).chain(supports).take(MOST).collect()
 }
 
-fn weight(what: &str, mass: f64) -> String {
-    format!("{what} of {} g ({} oz)", digits(1e3 * mass, 3), digits(ounces(mass), 2))
+fn weight(sheet: Sheet, what: &str, mass: f64) -> String {
+    match sheet.us {
+        true => format!("{what} of {} oz", digits(ounces(mass), 2)),
+        false => format!("{what} of {} g", digits(1e3 * mass, 3)),
+    }
 }
 
 /// What a region is made of where the rest of the bat is not.

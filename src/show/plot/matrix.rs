@@ -1,7 +1,8 @@
 //! A table of numbers from 0 to 1 as a map of colours, the numbers in it.
 
 use crate::show::plot::picture::Picture;
-use crate::show::plot::plane::{HEAD, head};
+use crate::show::plot::plane::head;
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{FRAME, PAPER, SERIES};
 use crate::show::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
@@ -44,7 +45,7 @@ pub fn picture(matrix: &Matrix) -> Picture {
     let left = 44.0 + names;
     let count = matrix.columns.len().max(1) as f64;
     let wide = ((760.0 - left - SCALE) / count).min(CELL[0]);
-    let top = HEAD + 46.0;
+    let top = Sheet::file(false).head() + 46.0;
     let (right, bottom) = (left + wide * count, top + CELL[1] * matrix.rows.len() as f64);
     let titles = [width(&matrix.title, TITLE), width(&matrix.second, SMALL)];
     let needed = titles.into_iter().fold(right + SCALE, |most, w| most.max(w + 40.0));

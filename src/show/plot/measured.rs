@@ -3,9 +3,10 @@
 use crate::show::plot::axis::Axis;
 use crate::show::plot::matrix::{self, Matrix};
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM};
-use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, WIDTH, head};
+use crate::show::plot::place;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::show::plot::series::{Series, digits, hover, legend};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{MARKS, Pen, Svg};
 use crate::show::plot::theme::{FRAME, SERIES};
 use crate::show::plot::words::{LABEL, SMALL, fitted};
@@ -24,7 +25,7 @@ const DRAWN: usize = 400;
 
 /// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is, or no
 /// measured mode bends.
-pub fn pictures(bat: &str, study: &Study) -> Vec<Picture> {
+pub fn pictures(sheet: Sheet, bat: &str, study: &Study) -> Vec<Picture> {
     let Some(shapes) = &study.shapes else { return vec![] };
     if study.bending.is_empty() {
         return vec![];
@@ -33,7 +34,7 @@ pub fn pictures(bat: &str, study: &Study) -> Vec<Picture> {
     if let Some(own) = shapes.common.as_ref().filter(|rows| rows.len() > 1) {
         all.push(common(bat, study, own, &shapes.sampled_common));
     }
-    all.extend(on_each_other(bat, study, shapes));
+    all.extend(on_each_other(sheet, bat, study, shapes));
     all
 }
 
@@ -79,24 +80,25 @@ fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>
 }
 
 /// Every pair's computed curve and the measured points, scaled to it.
-fn on_each_other(bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
+fn on_each_other(sheet: Sheet, bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
     let pairs: Vec<&Pair> = study.pairs.iter().take(MOST).collect();
     if pairs.is_empty() {
         return None;
     }
     let length = study.solution.modes[pairs[0].computed].shape.length();
-    let [knob, tip] = place::axes([0.0, length], &[(bat, length)]);
-    let top = HEAD + 20.0 + NUMBERS;
+    let [knob, tip] = place::axes(sheet, [0.0, length], &[(bat, length)]);
+    let top = sheet.head() + 20.0 + NUMBERS;
     let frame = |k: usize| {
         let top = top + (ROW + BETWEEN) * k as f64;
-        Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + ROW }
+        Frame { right: sheet.width() - RIGHT, ..Frame::across(sheet, [top, top + ROW]) }
     };
     let last = frame(pairs.len() - 1).bottom;
-    let mut svg = Svg::new(WIDTH, last + NUMBERS + 4.0);
+    let mut svg = Svg::on(sheet);
+    svg.height = last + NUMBERS + 4.0;
     let title = "Measured shapes on computed ones";
     head(&mut svg, title, [bat, "the measured ones scaled to the computed"]);
     for (k, pair) in pairs.iter().enumerate() {
-        let [curve, points] = series(study, shapes, pair);
+        let [curve, points] = series(sheet, study, shapes, pair);
         let both = curve.points.iter().chain(&points.points).flatten().map(|[_, w]| w.abs());
         // A little more than the largest, so that numbers of two diagrams do not meet.
         let high = 1.2 * both.fold(1.0, f64::max);
@@ -105,7 +107,7 @@ fn on_each_other(bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
         let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
         svg.line(&zero, Pen::new(FRAME, 1.0));
         if k == 0 {
-            legend(&mut svg, &[&curve, &points], [LEFT, HEAD + 10.0, WIDTH - RIGHT]);
+            legend(&mut svg, &[&curve, &points]);
             plane.above(&mut svg, &tip);
         }
         for series in [&curve, &points] {
@@ -131,16 +133,16 @@ fn on_each_other(bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
 }
 
 /// A computed curve, and the measured points over the scale between them.
-fn series(study: &Study, shapes: &Shapes, pair: &Pair) -> [Series; 2] {
+fn series(sheet: Sheet, study: &Study, shapes: &Shapes, pair: &Pair) -> [Series; 2] {
     let shape = &study.solution.modes[pair.computed].shape;
     let at = |k: usize| shape.length() * k as f64 / POINTS as f64;
-    let computed = (0..=POINTS).map(|k| Some([CM * at(k), shape.deflection(at(k))])).collect();
+    let computed = (0..=POINTS).map(|k| Some([at(k), shape.deflection(at(k))])).collect();
     let scale = pair.scale.filter(|scale| scale.norm() > 0.0);
     let values = shapes.placed.x.iter().zip(&shapes.placed.shapes[pair.measured]);
     // Of very many, points beside each other are one on paper.
     let values = values.step_by(shapes.placed.x.len().div_ceil(DRAWN));
-    let measured = values.map(|(x, w)| Some([CM * x, (w / scale?).re])).collect();
-    let points = Series::curve("measured", 1, measured).units("cm", "");
+    let measured = values.map(|(x, w)| Some([*x, (w / scale?).re])).collect();
+    let points = Series::curve("measured", 1, measured).units(sheet.length().name, "");
     let points = Series { joined: false, mark: Some(MARKS[0]), ..points };
     [Series::curve("computed", 0, computed).pen(Pen::new(SERIES[0], 1.7)), points]
 }

@@ -3,7 +3,6 @@
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Held;
 use crate::bat::profile::{Profile, Section};
-use crate::show::plot::place::CM;
 use crate::show::plot::plane::Plane;
 use crate::show::plot::route::Point;
 use crate::show::plot::svg::{Mark, Pen, Svg};
@@ -12,7 +11,7 @@ use crate::show::plot::theme::{FRAME, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 /// Where an outline is drawn, and how thick.
 #[derive(Debug, Clone, Copy)]
 pub struct Lying<'a> {
-    /// For positions, in cm.
+    /// For positions.
     pub plane: &'a Plane,
     /// The height of the axis, and what a metre of radius is high (px).
     pub axis: f64,
@@ -40,7 +39,7 @@ pub fn sections(profile: &Profile, most: usize) -> Vec<(f64, Section)> {
 impl Lying<'_> {
     /// Where a place (m) and a radius (m, below the axis less than 0) are.
     fn at(&self, x: f64, radius: f64) -> Point {
-        [self.plane.across(CM * x), self.axis - self.per_metre * radius]
+        [self.plane.across(x), self.axis - self.per_metre * radius]
     }
 
     /// The closed line around the sections' outer radius, or inner.
@@ -66,10 +65,22 @@ impl Lying<'_> {
         self.fixtures(svg, bat);
     }
 
+    /// A stretch (m) of the bat filled in that colour, from side to side.
+    pub fn stretch(&self, svg: &mut Svg, bat: &Bat, ([from, to], ink): ([f64; 2], Ink)) {
+        const POINTS: usize = 60;
+        const DARK: f64 = 0.4;
+        let at = |k: usize| {
+            let x = from + (to - from) * k as f64 / POINTS as f64;
+            (x, bat.profile().at(x))
+        };
+        let all: Vec<(f64, Section)> = (0..=POINTS).map(at).collect();
+        svg.area(&self.around(&all, |section| section.outer), ink, DARK, None);
+    }
+
     /// Lines across a stretch (m), between two radii of either side.
     fn hatched(&self, svg: &mut Svg, bat: &Bat, stretch: [f64; 2], bore: bool) {
         const APART: f64 = 5.0;
-        let [from, to] = stretch.map(|x| self.plane.across(CM * x));
+        let [from, to] = stretch.map(|x| self.plane.across(x));
         let count = ((to - from) / APART).ceil().max(1.0) as usize;
         for k in 0..count {
             let x = stretch[0] + (stretch[1] - stretch[0]) * (k as f64 + 0.5) / count as f64;
@@ -121,7 +132,12 @@ impl Lying<'_> {
             svg.line(&[[from, y], [to, y]], Pen::new(TEXT, 3.0));
         }
         let weights = bat.fixtures().attachments.iter().map(|a| a.x);
-        for x in weights.chain(bat.fixtures().absorbers.iter().map(|a| a.x)) {
+        let mut weights: Vec<f64> =
+            weights.chain(bat.fixtures().absorbers.iter().map(|a| a.x)).collect();
+        weights.sort_by(f64::total_cmp);
+        // Closer ones cannot be told apart.
+        weights.dedup_by(|next, last| self.at(*next, 0.0)[0] - self.at(*last, 0.0)[0] < 3.0);
+        for x in weights {
             svg.mark(Mark::Diamond, self.at(x, 0.0), 4.5, TEXT, true);
         }
         for support in &bat.fixtures().supports {

@@ -17,6 +17,8 @@ pub struct Picture {
     pub name: String,
     /// What it is called above itself.
     pub title: String,
+    /// What is to be known beside the title.
+    pub facts: String,
     /// What is to be seen, for those who cannot.
     pub alt: String,
     /// The whole picture, which needs nothing beside it: `<svg …>…</svg>`.
@@ -30,7 +32,7 @@ impl Picture {
     pub fn new(name: &str, title: &str, alt: &str, svg: Svg) -> Self {
         let whole = svg.finish(title, alt);
         let [name, title, alt] = [name, title, alt].map(str::to_owned);
-        Self { name, title, alt, svg: whole, drawing: svg }
+        Self { name, title, facts: svg.facts.clone(), alt, svg: whole, drawing: svg }
     }
 }
 

@@ -1,50 +1,53 @@
 //! Positions on a bat: from the knob end and from the tip, and rows of marked places.
 
-use crate::base::units::inches;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::plane::{Frame, Plane};
-use crate::show::plot::series::digits;
+use crate::show::plot::series::{digits, spread};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::show::plot::theme::{PAPER, series};
 use crate::show::plot::words::{Anchor, LABEL, SMALL, fitted, width};
 
-/// cm in a metre: positions stand in cm from the knob end.
-pub const CM: f64 = 100.0;
-
-/// The axes of a stretch of bats (m): from the knob end in cm, and from the tip in inches. Where the
-/// bats are not equally long it is the first one's tip.
-pub fn axes([from, to]: [f64; 2], bats: &[(&str, f64)]) -> [Axis; 2] {
+/// The axes of a stretch of bats (m): from the knob end, and from the tip. Where the bats are not
+/// equally long it is the first one's tip.
+pub fn axes(sheet: Sheet, [from, to]: [f64; 2], bats: &[(&str, f64)]) -> [Axis; 2] {
     let length = bats.first().map_or(0.0, |(_, length)| *length);
     let same = bats.iter().all(|(_, other)| (other - length).abs() < 1e-4 * length);
     let whose = match bats.first() {
-        Some((name, _)) if !same => format!("from the tip of {name} (in)"),
-        _ => "from the tip (in)".to_owned(),
+        Some((name, _)) if !same => format!("from the tip of {name}"),
+        _ => "from the tip".to_owned(),
     };
-    let whose = fitted(&whose, SMALL, 480.0);
+    let whose = fitted(&whose, SMALL, 0.63 * sheet.width());
+    let unit = sheet.length();
+    let axis = |label: &str, ends: [f64; 2]| Axis::new(label, ends.map(|x| unit.per * x));
     [
-        Axis::new("from the knob end (cm)", [CM * from, CM * to]),
-        Axis::new(&whose, [from, to].map(|x| inches(length - x))),
+        axis("from the knob end", [from, to]).counted_in(unit),
+        axis(&whose, [length - from, length - to]).counted_in(unit),
     ]
 }
 
-/// A place as it stands beside its mark.
-pub fn shown(x: f64, length: f64) -> String {
+/// A place as it stands beside its mark: from the knob end.
+pub fn shown(sheet: Sheet, x: f64, length: f64) -> String {
     match x {
-        x if x < 0.0 => format!("{} cm beyond the knob end", tenths(-CM * x)),
-        x if x > length => format!("{} cm beyond the tip", tenths(CM * (x - length))),
-        _ => {
-            let tip = tenths(inches(length - x));
-            format!("{} cm from knob, {tip} in from tip", tenths(CM * x))
-        }
+        x if x < 0.0 => format!("{} beyond the knob end", along(sheet, -x)),
+        x if x > length => format!("{} beyond the tip", along(sheet, x - length)),
+        _ => format!("{} from the knob end", along(sheet, x)),
     }
 }
 
+/// A length (m) with its unit.
+pub fn along(sheet: Sheet, length: f64) -> String {
+    let unit = sheet.length();
+    format!("{} {}", tenths(unit.per * length), unit.name)
+}
+
 /// The places of several bats, once where they are the same.
-pub fn listed(places: &[(usize, f64)]) -> String {
-    let all: Vec<String> = places.iter().map(|(_, x)| tenths(CM * x)).collect();
+pub fn listed(sheet: Sheet, places: &[(usize, f64)]) -> String {
+    let unit = sheet.length();
+    let all: Vec<String> = places.iter().map(|(_, x)| tenths(unit.per * x)).collect();
     match all.first() {
-        Some(one) if all.iter().all(|other| other == one) => format!("{one} cm"),
-        _ => format!("{} cm", all.join(", ")),
+        Some(one) if all.iter().all(|other| other == one) => format!("{one} {}", unit.name),
+        _ => format!("{} {}", all.join(", "), unit.name),
     }
 }
 
@@ -81,6 +84,8 @@ impl PlaceRow {
     }
 }
 
+/// Between the marks of several bats in a row, so that none hides another (px).
+const APART: f64 = 10.0;
 /// Height of a row (px).
 pub const ROW: f64 = 18.0;
 
@@ -99,7 +104,7 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
     let mut told = vec![];
     for (k, row) in rows.iter().enumerate() {
         let y = top + ROW * (k as f64 + 0.5) + 4.0;
-        let across = |x: f64| plane.across(CM * x).clamp(left, right);
+        let across = |x: f64| plane.across(x).clamp(left, right);
         let mut taken = vec![];
         for (bat, stretch) in &row.stretches {
             let [from, to] = stretch.map(across);
@@ -108,13 +113,18 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
             svg.line(&[[from, y], [to, y]], Pen { width: 4.0, ..Pen::new(series(*bat).0, 4.0) });
             taken.extend([from - 2.0, to + 2.0]);
         }
-        for (bat, x) in &row.places {
-            match plane.x.share(CM * x) {
+        let wanted: Vec<f64> = row.places.iter().map(|(_, x)| across(*x)).collect();
+        let fanned = spread(&wanted, APART, [left, right]);
+        for ((bat, x), (at, place)) in row.places.iter().zip(fanned.into_iter().zip(wanted)) {
+            match plane.x.share(*x) {
                 share if share < -1e-9 => arrow(svg, *bat, [left, y], -1.0),
                 share if share > 1.0 + 1e-9 => arrow(svg, *bat, [right, y], 1.0),
-                _ => mark(svg, *bat, [across(*x), y]),
+                _ => {
+                    svg.line(&[[at, y], [place, y + 8.0]], Pen::new(series(*bat).0, 0.8));
+                    mark(svg, *bat, [at, y]);
+                }
             }
-            taken.extend([across(*x) - 7.0, across(*x) + 7.0]);
+            taken.extend([at - 7.0, at + 7.0]);
         }
         told.push(words(svg, plane.frame, y, (&row.label, &taken)));
     }
@@ -139,8 +149,8 @@ pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
 pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges]), from: f64) {
     for (k, row) in all.iter().enumerate() {
         let end = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
-        for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(CM * x)) {
-            let x = plane.across(CM * x);
+        for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(*x)) {
+            let x = plane.across(*x);
             let pen = Pen::new(series(*bat).0, 0.8).dashed("1 3");
             let mut y = from;
             // The rows come from above.
@@ -153,11 +163,9 @@ pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges])
     }
 }
 
-/// What and where, or where there is no room for that, where from the knob only, or what.
+/// What and where, or what, where there is no room for that.
 fn shortened(words: &str, room: f64) -> &str {
-    let from_knob = words.split_inclusive(" from knob").next().unwrap_or(words);
-    let what = words.split(':').next().unwrap_or(words);
-    [words, from_knob].into_iter().find(|words| width(words, LABEL) <= room).unwrap_or(what)
+    if width(words, LABEL) <= room { words } else { words.split(':').next().unwrap_or(words) }
 }
 
 /// A row's words, beside what is taken in it.
@@ -192,13 +200,12 @@ mod tests {
 
     #[test]
     fn words_tell_as_much_as_there_is_room_for() {
-        let all = format!("centre: {}", shown(0.647, 0.838));
-        assert_eq!(all, "centre: 64.7 cm from knob, 7.5 in from tip");
+        let all = format!("centre: {}", shown(Sheet::file(false), 0.647, 0.838));
+        assert_eq!(all, "centre: 64.7 cm from the knob end");
+        assert_eq!(shown(Sheet::file(true), 0.9, 0.838), "2.4 in beyond the tip");
         let room = |words: &str| width(words, LABEL) + 1.0;
-        for told in [&all, "centre: 64.7 cm from knob", "centre"] {
+        for told in [&all, "centre"] {
             assert_eq!(shortened(&all, room(told)), told);
         }
-        let several = "centre: 64.5, 64.6 cm";
-        assert_eq!(shortened(several, room("centre: 64.5, 64.6")), "centre");
     }
 }

@@ -2,22 +2,16 @@
 
 use crate::show::plot::axis::{Axis, Tick};
 use crate::show::plot::route::Point;
+use crate::show::plot::sheet::{Paper, Sheet};
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{FRAME, GRID, Ink, TINT};
 use crate::show::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 
-/// Width of every picture (px).
-pub const WIDTH: f64 = 760.0;
-/// From the left edge to the frames, so that those above each other are in line (px).
-pub const LEFT: f64 = 74.0;
-/// From a frame to the right edge, where nothing else stands there (px).
-pub const RIGHT: f64 = 28.0;
-/// From a frame to the right edge where a second axis stands (px).
-pub const SECOND: f64 = 86.0;
 /// What numbers and label of an axis take beside a frame (px).
 pub const NUMBERS: f64 = 42.0;
-/// What title and second line take at the top (px).
-pub const HEAD: f64 = 60.0;
+
+/// Length of every tick, outwards from the frame (px).
+const TICK: f64 = 5.0;
 
 /// A rectangle of the picture (px).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +26,13 @@ pub struct Frame {
     pub bottom: f64,
 }
 
+impl Frame {
+    /// A frame as wide as the sheet has room for, from one height to another (px).
+    pub fn across(sheet: Sheet, [top, bottom]: [f64; 2]) -> Self {
+        Self { left: sheet.left(), top, right: sheet.width() - sheet.right(), bottom }
+    }
+}
+
 /// A diagram.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plane {
@@ -44,8 +45,12 @@ pub struct Plane {
 }
 
 /// The title and, standing back, what it is of and what is to be known of it; where there is not room
-/// for all, the name is cut.
+/// for all, the name is cut. A page has the title beside the picture, and the facts below that.
 pub fn head(svg: &mut Svg, title: &str, [name, facts]: [&str; 2]) {
+    svg.facts = facts.to_owned();
+    if svg.sheet.paper != Paper::File {
+        return;
+    }
     let most = svg.width - 40.0;
     svg.text([20.0, 29.0], TITLE, &fitted(title, TITLE, most));
     let between = if name.is_empty() || facts.is_empty() { "" } else { ": " };
@@ -80,14 +85,15 @@ impl Plane {
         for tick in self.y.ticks(self.ticks_up()) {
             let y = self.at([self.x.from, tick.value])[1];
             svg.line(&[[left, y], [right, y]], Pen::new(GRID, 1.0));
-            svg.text([left - 7.0, y + 4.4], LABEL.at(Anchor::End), &tick.text);
+            svg.line(&[[left - TICK, y], [left, y]], Pen::new(FRAME, 1.0));
+            svg.text([left - 9.0, y + 4.4], LABEL.at(Anchor::End), &tick.text);
         }
         for tick in self.x.ticks(ticks_along(self.frame, &self.x)) {
             let x = self.across(tick.value);
             svg.line(&[[x, top], [x, bottom]], Pen::new(GRID, 1.0));
         }
         svg.line(&[[left, top], [left, bottom], [right, bottom]], Pen::new(FRAME, 1.0));
-        self.label_up(svg, left - 58.0, &self.y.label);
+        self.label_up(svg, (left - 58.0).max(15.0), &self.y.label);
     }
 
     /// Words along y, as near to its middle as they fit on the picture.
@@ -103,26 +109,14 @@ impl Plane {
     pub fn below(&self, svg: &mut Svg) {
         let bottom = self.frame.bottom;
         let ticks = self.x.ticks(ticks_along(self.frame, &self.x));
-        along(svg, self.frame, (&self.x, &ticks), [bottom, 5.0, 18.0, 36.0]);
+        along(svg, self.frame, (&self.x, &ticks), [bottom, TICK, 18.0, 36.0]);
     }
 
     /// Numbers and label of another axis for x, above the frame: distances, so none below 0.
     pub fn above(&self, svg: &mut Svg, axis: &Axis) {
         let mut ticks = axis.ticks(ticks_along(self.frame, axis));
         ticks.retain(|tick| tick.value >= 0.0);
-        along(svg, self.frame, (axis, &ticks), [self.frame.top, -5.0, -9.0, -26.0]);
-    }
-
-    /// Numbers and label of another axis for y, right of the frame.
-    pub fn right(&self, svg: &mut Svg, axis: &Axis) {
-        let Frame { top, right, bottom, .. } = self.frame;
-        svg.line(&[[right, top], [right, bottom]], Pen::new(FRAME, 1.0));
-        for tick in axis.ticks(self.ticks_up()) {
-            let y = bottom + (top - bottom) * axis.share(tick.value);
-            svg.line(&[[right, y], [right + 5.0, y]], Pen::new(FRAME, 1.0));
-            svg.text([right + 9.0, y + 4.4], LABEL, &tick.text);
-        }
-        self.label_up(svg, right + SECOND - 12.0, &axis.label);
+        along(svg, self.frame, (axis, &ticks), [self.frame.top, -TICK, -9.0, -26.0]);
     }
 
     /// A stretch of x, tinted from top to bottom.

@@ -1,14 +1,15 @@
 //! Bats from the side, their diameter along them, and the places that matter.
 
-use crate::base::units::{inches, ounces};
+use crate::base::units::ounces;
 use crate::bat::body::Bat;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::marks::marked;
 use crate::show::plot::outline::{Lying, sections};
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM, PlaceRow};
-use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, SECOND, WIDTH, head, ticks_up};
+use crate::show::plot::place::{self, PlaceRow};
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, bats, digits, hover, short};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::series;
 use crate::show::plot::words::{Anchor, SMALL};
@@ -21,28 +22,28 @@ const DIAGRAM: f64 = 130.0;
 const THICK: [f64; 2] = [14.0, 84.0];
 
 /// The bats in one picture, `profile`.
-pub fn picture(subjects: &[Subject]) -> Picture {
+pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Picture {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
-    let rows: Vec<PlaceRow> = marked(subjects);
+    let rows: Vec<PlaceRow> = marked(sheet, subjects);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let ends = ends(longest, &rows);
-    let [knob, tip] = place::axes(ends, &lengths);
+    let [knob, tip] = place::axes(sheet, ends, &lengths);
     let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
-    let right = WIDTH - SECOND;
-    let [times, per_metre] = thickness(thickest, (right - LEFT) / (ends[1] - ends[0]));
+    let Frame { left, right, .. } = Frame::across(sheet, [0.0; 2]);
+    let [times, per_metre] = thickness(thickest, (right - left) / (ends[1] - ends[0]));
     let each = 2.0 * thickest * per_metre + 26.0;
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let mut svg = Svg::on(sheet);
     let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let side = top + each * subjects.len() as f64 + 6.0;
     let below = side + DIAGRAM + 6.0;
     let bottom = below + place::height(&rows);
     let plane = |top, bottom| {
-        let frame = Frame { left: LEFT, top, right, bottom };
+        let frame = Frame::across(sheet, [top, bottom]);
         Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
     };
     let (lying, strip) = (plane(top, side), plane(below, bottom));
     svg.height = bottom + NUMBERS + 6.0;
-    let (title, facts) = words(subjects);
+    let (title, facts) = words(sheet, subjects);
     head(&mut svg, &title, ["", &facts]);
     lying.above(&mut svg, &tip);
     for (k, subject) in subjects.iter().enumerate() {
@@ -60,31 +61,31 @@ pub fn picture(subjects: &[Subject]) -> Picture {
 
 /// The diameters along the bats.
 fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
-    let all = subjects.iter().map(|s| 2.0 * CM * widest(s.bat)).chain([0.0]);
-    let plane = Plane { y: Axis::around("diameter (cm)", all, ticks_up(DIAGRAM)), ..plane };
+    let (sheet, unit) = (svg.sheet, svg.sheet.length());
+    let all = subjects.iter().map(|s| 2.0 * unit.per * widest(s.bat)).chain([0.0]);
+    let plane =
+        Plane { y: Axis::around("diameter", all, ticks_up(DIAGRAM)).counted_in(unit), ..plane };
     plane.draw(svg);
-    let in_inches = [plane.y.from, plane.y.to].map(|diameter| inches(diameter / CM));
-    plane.right(svg, &Axis::new("diameter (in)", in_inches));
-    let curves: Vec<Series> = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
+    let curves: Vec<Series> =
+        subjects.iter().enumerate().flat_map(|(k, s)| curves(sheet, k, s)).collect();
     curves.iter().for_each(|curve| curve.draw(svg, &plane));
     hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
 }
 
 /// What the pictures' first two lines say.
-fn words(subjects: &[Subject]) -> (String, String) {
+fn words(sheet: Sheet, subjects: &[Subject]) -> (String, String) {
     match subjects {
         [Subject { name, bat, .. }] => {
             let (mass, length) = (bat.inertia().mass, bat.length());
             let thick = 2.0 * widest(bat);
-            let mut second = format!(
-                "{} cm ({} in) long, {} g ({} oz), at most {} cm ({} in) thick",
-                short(CM * length),
-                short(inches(length)),
-                digits(1e3 * mass, 3),
-                digits(ounces(mass), 3),
-                digits(CM * thick, 3),
-                digits(inches(thick), 3)
-            );
+            let unit = sheet.length();
+            let [length, thick] = [short(unit.per * length), digits(unit.per * thick, 3)];
+            let mass = match sheet.us {
+                true => format!("{} oz", digits(ounces(mass), 3)),
+                false => format!("{} g", digits(1e3 * mass, 3)),
+            };
+            let mut second =
+                format!("{length} {0} long, {mass}, at most {thick} {0} thick", unit.name);
             if bat.profile().stations.inner.iter().any(|r| *r > 0.0) {
                 second += "; thin line: the bore";
             }
@@ -105,7 +106,7 @@ fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
 }
 
 /// The largest radius (m).
-fn widest(bat: &Bat) -> f64 {
+pub fn widest(bat: &Bat) -> f64 {
     let stations = &bat.profile().stations;
     stations.outer.iter().fold(0.0_f64, |most, r| most.max(*r))
 }
@@ -136,18 +137,18 @@ fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
 }
 
 /// The outer diameter, and the inner one where there is a bore.
-fn curves(k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
+fn curves(sheet: Sheet, k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
     const MOST: usize = 300;
-    let all = sections(bat.profile(), MOST);
-    let outer = all.iter().map(|(x, at)| Some([CM * x, 2.0 * CM * at.outer])).collect();
-    let mut curves = vec![Series::curve(name, k, outer).units("cm", "cm")];
+    let (unit, all) = (sheet.length().name, sections(bat.profile(), MOST));
+    let outer = all.iter().map(|(x, at)| Some([*x, 2.0 * at.outer])).collect();
+    let mut curves = vec![Series::curve(name, k, outer).units(unit, unit)];
     if all.iter().any(|(_, at)| at.inner > 0.0) {
         let bore = |(x, at): &(f64, crate::bat::profile::Section)| {
-            (at.inner > 0.0).then_some([CM * x, 2.0 * CM * at.inner])
+            (at.inner > 0.0).then_some([*x, 2.0 * at.inner])
         };
         let inner = Series::curve(&format!("{name}, bore"), k, all.iter().map(bore).collect());
         let pen = Pen { width: 1.2, ..inner.pen };
-        curves.push(inner.pen(pen).units("cm", "cm"));
+        curves.push(inner.pen(pen).units(unit, unit));
     }
     curves
 }

@@ -1,6 +1,6 @@
 //! Curves and points in a diagram, and their names beside them.
 
-use crate::show::plot::plane::{Frame, HEAD, LEFT, Plane, WIDTH};
+use crate::show::plot::plane::{Frame, Plane};
 use crate::show::plot::route::Point;
 use crate::show::plot::svg::{Mark, Pen, Svg};
 use crate::show::plot::theme::{FRAME, Ink};
@@ -96,7 +96,8 @@ pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[&Series]) {
         let Some([x, y]) = curve.units else { continue };
         let name = fitted(&curve.name, LABEL, 240.0);
         let words = |[a, b]: [f64; 2]| {
-            let value = format!("{name}: {} {x}, {} {y}", short(a), short(b));
+            let [a, b] = [a * plane.x.per, b * plane.y.per].map(short);
+            let value = format!("{name}: {a} {x}, {b} {y}");
             value.trim_end().to_owned()
         };
         let all = curve.runs(plane).concat();
@@ -127,9 +128,17 @@ pub fn digits(value: f64, count: i32) -> String {
     }
 }
 
-/// Names in a row with samples, between those ends; as many rows as they need, the first at `y`. The
-/// base line of the last is given back.
-pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3]) -> f64 {
+/// Names in a row with samples below the head; as many rows as they need. The base line of the last
+/// is given back.
+pub fn legend(svg: &mut Svg, series: &[&Series]) -> f64 {
+    let sheet = svg.sheet;
+    let left = if sheet.narrow() { 12.0 } else { sheet.left() };
+    let ends = [left, sheet.head() + 10.0, svg.width - 12.0];
+    legend_between(svg, series, ends)
+}
+
+/// A legend between two ends, its first row at `y`.
+pub fn legend_between(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3]) -> f64 {
     const SAMPLE: f64 = 28.0;
     let mut x = left;
     for series in series {
@@ -148,11 +157,11 @@ pub fn legend(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3])
 /// The names of several bats below the head, each with the line of its number; where they end (px).
 pub fn bats(svg: &mut Svg, names: &[&str]) -> f64 {
     if names.len() < 2 {
-        return HEAD;
+        return svg.sheet.head();
     }
     let all: Vec<Series> =
         names.iter().enumerate().map(|(k, name)| Series::curve(name, k, vec![])).collect();
-    legend(svg, &all.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - 12.0]) + 6.0
+    legend(svg, &all.iter().collect::<Vec<_>>()) + 6.0
 }
 
 /// A name beside a frame: the height that it belongs to, the words, their colour.

@@ -10,15 +10,21 @@ use crate::collision::sweet_spot::SweetSpot;
 use crate::modes::solve::Solution;
 use crate::show::analysis::Analysis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::{contact, exit_speed, hands, ledger, profile, shapes, u_curve};
+use crate::show::plot::sheet::Sheet;
+use crate::show::plot::{contact, exit_speed, hands, ledger, profile, shapes, spot, u_curve};
 use crate::study::trade::u_curve::Column;
 
 /// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
 /// marked.
-pub fn of_modes(bat: &Bat, solution: &Solution, swing_pivot: Option<f64>) -> Vec<Picture> {
+pub fn of_modes(
+    sheet: Sheet,
+    bat: &Bat,
+    solution: &Solution,
+    swing_pivot: Option<f64>,
+) -> Vec<Picture> {
     let name = bat.name();
-    let side = profile::picture(&[profile::Subject { name, bat, swing_pivot }]);
-    let bent = shapes::picture(&[shapes::Subject { name, bat, solution }], shapes::MODES);
+    let side = profile::picture(sheet, &[profile::Subject { name, bat, swing_pivot }]);
+    let bent = shapes::picture(sheet, &[shapes::Subject { name, bat, solution }], shapes::MODES);
     std::iter::once(side).chain(bent).collect()
 }
 
@@ -44,37 +50,39 @@ impl Hits<'_> {
     /// # Errors
     ///
     /// As [`Hitter::new`].
-    pub fn pictures(&self, at: Option<f64>) -> Result<Vec<Picture>> {
+    pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
         let Self { bat, model, scene, sweep, spot } = *self;
         let (name, length, impacts) = (bat.name(), bat.length(), &sweep.impacts);
         let along = exit_speed::Subject { name, length, impacts, spot };
-        let mut all: Vec<Picture> = exit_speed::picture(&[along]).into_iter().collect();
-        all.extend(ledger::picture(name, bat, impacts, 0.0));
+        let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
+        all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
             let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
             let touch = contact::Subject::new(name, &hitter, x);
-            all.extend(contact::pictures(touch.as_slice()));
+            all.extend(contact::pictures(sheet, touch.as_slice()));
             let felt = hitter.force(x).map(|force| hands::Subject {
                 name,
                 after: Aftermath::new(bat, &sweep.solution, x, force),
                 x: scene.hands,
             });
-            all.extend(hands::picture(felt.as_slice()));
+            all.extend(hands::picture(sheet, felt.as_slice()));
         }
         Ok(all)
     }
 }
 
-/// All that belong to an analysis: the bat and its modes, and its hits.
+/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, and its hits.
 ///
 /// # Errors
 ///
 /// As [`Hits::pictures`].
-pub fn of_analysis(analysis: &Analysis) -> Result<Vec<Picture>> {
+pub fn of_analysis(sheet: Sheet, analysis: &Analysis) -> Result<Vec<Picture>> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
-    let mut pictures = of_modes(bat, solution, Some(task.scene.pivot));
+    let subject = spot::Subject { name: bat.name(), bat, spot: &figures.spot };
+    let mut pictures: Vec<Picture> = spot::picture(sheet, &[subject]).into_iter().collect();
+    pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
     let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
-    pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(None)?);
+    pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(sheet, None)?);
     Ok(pictures)
 }
 

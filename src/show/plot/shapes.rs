@@ -7,10 +7,11 @@ use crate::modes::solve::Solution;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::outline::sections;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::place::{self, CM};
-use crate::show::plot::plane::{Frame, LEFT, NUMBERS, Plane, WIDTH, head};
+use crate::show::plot::place;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::show::plot::route::Point;
 use crate::show::plot::series::{bats, digits};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{FRAME, MUTED, TINT, series};
 use crate::show::plot::words::{Anchor, LABEL, SMALL, width};
@@ -36,22 +37,22 @@ const THICK: f64 = 10.0;
 const RIGHT: f64 = 96.0;
 
 /// The first modes, at most so many, a row each; picture `shapes`. None where there are no modes.
-pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[Subject], most: usize) -> Option<Picture> {
     let count = subjects.iter().map(|s| s.solution.modes.len()).max()?.min(most);
     if count == 0 {
         return None;
     }
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let [knob, tip] = place::axes([0.0, longest], &lengths);
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let [knob, tip] = place::axes(sheet, [0.0, longest], &lengths);
+    let mut svg = Svg::on(sheet);
     let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let row = ROW.max(18.0 * subjects.len() as f64 + 26.0);
     let bottom = top + row * count as f64;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom };
+    let frame = Frame { right: sheet.width() - RIGHT, ..Frame::across(sheet, [top, bottom]) };
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     svg.height = bottom + NUMBERS + 4.0;
-    let (title, name, facts) = words(subjects);
+    let (title, name, facts) = words(sheet, subjects);
     head(&mut svg, title, [name, &facts]);
     plane.above(&mut svg, &tip);
     for order in 0..count {
@@ -59,26 +60,35 @@ pub fn picture(subjects: &[Subject], most: usize) -> Option<Picture> {
         mode_row(&mut svg, &plane, axis, (subjects, order));
     }
     plane.below(&mut svg);
-    Some(Picture::new("shapes", title, &described(subjects, count), svg))
+    Some(Picture::new("shapes", title, &described(sheet, subjects, count), svg))
 }
 
-fn words<'a>(subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
+fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
     let title = "Bending modes and their nodes";
     let drawn = "not to scale";
     match subjects {
         [Subject { name, bat, .. }] => {
             let held = if bat.fixtures().holding() { "held" } else { "free" };
-            (title, name, format!("{held}; nodes in cm from the knob end; {drawn}"))
+            (
+                title,
+                name,
+                format!(
+                    "{held}; numbers: nodes from the knob end ({}); {drawn}",
+                    sheet.length().name
+                ),
+            )
         }
         _ => (title, "", drawn.to_owned()),
     }
 }
 
-fn described(subjects: &[Subject], count: usize) -> String {
+fn described(sheet: Sheet, subjects: &[Subject], count: usize) -> String {
+    let unit = sheet.length();
     let told = |mode: &Mode| {
-        let nodes: Vec<String> = mode.nodes.iter().map(|x| format!("{:.1}", CM * x)).collect();
+        let node = |x: &f64| format!("{:.1}", unit.per * x);
+        let nodes: Vec<String> = mode.nodes.iter().map(node).collect();
         let (order, hertz, nodes) = (mode.order, mode.frequency(), nodes.join(", "));
-        format!("mode {order} at {hertz:.1} Hz, nodes at {nodes} cm from the knob end")
+        format!("mode {order} at {hertz:.1} Hz, nodes at {nodes} {} from the knob end", unit.name)
     };
     let of = |s: &Subject| {
         let modes: Vec<String> = s.solution.modes.iter().take(count).map(told).collect();
@@ -108,7 +118,7 @@ fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Subje
     }
     for (k, subject) in subjects.iter().enumerate() {
         let Some(mode) = subject.solution.modes.get(order) else { continue };
-        nodes(svg, plane, axis, (k, mode, alone));
+        nodes(svg, plane, axis, (k, mode, subjects.len()));
     }
 }
 
@@ -129,7 +139,7 @@ fn bent(svg: &mut Svg, plane: &Plane, axis: f64, (k, bat, mode): (usize, &Bat, &
     let widest = all.iter().fold(0.0_f64, |most, (_, at)| most.max(at.outer));
     let middle: Vec<Point> = all
         .iter()
-        .map(|(x, _)| [plane.across(CM * x), axis - DEFLECTED * mode.shape.deflection(*x)])
+        .map(|(x, _)| [plane.across(*x), axis - DEFLECTED * mode.shape.deflection(*x)])
         .collect();
     let side = |sign: f64| -> Vec<Point> {
         let ends = |i: usize| [middle[i.saturating_sub(1)], middle[(i + 1).min(middle.len() - 1)]];
@@ -148,12 +158,15 @@ fn bent(svg: &mut Svg, plane: &Plane, axis: f64, (k, bat, mode): (usize, &Bat, &
 }
 
 /// The nodes of a mode on the axis; of a single bat with their places.
-fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, alone): (usize, &Mode, bool)) {
+fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, count): (usize, &Mode, usize)) {
+    let (unit, alone) = (svg.sheet.length(), count == 1);
     let mut free = plane.frame.left;
     for x in &mode.nodes {
-        let across = plane.across(CM * x);
-        place::mark(svg, k, [across, axis]);
-        let words = place::tenths(CM * x);
+        let across = plane.across(*x);
+        // Those of several bats one below the other: none hides another.
+        let fan = if alone { 0.0 } else { 8.0 * (k as f64 - 0.5 * (count - 1) as f64) };
+        place::mark(svg, k, [across, axis + fan]);
+        let words = place::tenths(unit.per * x);
         let half = 0.5 * width(&words, SMALL);
         if alone && across - half >= free {
             svg.text([across, axis + 0.5 * ROW - 5.0], SMALL.at(Anchor::Middle), &words);
@@ -164,6 +177,7 @@ fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, alone): (usize, &Mod
             free = across + half + 4.0;
         }
     }
-    let told = |x: &f64| ([plane.across(CM * x), axis], format!("node at {:.2} cm", CM * x));
+    let told =
+        |x: &f64| ([plane.across(*x), axis], format!("node at {:.2} {}", unit.per * x, unit.name));
     svg.hover(&mode.nodes.iter().map(told).collect::<Vec<_>>(), 60);
 }

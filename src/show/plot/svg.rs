@@ -8,11 +8,16 @@ use std::fmt::Write;
 
 use crate::base::xml::escaped;
 use crate::show::plot::route::{Point, px, route};
+use crate::show::plot::sheet::{Paper, Sheet};
 use crate::show::plot::theme::{self, Ink, PAPER};
 use crate::show::plot::words::{Anchor, Type};
 
 /// What the file of every picture begins with, and of hardly any other.
 pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\"";
+
+/// The typeface that PNG is painted in, where the reader has it, and what is nearest to it elsewhere;
+/// whichever it is, its small letters are as high as those of the first.
+const FAMILY: &str = "Ubuntu, 'Ubuntu Sans', 'Noto Sans', 'Segoe UI', system-ui, sans-serif";
 
 /// A picture in the making.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +29,10 @@ pub struct Svg {
     /// Left, upper, right and lower edge (px) of the frame in which places along the bat can be read
     /// off, from the first place to the last, for a page that does so.
     pub read_off: Option<[f64; 4]>,
+    /// Its units and its room.
+    pub sheet: Sheet,
+    /// What is to be known beside the title: see [`super::plane::head`].
+    pub facts: String,
     shapes: Vec<Shape>,
 }
 
@@ -135,9 +144,15 @@ pub const MARKS: [Mark; 6] =
     [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond, Mark::Cross, Mark::Wedge];
 
 impl Svg {
-    /// Empty paper.
+    /// Empty paper of a size of its own, for a file.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, read_off: None, shapes: vec![] }
+        Self { width, height, ..Self::on(Sheet::file(false)) }
+    }
+
+    /// Empty paper as wide as that sheet, its height still open.
+    pub fn on(sheet: Sheet) -> Self {
+        let (width, height, facts) = (sheet.width(), 0.0, String::new());
+        Self { width, height, read_off: None, sheet, facts, shapes: vec![] }
     }
 
     /// What was drawn so far, in that order.
@@ -159,7 +174,7 @@ impl Svg {
         format!(
             "{BEGINNING} role=\"img\" \
              viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-             font-family=\"system-ui, sans-serif\" fill=\"none\" stroke-linejoin=\"round\" \
+             font-family=\"{FAMILY}\" font-size-adjust=\"0.52\" fill=\"none\" stroke-linejoin=\"round\" \
              stroke-linecap=\"butt\"{read_off}>\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n\
              <rect class=\"ss-f-paper\" fill=\"{}\" width=\"{width}\" height=\"{height}\"/>\n\
              {body}</svg>\n",
@@ -228,9 +243,10 @@ impl Svg {
         self.shapes.push(Shape::Circle { middle: at, radius, look });
     }
 
-    /// Words that show where a pointer rests, at so many of the points at most.
+    /// Words that show where a pointer rests, at so many of the points at most: in files, for a page
+    /// reads its pictures off by a line of its own.
     pub fn hover(&mut self, points: &[(Point, String)], most: usize) {
-        if !points.is_empty() {
+        if !points.is_empty() && self.sheet.paper == Paper::File {
             let every = points.len().div_ceil(most.max(1));
             self.shapes.push(Shape::Hover(points.iter().step_by(every).cloned().collect()));
         }

@@ -2,8 +2,9 @@
 
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
-use crate::show::plot::plane::{Frame, HEAD, LEFT, NUMBERS, Plane, RIGHT, WIDTH, head};
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::show::plot::series::{Series, hover, legend};
+use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{MARKS, Pen, Svg};
 use crate::show::plot::theme::SERIES;
 use crate::study::trade::reference::solver_name;
@@ -30,12 +31,11 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
     let title = format!("Error against elements, mode {}", mode + 1);
     let facts = "own: as the solver's eigenvalue says; again: from the energies of its shape";
-    let mut svg = Svg::new(WIDTH, 0.0);
+    let sheet = Sheet::file(false);
+    let mut svg = Svg::on(sheet);
     head(&mut svg, &title, [name, facts]);
-    let top =
-        legend(&mut svg, &curves.iter().collect::<Vec<_>>(), [LEFT, HEAD + 10.0, WIDTH - 12.0])
-            + 16.0;
-    let frame = Frame { left: LEFT, top, right: WIDTH - RIGHT, bottom: top + DIAGRAM };
+    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + 16.0;
+    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);

@@ -5,7 +5,7 @@ use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{Units, wrapped};
-use crate::study::comparison::contender::Contender;
+use crate::study::comparison::contender::{Contender, Figure};
 use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use crate::study::comparison::stretches::Stretch;
 use crate::study::comparison::table::Comparison;
@@ -111,7 +111,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
 }
 
 /// How the swings of the bats go together.
-fn swing(first: &Contender) -> String {
+pub fn swing(first: &Contender) -> String {
     match first.law {
         None => format!(
             "     All are swung at {:.1} rad/s, whatever they weigh; --reference-inertia and \
@@ -159,6 +159,54 @@ fn overview(comparison: &Comparison, units: Units) -> String {
         out += &columns.row([label].into_iter().chain(values));
     }
     out
+}
+
+/// A row of figures for people: what, each bat's value, and what each other bat has more than the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Key of the figure, as in JSON and CSV.
+    pub key: String,
+    /// What is compared, with its unit; of itself, without the row above it.
+    pub label: String,
+    /// The value of every bat; empty where it has none.
+    pub values: Vec<String>,
+    /// Difference of the second bat and those after it from the first; "none" within the errors.
+    pub differences: Vec<String>,
+    /// Whether any bat differs from the first by more than the errors.
+    pub differs: bool,
+}
+
+/// The name of a row with its unit where it stands by itself.
+fn alone(figure: &ComparedFigure, unit: &str) -> String {
+    let name = match figure.key.trim_end_matches("_from_tip") {
+        "best_place" => "sweet spot",
+        "zone_from" => "sweet zone from",
+        "zone_to" => "sweet zone to",
+        "least_vibration_place" => "place of least vibration",
+        _ => &figure.name,
+    };
+    let tip = if figure.from == From::Tip { ", from the tip" } else { "" };
+    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
+    format!("{name}{tip}{unit}")
+}
+
+/// Every row that says something, in one system of units.
+pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
+    let bats = comparison.bats.len();
+    let row = |figure: &ComparedFigure| {
+        let scale = scale(figure.unit, units == Units::Us);
+        let differences = || (1..bats).map(|bat| figure.difference(bat));
+        let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
+        let value = |v: &Option<Figure>| v.map_or(String::new(), |v| scale.value(v.value));
+        Row {
+            key: figure.key.clone(),
+            label: alone(figure, scale.name),
+            values: figure.values.iter().map(value).collect(),
+            differences: differences().map(told).collect(),
+            differs: differences().flatten().any(|difference| difference.is_real()),
+        }
+    };
+    shown(comparison).map(row).collect()
 }
 
 /// One bat beside the first: figures, then exit speeds by place.

@@ -1,0 +1,176 @@
+//! What does a struck bat sound like?
+//!
+//! Its modes, each a tone that dies out. The sound is taken as the acceleration of the surface where the
+//! bat was struck, which is what pushes the air there:
+//!
+//! ```text
+//! p(t) ~ Σ aₙ e^{−δₙ t} sin(2π fₙ t),   δₙ = ζₙ ωₙ
+//! a blow of impulse J, a half sine of duration T:   aₙ = J φₙ(x)² ωₙ S(ωₙ T)/mₙ
+//! S(ωT) = |cos(ωT/2) / (1 − (ωT/π)²)|
+//! ```
+//!
+//! How well a mode radiates is left out, and so are the barrel's walls, which ring in hollow bats.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use crate::modes::mode::Mode;
+use crate::modes::solve::Solution;
+
+/// A mode that is heard.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Tone {
+    /// How often it swings in a second (Hz).
+    pub frequency_hz: f64,
+    /// How fast it dies out (1/s): its amplitude goes as `e^{−decay t}`.
+    pub decay_1_s: f64,
+    /// Acceleration where the bat was struck, at the beginning (m/s²).
+    pub amplitude_m_s2: f64,
+}
+
+/// A struck bat as it sounds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Sound {
+    /// The modes that are heard, by rising frequency.
+    pub tones: Vec<Tone>,
+    /// The loss factor that stands in for that of the bat's material, which has none; null where the
+    /// bat's own damping is heard.
+    pub assumed_loss_factor: Option<f64>,
+}
+
+/// Loss factor of a sound whose material has none: between wood, which loses more, and metal, which
+/// loses less, so that the tone is neither a click nor a bell. Nothing but the sound uses it.
+pub const ASSUMED_LOSS: f64 = 0.01;
+/// How long a tap with something hard and light pushes (s); chosen so that the first three or four
+/// modes of a bat are heard, as they are where a bat is tapped.
+pub const TAP: f64 = 3e-4;
+/// The highest frequency that people hear (Hz).
+const HEARD: f64 = 20_000.0;
+/// Shortest and longest that a sound is (s).
+const LENGTHS: [f64; 2] = [0.3, 3.0];
+
+impl Sound {
+    /// Modes with these accelerations (m/s²) at the beginning, in the order of the solution.
+    pub fn new(solution: &Solution, amplitudes: impl Iterator<Item = f64>) -> Self {
+        let damped = |k: usize| solution.damping.modes.get(k).filter(|damped| damped.decay > 0.0);
+        let own = (0..solution.modes.len()).any(|k| damped(k).is_some());
+        let decay = |k: usize, mode: &Mode| match own {
+            true => damped(k).map_or(0.0, |damped| damped.decay),
+            false => 0.5 * ASSUMED_LOSS * mode.omega,
+        };
+        let swings = |k: usize| damped(k).is_none_or(|damped| damped.ratio < 1.0);
+        let modes = solution.modes.iter().zip(amplitudes).enumerate();
+        let heard =
+            modes.filter(|(k, (mode, a))| mode.frequency() < HEARD && swings(*k) && *a != 0.0);
+        let tone = |(k, (mode, amplitude)): (usize, (&Mode, f64))| Tone {
+            frequency_hz: mode.frequency(),
+            decay_1_s: decay(k, mode),
+            amplitude_m_s2: amplitude,
+        };
+        let assumed_loss_factor = (!own).then_some(ASSUMED_LOSS);
+        Self { tones: heard.map(tone).collect(), assumed_loss_factor }
+    }
+
+    /// A blow of that impulse (N s) and duration (s, 0 for one at once) at `x` (m).
+    pub fn of_blow(solution: &Solution, x: f64, [impulse, duration]: [f64; 2]) -> Self {
+        let amplitude = |mode: &Mode| {
+            let shape = mode.shape.deflection(x);
+            impulse * shape * shape * mode.omega * half_sine(mode.omega * duration)
+                / mode.modal_mass
+        };
+        Self::new(solution, solution.modes.iter().map(amplitude))
+    }
+
+    /// A tap on the tip with something hard, of 1 N s: what is heard is scaled anyway.
+    pub fn of_tap(solution: &Solution) -> Self {
+        let tip = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
+        Self::of_blow(solution, tip, [1.0, TAP])
+    }
+
+    /// The sound at time `t` (s), in m/s².
+    pub fn at(&self, t: f64) -> f64 {
+        let tone = |tone: &Tone| {
+            let Tone { frequency_hz, decay_1_s, amplitude_m_s2 } = *tone;
+            amplitude_m_s2 * (-decay_1_s * t).exp() * (2.0 * PI * frequency_hz * t).sin()
+        };
+        self.tones.iter().map(tone).sum()
+    }
+
+    /// How long something is heard (s): until the slowest tone is a thousandth of itself.
+    pub fn length(&self) -> f64 {
+        let slowest = self.tones.iter().map(|tone| tone.decay_1_s).fold(f64::INFINITY, f64::min);
+        (1000.0_f64.ln() / slowest).clamp(LENGTHS[0], LENGTHS[1])
+    }
+
+    /// Samples at that rate (1/s), the largest 1 or −1; silence where nothing sounds.
+    pub fn samples(&self, rate: u32) -> Vec<f64> {
+        let count = (self.length() * f64::from(rate)) as u32;
+        let all: Vec<f64> = (0..count).map(|k| self.at(f64::from(k) / f64::from(rate))).collect();
+        let largest = all.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+        all.into_iter().map(|p| scale * p).collect()
+    }
+}
+
+/// `S(ωT)`: what a half sine drives of what a blow of the same impulse at once would.
+fn half_sine(omega_t: f64) -> f64 {
+    let share = omega_t / PI;
+    // At ωT = π the quotient is π/4.
+    if (share - 1.0).abs() < 1e-6 {
+        return 0.25 * PI;
+    }
+    ((0.5 * omega_t).cos() / ((1.0 - share) * (1.0 + share))).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modes::solve::{Request, solve};
+    use crate::proof::bundled::bundled_bat;
+
+    /// The spectrum by its integral, `∫ sin(πt/T) e^{−iωt} dt · π/(2T)`.
+    #[test]
+    fn a_half_sine_drives_what_its_spectrum_says() {
+        const STEPS: usize = 20_000;
+        for omega_t in [0.0, 0.5, 2.0, PI, 5.0, 9.0, 11.0] {
+            let mut sum = [0.0; 2];
+            for k in 0..STEPS {
+                let t = (k as f64 + 0.5) / STEPS as f64;
+                let force = 0.5 * PI * (PI * t).sin() / STEPS as f64;
+                sum[0] += force * (omega_t * t).cos();
+                sum[1] += force * (omega_t * t).sin();
+            }
+            let exact = sum[0].hypot(sum[1]);
+            assert!((half_sine(omega_t) - exact).abs() < 1e-6, "{omega_t}: {exact}");
+        }
+    }
+
+    #[test]
+    fn a_tone_has_its_mode_and_dies_out_with_its_damping() {
+        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let solution = solve(&bat, &Request::default()).unwrap();
+        let sound = Sound::of_tap(&solution);
+        assert_eq!(sound.assumed_loss_factor, Some(ASSUMED_LOSS));
+        for (tone, mode) in sound.tones.iter().zip(&solution.modes) {
+            assert_eq!(tone.frequency_hz, mode.frequency());
+            assert!((tone.decay_1_s / (0.5 * ASSUMED_LOSS * mode.omega) - 1.0).abs() < 1e-12);
+        }
+        let lossy = bat.with(|parts| parts.material.loss_factor = 0.03).unwrap();
+        let sound = Sound::of_tap(&solve(&lossy, &Request::default()).unwrap());
+        assert_eq!(sound.assumed_loss_factor, None);
+        let Tone { frequency_hz, decay_1_s, .. } = sound.tones[0];
+        assert!((decay_1_s / (0.015 * 2.0 * PI * frequency_hz) - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_mode_is_silent_where_it_is_struck_at_its_node() {
+        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let solution = solve(&bat, &Request::default()).unwrap();
+        let sound = Sound::of_blow(&solution, solution.modes[0].nodes[1], [1.0, 0.0]);
+        let [first, second] = [0, 1].map(|k| sound.tones[k].amplitude_m_s2);
+        assert!(first < 1e-9 * second, "{first} {second}");
+    }
+}

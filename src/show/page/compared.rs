@@ -1,0 +1,126 @@
+//! Several bats on one page: what differs first.
+
+use crate::base::error::Result;
+use crate::show::page::figure::Figure;
+use crate::show::page::html::Page;
+use crate::show::page::part::{Fold, Part, Section};
+use crate::show::page::shown;
+use crate::show::page::table::Table;
+use crate::show::plot::compared::pictures;
+use crate::show::report::comparison::{Row, letter, rows, swing, words};
+use crate::show::report::text::Units;
+use crate::study::comparison::table::Comparison;
+
+/// What matters of bats side by side, in this order, by the keys of the rows: all else is folded.
+const FIRST: [&str; 10] = [
+    "best_exit_speed",
+    "best_place",
+    "zone_from",
+    "zone_to",
+    "swing_weight",
+    "mass",
+    "length",
+    "balance_point",
+    "frequency_1",
+    "largest_bbcor",
+];
+
+/// The page of bats side by side, made by that command; `us` says which units are shown first.
+///
+/// # Errors
+///
+/// Those of a hit that cannot be computed, as of [`crate::collision::hitter::Hitter::new`].
+pub fn page(comparison: &Comparison, command: &str, us: bool) -> Result<String> {
+    let figures = Figure::all(|sheet| pictures(sheet, comparison))?;
+    let first = comparison.bats[0].bat.name();
+    let name = match &comparison.bats[1..] {
+        [other] => format!("{first} · {}", other.bat.name()),
+        others => format!("{first} and {} other bats", others.len()),
+    };
+    let sections = [Units::Si, Units::Us].map(|units| sections(comparison, command, units));
+    let page = Page {
+        kind: "Bats compared",
+        name: [&name, ": which hits harder, and where"],
+        source: "",
+        us,
+        sections,
+        figures: &figures,
+        data: None,
+    };
+    Ok(page.text())
+}
+
+/// Everything, in order, in one system of units.
+fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<Section<'a>> {
+    let (differing, same): (Vec<Row>, Vec<Row>) =
+        ordered(rows(comparison, units)).into_iter().partition(|row| row.differs);
+    let (first, others): (Vec<Row>, Vec<Row>) =
+        differing.into_iter().partition(|row| FIRST.contains(&row.key.as_str()));
+    let sentences = words(comparison, units).into_iter().map(|text| shown::sentence(&text));
+    let (along, best): (Vec<String>, Vec<String>) =
+        sentences.partition(|text| text.starts_with(ALONG));
+    let section = |fold, id, title, parts| Section { fold, id, title, parts };
+    let pictures = |names: &[&'static str]| names.iter().map(|name| Part::Picture(name)).collect();
+    let differs =
+        |rows| Part::Table(table(comparison, "What differs by more than the errors", rows));
+    let rest = vec![
+        differs(others),
+        Part::Table(table(comparison, "No significant difference", same)),
+        Part::List(along),
+    ];
+    let how = vec![Part::Command(command), Part::List(scene(comparison, units))];
+    let top = vec![Part::Picture("sweet_spot"), Part::List(best), differs(first)];
+    use Fold::{Folded, Open, ScreenOnly};
+    let (hit, bats) = (["contact", "hysteresis", "hands"], comparison.bats.len());
+    vec![
+        section(Open, "summary", "Which hits harder", top),
+        section(Open, "speed", "How fast the ball leaves", pictures(&["exit_speed", "difference"])),
+        section(Folded, "bats", "The bats", pictures(&["profile"])),
+        section(Folded, "modes", "How they vibrate", pictures(&["shapes"])),
+        section(ScreenOnly, "same", "The other figures, and what does not differ", rest),
+        section(ScreenOnly, "hit", "The hits at the sweet spots", pictures(&hit)),
+        section(ScreenOnly, "energy", "Where the energy goes", pictures(&LEDGERS[..bats])),
+        section(ScreenOnly, "inputs", "How they were compared", how),
+    ]
+}
+
+/// How sentences begin that say where along the barrel a bat is faster.
+const ALONG: &str = "By distance from the tip";
+
+/// The pictures of energies, one for each bat there can be.
+const LEDGERS: [&str; 6] = ["ledger_A", "ledger_B", "ledger_C", "ledger_D", "ledger_E", "ledger_F"];
+
+/// How all of them are hit.
+fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
+    let first = &comparison.bats[0];
+    let speed = shown::speed(units, first.scene.ball_speed);
+    vec![
+        format!("{} at {speed}.", first.scene.ball.name),
+        shown::sentence(swing(first).split_whitespace().collect::<Vec<_>>().join(" ").as_str()),
+        "A difference within the stated errors of both bats counts as none.".to_owned(),
+    ]
+}
+
+/// What is asked first comes first.
+fn ordered(mut rows: Vec<Row>) -> Vec<Row> {
+    let rank = |row: &Row| FIRST.iter().position(|key| row.key == *key).unwrap_or(FIRST.len());
+    rows.sort_by_key(rank);
+    rows
+}
+
+/// Values of all bats, each but the first with its difference below.
+fn table(comparison: &Comparison, caption: &str, rows: Vec<Row>) -> Table {
+    let bats = comparison.bats.len();
+    let letters = (0..bats).map(|k| letter(k).to_string());
+    let head: Vec<String> = [String::new()].into_iter().chain(letters).collect();
+    let mut table = Table { caption: caption.to_owned(), head, ..Table::default() };
+    for Row { label, values, differences, .. } in rows {
+        let others = values[1..].iter().zip(differences).map(|(value, by)| match by.as_str() {
+            "" | "none" => value.clone(),
+            by => format!("{value}\n{}", by.replace('-', "−")),
+        });
+        let cells = [label, values[0].clone()].into_iter().chain(others);
+        table.row(cells);
+    }
+    table
+}

@@ -1,0 +1,96 @@
+//! A struck bat as a sound file: it reads as WAV and sounds at the bat's own frequencies.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use common::folder::Folder;
+use serde_json::Value;
+
+fn mesh(name: &str) -> String {
+    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The samples of a WAV file, after a look at its header.
+fn samples(bytes: &[u8]) -> Vec<f64> {
+    let long = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    let short = |at: usize| u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap());
+    assert_eq!((&bytes[..4], &bytes[8..16]), (&b"RIFF"[..], &b"WAVEfmt "[..]));
+    assert_eq!((long(4), long(16)), (bytes.len() - 8, 16));
+    // Plain numbers, one channel, 44100 of two bytes in a second, 16 bits each.
+    assert_eq!((short(20), short(22), long(24), long(28)), (1, 1, 44_100, 88_200));
+    assert_eq!((short(32), short(34)), (2, 16));
+    assert_eq!((&bytes[36..40], long(40)), (&b"data"[..], bytes.len() - 44));
+    let samples = bytes[44..].chunks_exact(2);
+    samples.map(|two| f64::from(i16::from_le_bytes([two[0], two[1]]))).collect()
+}
+
+/// How much of a frequency (Hz) is in samples.
+fn strength(samples: &[f64], hertz: f64) -> f64 {
+    let mut sum = [0.0; 2];
+    for (k, sample) in samples.iter().enumerate() {
+        let (sine, cosine) = (2.0 * PI * hertz * k as f64 / 44_100.0).sin_cos();
+        sum[0] += sample * cosine;
+        sum[1] += sample * sine;
+    }
+    sum[0].hypot(sum[1])
+}
+
+fn frequencies(folder: &Folder, bat: &str) -> Vec<f64> {
+    let told: Value = serde_json::from_str(&folder.text(&["modes", bat, "--json", "-"])).unwrap();
+    let modes = told["modes"].as_array().unwrap().iter();
+    modes.map(|mode| mode["frequency_hz"].as_f64().unwrap()).collect()
+}
+
+#[test]
+fn a_struck_bat_sounds_at_its_own_frequencies() {
+    let folder = Folder::new("sound");
+    let bat = mesh("r161");
+    let hertz = frequencies(&folder, &bat);
+    let blow =
+        ["ring", &bat, "--at", "0.84 m", "--impulse", "1 N s", "--csv", "blow.csv", "--quiet"];
+    folder.text(&[&blow[..], &["--wav", "blow.wav"]].concat());
+    folder.text(&["ring", &bat, "--hit", "60 cm", "--wav", "hit.wav", "--quiet"]);
+    for name in ["blow.wav", "hit.wav"] {
+        let samples = samples(&std::fs::read(folder.0.join(name)).unwrap());
+        let largest = samples.iter().fold(0.0_f64, |most, sample| most.max(sample.abs()));
+        assert!((29_000.0..=32_767.0).contains(&largest), "{name}: {largest}");
+        assert!(samples.len() > 10_000, "{name}");
+        // A line of the first mode is there, and it is the highest around it.
+        let first = strength(&samples, hertz[0]);
+        for off in [0.9, 0.95, 1.05, 1.1, 1.5] {
+            assert!(first > 2.0 * strength(&samples, off * hertz[0]), "{name} {off}");
+        }
+    }
+}
+
+/// Hit at the node of mode 1, the bat is silent at its frequency.
+#[test]
+fn the_first_mode_is_not_heard_of_a_blow_at_its_node() {
+    let folder = Folder::new("sound-node");
+    let bat = mesh("r161");
+    let told: Value = serde_json::from_str(&folder.text(&["modes", &bat, "--json", "-"])).unwrap();
+    let node = told["modes"][0]["nodes_m"][1].as_f64().unwrap();
+    let hertz = told["modes"][0]["frequency_hz"].as_f64().unwrap();
+    let strong = |x: f64, name: &str| {
+        let at = format!("{x} m");
+        folder.text(&["ring", &bat, "--at", &at, "--impulse", "1 N s", "--wav", name, "--quiet"]);
+        let samples = samples(&std::fs::read(folder.0.join(name)).unwrap());
+        strength(&samples, hertz) / samples.len() as f64
+    };
+    let [at, off] = [strong(node, "node.wav"), strong(node - 0.2, "off.wav")];
+    assert!(at < 0.2 * off, "{at} {off}");
+}
+
+#[test]
+fn what_was_assumed_for_a_sound_is_told_and_a_sound_needs_a_blow() {
+    let folder = Folder::new("sound-told");
+    let bat = mesh("r161");
+    let told = folder.text(&["ring", &bat, "--hit", "60 cm", "--wav", "a.wav"]);
+    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(told.contains("a loss factor of 0.01 is taken for the sound only"), "{told}");
+    folder.write("shape.csv", "x_m,w_m\n0,0\n0.84,0.01\n");
+    let output = folder.run(&["ring", &bat, "--initial", "shape.csv", "--wav", "b.wav"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(!folder.0.join("b.wav").exists());
+}
