@@ -334,8 +334,8 @@ fn a_wrong_profile_is_refused() {
             ),
             (
                 X,
-                "[0, 0.4, \"0,8 m\"]",
-                &["bat.json:6:19: profile.x[2]: found \"0,8 m\"", "decimals"],
+                "[0, 0.4, \"1,234 m\"]",
+                &["bat.json:6:19: profile.x[2]: found \"1,234 m\"", "1.234 or 1234"],
             ),
             (
                 X,
@@ -1416,11 +1416,14 @@ fn a_wrong_command_line_is_refused() {
             &["hit", "bat.json", "--pitch", "90 lb"],
             &["unit \"lb\", which measures a mass", "a speed"],
         ),
+        (&["hit", "bat.json", "--pitch", "90"], &["90 mph or 90 m/s?", "201 mph is meant"]),
+        (&["hit", "bat.json", "--at", "28"], &["28 in or 28 m?", "\"28 in\""]),
+        (&["hit", "bat.json", "--at", "1,234 in"], &["1.234 or 1234", "without the comma"]),
         (&["hit", "bat.json", "--pitch", "fast"], &["'fast'", "a speed such as \"90 mph\""]),
         (&["hit", "bat.json", "--pitch", "1e300"], &["--pitch", "below 1e6 m/s"]),
         (
             &["hit", "bat.json", "--swing-speed", "70 mph"],
-            &["measures a speed", "an angular speed"],
+            &["70 mph, a speed", "write --bat-speed \"70 mph\""],
         ),
         (&["hit", "bat.json", "--swing-speed", "1e200"], &["--swing-speed", "1e6 rad/s"]),
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
@@ -1492,7 +1495,7 @@ fn a_wrong_command_line_is_refused() {
             &["frf", "bat.json", "--at", "0.6", "--from-hz", "300", "--to-hz", "200"],
             &["--to-hz: found 200.0 Hz", "more than 300.0 Hz"],
         ),
-        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "-5"], &["--to-hz: found -5.0 Hz"]),
+        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "-5 Hz"], &["--to-hz: found -5.0 Hz"]),
         (&["frf", "bat.json", "--at", "0.6", "--to-hz", "1e300"], &["--to-hz: found", "1e6 Hz"]),
         (
             &["frf", "bat.json", "--at", "0.6", "--frequencies", "100,fast"],

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::error::{Error, Result};
-use crate::base::units::{Quantity, inches};
+use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::collision::figures::Figures;
 use crate::collision::hitter::Hitter;
@@ -17,7 +17,7 @@ use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{quantity, shown_length};
+use crate::cli::value::{PLACE, shown_length};
 
 /// How fast the ball leaves, place by place, and the sweet spot
 ///
@@ -68,12 +68,12 @@ Examples:
 pub struct PlaceArgs {
     /// First impact point [default: half the length]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
     from: Option<f64>,
 
     /// Last impact point [default: the tip]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
     to: Option<f64>,
 
     /// Number of impact points, both ends included
@@ -83,7 +83,7 @@ pub struct PlaceArgs {
 
     /// One impact point
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     at: Option<f64>,
 }
 

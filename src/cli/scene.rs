@@ -4,7 +4,6 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result, nearest};
-use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::ball::{Ball, restitution};
 use crate::collision::energy_loss::EnergyLoss;
@@ -13,7 +12,10 @@ use crate::collision::hit::{Model, Scene, Wall};
 use crate::collision::pulse::Pulse;
 
 use crate::cli::common::OutputArgs;
-use crate::cli::value::{quantity, shown_length};
+use crate::cli::value::{
+    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, shown_length,
+    swing_speed,
+};
 
 /// The swing, the pitch and the ball.
 #[derive(clap::Args)]
@@ -29,17 +31,17 @@ pub struct SceneArgs {
 
     /// Angular speed of the swing
     #[arg(long, value_name = "rad/s", default_value = "50 rad/s", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::AngularSpeed))]
+          value_parser = swing_speed)]
     swing_speed: f64,
 
     /// Rotation centre of the swing beyond the knob end (negative: inside)
     #[arg(long, value_name = "m", default_value = "2.5 in", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PIVOT.read(s))]
     pivot: f64,
 
     /// Speed of the ball towards the bat
     #[arg(long, value_name = "m/s", default_value = "90 mph", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Speed))]
+          value_parser = |s: &str| PLAY_SPEED.read(s))]
     pitch: f64,
 
     /// Ball: baseball, humid-baseball, softball or a ball file
@@ -54,7 +56,7 @@ pub struct SceneArgs {
     /// In place of its own force law. A dynamic stiffness measured on a rigid cylinder is meant:
     /// F²/(m v²) for the largest force F at the speed v.
     #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+          value_parser = |s: &str| STIFFNESS.read(s))]
     ball_stiffness: Option<f64>,
 
     /// Coefficient of restitution, in place of the ball's own
@@ -63,26 +65,26 @@ pub struct SceneArgs {
 
     /// Where the hands feel the hit, from the knob end
     #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     hands: f64,
 
     /// Stiffness of a hollow barrel's wall under the ball
     ///
     /// For the contact model; without it the wall does not give way.
     #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+          value_parser = |s: &str| STIFFNESS.read(s))]
     wall_stiffness: Option<f64>,
 
     /// Mass of that wall's own vibration [default: none, a spring in series]
     #[arg(long, value_name = "kg", requires = "wall_stiffness",
-          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Mass))]
+          allow_hyphen_values = true, value_parser = |s: &str| PART_MASS.read(s))]
     wall_mass: Option<f64>,
 
     /// The swing speed is that of a bat with this swing weight
     ///
     /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2".
     #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Inertia))]
+          value_parser = |s: &str| SWING_WEIGHT.read(s))]
     reference_inertia: Option<f64>,
 
     /// How swings slow down with the swing weight [default: 0]
@@ -105,7 +107,7 @@ pub struct SceneArgs {
 
     /// Duration of the force (pulse) [default: 0.75 ms]
     #[arg(long, value_name = "s", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Time))]
+          value_parser = |s: &str| CONTACT_TIME.read(s))]
     pulse_duration: Option<f64>,
 
     /// Share of the vibration's energy the ball need not lose (pulse) [default: 0.6]
