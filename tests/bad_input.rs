@@ -1425,6 +1425,20 @@ fn a_wrong_command_line_is_refused() {
             &["hit", "bat.json", "--swing-speed", "70 mph"],
             &["70 mph, a speed", "write --bat-speed \"70 mph\""],
         ),
+        (
+            &["hit", "bat.json", "--swing-speed", "45 rad/s", "--bat-speed", "70 mph"],
+            &["--swing-speed", "cannot be used with", "--bat-speed"],
+        ),
+        (
+            &["hit", "bat.json", "--bat-speed", "70 mph", "--bat-speed-at", "1 m"],
+            &["--bat-speed-at: found 1.0 m", "0 to 0.8 m"],
+        ),
+        (
+            &["hit", "bat.json", "--bat-speed", "70 mph", "--pivot", "-0.647 m"],
+            &["--bat-speed", "beyond the swing's rotation centre"],
+        ),
+        (&["hit", "bat.json", "--bat-speed-at", "4 in"], &["--bat-speed <m/s>"]),
+        (&["hit", "bat.json", "--bat-speed", "70"], &["70 mph or 70 m/s?"]),
         (&["hit", "bat.json", "--swing-speed", "1e200"], &["--swing-speed", "1e6 rad/s"]),
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
@@ -1776,6 +1790,22 @@ fn unusual_but_right_options_are_taken() {
         hit(&["--swing-speed", "-5 rad/s", "--pitch", "90 mph"])["scene"]["swing_rad_s"],
         -5.0
     );
+    let usual = sweetspot::collision::Scene::default();
+    let scene = hit(&[])["scene"].clone();
+    let defaults = [usual.swing, usual.ball_speed, usual.pivot, usual.hands];
+    for (name, default) in
+        ["swing_rad_s", "ball_speed_m_s", "bat_pivot_m", "hands_m"].into_iter().zip(defaults)
+    {
+        assert!((scene[name].as_f64().unwrap() / default - 1.0).abs() < 1e-14, "{name}");
+    }
+    for (more, radius) in [
+        (&[][..], 0.8 - 6.0 * 0.0254 + 0.0635),
+        (&["--bat-speed-at", "4 in"], 0.8 - 4.0 * 0.0254 + 0.0635),
+        (&["--pivot", "-0.1 m"], 0.8 - 6.0 * 0.0254 - 0.1),
+    ] {
+        let swing = &hit(&[&["--bat-speed", "31 m/s"], more].concat())["scene"]["swing_rad_s"];
+        assert!((swing.as_f64().unwrap() * radius / 31.0 - 1.0).abs() < 1e-14, "{more:?}");
+    }
     assert_eq!(hit(&["--cor", "1"])["scene"]["cor"], 1.0);
     // A ball that gives nothing back stays on the bat and may be met again and again: what is not known
     // to the tolerance then is said.

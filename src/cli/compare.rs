@@ -171,7 +171,12 @@ fn bats_beside(args: &Args) -> Result<Done> {
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
     args.scene.warn(&args.output);
-    let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
+    let terms = Terms {
+        model,
+        exactly: args.count.is_some(),
+        every: args.every,
+        barrel: args.scene.barrel_speed(),
+    };
     let compared = Comparison::new(entries, terms)?;
     if let Some(folder) = &args.plots {
         pictures::write(folder, &plot::compared::pictures(&compared)?, args.output.quiet)?;

@@ -58,9 +58,12 @@ Examples:
   sweetspot hit meshes/torpedo.json --at \"27 in\" --json -
       one place, every figure of it as JSON
 
+  sweetspot hit meshes/r161.json --bat-speed \"75 mph\" --pitch \"87 mph\"
+      a faster swing, as broadcasts state it: 6 in from the tip
+
   sweetspot hit meshes/r161.json --reference-inertia \"10000 oz in2\" \\
       --swing-exponent 0.25
-      by a batter who swings a lighter bat at 50 rad/s and heavier ones slower";
+      by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
 
 /// Where the ball meets the bat; all positions from the knob end.
 #[derive(clap::Args)]
@@ -153,7 +156,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),
         hit_text::figures(&figures, units),
-        hit_text::moves(&figures, units),
+        hit_text::moves(&bat, &figures, units),
     );
     let document = || HitFile {
         figures: Some(hit_json::figures(&figures)),

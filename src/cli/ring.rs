@@ -29,8 +29,9 @@ use crate::show::csv::{Cell, Csv};
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///
-/// What do the hands feel, and does the bat break? With --hit a ball is hit and the table says how
-/// the watched places move, the spectrum there, and where the strain is largest. With
+/// How does the handle move, and how near does the bat come to breaking? With --hit a ball is hit and
+/// the table says how the watched places move, the spectrum there, where the strain is largest, and
+/// what share the stress is of the strength that is published for the material. With
 /// --at and --impulse or --force, or with --initial, the deflection at even places and given
 /// instants is written as CSV.
 #[derive(clap::Args)]

@@ -77,10 +77,12 @@ pub fn sweet_spots(analysis: &Analysis) -> Table {
     };
     peak("fastest ball", spot.exit_speed_max, &|v| inline(speed(v)));
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
-    peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
-    peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
-        format!("{:.0} times gravity", gravities(a))
-    });
+    peak("least hand speed (rms, undamped)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
+    if analysis.bat.damped() {
+        peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
+            format!("{:.0} times gravity", gravities(a))
+        });
+    }
     line("node of mode 1", spot.node_mode_1, NONE.to_owned());
     line("node of mode 2", spot.node_mode_2, NONE.to_owned());
     line("centre of percussion of this swing", spot.center_of_percussion, NONE.to_owned());
@@ -200,14 +202,10 @@ fn with_sign(value: f64, decimals: usize) -> String {
 
 /// How the sweet spots and the best speed move with the scene; empty where no ball is hit.
 pub fn moves(analysis: &Analysis) -> Table {
-    let head = [
-        "If …",
-        "fastest ball, mm",
-        "least vibration, mm",
-        "least hand velocity, mm",
-        "least hand shaking, mm",
-        "best speed",
-    ];
+    let damped = analysis.bat.damped();
+    let mut head = vec!["If …", "fastest ball, mm", "least vibration, mm", "least hand speed, mm"];
+    head.extend(damped.then_some("least hand shaking, mm"));
+    head.push("best speed");
     let mut table = Table::new("How the sweet spots move, in mm towards the tip", &head);
     let spot = &analysis.figures.spot;
     if spot.exit_speed_max.is_none() {
@@ -222,14 +220,15 @@ pub fn moves(analysis: &Analysis) -> Table {
             (Some(before), Some(after)) => inline(signed(after.value - before.value)),
             _ => NONE.to_owned(),
         };
-        table.row([
+        let mut cells = vec![
             what.clone(),
             by(|s| s.exit_speed_max),
             by(|s| s.vibration_min),
             by(|s| s.hands_velocity_min),
-            by(|s| s.hands_acceleration_min),
-            faster,
-        ]);
+        ];
+        cells.extend(damped.then(|| by(|s| s.hands_acceleration_min)));
+        cells.push(faster);
+        table.row(cells);
     }
     table
 }
