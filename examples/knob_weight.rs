@@ -21,6 +21,8 @@ const OUNCE: f64 = 0.028_349_523_125;
 const KNOB: f64 = 0.75 * 0.0254;
 /// Angular speed of the swing (rad/s).
 const SWING: f64 = 50.0;
+/// Speed of the ball towards the bat (m/s): 90 mph.
+const PITCH: f64 = 90.0 * 0.447_04;
 
 /// The same bat with a mass (kg) in its knob.
 fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
@@ -30,7 +32,7 @@ fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
 
 /// Where the ball leaves fastest at that swing (rad/s), how fast (m/s), and how far that may be off.
 fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
-    let scene = Scene { swing, ..Scene::default() };
+    let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
     let looked = Looked::new([0.5 * bat.length(), bat.length()], &hitter);
     let peak = looked.greatest(|glance| Some(glance.exit_speed));
@@ -56,7 +58,7 @@ fn main() -> Result<()> {
     let (mut rows, mut error) = (vec![], 0.0_f64);
     for count in [0.0, 1.0, 2.0, 3.0] {
         let bat = if count > 0.0 { weighted(&bare, count * OUNCE)? } else { bare.clone() };
-        let scene = Scene { swing: SWING, ..Scene::default() };
+        let scene = Scene { swing: SWING, ball_speed: PITCH, ..Scene::default() };
         let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;
         let [x, same, off] = best(&bat, SWING, &sweep)?;
         let [_, energy, also_off] = best(&bat, batter.swing(&bat), &sweep)?;

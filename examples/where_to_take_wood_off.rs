@@ -23,6 +23,8 @@ const INCH: f64 = 0.0254;
 /// What comes off the radius (m).
 const DEPTH: f64 = 0.5e-3;
 const SWING: f64 = 50.0;
+/// Speed of the ball towards the bat (m/s): 90 mph.
+const PITCH: f64 = 90.0 * 0.447_04;
 /// Allowed error of an exit speed over the closing speed.
 const TOLERANCE: f64 = 1e-6;
 
@@ -46,7 +48,7 @@ fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
 
 /// The fastest ball off a bat (m/s), and how far it may be off.
 fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f64; 2]> {
-    let scene = Scene { swing, ..Scene::default() };
+    let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
     let looked = Looked::new([0.6 * bat.length(), bat.length()], &hitter);
     let peak = looked.greatest(|glance| Some(glance.exit_speed));
@@ -61,7 +63,7 @@ fn main() -> Result<()> {
     let bat = Bat::from_file(path)?;
     let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
     request.theory = theory_choice::theory(&bat, &request)?.theory;
-    let scene = Scene { swing: SWING, ..Scene::default() };
+    let scene = Scene { swing: SWING, ball_speed: PITCH, ..Scene::default() };
     let accuracy =
         Accuracy { exit_speed: TOLERANCE, theory: request.theory, ..Accuracy::default() };
     let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;

@@ -16,6 +16,8 @@ use sweetspot::{Bat, Request, Result};
 
 /// Allowed error of an exit speed over the closing speed.
 const TOLERANCE: f64 = 1e-5;
+/// Speed of the ball towards the bat (m/s): 90 mph.
+const PITCH: f64 = 90.0 * 0.447_04;
 /// Impact points: every half inch from 2 in to 12 in from the tip.
 const POINTS: usize = 21;
 
@@ -25,7 +27,7 @@ fn from_tip(k: usize) -> f64 {
 
 /// Exit speeds at the impact points and the largest of their errors (mph), the bat described.
 fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
-    let scene = Scene { swing: batter.swing(bat), ..Scene::default() };
+    let scene = Scene { swing: batter.swing(bat), ball_speed: PITCH, ..Scene::default() };
     let request = Request { tolerance: TOLERANCE, ..Request::default() };
     let theory = theory_choice::theory(bat, &request)?.theory;
     let accuracy = Accuracy { exit_speed: TOLERANCE, theory, ..Accuracy::default() };

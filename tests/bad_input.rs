@@ -334,8 +334,8 @@ fn a_wrong_profile_is_refused() {
             ),
             (
                 X,
-                "[0, 0.4, \"0,8 m\"]",
-                &["bat.json:6:19: profile.x[2]: found \"0,8 m\"", "decimals"],
+                "[0, 0.4, \"1,234 m\"]",
+                &["bat.json:6:19: profile.x[2]: found \"1,234 m\"", "1.234 or 1234"],
             ),
             (
                 X,
@@ -1416,12 +1416,29 @@ fn a_wrong_command_line_is_refused() {
             &["hit", "bat.json", "--pitch", "90 lb"],
             &["unit \"lb\", which measures a mass", "a speed"],
         ),
+        (&["hit", "bat.json", "--pitch", "90"], &["90 mph or 90 m/s?", "201 mph is meant"]),
+        (&["hit", "bat.json", "--at", "28"], &["28 in or 28 m?", "\"28 in\""]),
+        (&["hit", "bat.json", "--at", "1,234 in"], &["1.234 or 1234", "without the comma"]),
         (&["hit", "bat.json", "--pitch", "fast"], &["'fast'", "a speed such as \"90 mph\""]),
         (&["hit", "bat.json", "--pitch", "1e300"], &["--pitch", "below 1e6 m/s"]),
         (
             &["hit", "bat.json", "--swing-speed", "70 mph"],
-            &["measures a speed", "an angular speed"],
+            &["70 mph, a speed", "write --bat-speed \"70 mph\""],
         ),
+        (
+            &["hit", "bat.json", "--swing-speed", "45 rad/s", "--bat-speed", "70 mph"],
+            &["--swing-speed", "cannot be used with", "--bat-speed"],
+        ),
+        (
+            &["hit", "bat.json", "--bat-speed", "70 mph", "--bat-speed-at", "1 m"],
+            &["--bat-speed-at: found 1.0 m", "0 to 0.8 m"],
+        ),
+        (
+            &["hit", "bat.json", "--bat-speed", "70 mph", "--pivot", "-0.647 m"],
+            &["--bat-speed", "beyond the swing's rotation centre"],
+        ),
+        (&["hit", "bat.json", "--bat-speed-at", "4 in"], &["--bat-speed <m/s>"]),
+        (&["hit", "bat.json", "--bat-speed", "70"], &["70 mph or 70 m/s?"]),
         (&["hit", "bat.json", "--swing-speed", "1e200"], &["--swing-speed", "1e6 rad/s"]),
         (&["hit", "bat.json", "--pivot", "2.5 inn"], &["unknown unit \"inn\"", "a length"]),
         (&["hit", "bat.json", "--pivot", "1e999"], &["beyond the range of numbers", "a length"]),
@@ -1492,7 +1509,7 @@ fn a_wrong_command_line_is_refused() {
             &["frf", "bat.json", "--at", "0.6", "--from-hz", "300", "--to-hz", "200"],
             &["--to-hz: found 200.0 Hz", "more than 300.0 Hz"],
         ),
-        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "-5"], &["--to-hz: found -5.0 Hz"]),
+        (&["frf", "bat.json", "--at", "0.6", "--to-hz", "-5 Hz"], &["--to-hz: found -5.0 Hz"]),
         (&["frf", "bat.json", "--at", "0.6", "--to-hz", "1e300"], &["--to-hz: found", "1e6 Hz"]),
         (
             &["frf", "bat.json", "--at", "0.6", "--frequencies", "100,fast"],
@@ -1773,6 +1790,22 @@ fn unusual_but_right_options_are_taken() {
         hit(&["--swing-speed", "-5 rad/s", "--pitch", "90 mph"])["scene"]["swing_rad_s"],
         -5.0
     );
+    let usual = sweetspot::collision::Scene::default();
+    let scene = hit(&[])["scene"].clone();
+    let defaults = [usual.swing, usual.ball_speed, usual.pivot, usual.hands];
+    for (name, default) in
+        ["swing_rad_s", "ball_speed_m_s", "bat_pivot_m", "hands_m"].into_iter().zip(defaults)
+    {
+        assert!((scene[name].as_f64().unwrap() / default - 1.0).abs() < 1e-14, "{name}");
+    }
+    for (more, radius) in [
+        (&[][..], 0.8 - 6.0 * 0.0254 + 0.0635),
+        (&["--bat-speed-at", "4 in"], 0.8 - 4.0 * 0.0254 + 0.0635),
+        (&["--pivot", "-0.1 m"], 0.8 - 6.0 * 0.0254 - 0.1),
+    ] {
+        let swing = &hit(&[&["--bat-speed", "31 m/s"], more].concat())["scene"]["swing_rad_s"];
+        assert!((swing.as_f64().unwrap() * radius / 31.0 - 1.0).abs() < 1e-14, "{more:?}");
+    }
     assert_eq!(hit(&["--cor", "1"])["scene"]["cor"], 1.0);
     // A ball that gives nothing back stays on the bat and may be met again and again: what is not known
     // to the tolerance then is said.

@@ -142,6 +142,7 @@ fn what_the_reader_accepts_the_schema_accepts() {
     let validator = validator();
     let strange = r#"[ 0, -0.0, -1, 1, 2, 1e-3, 1e3, 1e-30, 1e30, 1e-154, 1e154, 1e308, 0.5, "",
         "5", "5 in", " 5in ", "5. mm", "+.5E-1 m", "-3 cm", "in", "5,5 in", "0.0257 lb/in3",
+        "33-1/2\"", "33½″", "½ in", "2' 9\"", "1,234 in", "1 lb 14 1/2 oz", "−3 cm",
         "1 oz·in²", "1 lbf/in/in", "/s", "7 /s", "3 µm", "4 */ m", "5 m/", "white-ash", "linear",
         "tip", "clamped", "csv", "0.02", [], [0], [0, 1], [0, "1 in"], {}, null, true ]"#;
     let strange = parsed(strange);

@@ -23,7 +23,7 @@ fn compare(bats: &[Bat], tolerance: f64) -> Comparison {
 }
 
 fn compare_by(model: Model, bats: &[Bat], tolerance: f64) -> Comparison {
-    let terms = Terms { model, exactly: false, every: INCH };
+    let terms = Terms { model, exactly: false, every: INCH, barrel: None };
     let request = Request { tolerance, theory: Theory::Rayleigh, ..Request::default() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
@@ -134,7 +134,7 @@ fn one_batter_swings_the_heavier_bat_slower() {
         law: Some(law),
         request: Request::default(),
     };
-    let terms = Terms { model: Model::Contact, exactly: false, every: INCH };
+    let terms = Terms { model: Model::Contact, exactly: false, every: INCH, barrel: None };
     let both = Comparison::new(vec![entry(&light), entry(&heavy)], terms).unwrap();
     let energy = |k: usize| {
         let value = |key: &str| row(&both, key).values[k].unwrap().value;
@@ -161,10 +161,12 @@ fn table_json_and_csv_say_the_same_and_a_hit_says_it_too() {
     for units in ["si", "us", "both"] {
         let table = ask(&["--units", units]);
         assert!(table.lines().all(|line| line.chars().count() <= 80), "{units}");
-        assert!(table.contains("All are swung at 50.0 rad/s") && table.contains("In words"));
+        assert!(table.contains("All are swung at 43.0 rad/s") && table.contains("In words"));
     }
     let json = folder.json(&[&two[..], &["--json", "-"]].concat());
     assert_eq!(json["format"], "sweetspot-compare/1");
+    let barrels = ask(&["--bat-speed", "70 mph"]);
+    assert!(barrels.contains("All barrels move at 31.29 m/s (70.0 mph)"), "{barrels}");
     let csv = ask(&["--csv", "-"]);
     for line in csv.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();

@@ -32,7 +32,7 @@ fn even(length: f64) -> Bat {
 fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
     let request = Request { modes: 6, ..Request::default() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
-    let terms = Terms { model, exactly: false, every: 0.0254 };
+    let terms = Terms { model, exactly: false, every: 0.0254, barrel: None };
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
 }
 

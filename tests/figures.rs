@@ -1,7 +1,8 @@
 //! Sweet spots and standard figures: identities.
 
+use sweetspot::base::units::miles_per_hour;
 use sweetspot::bat::theory::Theory;
-use sweetspot::collision::figures::{Figures, SwingLaw};
+use sweetspot::collision::figures::{BarrelSpeed, Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
@@ -86,4 +87,17 @@ fn swing_laws_keep_what_they_say() {
         assert!((best(between) / searched - 1.0).abs() < 1e-10);
         assert_eq!(best(same) > best(still), reference > inertia);
     }
+}
+
+/// The exit speed is that of a ball hit well by an average batter, and the fastest in play.
+#[test]
+fn the_default_swing_is_an_average_batters_and_its_ball_leaves_as_fast_as_his() {
+    let ((bat, solution), scene) = (r161(), Scene::default());
+    let barrel = BarrelSpeed::of(&bat, &scene, BarrelSpeed::BROADCAST);
+    assert!((miles_per_hour(barrel.speed) - 71.5).abs() < 1.0, "{barrel:?}");
+    assert!((barrel.swing(&bat, scene.pivot).unwrap() / scene.swing - 1.0).abs() < 1e-14);
+    assert_eq!(barrel.swing(&bat, -bat.length()), None);
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
+    let best = SweetSpot::find(&hitter).exit_speed_max.unwrap();
+    assert!((miles_per_hour(best.value) - 107.0).abs() < 1.0, "{best:?}");
 }

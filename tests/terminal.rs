@@ -258,7 +258,7 @@ fn answered(folder: &Folder, args: &[&str], answers: &str) -> std::process::Outp
 fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     let folder = Folder::new("asked");
     let answers = "Birch, mine\ncm\n8.4\n84\n880\n880 g\npine\n5\n\
-                   5.0\n4.9\n2.6, 3\n99, 3\n2,5\n10, 2.7\n\n6.4\n";
+                   5.0\n4.9\n2.6, 3\n99, 3\n1,234\n10, 2.7\n\n6.4\n";
     let output = answered(&folder, &[], answers);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{told}");
@@ -267,7 +267,7 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
         "found 880, expected its unit",
         "found \"pine\", expected one of white-ash",
         "99 cm, expected no place beyond the tip",
-        "decimals follow a point",
+        "1.234 or 1234",
     ] {
         let words: Vec<&str> = told.split_whitespace().collect();
         assert!(words.join(" ").contains(reason), "{reason}: {told}");

@@ -4,8 +4,12 @@
 //!
 //! A bare number is SI. A string carries its unit: `"33 in"`, `"2.02e6 psi"`,
 //! `"0.0257 lb/in^3"`. A unit is a product of symbols with integer powers
-//! (`kg/m^3`, `oz in^2`, `N·s`, `m/s`); a division covers the one symbol after it. A number may be
-//! read off an inch rule: `"2 5/8 in"`.
+//! (`kg/m^3`, `oz in^2`, `N·s`, `m/s`); a division covers the one symbol after it.
+//!
+//! Values may be written as people type them: read off an inch rule (`2 5/8 in`, `33-1/2"`, `33½″`),
+//! as a sum of two units (`5' 2"`, `1 lb 14 1/2 oz`), with a decimal comma (`33,5 in`) or with
+//! thousands apart (`13,600.5 oz in^2`). `1,234` may be either and is refused with both readings.
+//!
 //! `oz` and `lb` are masses; forces are `lbf`, `ozf`, `N`. Mixing them up is the commonest
 //! silent error in this field (a factor √g in every frequency), so it is told, not guessed.
 //!
@@ -192,6 +196,8 @@ const SYMBOLS: &[(&str, f64, Dimension)] = &[
     ("lb", POUND, [0, 1, 0, 0]),
     ("lbm", POUND, [0, 1, 0, 0]),
     ("slug", SLUG, [0, 1, 0, 0]),
+    ("lbs", POUND, [0, 1, 0, 0]),
+    ("ounces", OUNCE, [0, 1, 0, 0]),
     ("s", 1.0, [0, 0, 1, 0]),
     ("ms", 1e-3, [0, 0, 1, 0]),
     ("us", 1e-6, [0, 0, 1, 0]),
@@ -235,33 +241,48 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
 ///
 /// As [`parse`].
 pub fn parse_beside(text: &str, quantity: Quantity, bare: &str) -> Result<f64, Complaint> {
-    let text = text.trim();
-    let (number, unit) = split(text);
+    let (text, plain) = (text.trim(), plain(text));
     let wrong = |found: String| Complaint::new("", found, quantity.expected_in(bare));
-    if unit.starts_with(',') {
-        let hint = "decimals follow a point, not a comma";
-        return Err(wrong(format!("\"{text}\"")).hinted(hint));
+    let terms = terms(&plain);
+    let mut values = Vec::with_capacity(terms.len());
+    for (number, unit) in &terms {
+        if let Some([decimal, thousand]) = readings(number) {
+            let hint = format!("it may be {decimal} or {thousand}: write it without the comma");
+            return Err(wrong(format!("\"{text}\"")).hinted(hint));
+        }
+        let value = mixed(number).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+        if unit.starts_with(|c: char| c.is_ascii_digit()) {
+            return Err(wrong(format!("\"{text}\"")));
+        }
+        if unit.is_empty() && value.is_finite() {
+            let hint = with_unit(number, quantity, bare);
+            return Err(wrong(format!("\"{text}\" without a unit")).hinted(hint));
+        }
+        let of_unit = if unit.is_empty() { Ok(1.0) } else { factor(unit, quantity) };
+        let expected = quantity.expected_in(bare);
+        values.push((value, of_unit.map_err(|complaint| Complaint { expected, ..complaint })?));
     }
-    if unit.starts_with(|c: char| c.is_ascii_digit()) {
-        return Err(wrong(format!("\"{text}\"")));
-    }
-    let value = mixed(number).ok_or_else(|| wrong(format!("\"{text}\"")))?;
-    if unit.is_empty() && value.is_finite() {
-        return Err(
-            wrong(format!("\"{text}\" without a unit")).hinted(with_unit(number, quantity, bare))
-        );
-    }
-    let of_unit = |unit| {
-        factor(unit, quantity)
-            .map_err(|complaint| Complaint { expected: quantity.expected_in(bare), ..complaint })
-    };
-    let value = if unit.is_empty() { value } else { value * of_unit(unit)? };
+    let value = summed(&values).ok_or_else(|| {
+        let expected = "two units together as in \"5 ft 2 in\" or \"1 lb 14 1/2 oz\"";
+        Complaint::new("", format!("\"{text}\""), expected)
+    })?;
     if value.is_finite() {
         // So that −0 is 0.
         Ok(value + 0.0)
     } else {
         Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
     }
+}
+
+/// The sum of values with their units' factors: whole numbers from large units to small ones, each less
+/// than one of the unit before it, the last with a fraction if it likes. None for anything else.
+fn summed(values: &[(f64, f64)]) -> Option<f64> {
+    let falls = |pair: &[(f64, f64)]| {
+        let [(whole, large), (value, small)] = [pair[0], pair[1]];
+        whole.fract() == 0.0 && whole >= 0.0 && value >= 0.0 && value * small < large
+    };
+    let sum = || values.iter().map(|(value, factor)| value * factor).sum();
+    values.windows(2).all(falls).then(sum)
 }
 
 /// What a number without its unit may be meant for.
@@ -282,10 +303,15 @@ fn with_unit(number: &str, quantity: Quantity, bare: &str) -> String {
 ///
 /// As [`parse`].
 pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value + 0.0),
-        _ => parse(text, quantity),
-    }
+    number(text).map_or_else(|| parse(text, quantity), Ok)
+}
+
+/// The value of a text that is a finite number alone, such as `33.5` or `33,5`; None for anything else,
+/// also for `1,234`, which may be read in two ways.
+pub fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let value = if readings(text).is_some() { None } else { decimal(text) };
+    value.filter(|value| value.is_finite()).map(|value| value + 0.0)
 }
 
 /// The factor to SI of a unit on its own, such as `"in"` or `"lb/in^3"`.
@@ -338,21 +364,94 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
     }
 }
 
-/// The value of a number that [`split`] has found: `2.5`, `5/8` or `2 5/8`.
+/// A text as it is parsed: quotes and primes as `in` and `ft`, printed fractions and signs as typed ones.
+fn plain(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut letters = text.trim().chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' | '″' | '”' | '“' | '„' => out += " in ",
+            // Two of them, typed one after the other, are inches.
+            '\'' | '′' | '’' | '‘' => match letters.next_if(|next| *next == letter) {
+                Some(_) => out += " in ",
+                None => out += " ft ",
+            },
+            '¼' => out += " 1/4",
+            '½' => out += " 1/2",
+            '¾' => out += " 3/4",
+            '⅛' => out += " 1/8",
+            '⅜' => out += " 3/8",
+            '⅝' => out += " 5/8",
+            '⅞' => out += " 7/8",
+            '⁄' => out.push('/'),
+            '−' | '–' => out.push('-'),
+            '\u{a0}' | '\u{2009}' | '\u{202f}' => out.push(' '),
+            other => out.push(other),
+        }
+    }
+    out.trim().to_owned()
+}
+
+/// Numbers and their units, one after the other: `5 ft 2 in` has two.
+fn terms(text: &str) -> Vec<(&str, &str)> {
+    let (number, rest) = split(text);
+    let begins = |(i, blank): (usize, &str)| {
+        let next = rest[i + blank.len()..].bytes().next();
+        (i > 0 && next.is_some_and(|byte| byte.is_ascii_digit())).then_some(i)
+    };
+    match rest.match_indices(' ').find_map(begins) {
+        None => vec![(number, rest)],
+        Some(end) => {
+            let mut all = vec![(number, rest[..end].trim_end())];
+            all.extend(terms(rest[end..].trim_start()));
+            all
+        }
+    }
+}
+
+/// The value of a number that [`split`] has found: `2.5`, `5/8`, `2 5/8` or `2-5/8`.
 fn mixed(number: &str) -> Option<f64> {
-    let Some((above, below)) = number.split_once('/') else { return number.parse().ok() };
-    let (whole, above) = above.rsplit_once(' ').unwrap_or(("0", above));
-    let [whole, above, below] = [whole.trim_end(), above, below].map(|part| part.parse().ok());
-    let (whole, above, below): (f64, f64, f64) = (whole?, above?, below?);
+    let Some((above, below)) = number.split_once('/') else { return decimal(number) };
+    let joint = above.rfind([' ', '-']).filter(|i| *i > 0);
+    let (whole, above) = joint.map_or(("0", above), |i| (&above[..i], &above[i + 1..]));
+    let [whole, above, below] = [whole.trim_end(), above, below].map(decimal);
+    let (whole, above, below) = (whole?, above?, below?);
     // No rule shows "2.5 5/8", and what "-2 1/8" means is anybody's guess.
     (whole.fract() == 0.0 && whole >= 0.0).then_some(whole + above / below)
+}
+
+/// The value of a number with a decimal point or comma, or with commas between thousands.
+fn decimal(number: &str) -> Option<f64> {
+    match in_thousands(number) {
+        true => number.replace(',', "").parse().ok(),
+        false => number.replacen(',', ".", 1).parse().ok(),
+    }
+}
+
+/// Whether its commas can be between thousands, as in `1,234` and `1,234,567.8`.
+fn in_thousands(number: &str) -> bool {
+    let whole = number.split(['.', 'e', 'E']).next().unwrap_or_default();
+    let mut groups = whole.trim_start_matches(['+', '-']).split(',');
+    let first = groups.next().unwrap_or_default();
+    let begins = (1..=3).contains(&first.len()) && !first.starts_with('0');
+    begins && groups.all(|group| group.len() == 3)
+}
+
+/// Both readings of a number whose one comma is a decimal one or between thousands.
+fn readings(number: &str) -> Option<[String; 2]> {
+    let two = in_thousands(number) && number.matches(',').count() == 1 && !number.contains('.');
+    two.then(|| [".", ""].map(|comma| number.replace(',', comma)))
 }
 
 /// Splits a number from the unit after it.
 fn split(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
+    let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
     let digits = |mut i: usize| {
-        while i < bytes.len() && (bytes[i].is_ascii_digit() || bytes[i] == b'.') {
+        while digit(i)
+            || bytes.get(i) == Some(&b'.')
+            || (bytes.get(i) == Some(&b',') && digit(i + 1))
+        {
             i += 1;
         }
         i
@@ -367,7 +466,11 @@ fn split(text: &str) -> (&str, &str) {
         }
     }
     // The fraction of an inch rule, after whole inches or on its own.
-    let above = if text[end..].starts_with('/') { end } else { digits(blanks(end)) };
+    let above = match bytes.get(end) {
+        Some(b'/') => end,
+        Some(b'-') => digits(end + 1),
+        _ => digits(blanks(end)),
+    };
     if bytes.get(above) == Some(&b'/') && digits(above + 1) > above + 1 {
         end = digits(above + 1);
     }
@@ -465,15 +568,73 @@ mod tests {
             assert!(same(si(text, Quantity::Length), INCH * inches), "{text}");
         }
         assert!(same(si("31 1/2 oz", Quantity::Mass), 31.5 * OUNCE));
-        for text in
-            ["2.5 5/8 in", "-2 1/8 in", "2 5 /8 in", "2 5/ in", "5/0 in", "2 58 in", "/8 in"]
-        {
+        for text in [
+            "2.5 5/8 in",
+            "-2 1/8 in",
+            "2 5 /8 in",
+            "2 5/ in",
+            "5/0 in",
+            "2 58 in",
+            "/8 in",
+            "-2-1/8 in",
+        ] {
             assert!(parse(text, Quantity::Length).is_err(), "{text}");
         }
         // `5/s` divides by a unit: it is not a fraction of numbers.
         assert!(
             same(si("5/s", Quantity::Frequency), 5.0) || parse("5/s", Quantity::Speed).is_err()
         );
+    }
+
+    #[test]
+    fn values_are_read_as_people_type_them() {
+        for (text, inches) in [
+            ("33 1/2\"", 33.5),
+            ("33-1/2 in", 33.5),
+            ("33½″", 33.5),
+            ("28\u{201d}", 28.0),
+            ("28''", 28.0),
+            ("5' 2\"", 62.0),
+            ("5\u{2019}2 1/2\u{201d}", 62.5),
+            ("2′ 9″", 33.0),
+            ("2 ft 9-1/2 in", 33.5),
+            ("33,5 in", 33.5),
+            ("0,125 in", 0.125),
+            ("1,234.5 in", 1234.5),
+            ("1,234,567 in", 1_234_567.0),
+            ("\u{2212}3.5 in", -3.5),
+        ] {
+            assert!(same(si(text, Quantity::Length), INCH * inches), "{text}");
+        }
+        assert!(same(si("1 lb 14 1/2 oz", Quantity::Mass), 30.5 * OUNCE));
+        assert!(same(si("2 lbs 1,5 oz", Quantity::Mass), 33.5 * OUNCE));
+        assert!(same(si("10,425.5 oz in2", Quantity::Inertia), 10_425.5 * OUNCE * INCH * INCH));
+        assert_eq!(parse_or_si("33,5", Quantity::Length), Ok(33.5));
+    }
+
+    #[test]
+    fn what_may_be_read_in_two_ways_is_refused_with_both() {
+        for text in ["1,234 in", "12,345 in", "1,234"] {
+            let said = parse_or_si(text, Quantity::Length).unwrap_err().to_string();
+            let [decimal, thousand] =
+                [".", ""].map(|comma| text.replace(" in", "").replace(',', comma));
+            assert!(said.contains(&format!("{decimal} or {thousand}")), "{said}");
+        }
+        for text in [
+            "2 in 5 ft",
+            "1 lb 20 oz",
+            "1.5 ft 2 in",
+            "-5 ft 2 in",
+            "5 ft -2 in",
+            "12,34,5 in",
+            "1 kg 2",
+        ] {
+            assert!(
+                parse(text, if text.contains("in") { Quantity::Length } else { Quantity::Mass })
+                    .is_err(),
+                "{text}"
+            );
+        }
     }
 
     #[test]

@@ -292,6 +292,17 @@ impl Bat {
         self.layup(self.profile.piece_at(x)).worth(self.profile.at(x))
     }
 
+    /// Whether a material of the bat has a loss factor.
+    pub fn lossy(&self) -> bool {
+        let mut layups = self.profile.pieces.iter().map(|piece| self.layup(piece));
+        layups.any(|layup| layup.materials().any(|material| material.loss_factor > 0.0))
+    }
+
+    /// Whether anything damps the bat; else it rings without end after a hit.
+    pub fn damped(&self) -> bool {
+        self.lossy() || self.fixtures.damping()
+    }
+
     /// Whether every stretch of the bat has a shear modulus.
     pub fn knows_shear(&self) -> bool {
         let known = |piece: &Piece| {

@@ -74,7 +74,7 @@ pub struct Args {
 const EXAMPLES: &str = "\
 Examples:
   sweetspot analyze meshes/r161.json
-      a wooden bat of the major leagues, swung at 50 rad/s at a pitch of 90 mph
+      a wooden bat of the major leagues, with an average swing at a 90 mph pitch
 
   sweetspot analyze meshes/r161.json --report r161.html
       and a report as a page of its own, to look at, to print and to send

@@ -7,6 +7,8 @@ use crate::base::units::{self, Quantity, inches};
 use crate::bat::material::BUILT_IN;
 use crate::show::report::text::wrapped;
 
+use crate::cli::value::{BAT_LENGTH, DIAMETER};
+
 /// A person gives up sooner, and a program that answers without end is stopped.
 const MOST_TRIES: usize = 50;
 /// The longest line that is read at once (bytes).
@@ -137,6 +139,7 @@ pub fn station(
             return wrong(format!("\"{text}\""), expected);
         }
     };
+    DIAMETER.sensible(diameter, unit)?;
     let diameter = measured(diameter, unit)?;
     after(before, x, length, unit)?;
     let metres = in_metres(diameter, unit);
@@ -151,7 +154,7 @@ pub fn station(
 /// 1,5 may mean one and a half.
 fn apart(text: &str, one_would_do: bool) -> Option<(&str, &str)> {
     let comma = if one_would_do && !text.contains('.') { ", " } else { "," };
-    let number = |text: &str| text.parse::<f64>().is_ok();
+    let number = |text: &str| units::number(text).is_some();
     let blank = || text.split_once(' ').map(|(x, diameter)| (x, diameter.trim()));
     text.split_once(comma).or_else(|| blank().filter(|(x, d)| number(x) && number(d)))
 }
@@ -181,9 +184,9 @@ fn in_metres(value: f64, unit: &str) -> f64 {
 /// A length in the ruler's unit: a bare number is in it, others are converted.
 pub fn measured(text: &str, unit: &str) -> Read<f64> {
     let text = text.trim();
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => {
+    match units::number(text) {
+        Some(value) => Ok(value),
+        None => {
             let bare = || units::parse(&format!("{text} {unit}"), Quantity::Length);
             let metres = units::parse_beside(text, Quantity::Length, unit);
             let metres = metres.or_else(|complaint| bare().or(Err(complaint)))?;
@@ -194,6 +197,7 @@ pub fn measured(text: &str, unit: &str) -> Read<f64> {
 
 /// The length of a bat in the ruler's unit.
 pub fn length(text: &str, unit: &str) -> Read<f64> {
+    BAT_LENGTH.sensible(text, unit)?;
     let value = measured(text, unit)?;
     if (0.1..=2.0).contains(&in_metres(value, unit)) {
         return Ok(value);
@@ -204,12 +208,12 @@ pub fn length(text: &str, unit: &str) -> Read<f64> {
 
 /// A mass with its unit, as it was written.
 pub fn mass(text: &str) -> Read<String> {
-    let kilograms = match text.parse::<f64>() {
-        Ok(_) => {
+    let kilograms = match units::number(text) {
+        Some(_) => {
             let expected = format!("its unit, too, such as \"{text} oz\" or \"{text} g\"");
             return Err(Complaint::new("", text, expected));
         }
-        Err(_) => units::parse(text, Quantity::Mass).map_err(|complaint| Complaint {
+        None => units::parse(text, Quantity::Mass).map_err(|complaint| Complaint {
             expected: "a mass such as \"31.5 oz\"".into(),
             ..complaint
         })?,

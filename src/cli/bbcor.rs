@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
-use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::bbcor::{Protocol, TEST_SPEED};
 use crate::collision::hit::{Model, Scene};
@@ -18,7 +17,7 @@ use crate::cli::hit::verdict;
 use crate::cli::pictures;
 use crate::cli::ring::on_the_bat;
 use crate::cli::scene::{ball, cor};
-use crate::cli::value::quantity;
+use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS};
 
 /// BBCOR as laboratories measure it, computed
 ///
@@ -39,7 +38,7 @@ pub struct Args {
 
     /// The ball is a linear spring of this stiffness, in place of its own force law
     #[arg(long, value_name = "N/m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+          value_parser = |s: &str| STIFFNESS.read(s))]
     ball_stiffness: Option<f64>,
 
     /// The ball's coefficient of restitution at the test speed, in place of its own
@@ -49,17 +48,17 @@ pub struct Args {
 
     /// Speed of the ball [default: 136 mph]
     #[arg(long, value_name = "m/s", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Speed))]
+          value_parser = |s: &str| CANNON_SPEED.read(s))]
     speed: Option<f64>,
 
     /// Where the scan begins, from the knob end [default: 12 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     from: Option<f64>,
 
     /// Where the scan ends, from the knob end [default: 1 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     to: Option<f64>,
 
     #[command(flatten)]

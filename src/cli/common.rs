@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
-use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::files::bat_file::Named;
@@ -23,14 +22,17 @@ use serde::Serialize;
 use crate::cli::done::{NOT_REACHED, printable};
 use crate::cli::progress::{self, Progress};
 use crate::cli::style;
-use crate::cli::value::{TheoryChoice, budget, quantity, solver, theory, tolerance, unit_system};
+use crate::cli::value::{
+    TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance, unit_system,
+};
 
 /// The end of a verb's help: commands to try, and how values are written.
 pub fn examples(commands: &str) -> String {
     format!(
-        "{commands}\n\nA bare number is in the unit that stands between < >; others are written \
-         with\nit, such as \"28 in\", \"31 oz\", \"90 mph\" or \"0.75 ms\". Places count from the \
-         knob\nend."
+        "{commands}\n\nA bare number is in the unit that stands between < >; one that is absurd in it, \
+         such as\n--pitch 90 (m/s), is asked back. Others carry their unit, as people write it: \
+         \"28 in\",\n\"33 1/2 in\", \"5 ft 2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\". Places count from the knob \
+         end."
     )
 }
 
@@ -48,7 +50,7 @@ pub struct BatArgs {
 
     /// All bending modes up to this frequency, such as 2000 or "2 kHz", in place of a number
     #[arg(long, value_name = "HZ", conflicts_with = "count", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+          value_parser = |s: &str| TOP_FREQUENCY.read(s))]
     up_to: Option<f64>,
 }
 

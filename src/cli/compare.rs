@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
-use crate::base::units::Quantity;
 use crate::files::measured;
 use crate::show::report::{self, comparison, comparison_data};
 use crate::show::{page, plot};
@@ -13,11 +12,13 @@ use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
-use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, read};
+use crate::cli::common::{
+    OutputArgs, Prepared, SolveArgs, command_line, examples, read,
+};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::quantity;
+use crate::cli::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
 ///
@@ -30,7 +31,7 @@ use crate::cli::value::quantity;
 /// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, their mass
 /// orthogonality, and what the few points cost.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     /// Bat files (JSON), two to six; one with --measured
     #[arg(required = true, value_name = "BAT")]
@@ -49,8 +50,8 @@ pub struct Args {
     tip_first: bool,
 
     /// Where the first measured point is, from the knob end [default: by its coordinate]
-    #[arg(long, value_name = "X", requires = "measured", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    #[arg(long, value_name = "m", requires = "measured", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
     origin: Option<f64>,
 
     /// Number of bending modes that count in a hit [default: as many as it needs]
@@ -59,8 +60,8 @@ pub struct Args {
     count: Option<u16>,
 
     /// Distance of the places where exit speeds are compared
-    #[arg(long, value_name = "LENGTH", default_value = "1 in", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+    #[arg(long, value_name = "m", default_value = "1 in", allow_hyphen_values = true,
+          value_parser = |s: &str| SPACING.read(s))]
     every: f64,
 
     /// Write CSV to this file (- = standard output, and no table then)
@@ -189,7 +190,12 @@ fn bats_beside(args: &Args) -> Result<Done> {
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
     args.scene.warn(&args.output);
-    let terms = Terms { model, exactly: args.count.is_some(), every: args.every };
+    let terms = Terms {
+        model,
+        exactly: args.count.is_some(),
+        every: args.every,
+        barrel: args.scene.barrel_speed(),
+    };
     let compared = Comparison::new(entries, terms)?;
     if let Some(folder) = &args.plots {
         pictures::write(

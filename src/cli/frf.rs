@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
-use crate::base::units::{Quantity, inches};
+use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::frf::{Answer, FrfFile};
@@ -17,7 +17,7 @@ use crate::show::report::text::wrapped;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
-use crate::cli::value::{named, quantity, shown_length};
+use crate::cli::value::{FREQUENCY, PLACE, TOP_FREQUENCY, named, shown_length};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 
@@ -35,12 +35,12 @@ pub struct Args {
 
     /// Where the force is, from the knob end
     #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     at: f64,
 
     /// Where the answer is looked at [default: where the force is]
     #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     to: Option<f64>,
 
     /// What is answered: receptance (deflection), mobility (velocity) or accelerance
@@ -50,14 +50,14 @@ pub struct Args {
 
     /// Lowest frequency [default: a tenth of that of mode 1]
     #[arg(long, value_name = "Hz", help_heading = "The force", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+          value_parser = |s: &str| FREQUENCY.read(s))]
     from_hz: Option<f64>,
 
     /// Highest frequency [default: a fifth beyond the last mode's]
     ///
     /// There are as many modes as it needs.
     #[arg(long, value_name = "Hz", help_heading = "The force", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+          value_parser = |s: &str| TOP_FREQUENCY.read(s))]
     to_hz: Option<f64>,
 
     /// Number of frequencies from the lowest to the highest
@@ -72,7 +72,7 @@ pub struct Args {
     /// These frequencies, comma-separated, in place of a range
     #[arg(long, value_name = "Hz,Hz,…", help_heading = "The force", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["from_hz", "to_hz", "points", "linear"],
-          value_parser = |s: &str| quantity(s, Quantity::Frequency))]
+          value_parser = |s: &str| FREQUENCY.read(s))]
     frequencies: Vec<f64>,
 
     /// Write CSV to this file (- = standard output, and no table then)

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::error::{Error, Result};
-use crate::base::units::{Quantity, inches};
+use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::collision::figures::Figures;
 use crate::collision::hitter::Hitter;
@@ -17,7 +17,7 @@ use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{quantity, shown_length};
+use crate::cli::value::{PLACE, shown_length};
 
 /// How fast the ball leaves, place by place, and the sweet spot
 ///
@@ -58,9 +58,12 @@ Examples:
   sweetspot hit meshes/torpedo.json --at \"27 in\" --json -
       one place, every figure of it as JSON
 
+  sweetspot hit meshes/r161.json --bat-speed \"75 mph\" --pitch \"87 mph\"
+      a faster swing, as broadcasts state it: 6 in from the tip
+
   sweetspot hit meshes/r161.json --reference-inertia \"10000 oz in2\" \\
       --swing-exponent 0.25
-      by a batter who swings a lighter bat at 50 rad/s and heavier ones slower";
+      by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
 
 /// Where the ball meets the bat; all positions from the knob end.
 #[derive(clap::Args)]
@@ -68,12 +71,12 @@ Examples:
 pub struct PlaceArgs {
     /// First impact point [default: half the length]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
     from: Option<f64>,
 
     /// Last impact point [default: the tip]
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length), conflicts_with = "at")]
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
     to: Option<f64>,
 
     /// Number of impact points, both ends included
@@ -83,7 +86,7 @@ pub struct PlaceArgs {
 
     /// One impact point
     #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     at: Option<f64>,
 }
 
@@ -154,7 +157,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),
         hit_text::figures(&figures, units),
-        hit_text::moves(&figures, units),
+        hit_text::moves(&bat, &figures, units),
     );
     let document = || HitFile {
         figures: Some(hit_json::figures(&figures)),

@@ -86,6 +86,7 @@ fn table(units: Units) -> String {
         out += &line(Some(material));
         out += &wrapped(&format!("  {}", material.source), 2);
         out += &strength(material, units);
+        out += "  no loss factor known: undamped\n";
     }
     out
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
-use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant};
 use crate::collision::hit::{Effort, Model};
@@ -28,13 +27,14 @@ use crate::study::ignored;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
 use crate::cli::done::Done;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{quantity, shown_length};
+use crate::cli::value::{IMPULSE, PLACE, RINGING_TIME, shown_length};
 use crate::show::csv::{Cell, Csv};
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///
-/// What do the hands feel, and does the bat break? With --hit a ball is hit and the table says how
-/// the watched places move, the spectrum there, and where the strain is largest. With
+/// How does the handle move, and how near does the bat come to breaking? With --hit a ball is hit and
+/// the table says how the watched places move, the spectrum there, where the strain is largest, and
+/// what share the stress is of the strength that is published for the material. With
 /// --at and --impulse or --force, or with --initial, the deflection at even places and given
 /// instants is written as CSV.
 #[derive(clap::Args)]
@@ -45,17 +45,17 @@ pub struct Args {
 
     /// Hit a ball there, from the knob end
     #[arg(long, value_name = "m", help_heading = "The hit", conflicts_with_all = ["at", "initial", "bending_only"],
-          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
+          allow_hyphen_values = true, value_parser = |s: &str| PLACE.read(s))]
     hit: Option<f64>,
 
     /// Places to watch after a hit, separated by commas [default: the hands]
     #[arg(long, value_name = "m,m,…", help_heading = "The hit", requires = "hit", value_delimiter = ',',
-          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Length))]
+          allow_hyphen_values = true, value_parser = |s: &str| PLACE.read(s))]
     watch: Vec<f64>,
 
     /// How long to watch after a hit [default: three periods of mode 1]
     #[arg(long, value_name = "s", help_heading = "The hit", requires = "hit", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Time))]
+          value_parser = |s: &str| RINGING_TIME.read(s))]
     until: Option<f64>,
 
     /// Write force, motion and strain at the watched places to this CSV file
@@ -67,12 +67,12 @@ pub struct Args {
 
     /// Where it is struck or pushed, from the knob end
     #[arg(long, value_name = "m", help_heading = "A blow, a push or a release", requires = "load", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     at: Option<f64>,
 
     /// The impulse of the blow
     #[arg(long, value_name = "N s", help_heading = "A blow, a push or a release", requires = "at", allow_hyphen_values = true, group = "load",
-          value_parser = |s: &str| quantity(s, Quantity::Impulse))]
+          value_parser = |s: &str| IMPULSE.read(s))]
     impulse: Option<f64>,
 
     /// Push it with the force in this CSV file
@@ -101,7 +101,7 @@ pub struct Args {
 
     /// Instants, separated by commas [default: nine over a period of mode 1]
     #[arg(long, value_name = "s,s,…", help_heading = "Output", value_delimiter = ',', allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Time))]
+          value_parser = |s: &str| RINGING_TIME.read(s))]
     times: Vec<f64>,
 
     /// Leave out the rigid motion

@@ -4,16 +4,18 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result, nearest};
-use crate::base::units::Quantity;
 use crate::bat::body::Bat;
 use crate::collision::ball::{Ball, restitution};
 use crate::collision::energy_loss::EnergyLoss;
-use crate::collision::figures::SwingLaw;
+use crate::collision::figures::{BarrelSpeed, SwingLaw};
 use crate::collision::hit::{Model, Scene, Wall};
 use crate::collision::pulse::Pulse;
 
 use crate::cli::common::OutputArgs;
-use crate::cli::value::{quantity, shown_length};
+use crate::cli::value::{
+    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, shown_length,
+    swing_speed,
+};
 
 /// The swing, the pitch and the ball.
 #[derive(clap::Args)]
@@ -28,18 +30,34 @@ pub struct SceneArgs {
     model: String,
 
     /// Angular speed of the swing
-    #[arg(long, value_name = "rad/s", default_value = "50 rad/s", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::AngularSpeed))]
+    ///
+    /// The default moves the barrel of a 33 in bat at 72 mph 6 in from the tip, as an average batter
+    /// of the major leagues does.
+    #[arg(long, value_name = "rad/s", default_value = "43 rad/s", allow_hyphen_values = true,
+          value_parser = swing_speed)]
     swing_speed: f64,
+
+    /// Speed of a point of the barrel, such as "72 mph", in place of the angular speed
+    #[arg(long, value_name = "m/s", allow_hyphen_values = true,
+          conflicts_with_all = ["swing_speed", "reference_inertia"],
+          value_parser = |s: &str| PLAY_SPEED.read(s))]
+    bat_speed: Option<f64>,
+
+    /// Distance of that point from the tip
+    #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
+          requires = "bat_speed", value_parser = |s: &str| PLACE.read(s))]
+    bat_speed_at: f64,
 
     /// Rotation centre of the swing beyond the knob end (negative: inside)
     #[arg(long, value_name = "m", default_value = "2.5 in", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PIVOT.read(s))]
     pivot: f64,
 
-    /// Speed of the ball towards the bat
-    #[arg(long, value_name = "m/s", default_value = "90 mph", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Speed))]
+    /// Speed of the ball towards the bat, at the plate
+    ///
+    /// A ball that is thrown at 90 mph has about 83 mph left there.
+    #[arg(long, value_name = "m/s", default_value = "83 mph", allow_hyphen_values = true,
+          value_parser = |s: &str| PLAY_SPEED.read(s))]
     pitch: f64,
 
     /// Ball: baseball, humid-baseball, softball or a ball file
@@ -54,7 +72,7 @@ pub struct SceneArgs {
     /// In place of its own force law. A dynamic stiffness measured on a rigid cylinder is meant:
     /// F²/(m v²) for the largest force F at the speed v.
     #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+          value_parser = |s: &str| STIFFNESS.read(s))]
     ball_stiffness: Option<f64>,
 
     /// Coefficient of restitution, in place of the ball's own
@@ -63,26 +81,26 @@ pub struct SceneArgs {
 
     /// Where the hands feel the hit, from the knob end
     #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Length))]
+          value_parser = |s: &str| PLACE.read(s))]
     hands: f64,
 
     /// Stiffness of a hollow barrel's wall under the ball
     ///
     /// For the contact model; without it the wall does not give way.
     #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Stiffness))]
+          value_parser = |s: &str| STIFFNESS.read(s))]
     wall_stiffness: Option<f64>,
 
     /// Mass of that wall's own vibration [default: none, a spring in series]
     #[arg(long, value_name = "kg", requires = "wall_stiffness",
-          allow_hyphen_values = true, value_parser = |s: &str| quantity(s, Quantity::Mass))]
+          allow_hyphen_values = true, value_parser = |s: &str| PART_MASS.read(s))]
     wall_mass: Option<f64>,
 
     /// The swing speed is that of a bat with this swing weight
     ///
     /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2".
     #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Inertia))]
+          value_parser = |s: &str| SWING_WEIGHT.read(s))]
     reference_inertia: Option<f64>,
 
     /// How swings slow down with the swing weight [default: 0]
@@ -105,7 +123,7 @@ pub struct SceneArgs {
 
     /// Duration of the force (pulse) [default: 0.75 ms]
     #[arg(long, value_name = "s", allow_hyphen_values = true,
-          value_parser = |s: &str| quantity(s, Quantity::Time))]
+          value_parser = |s: &str| CONTACT_TIME.read(s))]
     pulse_duration: Option<f64>,
 
     /// Share of the vibration's energy the ball need not lose (pulse) [default: 0.6]
@@ -138,10 +156,11 @@ impl SceneArgs {
     pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
         let mut ball = self.ball()?;
         let cor = self.cor.unwrap_or(ball.cor);
-        if !(self.pitch.abs() < 1e6 && self.swing_speed.abs() < 1e6 && self.pivot.abs() < 1e6) {
+        let speeds = [self.pitch, self.swing_speed, self.bat_speed.unwrap_or_default(), self.pivot];
+        if !speeds.iter().all(|value| value.abs() < 1e6) {
             let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
             return Err(Error::value(
-                "--pitch, --swing-speed or --pivot",
+                "--pitch, --swing-speed, --bat-speed or --pivot",
                 "a larger one",
                 expected,
             ));
@@ -159,16 +178,38 @@ impl SceneArgs {
         }
         let law = self.swing_law()?;
         let (pivot, ball_speed) = (self.pivot, self.pitch);
-        let swing = law.map_or(self.swing_speed, |law| law.swing(bat));
+        let swing = match (law, self.barrel_speed()) {
+            (Some(law), _) => law.swing(bat),
+            (None, Some(barrel)) => self.swing_of(barrel, bat)?,
+            (None, None) => self.swing_speed,
+        };
         let (hands, wall) = (self.hands, self.wall()?);
         Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+    }
+
+    /// The speed of a point of the barrel, where that was given.
+    pub fn barrel_speed(&self) -> Option<BarrelSpeed> {
+        self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
+    }
+
+    /// The swing that gives a point of this bat that speed.
+    fn swing_of(&self, barrel: BarrelSpeed, bat: &Bat) -> Result<f64> {
+        let from_tip = shown_length(barrel.from_tip);
+        if !(0.0..=bat.length()).contains(&barrel.from_tip) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("--bat-speed-at", from_tip, expected));
+        }
+        barrel.swing(bat, self.pivot).ok_or_else(|| {
+            let found = format!("a point {from_tip} from the tip");
+            Error::value("--bat-speed", found, "one beyond the swing's rotation centre, --pivot")
+        })
     }
 
     /// Warns of speeds that nobody has, most likely bare numbers in other units.
     pub fn warn(&self, output: &OutputArgs) {
         for (option, value, most, unit, hint) in [
             ("--pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
-            ("--swing-speed", self.swing_speed.abs(), 100.0, "rad/s", "about 50 rad/s"),
+            ("--swing-speed", self.swing_speed.abs(), 100.0, "rad/s", "about 43 rad/s"),
         ] {
             if value > most {
                 let told = format!("warning: {option} is {value} {unit}; usual is {hint}");

@@ -34,6 +34,33 @@ impl SwingLaw {
     }
 }
 
+/// Speed of a point of the barrel, as broadcasts state a swing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BarrelSpeed {
+    /// Speed of the point (m/s).
+    pub speed: f64,
+    /// Distance of the point from the tip (m).
+    pub from_tip: f64,
+}
+
+impl BarrelSpeed {
+    /// Distance from the tip of the point whose speed broadcasts state (m): 6 in.
+    pub const BROADCAST: f64 = 6.0 * 0.0254;
+
+    /// Speed of the point at that distance from the tip (m) of a bat that is swung so: `v = Ω (L − at +
+    /// pivot)`.
+    pub fn of(bat: &Bat, scene: &Scene, from_tip: f64) -> Self {
+        Self { speed: scene.swing * (bat.length() - from_tip + scene.pivot), from_tip }
+    }
+
+    /// The angular speed (rad/s) that gives the point its speed about a centre `pivot` (m) beyond the
+    /// knob end; None where the point does not move about that centre.
+    pub fn swing(&self, bat: &Bat, pivot: f64) -> Option<f64> {
+        let radius = bat.length() - self.from_tip + pivot;
+        (radius > 0.01 * bat.length()).then_some(self.speed / radius)
+    }
+}
+
 /// A swing and the fastest ball it gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -166,6 +166,10 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
                 .to_owned(),
         );
     }
+    if !bat.lossy() {
+        let unknown = "damping by the material: no loss factor known, undamped";
+        ignored.push(format!("{unknown} (\"loss_factor\" in the bat file)"));
+    }
     if bat.fixtures().grip.is_none() {
         ignored.push("hands: not modelled (add a \"grip\" to the bat file)".to_owned());
     }

@@ -30,14 +30,14 @@ pub const WRITTEN: [Written; 14] = [
     (
         "hit",
         "hit",
-        "hit bat-1.json -n 2 --tol 1e-8 --theory timoshenko --from 0.6 --to 0.7 --points 2 --ball ball-1.json --wall-stiffness 5e6 --wall-mass 0.05 --reference-inertia 0.2 --swing-exponent 0.3",
+        "hit bat-1.json -n 2 --tol 1e-8 --theory timoshenko --from 0.6 --to 0.7 --points 2 --ball ball-1.json --wall-stiffness 5e6 --wall-mass 0.05 --reference-inertia 0.2 --swing-exponent 0.3 --swing-speed 50 --pitch 40.2336",
         Numbers::Sharp,
     ),
     ("bbcor", "bbcor", "bbcor dowel.json --tol 1e-4", Numbers::Rough),
     (
         "compare",
         "compare",
-        "compare r161.json bat-1.json --tol 1e-3 --wall-stiffness 5e6 --reference-inertia 0.2 --swing-exponent 0.3",
+        "compare r161.json bat-1.json --tol 1e-3 --wall-stiffness 5e6 --reference-inertia 0.2 --swing-exponent 0.3 --swing-speed 50 --pitch 40.2336",
         Numbers::Rough,
     ),
     (
@@ -49,7 +49,7 @@ pub const WRITTEN: [Written; 14] = [
     (
         "ring",
         "ring",
-        "ring bat-1.json --hit 0.6 -n 3 --tol 1e-6 --ball ball-1.json",
+        "ring bat-1.json --hit 0.6 -n 3 --tol 1e-6 --ball ball-1.json --swing-speed 50 --pitch 40.2336",
         Numbers::Rough,
     ),
     (
@@ -104,7 +104,18 @@ pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
 
 /// The data of a report, `sweetspot-page/1`.
 pub fn page(folder: &Folder) -> Value {
-    folder.text(&["analyze", "r161.json", "--tol", "1e-3", "--report", "page.html"]);
+    folder.text(&[
+        "analyze",
+        "r161.json",
+        "--tol",
+        "1e-3",
+        "--report",
+        "page.html",
+        "--swing-speed",
+        "50",
+        "--pitch",
+        "40.2336",
+    ]);
     let page = folder.read("page.html");
     let (_, data) = page.split_once("id=\"data\">").unwrap();
     serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()

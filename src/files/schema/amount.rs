@@ -19,8 +19,7 @@ pub enum Amount {
 
 /// A number, then something that may be a unit. Which units there are, and which of them measure
 /// what is meant, is for the reader to say.
-const WITH_UNIT: &str =
-    r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+| *[0-9]*/[0-9]+)?\s*[A-Za-zµ/*·]";
+const WITH_UNIT: &str = r#"^\s*[+−–-]?([0-9][0-9.,]*|\.[0-9]+|[¼½¾⅛⅜⅝⅞])([eE][+-]?[0-9]+|[ -]*[0-9]*[/⁄][0-9]+|\s*[¼½¾⅛⅜⅝⅞])?\s*[A-Za-zµ/*·"'″′”’“‘„]"#;
 
 impl JsonSchema for Amount {
     fn schema_name() -> Cow<'static, str> {

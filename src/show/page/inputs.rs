@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::base::error::{Error, Result};
+use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
 use crate::files::schema;
 use crate::show::analysis::Analysis;
@@ -124,6 +125,8 @@ fn swing(analysis: &Analysis, units: Units) -> Vec<Line> {
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
     let pivot = length(units, scene.pivot.abs());
     lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
+    let barrel = BarrelSpeed::of(&analysis.bat, scene, BarrelSpeed::BROADCAST);
+    lines.push(("speed of the bat 6 in from the tip", inline(speed(barrel.speed))));
     lines
 }
 

@@ -68,13 +68,12 @@ pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
     };
     peak("fastest ball", spot.exit_speed_max, &|v| speed(units, v));
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
-    peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| speed(units, v));
-    // Without damping the bat would shake the hands for ever, as no hands are shaken.
-    let damped = !analysis.hits.solution.damping.modes.is_empty();
-    peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| match damped {
-        true => format!("{:.0} times gravity", gravities(a)),
-        false => NONE.to_owned(),
-    });
+    peak("least hand speed (rms, undamped)", spot.hands_velocity_min, &|v| speed(units, v));
+    if analysis.bat.damped() {
+        peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
+            format!("{:.0} times gravity", gravities(a))
+        });
+    }
     line("node of mode 1", spot.node_mode_1, NONE.to_owned());
     line("node of mode 2", spot.node_mode_2, NONE.to_owned());
     line("centre of percussion of this swing", spot.center_of_percussion, NONE.to_owned());
@@ -199,14 +198,10 @@ pub fn moves(analysis: &Analysis, units: Units) -> Table {
     let (unit, per, digits) =
         if units == Units::Us { ("in", inches(1.0), 2) } else { ("mm", 1e3, 1) };
     let caption = format!("How the sweet spots move, in {unit} towards the tip");
-    let head = [
-        "If …",
-        "fastest ball",
-        "least vibration",
-        "least hand velocity",
-        "least hand shaking",
-        "best speed",
-    ];
+    let damped = analysis.bat.damped();
+    let mut head = vec!["If …", "fastest ball", "least vibration", "least hand speed"];
+    head.extend(damped.then_some("least hand shaking"));
+    head.push("best speed");
     let mut table = Table::new(caption, &head);
     let spot = &analysis.figures.spot;
     if spot.exit_speed_max.is_none() {
@@ -221,14 +216,15 @@ pub fn moves(analysis: &Analysis, units: Units) -> Table {
             (Some(before), Some(after)) => signed(units, after.value - before.value),
             _ => NONE.to_owned(),
         };
-        table.row([
+        let mut cells = vec![
             what.clone(),
             by(|s| s.exit_speed_max),
             by(|s| s.vibration_min),
             by(|s| s.hands_velocity_min),
-            by(|s| s.hands_acceleration_min),
-            faster,
-        ]);
+        ];
+        cells.extend(damped.then(|| by(|s| s.hands_acceleration_min)));
+        cells.push(faster);
+        table.row(cells);
     }
     table
 }

@@ -29,6 +29,8 @@ pub struct AfterHit {
     /// Where the bat comes nearest to what its materials bear, and the swing (rad/s) that takes it
     /// there, by every limit that is known.
     pub loads: Vec<(Load, Option<f64>)>,
+    /// Whether anything damps the bat: else its shaking has no end, and no size that a hand feels.
+    pub damped: bool,
     /// How far the largest strain changes where a quarter of the modes is left out, relative.
     pub strain_error: f64,
     instants: Vec<Instant>,
@@ -70,6 +72,7 @@ impl AfterHit {
             after: whole,
             envelope,
             loads,
+            damped: bat.damped(),
             strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
             instants,
         }
@@ -99,17 +102,19 @@ pub fn text(report: &AfterHit, units: Units) -> String {
         1e3 * report.until
     );
     for (x, sting, _) in &report.watched {
-        out += &motion(*x, sting, units);
+        out += &motion(*x, sting, report.damped, units);
     }
     out += &strains(report, units);
     out += &strength(report, units);
-    out +=
-        &report.watched.first().map_or(String::new(), |(x, _, lines)| spectrum(*x, lines, units));
+    out += &report
+        .watched
+        .first()
+        .map_or(String::new(), |(x, _, lines)| spectrum(*x, lines, report.damped, units));
     out
 }
 
 /// When a place begins to move, and its largest displacement, velocity and acceleration.
-fn motion(x: f64, sting: &Sting, units: Units) -> String {
+fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
     let [moved, speed, acceleration] = sting.peak;
     let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
     let (place, begins) = (place(x, units), 1e3 * sting.begins);
@@ -121,8 +126,13 @@ fn motion(x: f64, sting: &Sting, units: Units) -> String {
     line("largest displacement", units.inline(moved), a);
     let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
     line("largest velocity", units.inline(speed), b);
-    let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
-    line("largest acceleration", shaken, c);
+    if damped {
+        let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
+        line("largest acceleration", shaken, c);
+    } else {
+        let how = "not stated: undamped (\"loss_factor\", \"grip\")";
+        line("largest acceleration", how.to_owned(), String::new());
+    }
     out
 }
 
@@ -147,22 +157,26 @@ fn strains(report: &AfterHit, units: Units) -> String {
 }
 
 /// The modes that a place hears, once the ball has left.
-fn spectrum(x: f64, lines: &[Line], units: Units) -> String {
+fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
     let place = place(x, units);
     let mut out =
         format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
-    let columns =
-        Columns::new([numbers(9, "Hz"), numbers(10, "mm"), numbers(10, "m/s"), numbers(10, "g")]);
+    let columns = Columns::new(
+        [numbers(9, "Hz"), numbers(10, "mm"), numbers(10, "m/s")]
+            .into_iter()
+            .chain(damped.then(|| numbers(10, "g"))),
+    );
     out += &columns.heads();
     let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
     for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
         let [moved, speed, acceleration] = line.amplitude;
-        out += &columns.row([
+        let cells = [
             format!("{:.1}", line.frequency),
             format!("{:.3}", 1e3 * moved),
             format!("{speed:.3}"),
-            format!("{:.0}", gravities(acceleration)),
-        ]);
+        ];
+        let shaken = damped.then(|| format!("{:.0}", gravities(acceleration)));
+        out += &columns.row(cells.into_iter().chain(shaken));
     }
     out
 }
@@ -194,12 +208,12 @@ pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
         Limit::Stress => (
             format!("{:.0} MPa", 1e-6 * load.bears),
             format!("{:.1} MPa", 1e-6 * load.at.stress),
-            "that slow bending bears; how much more a blow does is not known",
+            "published for slow bending (how much more a blow bears is not known)",
         ),
         Limit::Strain => (
             format!("{:.2} %", 100.0 * load.bears),
             format!("a strain of {:.3} %", 100.0 * load.at.strain),
-            "at which it breaks in a blow",
+            "published, at which it breaks in a blow",
         ),
     };
     let swing = match swing {

@@ -5,7 +5,7 @@ use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{Units, wrapped};
-use crate::study::comparison::contender::{Contender, Figure};
+use crate::study::comparison::contender::Figure;
 use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use crate::study::comparison::stretches::Stretch;
 use crate::study::comparison::table::Comparison;
@@ -104,21 +104,33 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         units.inline(units.speed(*ball_speed)),
     );
     out += &wrapped(&scene, 5);
-    out += &wrapped(&swing(first), 5);
+    out += &wrapped(&swing(comparison, units), 5);
     let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
                   with a smaller --tol. A difference within it is shown as none.";
     out + &wrapped(within, 5)
 }
 
 /// How the swings of the bats go together.
-pub fn swing(first: &Contender) -> String {
-    match first.law {
-        None => format!(
+pub fn swing(comparison: &Comparison, units: Units) -> String {
+    let first = &comparison.bats[0];
+    match (first.law, comparison.terms.barrel) {
+        (None, Some(barrel)) => {
+            let each = comparison.bats.iter().enumerate();
+            let each =
+                each.map(|(k, bat)| format!("{} at {:.1} rad/s", letter(k), bat.scene.swing));
+            format!(
+                "     All barrels move at {} where they are {} from the tip: {}",
+                units.inline(units.speed(barrel.speed)),
+                units.inline(units.length(barrel.from_tip)),
+                each.collect::<Vec<_>>().join(", ")
+            )
+        }
+        (None, None) => format!(
             "     All are swung at {:.1} rad/s, whatever they weigh; --reference-inertia and \
              --swing-exponent have one batter swing each",
             first.scene.swing
         ),
-        Some(law) => format!(
+        (Some(law), _) => format!(
             "     One batter swings each: {:.1} rad/s times ({:.4} kg m² over its swing weight) to \
              the power {}",
             law.of_reference, law.reference, law.exponent

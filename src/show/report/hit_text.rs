@@ -6,7 +6,7 @@ use crate::base::number::signed;
 use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::columns::{self, Column};
-use crate::collision::figures::Figures;
+use crate::collision::figures::{BarrelSpeed, Figures};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
@@ -172,7 +172,8 @@ pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
     wrapped(&text, 0)
 }
 
-/// The sweet spot by each definition, from knob and tip.
+/// The sweet spot by each definition, from knob and tip. Nobody feels the shaking of a bat that
+/// nothing damps, which has no end: it is left out.
 pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let mut out =
         String::from("Sweet spot                             from knob            from tip\n");
@@ -193,9 +194,11 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let speed = |v: f64| units.inline(units.speed(v));
     peak("fastest ball", spot.exit_speed_max, &speed);
     peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
-    peak("least hand velocity (rms)", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
-    let shaken = |a: f64| format!("{:.0} g", gravities(a));
-    peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
+    peak("least hand speed, undamped", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
+    if bat.damped() {
+        let shaken = |a: f64| format!("{:.0} g", gravities(a));
+        peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
+    }
     line("node of mode 1", spot.node_mode_1, None);
     line("node of mode 2", spot.node_mode_2, None);
     line("centre of percussion (swing)", spot.center_of_percussion, None);
@@ -252,14 +255,19 @@ pub fn figures(figures: &Figures, units: Units) -> String {
 }
 
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
-pub fn moves(figures: &Figures, units: Units) -> String {
+pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
     if figures.spot.exit_speed_max.is_none() {
         return String::new();
     }
-    let mut out = String::from(
-        "How it moves, mm to the tip fastest   least  least hand  least hand   best\n\
-         \u{20}                              ball  vibr.    velocity     shaking  speed\n",
-    );
+    let damped = bat.damped();
+    let row = |what: &str, [ball, vibration, speed, shaking, best]: [String; 5]| {
+        let shaking = if damped { format!(" {shaking:>11}") } else { String::new() };
+        let line = format!("{what:<26} {ball:>8} {vibration:>7} {speed:>11}{shaking}   {best}");
+        format!("{}\n", line.trim_end())
+    };
+    let heads = ["fastest", "least", "least hand", "least hand", "best"].map(str::to_owned);
+    let mut out = row("How it moves, mm to tip", heads);
+    out += &row("", ["ball", "vibr.", "speed", "shaking", "speed"].map(str::to_owned));
     let spot = &figures.spot;
     for (what, moved) in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
@@ -276,14 +284,14 @@ pub fn moves(figures: &Figures, units: Units) -> String {
             }
             _ => String::new(),
         };
-        let line = format!(
-            "  {what:<24} {:>8} {:>7} {:>11} {:>11}   {faster}",
+        let cells = [
             by(|s| s.exit_speed_max),
             by(|s| s.vibration_min),
             by(|s| s.hands_velocity_min),
             by(|s| s.hands_acceleration_min),
-        );
-        let _ = writeln!(out, "{}", line.trim_end());
+            faster,
+        ];
+        out += &row(&format!("  {what}"), cells);
     }
     out
 }
@@ -291,11 +299,14 @@ pub fn moves(figures: &Figures, units: Units) -> String {
 /// The scene in words.
 pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
+    let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
     let mut out = format!(
-        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end\n     \
-         {} at {}, cor {}\n",
+        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end:\n     \
+         {} where the bat is {} from the tip\n     {} at {}, cor {}\n",
         scene.swing,
         units.inline(units.length(scene.pivot.abs())),
+        units.inline(units.speed(barrel.speed)),
+        units.inline(units.length(barrel.from_tip)),
         scene.ball.name,
         units.inline(units.speed(scene.ball_speed)),
         match scene.ball.cor_by_speed.is_empty() {

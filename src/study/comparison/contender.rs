@@ -17,7 +17,7 @@
 
 use crate::base::error::Result;
 use crate::bat::body::{Bat, Inertia, STANDARD_PIVOT};
-use crate::collision::figures::SwingLaw;
+use crate::collision::figures::{BarrelSpeed, SwingLaw};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
@@ -62,6 +62,8 @@ pub struct Terms {
     pub exactly: bool,
     /// Distance of the places that are compared (m).
     pub every: f64,
+    /// Speed that a point of every bat's barrel has; None where the swings are alike or by a law.
+    pub barrel: Option<BarrelSpeed>,
 }
 
 /// A bat, its hits and its sweet spot.
