@@ -12,9 +12,7 @@ use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
-use crate::cli::common::{
-    OutputArgs, Prepared, SolveArgs, command_line, examples, read,
-};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, read};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;

@@ -96,7 +96,9 @@ fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
     let speed = shown::speed(units, first.scene.ball_speed);
     vec![
         format!("{} at {speed}.", first.scene.ball.name),
-        shown::sentence(swing(comparison, units).split_whitespace().collect::<Vec<_>>().join(" ").as_str()),
+        shown::sentence(
+            swing(comparison, units).split_whitespace().collect::<Vec<_>>().join(" ").as_str(),
+        ),
         "A difference within the stated errors of both bats counts as none.".to_owned(),
     ]
 }
