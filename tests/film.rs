@@ -47,12 +47,13 @@ fn the_ball_is_squeezed_as_much_as_its_force_needs() {
     }
 }
 
-/// Until the force first falls the ball is squeezed by what its law says.
+/// Until the force first falls the ball is squeezed by what its law says; the last instant before may be
+/// on the way back already.
 fn follows_the_law(scene: &Scene, moment: &Moment) {
     let [k, alpha] = [scene.ball.stiffness, scene.ball.exponent].map(Option::unwrap);
     let falls = moment.force_kn.windows(2).position(|pair| pair[1] < pair[0]).unwrap();
     let mut seen = 0;
-    for (force, gap) in moment.force_kn[..=falls].iter().zip(&moment.gap_mm) {
+    for (force, gap) in moment.force_kn[..falls].iter().zip(&moment.gap_mm) {
         if *force < 1.0 {
             continue;
         }

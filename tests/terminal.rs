@@ -258,7 +258,7 @@ fn answered(folder: &Folder, args: &[&str], answers: &str) -> std::process::Outp
 fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     let folder = Folder::new("asked");
     let answers = "Birch, mine\ncm\n8.4\n84\n880\n880 g\npine\n5\n\
-                   5.0\n4.9\n2.6, 3\n99, 3\n1,234\n10, 2.7\n\n6.4\n";
+                   5.0\n4.9\n2.6, 3\n99, 3\n1,234\n10, 2.7\n\n6.4\n\n\n\n";
     let output = answered(&folder, &[], answers);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{told}");
@@ -295,16 +295,72 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     assert_eq!(again.status.code(), Some(2), "{again:?}");
 }
 
+/// Answers to every question of `new`.
+const ANSWERS: &str = "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1.2\n\n2.5\n22\n170\n10, 0.7 oz\n";
+
 #[test]
-fn answers_that_end_too_soon_write_nothing() {
+fn an_interrupted_dialogue_goes_on_where_it_stopped() {
     let folder = Folder::new("ended");
-    let answers = "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1.2\n\n2.5\n";
-    for (end, _) in answers.match_indices('\n').rev().skip(1) {
-        let output = answered(&folder, &["mine.json"], &answers[..=end]);
-        assert_eq!(output.status.code(), Some(2), "{end}");
-        assert!(folder.names().is_empty(), "{end}");
+    assert_eq!(answered(&folder, &["whole.json"], ANSWERS).status.code(), Some(0));
+    let whole = folder.read("whole.json");
+    for line in ["\"balance_point\": \"22 in\"", "\"first_bending_hz\": \"170 Hz\"", "\"tapes\""] {
+        assert!(whole.contains(line), "{whole}");
     }
-    assert_eq!(answered(&folder, &["mine.json"], answers).status.code(), Some(0));
+    for (end, _) in ANSWERS.match_indices('\n').rev().skip(1) {
+        let output = answered(&folder, &["mine.json"], &ANSWERS[..=end]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.code() == Some(2) && told.contains("kept in mine.json.draft"),
+            "{told}"
+        );
+        assert_eq!(folder.names(), ["mine.json.draft", "whole.json"], "{end}");
+        let output = answered(&folder, &["mine.json"], &ANSWERS[end + 1..]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(0) && told.contains("Going on after the"), "{told}");
+        assert_eq!(folder.names(), ["mine.json", "whole.json"], "{end}");
+        assert_eq!(folder.read("mine.json"), whole, "{end}");
+        fs::remove_file(folder.0.join("mine.json")).unwrap();
+    }
+    // A file of that name that is no draft stays as it is.
+    folder.write("mine.json.draft", "mine");
+    assert_eq!(answered(&folder, &["mine.json"], ANSWERS).status.code(), Some(0));
+    assert_eq!((folder.read("mine.json"), folder.read("mine.json.draft")), (whole, "mine".into()));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_the_answers() {
+    let folder = Folder::new("kept");
+    let mut command = folder.attentive(&["new", "mine.json", "--ask"]);
+    let mut child = command.stdin(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    let mut answers = child.stdin.take().unwrap();
+    answers.write_all(b"Mine\nin\n33\n31 oz\n").unwrap();
+    let kept = || fs::read_to_string(folder.0.join("mine.json.draft")).unwrap_or_default();
+    while !kept().contains("mass: 31 oz") {
+        std::thread::yield_now();
+    }
+    let mut kill = std::process::Command::new("kill");
+    kill.args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let rest = ANSWERS.split_once("31 oz\n").unwrap().1;
+    assert_eq!(answered(&folder, &["mine.json"], rest).status.code(), Some(0));
+    assert_eq!(folder.names(), ["mine.json"]);
+}
+
+#[test]
+fn a_question_is_explained_taken_back_and_left_open() {
+    let folder = Folder::new("back");
+    let answers =
+        "Mine\nin\n?\n34\nback\n33\ndon't know\nwhite-ash\n1.9\n1.2\n2\n0.5, 1.1\n\n2.5\n\n\n\n";
+    let output = answered(&folder, &["mine.json"], answers);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert!(told.contains("From the end of the knob to the tip"), "{told}");
+    let bat = Bat::from_file(folder.0.join("mine.json")).unwrap();
+    assert!((bat.length() - 33.0 * 0.0254).abs() < 1e-12 && bat.factors() == [1.0, 1.0]);
+    assert!((bat.profile().at(0.5 * 0.0254).outer - 0.55 * 0.0254).abs() < 1e-12);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.contains("Not weighed: the mass is that of white-ash"), "{shown}");
 }
 
 #[test]
@@ -313,7 +369,7 @@ fn options_make_the_same_file_as_answers_and_what_is_missing_is_said() {
     let bat = ["--length", "33 in", "--mass", "31 oz", "--material", "white-ash", "--name", "Mine"];
     let stations = ["--station", "0 in, 1.9 in", "--station", "1 in, 1", "--station", "33, 2.5"];
     let written = folder.text(&[&["new", "-"], &bat[..], &stations].concat());
-    answered(&folder, &["asked.json"], "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1, 1\n\n2.5\n");
+    answered(&folder, &["asked.json"], "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1, 1\n\n2.5\n\n\n\n");
     assert_eq!(folder.read("asked.json"), written);
     for missing in ["--mass", "--material", "--station"] {
         let kept = [&["new", "new.json"], &bat[..], &stations].concat();

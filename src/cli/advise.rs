@@ -19,7 +19,7 @@ use crate::cli::value::tolerance;
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat file (JSON)
+    /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
@@ -39,10 +39,10 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot advise meshes/r161.json --tol 1%
+  sweetspot advise r161 --tol 1%
       shear matters to a wooden bat, even at one per cent
 
-  sweetspot advise meshes/two_piece.json -n 3 --json advice.json
+  sweetspot advise two_piece -n 3 --json advice.json
       the same figures as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {

@@ -73,16 +73,16 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot analyze meshes/r161.json
+  sweetspot analyze r161
       a wooden bat of the major leagues, with an average swing at a 90 mph pitch
 
-  sweetspot analyze meshes/r161.json --report r161.html
+  sweetspot analyze r161 --report r161.html
       and a report as a page of its own, to look at, to print and to send
 
-  sweetspot analyze meshes/torpedo.json --units us --swing-speed \"55 rad/s\"
+  sweetspot analyze torpedo --units us --swing-speed \"55 rad/s\"
       in inches, ounces and miles an hour, with a faster swing
 
-  sweetspot analyze meshes/r161.json --out r161 --plots r161
+  sweetspot analyze r161 --out r161 --plots r161
       and modes.json, hit.json, curve.csv and pictures in the folder r161";
 
 /// Both documents and the strength, which have no format of their own together.

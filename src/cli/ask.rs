@@ -1,113 +1,14 @@
-//! Questions to a person with a bat, a ruler, calipers and a scale.
+//! What a person with a bat, a ruler, calipers and a scale answers.
 
-use std::io::{BufRead, Read as _, Write};
-
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::Complaint;
 use crate::base::units::{self, Quantity, inches};
-use crate::bat::material::BUILT_IN;
-use crate::show::report::text::wrapped;
+use crate::bat::material::{BUILT_IN, BuiltIn};
 
-use crate::cli::value::{BAT_LENGTH, DIAMETER};
-
-/// A person gives up sooner, and a program that answers without end is stopped.
-const MOST_TRIES: usize = 50;
-/// The longest line that is read at once (bytes).
-const LONGEST: u64 = 1 << 16;
-
-/// Whoever answers, line by line; questions go to standard error.
-pub struct Dialogue<R> {
-    answers: R,
-}
-
-/// What an answer means, or why it is invalid.
-pub type Read<T> = std::result::Result<T, Complaint>;
-
-impl<R: BufRead> Dialogue<R> {
-    pub fn new(answers: R) -> Self {
-        Self { answers }
-    }
-
-    /// Prints a line that asks nothing.
-    pub fn say(&self, text: &str) {
-        // Without standard error the questions are not seen; the answers may come all the same.
-        let _ = writeln!(std::io::stderr(), "{text}");
-    }
-
-    /// Asks until the answer is one; `usual` is what an empty line means.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] at the end of the answers, or after too many wrong ones.
-    pub fn ask<T>(
-        &mut self,
-        question: &str,
-        usual: Option<&str>,
-        read: impl Fn(&str) -> Read<T>,
-    ) -> Result<T> {
-        let hint = usual.filter(|usual| !usual.is_empty());
-        let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
-        for _ in 0..MOST_TRIES {
-            let _ = write!(std::io::stderr(), "{question}{hint}: ");
-            let mut line = String::new();
-            let failed = |source| Error::Read { path: "standard input".into(), source };
-            if (&mut self.answers).take(LONGEST).read_line(&mut line).map_err(failed)? == 0 {
-                let _ = writeln!(std::io::stderr());
-                let expected = "an answer; nothing was written";
-                return Err(Error::value(question.trim(), "the end of the answers", expected));
-            }
-            let answer = match (line.trim(), usual) {
-                ("", Some(usual)) => usual,
-                (answer, _) => answer,
-            };
-            match read(answer) {
-                Ok(value) => return Ok(value),
-                Err(complaint) => self.say(wrapped(&format!("  {complaint}"), 2).trim_end()),
-            }
-        }
-        let found = format!("{MOST_TRIES} wrong answers, one after the other");
-        Err(Error::value(question.trim(), found, "an answer; nothing was written"))
-    }
-
-    /// Places and diameters from knob to tip, in `unit`, for a bat so long in it.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::ask`].
-    pub fn stations(&mut self, length: f64, unit: &'static str) -> Result<Vec<[f64; 2]>> {
-        let ruler = if unit == "in" { "inches" } else { unit };
-        let how = format!(
-            "Diameters in {ruler}, from the knob end to the tip. Measure at the place that is asked, \
-             or answer with a place of your own and its diameter, such as: 2.5, 1.1. An empty line \
-             goes on to the tip."
-        );
-        self.say(wrapped(&how, 0).trim_end());
-        let mut stations: Vec<[f64; 2]> = Vec::new();
-        for place in suggested(length, unit) {
-            if stations.last().is_none_or(|s| place > s[0]) {
-                let usual = if stations.is_empty() { None } else { Some("") };
-                let question = format!("  at {place} {unit}");
-                let read = |text: &str| station(text, Some(place), &stations, length, unit);
-                match self.ask(&question, usual, read)? {
-                    Some(measured) => stations.push(measured),
-                    None => break,
-                }
-            }
-        }
-        if stations.last().is_none_or(|s| s[0] < length) {
-            let read = |text: &str| station(text, Some(length), &stations, length, unit);
-            let question = format!("  at the tip, {length} {unit}");
-            let tip = self.ask(&question, None, |text| match read(text)? {
-                Some([x, diameter]) if x == length => Ok([x, diameter]),
-                _ => Err(Complaint::new("", text, "the diameter at the tip, which ends the bat")),
-            })?;
-            stations.push(tip);
-        }
-        Ok(stations)
-    }
-}
+use crate::cli::dialogue::Read;
+use crate::cli::value::{BAT_LENGTH, DIAMETER, PLACE, TAP};
 
 /// Where bats change: close at the knob, then every few inches, and just before the tip.
-fn suggested(length: f64, unit: &str) -> Vec<f64> {
+pub fn suggested(length: f64, unit: &str) -> Vec<f64> {
     let (near, step): (&[f64], f64) = match unit {
         "in" => (&[0.0, 0.5, 1.0, 1.5, 3.0], 3.0),
         _ => (&[0.0, 1.0, 2.5, 4.0, 7.5], 7.5),
@@ -148,6 +49,35 @@ pub fn station(
         return wrong(found, "that of a bat, above 0 and up to 3.9 in (10 cm)");
     }
     Ok(Some([x, diameter]))
+}
+
+/// The stations with what is measured at the suggested place or at one of its own: a diameter, or two
+/// for a step. What was measured at that place goes. None for an empty line.
+pub fn put(
+    text: &str,
+    suggested: f64,
+    stations: &[[f64; 2]],
+    length: f64,
+    unit: &str,
+) -> Read<Option<Vec<[f64; 2]>>> {
+    let step = text.matches(", ").count() == 2;
+    let (one, after) = if step { text.rsplit_once(", ").unzip() } else { (Some(text), None) };
+    let one = one.unwrap_or(text);
+    let place = |text| apart(text, true).map(|(x, _)| measured(x, unit)).transpose();
+    let x = if one.is_empty() { suggested } else { place(one)?.unwrap_or(suggested) };
+    let at = stations.partition_point(|station| station[0] < x);
+    let Some(first) = station(one, Some(suggested), &stations[..at], length, unit)? else {
+        return Ok(None);
+    };
+    let same = stations[at..].iter().take_while(|station| station[0] == x).count();
+    let mut all = stations[..at].to_vec();
+    all.push(first);
+    if let Some(after) = after {
+        let text = format!("{x}, {after}");
+        all.extend(station(&text, None, &all, length, unit)?);
+    }
+    all.extend_from_slice(&stations[at + same..]);
+    Ok(Some(all))
 }
 
 /// Two numbers with a comma or blanks between them. Where a diameter alone would do, whoever writes
@@ -206,8 +136,78 @@ pub fn length(text: &str, unit: &str) -> Read<f64> {
     Err(Complaint::new("", format!("{value} {unit}"), expected))
 }
 
+/// Whether somebody says so that nothing is known.
+fn unknown(text: &str) -> bool {
+    let plain = text.to_lowercase().replace(['\'', '’'], "");
+    ["dont know", "unknown", "none", "no"].contains(&plain.as_str())
+}
+
+/// The unit of a ruler.
+pub fn unit(text: &str) -> Read<&'static str> {
+    match text {
+        "in" => Ok("in"),
+        "cm" => Ok("cm"),
+        other => Err(Complaint::new("", format!("\"{other}\""), "in or cm")),
+    }
+}
+
+/// A mass with its unit, as it was written; None where it is not known.
+pub fn mass(text: &str) -> Read<Option<String>> {
+    if unknown(text) {
+        return Ok(None);
+    }
+    weighed(text).map(Some)
+}
+
+/// A balance point as a bat file has it, on a bat so long; None where it is not known.
+pub fn balance(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
+    if unknown(text) {
+        return Ok(None);
+    }
+    PLACE.sensible(text, unit)?;
+    let place = measured(text, unit)?;
+    if 0.0 < place && place < length {
+        return Ok(Some(format!("{place} {unit}")));
+    }
+    let expected = format!("a place between the ends, 0 and {length} {unit}");
+    Err(Complaint::new("", format!("{place} {unit}"), expected))
+}
+
+/// The frequency of a tap tone as a bat file has it; None where it is not known.
+pub fn tap(text: &str) -> Read<Option<String>> {
+    if unknown(text) {
+        return Ok(None);
+    }
+    TAP.sensible(text, "Hz")?;
+    let frequency = units::parse_or_si(text, Quantity::Frequency)?;
+    if TAP.has(frequency) {
+        return Ok(Some(format!("{frequency} Hz")));
+    }
+    let expected = "the lowest tone of a bat; 100 to 250 Hz are usual of wood";
+    Err(Complaint::new("", format!("{frequency} Hz"), expected))
+}
+
+/// How far a tape reaches from the knob of a bat so long, and its mass, as the line of a bat file; None
+/// where there is none.
+pub fn tape(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
+    if unknown(text) {
+        return Ok(None);
+    }
+    let expected = "its length and its mass, such as: 10 in, 0.7 oz";
+    let wrong = || Complaint::new("", format!("\"{text}\""), expected);
+    let (reach, mass) = text.split_once(", ").ok_or_else(wrong)?;
+    PLACE.sensible(reach, unit)?;
+    let reach = measured(reach, unit)?;
+    let kilograms = units::parse(mass, Quantity::Mass)?;
+    if !(0.0 < reach && reach <= length && 0.0 < kilograms && kilograms < 0.5) {
+        return Err(wrong());
+    }
+    let mass = serde_json::Value::from(mass.trim());
+    Ok(Some(format!("{{ \"from\": 0, \"to\": \"{reach} {unit}\", \"mass\": {mass} }}")))
+}
+
 /// A mass with its unit, as it was written.
-pub fn mass(text: &str) -> Read<String> {
+pub fn weighed(text: &str) -> Read<String> {
     let kilograms = match units::number(text) {
         Some(_) => {
             let expected = format!("its unit, too, such as \"{text} oz\" or \"{text} g\"");
@@ -242,18 +242,33 @@ pub fn material(text: &str) -> Read<String> {
     })
 }
 
-/// The list that [`material`] counts.
-pub fn materials() -> String {
-    let line = |(k, material): (usize, &crate::bat::material::BuiltIn)| {
-        let modulus = 1e-9 * material.youngs_modulus;
-        format!(
-            "  {} {:<20} {:>6.0} kg/m³ {modulus:>6.1} GPa",
-            k + 1,
-            material.name,
-            material.density
-        )
+/// The list that [`material`] counts, a line each, in units that go with the ruler's.
+pub fn materials(unit: &str) -> Vec<String> {
+    let line = |(k, material): (usize, &BuiltIn)| {
+        let BuiltIn { name, density, youngs_modulus, .. } = material;
+        let numbers = match unit {
+            "in" => {
+                let of = |unit, quantity| units::factor(unit, quantity).unwrap_or(1.0);
+                let density = density / of("lb/in^3", Quantity::Density);
+                let modulus = youngs_modulus / of("psi", Quantity::Pressure);
+                format!("{density:.4} lb/in³ {:>6.2} million psi", 1e-6 * modulus)
+            }
+            _ => format!("{density:>6.0} kg/m³ {:>6.1} GPa", 1e-9 * youngs_modulus),
+        };
+        format!("  {} {name:<20} {numbers}{}", k + 1, in_words(material))
     };
-    BUILT_IN.iter().enumerate().map(line).collect::<Vec<_>>().join("\n")
+    BUILT_IN.iter().enumerate().map(line).collect()
+}
+
+/// Where the stiffness of a wood is from.
+fn in_words(material: &BuiltIn) -> &'static str {
+    /// Heavier is no wood (kg/m³).
+    const WOOD: f64 = 1200.0;
+    match material.name {
+        name if name.ends_with("-dynamic") => "  as bats ring",
+        _ if material.density < WOOD => "  as slowly bent",
+        _ => "",
+    }
 }
 
 #[cfg(test)]
@@ -261,27 +276,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {
-        let mut dialogue = Dialogue::new("31\nno\n31.5 oz\n".as_bytes());
-        assert_eq!(dialogue.ask("Mass", None, mass).unwrap(), "31.5 oz");
-        assert!(dialogue.ask("Mass", None, mass).is_err());
-    }
-
-    #[test]
-    fn stations_rise_from_knob_to_tip() {
-        let answers = "\n1.9\n0.2, 5\n0.75, 1.2\n0.5, 1\n1\n\n0\n";
-        let stations = Dialogue::new(answers.as_bytes()).stations(33.0, "in").unwrap();
-        // 5 in is too thick, 0.5 lies before 0.75, the tip may be a point.
-        assert_eq!(stations, [[0.0, 1.9], [0.75, 1.2], [1.0, 1.0], [33.0, 0.0]]);
+    fn answers_are_read_as_they_are_typed() {
         assert_eq!(measured("2.54 cm", "in").map(|x| (x - 1.0).abs() < 1e-12), Ok(true));
+        assert_eq!(length("33 1/2", "in"), Ok(33.5));
+        assert!(length("84", "in").unwrap_err().to_string().contains("84 cm or 84 in?"));
         assert!(station("34, 2", None, &[[0.0, 1.9]], 33.0, "in").is_err());
+        let thick = station("25", Some(3.0), &[[0.0, 1.9]], 33.0, "in").unwrap_err().to_string();
+        assert!(thick.contains("25 mm or 25 in?"), "{thick}");
+        assert_eq!(mass("don’t know"), Ok(None));
+        assert_eq!(tap("170"), Ok(Some("170 Hz".into())));
+        assert!(tap("17 kHz").is_err() && balance("40", 33.0, "in").is_err());
+        let tape = tape("10 in, 0.7 oz", 33.0, "in").unwrap().unwrap();
+        assert_eq!(tape, "{ \"from\": 0, \"to\": \"10 in\", \"mass\": \"0.7 oz\" }");
     }
 
     #[test]
-    fn two_stations_at_one_place_are_a_step_and_three_are_none() {
-        let answers = "1.9\n0, 1.8\n0.75, 1.9\n0.75, 1.2\n0.75, 0.9\n1\n\n2.5\n";
-        let stations = Dialogue::new(answers.as_bytes()).stations(33.0, "in").unwrap();
-        assert_eq!(stations, [[0.0, 1.9], [0.75, 1.9], [0.75, 1.2], [1.5, 1.0], [33.0, 2.5]]);
+    fn materials_are_in_the_rulers_system_and_say_which_ring_so() {
+        let [inches, metres] = ["in", "cm"].map(materials);
+        assert!(inches.iter().all(|line| line.contains("lb/in³") && line.chars().count() <= 80));
+        assert!(metres.iter().all(|line| line.contains("kg/m³") && line.chars().count() <= 80));
+        assert!(metres.iter().any(|line| line.ends_with("as bats ring")));
     }
 
     #[test]

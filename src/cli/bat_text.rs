@@ -11,12 +11,18 @@ pub struct Measured {
     pub source: String,
     /// A built-in name.
     pub material: String,
-    /// With its unit, such as "31.5 oz".
-    pub mass: String,
+    /// With its unit, such as "31.5 oz", if it was weighed.
+    pub mass: Option<String>,
     /// "in" or "cm".
     pub unit: &'static str,
     /// Place from the knob end and diameter.
     pub stations: Vec<[f64; 2]>,
+    /// With its unit, if it was measured.
+    pub balance: Option<String>,
+    /// First bending frequency with its unit, if the bat was tapped.
+    pub tap: Option<String>,
+    /// A tape as the file has it, if there is one.
+    pub tape: Option<String>,
 }
 
 const COMMENT: [&str; 4] = [
@@ -39,7 +45,18 @@ pub fn text(bat: &Measured) -> String {
     for (key, value) in words {
         let _ = writeln!(out, "  \"{key}\": {},", quoted(value));
     }
-    let _ = writeln!(out, "  \"weighed\": {{ \"mass\": {} }},", quoted(&bat.mass));
+    let weighed =
+        [("mass", &bat.mass), ("balance_point", &bat.balance), ("first_bending_hz", &bat.tap)];
+    let told = |(key, value): &(&str, &Option<String>)| {
+        value.as_ref().map(|value| format!("\"{key}\": {}", quoted(value)))
+    };
+    let told: Vec<String> = weighed.iter().filter_map(told).collect();
+    if !told.is_empty() {
+        let _ = writeln!(out, "  \"weighed\": {{ {} }},", told.join(", "));
+    }
+    if let Some(tape) = &bat.tape {
+        let _ = writeln!(out, "  \"tapes\": [ {tape} ],");
+    }
     let _ = writeln!(out, "  \"profile\": {{\n    \"comment\": {},", quoted(ON_PROFILE));
     let _ = writeln!(out, "    \"unit\": \"{}\",", bat.unit);
     let _ = writeln!(out, "    \"x\":        [{x}],\n    \"diameter\": [{diameter}]\n  }}\n}}");
@@ -77,9 +94,12 @@ mod tests {
             name: "Mine, 33.5\" \\ maple".into(),
             source: "calipers".into(),
             material: "sugar-maple-dynamic".into(),
-            mass: "31.5 oz".into(),
+            mass: Some("31.5 oz".into()),
             unit: "in",
             stations: vec![[0.0, 1.9], [1.25, 1.0], [15.0, 1.1], [33.5, 2.5]],
+            balance: Some("22.5 in".into()),
+            tap: None,
+            tape: Some("{ \"from\": 0, \"to\": \"10 in\", \"mass\": \"0.7 oz\" }".into()),
         };
         let text = text(&measured);
         let bat = Bat::from_text("mine.json", &text, Path::new("")).unwrap();

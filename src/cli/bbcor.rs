@@ -78,10 +78,10 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot bbcor meshes/r161.json
+  sweetspot bbcor r161
       a wooden bat, every half inch from 12 in to 1 in from the tip
 
-  sweetspot bbcor meshes/r161.json --cor 0.53 --json -
+  sweetspot bbcor r161 --cor 0.53 --json -
       with a livelier ball, as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {

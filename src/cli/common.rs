@@ -12,9 +12,10 @@ use crate::files::bat_file::Named;
 use crate::files::schema;
 use crate::modes::solve::{self, Request, Solution, Solver};
 use crate::modes::up_to::modes_up_to;
+use crate::proof::bundled;
 use crate::show::plot::sheet::Sheet;
 use crate::show::report::sketch::{self, Glyphs, SketchRow};
-use crate::show::report::text::Units;
+use crate::show::report::text::{Units, wrapped};
 use crate::study::theory_choice;
 use crate::study::tuned;
 use serde::Serialize;
@@ -26,13 +27,15 @@ use crate::cli::value::{
     TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance, unit_system,
 };
 
-/// The end of a verb's help: commands to try, and how values are written.
+/// The end of a verb's help: commands to try, how values are written, and the bats that are built in.
 pub fn examples(commands: &str) -> String {
     format!(
-        "{commands}\n\nA bare number is in the unit that stands between < >; one that is absurd in it, \
-         such as\n--pitch 90 (m/s), is asked back. Others carry their unit, as people write it: \
-         \"28 in\",\n\"33 1/2 in\", \"5 ft 2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\". Places count from the knob \
-         end."
+        "{commands}\n\n\
+         A bare number is in the unit that stands between < >. One that is absurd in it,\n\
+         such as --pitch 90 (m/s), is refused with what it may mean. Others carry their\n\
+         unit, as people write it: \"28 in\", \"33 1/2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\".\n\
+         Places count from the knob end.\n\n{}",
+        wrapped(&format!("Built-in bats: {}.", bundled::bat_names().join(", ")), 0).trim_end()
     )
 }
 
@@ -40,7 +43,7 @@ pub fn examples(commands: &str) -> String {
 #[derive(clap::Args)]
 #[command(next_help_heading = "The bat")]
 pub struct BatArgs {
-    /// Bat file (JSON)
+    /// Bat file (JSON), or the name of a built-in bat such as r161
     bat: PathBuf,
 
     /// Number of bending modes [default: 10; in a hit as many as it needs]
@@ -320,9 +323,16 @@ pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
     read_with_text(path, quiet).map(|(bat, _)| bat)
 }
 
-/// Reads a bat, passes its warnings on, and returns the text of its file too.
+/// Reads a bat, passes its warnings on, and returns the text of its file too. A name without ending
+/// is that of a built-in bat, unless there is a file of it.
 pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
-    let Named { bat, text, columns_outside } = Bat::named_by_a_person(path)?;
+    let Named { bat, text, columns_outside } = match built_in(path)? {
+        Some((name, text)) => {
+            let bat = Bat::from_text(name, text, Path::new(""))?;
+            Named { bat, text: text.to_owned(), columns_outside: None }
+        }
+        None => Bat::named_by_a_person(path)?,
+    };
     let file = path.display();
     if let Some(columns) = columns_outside {
         let columns = columns.display();
@@ -330,6 +340,23 @@ pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
     }
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok((bat, text))
+}
+
+/// The name and the text of the built-in bat that is meant, if the path is no file's.
+fn built_in(path: &Path) -> Result<Option<(&str, &'static str)>> {
+    let one_word = path.components().count() == 1 && path.extension().is_none();
+    let is_file = path.exists() && !path.is_dir();
+    let Some(name) = path.to_str().filter(|_| one_word && !is_file) else { return Ok(None) };
+    if let Some(text) = bundled::bat_text(name) {
+        return Ok(Some((name, text)));
+    }
+    if path.exists() {
+        return Ok(None);
+    }
+    let names = bundled::bat_names();
+    let expected = format!("a bat file, or a built-in bat: {}", names.join(", "));
+    let found = format!("{}, which is neither a file nor built in", printed(path));
+    Err(Error::Value(Complaint::new("", found, expected).or_nearest(name, &names)))
 }
 
 /// A bat to be solved, how, and the warning to print at the end.

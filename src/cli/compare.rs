@@ -31,7 +31,7 @@ use crate::cli::value::{PLACE, SPACING};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat files (JSON), two to six; one with --measured
+    /// Bat files (JSON) or names of built-in bats, two to six; one with --measured
     #[arg(required = true, value_name = "BAT")]
     bats: Vec<PathBuf>,
 
@@ -88,19 +88,19 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot compare meshes/r161.json meshes/torpedo.json --units us
+  sweetspot compare r161 torpedo --units us
       which hits harder, and where
 
-  sweetspot compare meshes/r161.json meshes/torpedo.json --report bats.html
+  sweetspot compare r161 torpedo --report bats.html
       and on a page of its own, to look at, to print and to send
 
-  sweetspot compare meshes/r161.json meshes/house.json \\
+  sweetspot compare r161 house \\
       --reference-inertia \"0.19 kg m^2\" --swing-exponent 0.3 --plots compared
       swung by a batter who swings the heavier one slower, with pictures
 
-  sweetspot modes meshes/r161.json --json modes.json
+  sweetspot modes r161 --json modes.json
   sweetspot convert modes.json --to uff --out modes.uff
-  sweetspot compare meshes/r161.json --measured modes.uff
+  sweetspot compare r161 --measured modes.uff
       as a laboratory's universal file is compared: datasets 15 or 2411, and 55
 
 Measured shapes may be typed into a spreadsheet and saved as CSV, places from

@@ -48,7 +48,7 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot modes meshes/r161.json --json r161.json
+  sweetspot modes r161 --json r161.json
   sweetspot convert r161.json --to uff
       r161.uff, for programs of modal tests
 

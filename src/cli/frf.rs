@@ -98,10 +98,10 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot frf meshes/r161.json --at \"28 in\" --to \"2 in\" --kind mobility
+  sweetspot frf r161 --at \"28 in\" --to \"2 in\" --kind mobility
       struck on the barrel, felt at the handle
 
-  sweetspot frf meshes/dowel.json --at 0.3 --frequencies \"100,200,300\" --csv -
+  sweetspot frf dowel --at 0.3 --frequencies \"100,200,300\" --csv -
       three frequencies as CSV";
 
 pub fn run(args: &Args) -> Result<Done> {

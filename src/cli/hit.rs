@@ -52,16 +52,16 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot hit meshes/r161.json --swing-speed \"45 rad/s\" --points 11
+  sweetspot hit r161 --swing-speed \"45 rad/s\" --points 11
       eleven places from the middle to the tip
 
-  sweetspot hit meshes/torpedo.json --at \"27 in\" --json -
+  sweetspot hit torpedo --at \"27 in\" --json -
       one place, every figure of it as JSON
 
-  sweetspot hit meshes/r161.json --bat-speed \"75 mph\" --pitch \"87 mph\"
+  sweetspot hit r161 --bat-speed \"75 mph\" --pitch \"87 mph\"
       a faster swing, as broadcasts state it: 6 in from the tip
 
-  sweetspot hit meshes/r161.json --reference-inertia \"10000 oz in2\" \\
+  sweetspot hit r161 --reference-inertia \"10000 oz in2\" \\
       --swing-exponent 0.25
       by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
 

@@ -8,7 +8,7 @@
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown |
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
 //! | `common`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
-//! | `ask`, `*_table` | questions to the user; the promises as tables |
+//! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
 mod done;
@@ -22,7 +22,10 @@ mod common;
 mod bat_text;
 mod pictures;
 mod scene;
+mod dialogue;
 mod ask;
+mod new_options;
+mod interview;
 mod promise_table;
 mod hit_promise_table;
 mod extremes_table;

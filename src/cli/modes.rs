@@ -54,13 +54,13 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot modes meshes/r161.json -n 5
+  sweetspot modes r161 -n 5
       the first five modes, within 0.01 %
 
-  sweetspot modes meshes/r161.json -n 3 --tol 1e-10 --json modes.json
+  sweetspot modes r161 -n 3 --tol 1e-10 --json modes.json
       to ten digits, with the shapes as JSON
 
-  sweetspot modes meshes/northwestern_aluminium.json --budget \"2 ms\"
+  sweetspot modes northwestern_aluminium --budget \"2 ms\"
       the best that two milliseconds give";
 
 pub fn run(args: &Args) -> Result<Done> {

@@ -132,11 +132,11 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot ring meshes/r161.json --hit \"65 cm\" --watch \"5 in,9 in\" \\
+  sweetspot ring r161 --hit \"65 cm\" --watch \"5 in,9 in\" \\
       --history hands.csv
       what two hands feel after a hit near the sweet spot, every instant as CSV
 
-  sweetspot ring meshes/dowel.json --at \"0.6 m\" --impulse \"1 N s\" --modes 5 \\
+  sweetspot ring dowel --at \"0.6 m\" --impulse \"1 N s\" --modes 5 \\
       --times \"0,1 ms,2 ms\"
       the deflected dowel after a blow, at three instants
 

@@ -28,7 +28,7 @@ use crate::cli::{pictures, style};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat file (JSON)
+    /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
@@ -72,10 +72,10 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot trade meshes/r161.json -n 5
+  sweetspot trade r161 -n 5
       five modes, for five seconds
 
-  sweetspot trade meshes/dowel.json --u-curve --budget \"20 s\" --csv u-curve.csv
+  sweetspot trade dowel --u-curve --budget \"20 s\" --csv u-curve.csv
       where more elements begin to hurt, as rows for a plot";
 
 /// Seconds that the measurement takes if nothing is said.

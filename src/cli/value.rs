@@ -59,6 +59,8 @@ pub const RINGING_TIME: Use = Use::new(Quantity::Time, [0.0, 2.0], &["ms", "us"]
 pub const FREQUENCY: Use = Use::new(Quantity::Frequency, [0.0, f64::MAX], &[]);
 /// The highest frequency that is looked at.
 pub const TOP_FREQUENCY: Use = Use::new(Quantity::Frequency, [10.0, 1e6], &["kHz"]);
+/// Frequency of a bat's first bending mode, as a tap sounds.
+pub const TAP: Use = Use::new(Quantity::Frequency, [20.0, 2000.0], &["kHz"]);
 /// Impulse of a blow.
 pub const IMPULSE: Use = Use::new(Quantity::Impulse, [0.0, 100.0], &[]);
 

@@ -2,14 +2,16 @@
 
 use std::ffi::OsString;
 use std::io::IsTerminal;
+use std::path::Path;
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
-use clap::error::ErrorKind;
+use crate::proof::bundled;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::cli::done::Done;
+use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, analyze, bbcor, compare, completions, convert, frf, help, hit, licences, man,
     materials, modes, new, ring, scene, schema, stop, style, trade, validate,
@@ -30,7 +32,7 @@ const AFTER: &str = "\
 Start here:
   sweetspot new
       writes a bat file from what you measured
-  sweetspot analyze meshes/r161.json
+  sweetspot analyze r161
       everything about a bat on one screen
   sweetspot hit --help
       what a verb answers, with examples
@@ -98,7 +100,7 @@ pub fn run() -> Result<Done> {
 /// `ring --hit` alone in that verb.
 fn parse() -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = help::fitted(Cli::command()).try_get_matches()?;
+    let matches = help::fitted(Cli::command()).try_get_matches().map_err(file_for_a_verb)?;
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
         if let Some(name) = stray.and_then(clap::Arg::get_long) {
@@ -107,6 +109,21 @@ fn parse() -> std::result::Result<Cli, clap::Error> {
         }
     }
     Cli::from_arg_matches(&matches)
+}
+
+/// What is said of a file or a built-in bat where a verb should stand; other mistakes as they are.
+fn file_for_a_verb(said: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(word)) = said.get(ContextKind::InvalidSubcommand) else {
+        return said;
+    };
+    let path = Path::new(word);
+    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    if !(is_json || path.is_file() || bundled::bat_text(word).is_some()) {
+        return said;
+    }
+    let word = printable(word);
+    let text = format!("found {word}, expected a verb; did you mean `sweetspot analyze {word}`?");
+    Cli::command().error(ErrorKind::InvalidSubcommand, text)
 }
 
 /// Help and version, which are results as any other; wrong usage ends the program.

@@ -165,6 +165,21 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
     Bat::from_text(path, text, Path::new(""))
 }
 
+/// The names of the bats that travel with the program: those of their files.
+pub fn bat_names() -> Vec<&'static str> {
+    BATS.iter().map(|(path, _)| stem(path)).collect()
+}
+
+/// The text of the bat of that name, if it travels with the program.
+pub fn bat_text(name: &str) -> Option<&'static str> {
+    BATS.iter().find(|(path, _)| stem(path) == name).map(|(_, text)| *text)
+}
+
+/// The name of a file without its folder and its ending.
+fn stem(path: &'static str) -> &'static str {
+    Path::new(path).file_stem().and_then(|stem| stem.to_str()).unwrap_or(path)
+}
+
 /// The text of the case of that name.
 pub(crate) fn text(name: &str) -> Result<&'static str> {
     let found = CASES.iter().find(|(case, _)| *case == name);
@@ -176,6 +191,15 @@ pub(crate) fn text(name: &str) -> Result<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_bat_is_found_by_its_name() {
+        for name in bat_names() {
+            let bat = Bat::from_text(name, bat_text(name).unwrap(), Path::new("")).unwrap();
+            assert_eq!(bat.name(), bundled_bat(&format!("meshes/{name}.json")).unwrap().name());
+        }
+        assert!(bat_names().contains(&"r161") && bat_text("meshes/r161.json").is_none());
+    }
 
     /// The names of the JSON files of a folder of the package.
     fn files(folder: &str) -> Vec<String> {

@@ -120,7 +120,7 @@ fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
     let (place, begins) = (place(x, units), 1e3 * sting.begins);
     let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
     let mut line = |what: &str, size: String, when: String| {
-        let _ = writeln!(out, "    {what:<36} {size} {when}");
+        let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
     };
     let moved = units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved)));
     line("largest displacement", units.inline(moved), a);
@@ -130,7 +130,7 @@ fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
         let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
         line("largest acceleration", shaken, c);
     } else {
-        let how = "not stated: undamped (\"loss_factor\", \"grip\")";
+        let how = "without end: nothing damps the bat";
         line("largest acceleration", how.to_owned(), String::new());
     }
     out

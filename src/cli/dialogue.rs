@@ -1,0 +1,244 @@
+//! Questions to a person, answer by answer; one may go back, and come back another day.
+//!
+//! A dialogue is a function of its answers. To go back is to leave the last answer out and to ask from
+//! the beginning, passing over what is known; a draft is a file of the answers.
+
+use std::fs;
+use std::io::{BufRead, Read as _, Write};
+use std::path::{Path, PathBuf};
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::show::report::text::wrapped;
+
+use crate::cli::common::printed;
+
+/// A person gives up sooner, and a program that answers without end is stopped.
+const MOST_TRIES: usize = 50;
+/// The longest line that is read at once (bytes).
+const LONGEST: u64 = 1 << 16;
+/// The first line of a draft, by which it is told from a file of somebody's own.
+const HEADER: &str = "# Answers to sweetspot new, which goes on after them";
+
+/// What an answer means, or why it is invalid.
+pub type Read<T> = std::result::Result<T, Complaint>;
+
+/// Why a question has no answer.
+pub enum Halt {
+    /// The person wants to answer the question before it anew.
+    Back,
+    /// The answers have ended, or were wrong too often.
+    Failed(Error),
+}
+
+impl From<Error> for Halt {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// The answer to a question, or why there is none.
+pub type Asked<T> = std::result::Result<T, Halt>;
+
+/// A question.
+pub struct Question<'a> {
+    /// The word by which its answer stands in a draft.
+    pub name: &'static str,
+    /// What is asked.
+    pub text: &'a str,
+    /// What an empty line means.
+    pub usual: Option<&'a str>,
+    /// What a question mark is answered with.
+    pub help: &'a str,
+}
+
+/// Whoever answers, line by line; questions go to standard error.
+pub struct Dialogue<R> {
+    answers: R,
+    /// Right answers, each after the name of its question.
+    given: Vec<[String; 2]>,
+    /// How many of them have been passed over since the beginning.
+    passed: usize,
+    draft: Option<PathBuf>,
+}
+
+impl<R: BufRead> Dialogue<R> {
+    /// A dialogue that is kept nowhere.
+    #[cfg(test)]
+    pub fn new(answers: R) -> Self {
+        Self { answers, given: vec![], passed: 0, draft: None }
+    }
+
+    /// A dialogue that is kept in a draft, and goes on with the answers in it if there is one.
+    pub fn kept(answers: R, draft: &Path) -> Self {
+        let before = fs::read_to_string(draft).ok();
+        let ours = before.as_ref().is_none_or(|text| text.starts_with(HEADER));
+        let given: Vec<[String; 2]> = before.iter().flat_map(|text| read_draft(text)).collect();
+        let dialogue = Self { answers, given, passed: 0, draft: ours.then(|| draft.to_owned()) };
+        let name = printed(draft);
+        match (dialogue.given.len(), ours) {
+            (_, false) => dialogue.tell(&format!("{name} is another file: nothing is kept.")),
+            (0, _) => {
+                dialogue.tell(&format!("Answers are kept in {name} until the file is written."))
+            }
+            (count, _) => dialogue.tell(&format!(
+                "Going on after the {count} answers in {name}; remove it to begin anew."
+            )),
+        }
+        dialogue
+    }
+
+    /// Asks until there is a result, from the beginning each time that somebody goes back.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ask`].
+    pub fn hold<T>(&mut self, dialogue: impl Fn(&mut Self) -> Asked<T>) -> Result<T> {
+        loop {
+            self.passed = 0;
+            match dialogue(self) {
+                Ok(result) => return Ok(result),
+                Err(Halt::Failed(error)) => return Err(error),
+                Err(Halt::Back) => {}
+            }
+        }
+    }
+
+    /// Removes the draft, once what it is for is done.
+    pub fn done(&mut self) {
+        self.given.clear();
+        self.keep();
+    }
+
+    /// Prints a line that asks nothing, unless it was printed before the answers that are known.
+    pub fn say(&self, text: &str) {
+        if self.passed == self.given.len() {
+            self.tell(text);
+        }
+    }
+
+    fn tell(&self, text: &str) {
+        // Without standard error the questions are not seen; the answers may come all the same.
+        let _ = writeln!(std::io::stderr(), "{}", wrapped(text, 2).trim_end());
+    }
+
+    /// Asks until the answer is one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] at the end of the answers, or after too many wrong ones.
+    pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
+        if let Some(value) = self.known(question, &read) {
+            return Ok(value);
+        }
+        for _ in 0..MOST_TRIES {
+            let line = self.line(question)?;
+            let answer = if line.is_empty() { question.usual.unwrap_or("") } else { &line };
+            match (answer, read(answer)) {
+                ("?", _) => self.tell(&format!("  {}", question.help)),
+                ("back", _) if self.given.is_empty() => self.tell("  This is the first question."),
+                ("back", _) => {
+                    self.given.pop();
+                    self.keep();
+                    return Err(Halt::Back);
+                }
+                (_, Ok(value)) => {
+                    self.given.push([question.name.to_owned(), answer.to_owned()]);
+                    self.passed += 1;
+                    self.keep();
+                    return Ok(value);
+                }
+                (_, Err(complaint)) => self.tell(&format!("  {complaint}")),
+            }
+        }
+        let found = format!("{MOST_TRIES} wrong answers, one after the other");
+        Err(self.ended(question, &found))
+    }
+
+    /// The answer to this question that was given before. Others than this one may not follow it: they
+    /// are forgotten.
+    fn known<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Option<T> {
+        let [name, answer] = self.given.get(self.passed)?;
+        let value = if name == question.name { read(answer).ok() } else { None };
+        match value {
+            Some(_) => self.passed += 1,
+            None => self.given.truncate(self.passed),
+        }
+        value
+    }
+
+    /// The next line, without blanks around it.
+    fn line(&mut self, question: &Question) -> Asked<String> {
+        let hint = question.usual.filter(|usual| !usual.is_empty());
+        let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
+        let _ = write!(std::io::stderr(), "{}{hint}: ", question.text);
+        let mut line = String::new();
+        let failed = |source| Error::Read { path: "standard input".into(), source };
+        if (&mut self.answers).take(LONGEST).read_line(&mut line).map_err(failed)? == 0 {
+            let _ = writeln!(std::io::stderr());
+            return Err(self.ended(question, "the end of the answers"));
+        }
+        Ok(line.trim().to_owned())
+    }
+
+    fn ended(&self, question: &Question, found: &str) -> Halt {
+        let kept = self.draft.as_ref().filter(|_| !self.given.is_empty());
+        let kept = kept.map_or("nothing was written".to_owned(), |draft| {
+            let draft = printed(draft);
+            format!("the others are kept in {draft}, and the same command goes on after them")
+        });
+        Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
+    }
+
+    /// Writes the draft, or removes it where there is nothing to keep.
+    fn keep(&self) {
+        let Some(draft) = &self.draft else { return };
+        let lines = self.given.iter().map(|[name, answer]| format!("{name}: {answer}\n"));
+        // A folder that cannot be written to is told of in the end, with all answers.
+        let _ = match self.given.is_empty() {
+            true => fs::remove_file(draft),
+            false => fs::write(draft, format!("{HEADER}\n{}", lines.collect::<String>())),
+        };
+    }
+}
+
+/// The answers of a draft, each after the name of its question; none of another file.
+fn read_draft(text: &str) -> Vec<[String; 2]> {
+    let Some(lines) = text.strip_prefix(HEADER) else { return vec![] };
+    let answer = |line: &str| line.split_once(':').map(|(a, b)| [a, b.trim()].map(str::to_owned));
+    lines.lines().filter_map(answer).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::ask::mass;
+
+    const MASS: Question =
+        Question { name: "mass", text: "Mass", usual: None, help: "On a scale." };
+
+    #[test]
+    fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {
+        let mut dialogue = Dialogue::new("31\nheavy\n?\nback\n31.5 oz\n".as_bytes());
+        let mass = |dialogue: &mut Dialogue<&[u8]>| dialogue.ask(&MASS, mass);
+        assert_eq!(dialogue.hold(mass).unwrap().as_deref(), Some("31.5 oz"));
+        let two = |dialogue: &mut Dialogue<&[u8]>| mass(dialogue).and_then(|_| mass(dialogue));
+        assert!(dialogue.hold(two).is_err());
+    }
+
+    #[test]
+    fn who_goes_back_answers_the_question_before_anew() {
+        let mut dialogue = Dialogue::new("30 oz\n31 oz\nback\nback\n32 oz\n33 oz\n".as_bytes());
+        let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
+            Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+        };
+        let three = |dialogue: &mut Dialogue<&[u8]>| {
+            let both = two(dialogue)?;
+            if dialogue.given.len() == 2 && both[0].as_deref() == Some("30 oz") {
+                dialogue.ask(&MASS, mass)?;
+            }
+            Ok(both)
+        };
+        let found = dialogue.hold(three).unwrap();
+        assert_eq!(found.map(Option::unwrap), ["32 oz", "33 oz"]);
+    }
+}
