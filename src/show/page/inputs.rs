@@ -126,7 +126,7 @@ fn swing(analysis: &Analysis, units: Units) -> Vec<Line> {
     let pivot = length(units, scene.pivot.abs());
     lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
     let barrel = BarrelSpeed::of(&analysis.bat, scene, BarrelSpeed::BROADCAST);
-    lines.push(("speed of the bat 6 in from the tip", inline(speed(barrel.speed))));
+    lines.push(("speed of the bat 6 in from the tip", speed(units, barrel.speed)));
     lines
 }
 
