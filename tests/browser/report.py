@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The report in a real browser: nothing fails, nothing is fetched, what moves does when it should,
-everything is readable at 390 px and 1440 px, in light and dark, on paper, and by keyboard alone.
+everything is readable from 360 px to 1440 px, in light and dark, in both systems of units, on at most
+four sheets of paper, and by keyboard alone; the line stands on the sweet spot; the bat is heard.
 
     python3 tests/browser/report.py PROGRAM
 
@@ -8,6 +9,7 @@ makes reports with that program and looks at them with a headless Chromium. Exit
 is not as it should be. Contrast is that of the Web Content Accessibility Guidelines 2.1, 1.4.3.
 """
 
+import base64
 import json
 import os
 import re
@@ -55,6 +57,10 @@ def make(sweetspot, folder):
         made[name] = f"{folder}/{name}.html"
         command = [sweetspot, "analyze", *args, "--quiet", "--report", made[name]]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    made["compared"] = f"{folder}/compared.html"
+    bats = [f"{mesh}/{name}.json" for name in ("r161", "torpedo", "two_piece")]
+    command = [sweetspot, "compare", *bats, "--quiet", "--report", made["compared"]]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return made
 
 
@@ -73,11 +79,13 @@ SMALL_WORDS = """[...document.querySelectorAll("figure svg text")].filter(e => e
     return [e.textContent.slice(0, 30), scale * parseFloat(getComputedStyle(e).fontSize)];
   }).filter(([, size]) => !(size >= 12)).map(([words, size]) => `${words} ${size} px in a picture`)"""
 
-# A picture that is wider than its window says so, and no other does.
-UNTOLD = """[...document.querySelectorAll("figure")].filter(e => {
-    const plot = e.querySelector(".plot"), told = e.querySelector(".swipe");
-    return (plot.scrollWidth > plot.clientWidth) !== told.checkVisibility();
-  }).map(e => e.id + " is cut, or says so though it is not")"""
+# Pictures are as wide as there is room, whole, and one form of each is shown.
+CUT = """[...document.querySelectorAll("figure")].filter(e => e.checkVisibility()).flatMap(e => {
+    const shown = [...e.querySelectorAll("svg.ss")].filter(svg => svg.checkVisibility());
+    const box = shown[0]?.getBoundingClientRect();
+    return shown.length === 1 && box.left >= -0.5 && box.right <= innerWidth + 0.5 && box.width > 0.85 * Math.min(innerWidth, 480)
+      ? [] : [e.id + " is cut, or shown " + shown.length + " times"];
+  })"""
 
 OVERLAPS = """(() => {
   const boxes = [...document.querySelectorAll(".headline > div, .facts > div, .headline dd, .facts dd, .headline dt, .facts dt")];
@@ -133,6 +141,12 @@ SHAPE = "document.querySelector('#{0} .bat').getAttribute('d')"
 VALUE = "Number(document.querySelector('#{0} .scrub input').value)"
 
 
+def opened(browser, path, **wishes):
+    """A page with everything on it unfolded."""
+    browser.open(path, **wishes)
+    browser.run("document.querySelectorAll('section > details').forEach(part => { part.open = true; })")
+
+
 def quiet(browser, what):
     """Nothing was complained of, and nothing but the file itself was asked for."""
     browser.run("1")
@@ -149,14 +163,14 @@ def quiet(browser, what):
 
 def readable(browser, name, path):
     """At all widths, in light and in dark."""
-    for width in (390, 900, 1440):
+    for width in (360, 390, 700, 900, 1440):
         for dark in (False, True):
             what = f"{name} at {width} px{', dark' if dark else ''}"
-            browser.open(path, width=width, dark=dark, calm=True)
+            opened(browser, path, width=width, dark=dark, calm=True)
             quiet(browser, what)
             check(not browser.run(TOO_WIDE), f"{what}: scrolls sideways")
             check(browser.run("parseFloat(getComputedStyle(document.body).fontSize)") >= 16, f"{what}: small")
-            for query in (SMALL_TEXT, SMALL_WORDS, UNTOLD, OVERLAPS, CONTRAST):
+            for query in (SMALL_TEXT, SMALL_WORDS, CUT, OVERLAPS, CONTRAST):
                 for told in browser.run(query):
                     check(False, f"{what}: {told}")
 
@@ -173,7 +187,7 @@ def waited(browser, true, seconds=3.0):
 
 def moving(browser, path):
     """Nothing moves for who asked for that, until Play is pressed; else the modes do when seen."""
-    browser.open(path, calm=True)
+    opened(browser, path, calm=True)
     for player in ("modes-player", "moment-player"):
         shape = SHAPE.format(player)
         browser.run(f"document.querySelector('#{player} .stage').scrollIntoView({{ block: 'center' }})")
@@ -193,7 +207,7 @@ def moving(browser, path):
         check(browser.run(f"{play}.textContent") == "Play", f"{player}: the button says otherwise")
         speed(browser, player)
         scrub(browser, player)
-    browser.open(path, calm=False)
+    opened(browser, path, calm=False)
     browser.run("document.querySelector('#modes-player .stage').scrollIntoView({ block: 'center' })")
     before = browser.run(SHAPE.format("modes-player"))
     moved = waited(browser, f"{SHAPE.format('modes-player')} !== {json.dumps(before)}")
@@ -231,7 +245,7 @@ def speed(browser, player):
 
 def flight(browser, path):
     """Off the bat the ball flies evenly, whatever the bat does."""
-    browser.open(path, calm=True)
+    opened(browser, path, calm=True)
     for chosen in (0, 1):
         ways = browser.run(f"""(() => {{
           const root = document.querySelector('#moment-player'), slider = root.querySelector('.scrub input');
@@ -267,7 +281,7 @@ def scrub(browser, player):
 
 def marks(browser, path):
     """On a bat of any length marks are as large on the screen, and what is drawn is on the stage."""
-    browser.open(path, calm=True)
+    opened(browser, path, calm=True)
     for player, mark in (("modes-player", ".node"), ("moment-player", ".force")):
         seen = browser.run(f"""(() => {{ const stage = document.querySelector('#{player} .stage');
           const s = stage.getBoundingClientRect();
@@ -278,7 +292,7 @@ def marks(browser, path):
 
 def choosing(browser, path):
     """Arrows choose another mode and another hit."""
-    browser.open(path, calm=True)
+    opened(browser, path, calm=True)
     for player, name in (("modes-player", "mode"), ("moment-player", "moment")):
         before = browser.run(SHAPE.format(player))
         browser.run(f"document.querySelector('input[name={name}]').focus()")
@@ -289,9 +303,12 @@ def choosing(browser, path):
 
 def hair_lines(browser, path):
     """They follow pointer and arrows, all together, and say what they read."""
-    browser.open(path, calm=True)
+    opened(browser, path, calm=True)
     lines = "[...document.querySelectorAll('.hairline')].map(e => Number(e.getAttribute('x1')))"
-    check(len(browser.run(lines)) == 2, "two pictures have a hair-line")
+    check(len(browser.run(lines)) == 8, "two pictures have a hair-line in each of their forms")
+    # It begins on the sweet spot, and arrows come back to it.
+    on_spot = "document.querySelector('#plot-exit_speed .reading').textContent.includes('(sweet spot)')"
+    check(browser.run(on_spot), "the hair-line does not begin on the sweet spot")
     for figure in ("exit_speed", "ledger"):
         slider = f"document.querySelector('#plot-{figure} .hair input')"
         reading = f"document.querySelector('#plot-{figure} .reading').textContent"
@@ -302,21 +319,71 @@ def hair_lines(browser, path):
         browser.key("ArrowRight", number=39)
         after = browser.run(lines)
         check(all(b > a for a, b in zip(before, after)), f"{figure}: arrows do not move the hair-lines")
-        check(browser.run(reading) != told, f"{figure}: arrows read nothing else")
+        check(browser.run(reading) != told and not browser.run(on_spot), f"{figure}: arrows read nothing else")
+        browser.key("ArrowLeft", number=37)
+        browser.key("ArrowLeft", number=37)
+        check(browser.run(on_spot), f"{figure}: arrows do not come back to the sweet spot")
         # The reading is the curve's own number there.
         same = browser.run(f"""(() => {{ const data = JSON.parse(document.getElementById('data').textContent);
-          const k = Number({slider}.value), x = data.curve.x_m[k];
+          const x = data.summary.sweet_spot_m, k = data.curve.x_m.findIndex(place => Math.abs(place - x) < 1e-6);
           return {reading}.includes((100 * x).toFixed(1) + ' cm') && {reading}.includes(data.curve.vibration_j[k].toFixed(2) + ' J'); }})()""")
         check(same, f"{figure}: the reading is not the curve's")
-        box = browser.run(f"""(() => {{ const picture = document.querySelector('#plot-{figure} svg');
+        box = browser.run(f"""(() => {{ const picture = [...document.querySelectorAll('#plot-{figure} svg')].find(e => e.checkVisibility());
           const b = picture.getBoundingClientRect(), [l, t, r, u] = picture.dataset.frame.split(' ').map(Number);
           const s = b.width / picture.viewBox.baseVal.width;
           return [b.left + s * (l + 0.25 * (r - l)), b.top + s * (t + 0.5 * (u - t)), l + 0.25 * (r - l)]; }})()""")
         browser.move(box[0], box[1])
-        there = browser.run(f"Number(document.querySelector('#plot-{figure} .hairline').getAttribute('x1'))")
+        there = browser.run(f"Number([...document.querySelectorAll('#plot-{figure} .hairline')].find(e => e.checkVisibility()).getAttribute('x1'))")
         check(abs(there - box[2]) < 5, f"{figure}: the hair-line is at {there}, the pointer at {box[2]}")
+        opened(browser, path, calm=True)
     live = browser.run("[...document.querySelectorAll('.reading')].every(e => e.getAttribute('aria-live') === 'polite')")
     check(live, "readings are not said")
+
+
+def units(browser, path):
+    """One switch changes what is shown, by keyboard too, and what the line reads."""
+    opened(browser, path, calm=True)
+    seen = "[...document.querySelectorAll('main *')].filter(e => e.checkVisibility() && !e.closest('.screen')).map(e => [...e.childNodes].filter(n => n.nodeType === 3).map(n => n.data).join(' ')).join(' ')"
+    first = browser.run(seen)
+    browser.run("document.querySelector('input[name=units]:checked').focus()")
+    browser.key("ArrowRight", number=39)
+    second = browser.run(seen)
+    for unit in ("(cm)", "(m/s)", " cm", " m/s"):
+        check(unit in first and unit not in second, f"{unit} before or after the switch")
+    for unit in ("(in)", "(mph)", " mph"):
+        check(unit in second and unit not in first, f"{unit} before or after the switch")
+
+
+def sounds(browser, path):
+    """Each button makes a sound that has its largest swing below 1 and dies out."""
+    opened(browser, path, calm=True)
+    for which in ("hit", "tap"):
+        wave = browser.run(f"""(() => {{ let made = null; const make = AudioContext.prototype.createBuffer;
+          AudioContext.prototype.createBuffer = function (...args) {{ made = make.apply(this, args); return made; }};
+          document.querySelector('.hear[data-sound={which}]').click();
+          AudioContext.prototype.createBuffer = make;
+          const wave = made.getChannelData(0), part = Math.floor(wave.length / 10);
+          const most = list => list.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
+          return [most(wave), most(wave.slice(-part)), made.duration]; }})()""")
+        check(0.85 < wave[0] < 1 and wave[1] < 0.2 * wave[0] and 0.2 < wave[2] < 4, f"{which} sounds as {wave}")
+
+
+def plays_once(browser, path):
+    """The film begins by itself when it is seen, goes on evenly, and ends."""
+    browser.open(path)
+    browser.run("document.querySelector('#moment-player .stage').scrollIntoView({ block: 'center' })")
+    value = VALUE.format("moment-player")
+    check(waited(browser, f"{value} > 20"), "the film does not begin by itself")
+    check(waited(browser, f"{value} === 1000", 20), "the film does not end")
+    check(browser.run("document.querySelector('#moment-player .play').textContent") == "Play", "the film begins anew")
+
+
+def sheets(browser, path, name):
+    """At most four printed pages."""
+    browser.open(path, width=900, media="")
+    pdf = browser.send("Page.printToPDF", paperWidth=8.27, paperHeight=11.69)["data"]
+    pages = len(re.findall(rb"/Type\s*/Page\b", base64.b64decode(pdf)))
+    check(0 < pages <= 4, f"{name} takes {pages} printed pages")
 
 
 def keyboard(browser, path, width):
@@ -347,17 +414,17 @@ def paper(browser, path):
     check(browser.run("getComputedStyle(document.body).color") == "rgb(0, 0, 0)", "print: not black")
     for told in browser.run(CONTRAST):
         check(False, f"print: {told}")
-    check(browser.run("document.querySelector('#plot-shapes svg').checkVisibility()"), "print: no mode shapes")
+    check(browser.run("[...document.querySelectorAll('#plot-shapes svg')].some(e => e.checkVisibility())"), "print: no mode shapes")
     check(not browser.run(TOO_WIDE), "print: too wide")
 
 
 def without_script(browser, path):
     """Everything that stands still is there without a script."""
     browser.send("Emulation.setScriptExecutionDisabled", value=True)
-    browser.open(path)
-    hidden = browser.run("[...document.querySelectorAll('section, figure svg, table, h2')].filter(e => !e.checkVisibility() && !e.closest('details')).length")
+    opened(browser, path)
+    hidden = browser.run("[...document.querySelectorAll('section, .sheet, table, h2')].filter(e => !e.checkVisibility() && !e.closest('details, .si, .us')).length")
     check(hidden == 0, f"without a script {hidden} parts are hidden")
-    check(browser.run("[...document.querySelectorAll('button, input')].every(e => !e.checkVisibility())"),
+    check(browser.run("[...document.querySelectorAll('button, input:not([name=units])')].every(e => !e.checkVisibility())"),
           "without a script there are controls that do nothing")
     check("needs JavaScript" in browser.run("document.body.innerText"), "without a script nothing says so")
     browser.send("Emulation.setScriptExecutionDisabled", value=False)
@@ -380,6 +447,11 @@ def main():
             choosing(browser, pages["r161"])
             flight(browser, pages["r161"])
             hair_lines(browser, pages["r161"])
+            units(browser, pages["r161"])
+            sounds(browser, pages["r161"])
+            plays_once(browser, pages["r161"])
+            for name in ("r161", "two_piece", "compared"):
+                sheets(browser, pages[name], name)
             for width in (390, 1440):
                 keyboard(browser, pages["two_piece"], width)
             paper(browser, pages["two_piece"])

@@ -70,15 +70,15 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
     ];
     let how = vec![Part::Command(command), Part::List(scene(comparison, units))];
     let top = vec![Part::Picture("sweet_spot"), Part::List(best), differs(first)];
-    use Fold::{Folded, Open, ScreenOnly};
+    use Fold::{Open, ScreenOnly};
     let (hit, bats) = (["contact", "hysteresis", "hands"], comparison.bats.len());
     vec![
         section(Open, "summary", "Which hits harder", top),
         section(Open, "speed", "How fast the ball leaves", pictures(&["exit_speed", "difference"])),
-        section(Folded, "bats", "The bats", pictures(&["profile"])),
-        section(Folded, "modes", "How they vibrate", pictures(&["shapes"])),
+        section(ScreenOnly, "bats", "The bats", pictures(&["profile"])),
+        section(ScreenOnly, "modes", "How they vibrate", pictures(&["shapes"])),
         section(ScreenOnly, "same", "The other figures, and what does not differ", rest),
-        section(ScreenOnly, "hit", "The hits at the sweet spots", pictures(&hit)),
+        section(ScreenOnly, "touch", "The hits at the sweet spots", pictures(&hit)),
         section(ScreenOnly, "energy", "Where the energy goes", pictures(&LEDGERS[..bats])),
         section(ScreenOnly, "inputs", "How they were compared", how),
     ]

@@ -98,11 +98,14 @@ impl Page<'_> {
         let inner = match fold {
             Fold::Open => format!("{heading}\n{parts}"),
             Fold::Folded | Fold::ScreenOnly => {
-                let class = if *fold == Fold::ScreenOnly { " class=\"screen\"" } else { "" };
-                format!("<details{class}>\n<summary>{heading}</summary>\n{parts}</details>\n")
+                format!("<details>\n<summary>{heading}</summary>\n{parts}</details>\n")
             }
         };
-        let class = if *fold == Fold::Open { "" } else { " class=\"folds\"" };
+        let class = match fold {
+            Fold::Open => "",
+            Fold::Folded => " class=\"folds\"",
+            Fold::ScreenOnly => " class=\"folds screen\"",
+        };
         format!("<section id=\"{id}\"{class} aria-labelledby=\"{id}-title\">\n{inner}</section>\n")
     }
 

@@ -339,5 +339,5 @@
   }
   // A closed part would be missing on paper.
   addEventListener("beforeprint", () =>
-    document.querySelectorAll("details:not(.screen)").forEach((part) => { part.open = true; }));
+    document.querySelectorAll("section:not(.screen) > details").forEach((part) => { part.open = true; }));
 })();

@@ -56,12 +56,14 @@ pub fn nodes(analysis: &Analysis, units: Units) -> Table {
 
 /// The sweet spot by each of its definitions.
 pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
-    let head = ["Sweet spot by", "From the knob", "From the tip", "There"];
+    let unit = length_unit(units);
+    let [knob, tip] = ["knob", "tip"].map(|end| format!("From the {end}, {unit}"));
+    let head = ["Sweet spot by", &knob, &tip, "There"];
     let mut table = Table::new("The sweet spot by each of its definitions", &head);
     let (spot, whole) = (&analysis.figures.spot, analysis.bat.length());
     let mut line = |what: &str, x: Option<f64>, value: String| {
         let Some(x) = x else { return };
-        table.row([what.to_owned(), length(units, x), length(units, whole - x), value]);
+        table.row([what.to_owned(), bare(units, x), bare(units, whole - x), value]);
     };
     let mut peak = |what: &str, peak: Option<Peak>, value: &dyn Fn(f64) -> String| {
         line(what, peak.map(|p| p.x), peak.map_or(String::new(), |p| value(p.value)));

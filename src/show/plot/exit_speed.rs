@@ -48,7 +48,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
     let keys: Vec<&Series> = keys.iter().collect();
     let top = legend(&mut svg, &keys) + 12.0 + NUMBERS;
     let side = top + DIAGRAM;
-    let bottom = side + 6.0 + place::height(&rows);
+    let bottom = side + 6.0 + place::height(sheet, &rows);
     svg.height = bottom + NUMBERS + 4.0;
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
     let [x, tip] = place::axes(sheet, [from, to], &bats);

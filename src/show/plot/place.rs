@@ -84,14 +84,24 @@ impl PlaceRow {
     }
 }
 
+/// From the edge of a narrow picture to words (px).
+const EDGE: f64 = 10.0;
 /// Between the marks of several bats in a row, so that none hides another (px).
 const APART: f64 = 10.0;
-/// Height of a row (px).
-pub const ROW: f64 = 18.0;
+/// Height of a row (px); where it is narrow, the words stand on a line of their own above the marks.
+fn row_height(sheet: Sheet) -> f64 {
+    if sheet.narrow() { 33.0 } else { 18.0 }
+}
+
+/// The height of the marks of the k-th row (px).
+fn height_of(sheet: Sheet, top: f64, k: usize) -> f64 {
+    let row = row_height(sheet);
+    top + row * (k + 1) as f64 - if sheet.narrow() { 10.0 } else { 5.0 }
+}
 
 /// What rows take (px).
-pub fn height(rows: &[PlaceRow]) -> f64 {
-    ROW * rows.len() as f64 + if rows.is_empty() { 0.0 } else { 8.0 }
+pub fn height(sheet: Sheet, rows: &[PlaceRow]) -> f64 {
+    row_height(sheet) * rows.len() as f64 + if rows.is_empty() { 0.0 } else { 8.0 }
 }
 
 /// Left, upper, right and lower edge (px) of words.
@@ -103,7 +113,7 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
     let Frame { left, top, right, .. } = plane.frame;
     let mut told = vec![];
     for (k, row) in rows.iter().enumerate() {
-        let y = top + ROW * (k as f64 + 0.5) + 4.0;
+        let y = height_of(svg.sheet, top, k);
         let across = |x: f64| plane.across(x).clamp(left, right);
         let mut taken = vec![];
         for (bat, stretch) in &row.stretches {
@@ -148,7 +158,7 @@ pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
 /// Thin lines from a height down to the marked places of the rows, but not through those words.
 pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges]), from: f64) {
     for (k, row) in all.iter().enumerate() {
-        let end = plane.frame.top + ROW * (k as f64 + 0.5) - 4.0;
+        let end = height_of(svg.sheet, plane.frame.top, k) - 8.0;
         for (bat, x) in row.places.iter().filter(|(_, x)| plane.x.holds(*x)) {
             let x = plane.across(*x);
             let pen = Pen::new(series(*bat).0, 0.8).dashed("1 3");
@@ -163,15 +173,24 @@ pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges])
     }
 }
 
-/// What and where, or what, where there is no room for that.
+/// What and where, or without the end it is counted from, or what, where there is no room for that.
 fn shortened(words: &str, room: f64) -> &str {
-    if width(words, LABEL) <= room { words } else { words.split(':').next().unwrap_or(words) }
+    let place = words.trim_end_matches(" from the knob end");
+    let what = words.split(':').next().unwrap_or(words);
+    [words, place].into_iter().find(|words| width(words, LABEL) <= room).unwrap_or(what)
 }
 
 /// A row's words, beside what is taken in it.
 fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) -> Edges {
     let first = taken.iter().fold(frame.right, |least, x| least.min(*x));
     let last = taken.iter().fold(frame.left, |most, x| most.max(*x));
+    if svg.sheet.narrow() {
+        let words = fitted(shortened(words, svg.width - 2.0 * EDGE), LABEL, svg.width - 2.0 * EDGE);
+        let at = [EDGE, y - 11.0];
+        svg.text(at, LABEL, &words);
+        let wide = width(&words, LABEL);
+        return [at[0] - 2.0, at[1] - 11.0, at[0] + wide + 2.0, at[1] + 4.0];
+    }
     let [before, after] = [first - frame.left - 8.0, frame.right - last - 8.0];
     let words = shortened(words, before.max(after));
     let wide = width(words, LABEL);
@@ -204,7 +223,7 @@ mod tests {
         assert_eq!(all, "centre: 64.7 cm from the knob end");
         assert_eq!(shown(Sheet::file(true), 0.9, 0.838), "2.4 in beyond the tip");
         let room = |words: &str| width(words, LABEL) + 1.0;
-        for told in [&all, "centre"] {
+        for told in [&all, "centre: 64.7 cm", "centre"] {
             assert_eq!(shortened(&all, room(told)), told);
         }
     }

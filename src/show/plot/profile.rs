@@ -36,7 +36,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Picture {
     let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let side = top + each * subjects.len() as f64 + 6.0;
     let below = side + DIAGRAM + 6.0;
-    let bottom = below + place::height(&rows);
+    let bottom = below + place::height(sheet, &rows);
     let plane = |top, bottom| {
         let frame = Frame::across(sheet, [top, bottom]);
         Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
