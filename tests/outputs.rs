@@ -166,6 +166,27 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
 }
 
 #[test]
+fn hands_are_said_to_be_shaken_only_where_something_damps_the_bat() {
+    let folder = Folder::new("shaken");
+    let bat = fs::read_to_string(mesh("dowel")).unwrap();
+    let mut damped: Value = serde_json::from_str(&bat).unwrap();
+    damped["grip"] = serde_json::json!({ "from": 0, "to": 0.15, "stiffness": 3e4, "damping": 300 });
+    folder.write("bare.json", bat);
+    folder.write("damped.json", damped.to_string());
+    let hit = |bat: &str| folder.text(&["hit", bat, "--points", "3"]);
+    let ring = |bat: &str| folder.text(&["ring", bat, "--hit", "0.7", "-n", "5"]);
+    for (bat, shaken) in [("bare.json", false), ("damped.json", true)] {
+        assert_eq!(hit(bat).contains("shaking"), shaken, "{bat}");
+        assert!(hit(bat).contains("least hand speed, undamped"), "{bat}");
+        assert_eq!(ring(bat).contains("m/s² ("), shaken, "{bat}");
+        let spot = &folder.json(&["hit", bat, "--points", "3", "--json", "-"])["sweet_spot"];
+        assert!(spot["hands_acceleration_min"]["value"].is_f64(), "{spot}");
+    }
+    assert!(folder.text(&["modes", "bare.json"]).contains("no loss factor known, undamped"));
+    assert!(folder.text(&["materials"]).contains("no loss factor known: undamped"));
+}
+
+#[test]
 fn damped_bats_go_from_their_file_to_json() {
     let folder = Folder::new("damped");
     let bat = |more: &str| {

@@ -181,7 +181,7 @@ impl<R: BufRead> Dialogue<R> {
     }
 
     fn ended(&self, question: &Question, found: &str) -> Halt {
-        let kept = self.draft.as_ref().filter(|_| !self.given.is_empty());
+        let kept = self.draft.as_ref().filter(|draft| draft.is_file());
         let kept = kept.map_or("nothing was written".to_owned(), |draft| {
             let draft = printed(draft);
             format!("the others are kept in {draft}, and the same command goes on after them")

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown |
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
-//! | `common`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
+//! | `common`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
@@ -21,6 +21,7 @@ mod stop;
 mod common;
 mod bat_text;
 mod pictures;
+mod balls;
 mod scene;
 mod dialogue;
 mod ask;

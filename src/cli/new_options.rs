@@ -53,8 +53,8 @@ pub struct Args {
     #[arg(long, value_name = "NAME", help_heading = "The bat", value_parser = |s: &str| ask::material(s).map_err(|complaint| complaint.to_string()))]
     pub material: Option<String>,
 
-    /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; give it as often
-    /// as you measured, from knob to tip
+    /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; bare numbers are
+    /// in the file's unit. Give it as often as you measured, from knob to tip
     #[arg(long = "station", value_name = "X, D", help_heading = "The bat")]
     pub stations: Vec<String>,
 

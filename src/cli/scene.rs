@@ -3,14 +3,15 @@
 use std::cell::OnceCell;
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Result, nearest};
+use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
-use crate::collision::ball::{Ball, restitution};
+use crate::collision::ball::Ball;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::figures::{BarrelSpeed, SwingLaw};
 use crate::collision::hit::{Model, Scene, Wall};
 use crate::collision::pulse::Pulse;
 
+use crate::cli::balls::{ball, cor, is_built_in};
 use crate::cli::common::OutputArgs;
 use crate::cli::value::{
     CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, shown_length,
@@ -139,8 +140,7 @@ pub struct SceneArgs {
 impl SceneArgs {
     /// The ball's file, if it has one.
     pub fn ball_file(&self) -> Option<&Path> {
-        let built_in = BALLS.iter().any(|(name, _)| *name == self.ball);
-        (!built_in).then(|| Path::new(&self.ball))
+        (!is_built_in(&self.ball)).then(|| Path::new(&self.ball))
     }
 
     /// The ball, with what the command line says of it; its file, which may be a pipe, is read once.
@@ -295,50 +295,6 @@ impl SceneArgs {
         }
         Ok(Pulse { duration, loss_share })
     }
-}
-
-/// A ball's name and what makes it.
-type NamedBall = (&'static str, fn() -> Ball);
-
-/// The balls that are known by name.
-const BALLS: [NamedBall; 3] = [
-    ("baseball", Ball::baseball),
-    ("humid-baseball", Ball::humid_baseball),
-    ("softball", Ball::softball),
-];
-
-/// A ball by its name or its file, as a linear spring if a stiffness (N/m) is given.
-pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
-    let ball = match BALLS.iter().find(|(known, _)| *known == name) {
-        Some((_, built_in)) => built_in(),
-        None => Ball::from_file(name).map_err(|error| unknown_ball(name, error))?,
-    };
-    match stiffness {
-        Some(stiffness) => ball.linear(stiffness),
-        None => Ok(ball),
-    }
-}
-
-/// The error for an unreadable ball: a name near a known one is a misspelling, not a file.
-fn unknown_ball(name: &str, error: Error) -> Error {
-    let known = BALLS.map(|(name, _)| name);
-    match error {
-        Error::Read { source, .. } if nearest(name, &known).is_some() => {
-            let found = format!("{name}, which cannot be read ({source})");
-            let complaint = Complaint::new(
-                "--ball",
-                found,
-                "baseball, humid-baseball, softball or a ball file",
-            );
-            Error::Value(complaint.or_nearest(name, &known))
-        }
-        other => other,
-    }
-}
-
-/// A coefficient of restitution on the command line.
-pub fn cor(text: &str) -> std::result::Result<f64, String> {
-    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
 }
 
 fn not_negative(text: &str, what: &str) -> std::result::Result<f64, String> {

@@ -1,0 +1,53 @@
+//! Which ball is meant: one that is known by its name, or one of a file?
+
+use crate::base::error::{Complaint, Error, Result, nearest};
+use crate::collision::ball::{Ball, restitution};
+
+/// A ball's name and what makes it.
+type NamedBall = (&'static str, fn() -> Ball);
+
+/// The balls that are known by name.
+const BALLS: [NamedBall; 3] = [
+    ("baseball", Ball::baseball),
+    ("humid-baseball", Ball::humid_baseball),
+    ("softball", Ball::softball),
+];
+
+/// Whether a ball is known by that name.
+pub fn is_built_in(name: &str) -> bool {
+    BALLS.iter().any(|(known, _)| *known == name)
+}
+
+/// A ball by its name or its file, as a linear spring if a stiffness (N/m) is given.
+pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
+    let ball = match BALLS.iter().find(|(known, _)| *known == name) {
+        Some((_, built_in)) => built_in(),
+        None => Ball::from_file(name).map_err(|error| unknown_ball(name, error))?,
+    };
+    match stiffness {
+        Some(stiffness) => ball.linear(stiffness),
+        None => Ok(ball),
+    }
+}
+
+/// The error for an unreadable ball: a name near a known one is a misspelling, not a file.
+fn unknown_ball(name: &str, error: Error) -> Error {
+    let known = BALLS.map(|(name, _)| name);
+    match error {
+        Error::Read { source, .. } if nearest(name, &known).is_some() => {
+            let found = format!("{name}, which cannot be read ({source})");
+            let complaint = Complaint::new(
+                "--ball",
+                found,
+                "baseball, humid-baseball, softball or a ball file",
+            );
+            Error::Value(complaint.or_nearest(name, &known))
+        }
+        other => other,
+    }
+}
+
+/// A coefficient of restitution on the command line.
+pub fn cor(text: &str) -> std::result::Result<f64, String> {
+    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
+}
