@@ -195,18 +195,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         barrel: args.scene.barrel_speed(),
     };
     let compared = Comparison::new(entries, terms)?;
-    if let Some(folder) = &args.plots {
-        pictures::write(
-            folder,
-            &plot::compared::pictures(args.output.sheet(&compared.bats[0].bat), &compared)?,
-            args.output.quiet,
-        )?;
-    }
-    if let Some(path) = &args.report {
-        let us = args.output.sheet(&compared.bats[0].bat).us;
-        let page = page::compared::page(&compared, &command_line(), us)?;
-        file::write(path, page.as_bytes())?;
-    }
+    for_people(args, &compared)?;
     let text = match &args.csv {
         Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),
         Some(path) => {
@@ -219,6 +208,19 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
+}
+
+/// Pictures and the page, where they were asked for.
+fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
+    let sheet = args.output.sheet(&compared.bats[0].bat);
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &plot::compared::pictures(sheet, compared)?, args.output.quiet)?;
+    }
+    if let Some(path) = &args.report {
+        let page = page::compared::page(compared, &command_line(), sheet.us)?;
+        file::write(path, page.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// The exit code, after a word about bats whose exit speeds are less accurate than asked.

@@ -171,7 +171,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         ignored.push(format!("{unknown} (\"loss_factor\" in the bat file)"));
     }
     if bat.fixtures().grip.is_none() {
-        ignored.push("hands: not modelled (add a \"grip\" to the bat file)".to_owned());
+        ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
         Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),

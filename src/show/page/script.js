@@ -187,12 +187,14 @@
       const head = `h${-6 * u}l${9 * u} ${-14 * u}l${9 * u} ${14 * u}h${-6 * u}`;
       arrow.setAttribute("d", tall < u ? "" : `M${x - 3 * u} ${middle}v${-tall}${head}v${tall}Z`);
     };
+    const squeeze = (mm) => inUs() ? `${(mm / 25.4).toFixed(2)} in` : `${mm.toFixed(1)} mm`;
+    const force = (kn) => inUs() ? `${(1000 * kn / 4.4482216).toFixed(0)} lbf` : `${kn.toFixed(1)} kN`;
     const span = () => hit.times_ms.at(-1) - hit.times_ms[0];
     const say = (share, seconds) => {
       const time = at(hit.times_ms, share), gap = at(hit.gap_mm, share);
       const state = time < 0 ? "the ball is coming in" : time > hit.contact_ms ? "the ball is gone"
-        : `the ball is squeezed by ${Math.max(0, -gap).toFixed(1)} mm`;
-      return `${time.toFixed(2)} ms: force ${at(hit.force_kn, share).toFixed(1)} kN, ${state}. ` +
+        : `the ball is squeezed by ${squeeze(Math.max(0, -gap))}`;
+      return `${time.toFixed(2)} ms: force ${force(at(hit.force_kn, share))}, ${state}. ` +
         `${Math.round(1000 * seconds / span())} times slower than life`;
     };
     // Who asked for less motion, and paper, see the instant of the largest force.
@@ -205,6 +207,7 @@
       if (!calm.matches) film.play();
     });
     addEventListener("beforeprint", () => film.rewind(peak()));
+    whenUnits(film.show);
     return once(stage, film);
   };
 

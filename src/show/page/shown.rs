@@ -2,6 +2,7 @@
 
 use crate::base::number::rounded;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::show::plot::sheet::POUND_FORCE;
 use crate::show::report::text::Units;
 
 /// What there is no number for.
@@ -31,6 +32,11 @@ pub fn mass(units: Units, value: f64) -> String {
 /// A moment of inertia (kg m²).
 pub fn inertia(units: Units, value: f64) -> String {
     units.show(format!("{value:.4} kg m²"), format!("{:.0} oz in²", ounce_square_inches(value)))
+}
+
+/// A force (N).
+pub fn force(units: Units, value: f64) -> String {
+    units.show(format!("{:.2} kN", 1e-3 * value), format!("{:.0} lbf", value / POUND_FORCE))
 }
 
 /// A speed (m/s).

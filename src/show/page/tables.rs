@@ -168,7 +168,7 @@ fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
         lines.push(("time of contact", format!("{:.3} ms", 1e3 * time)));
     }
     if let Some(force) = outcome.peak_force {
-        lines.push(("largest force", format!("{:.2} kN", 1e-3 * force)));
+        lines.push(("largest force", shown::force(units, force)));
     }
     lines
 }
@@ -199,7 +199,7 @@ fn with_sign(value: f64, decimals: usize) -> String {
 pub fn moves(analysis: &Analysis, units: Units) -> Table {
     let (unit, per, digits) =
         if units == Units::Us { ("in", inches(1.0), 2) } else { ("mm", 1e3, 1) };
-    let caption = format!("How the sweet spots move, in {unit} towards the tip");
+    let caption = format!("How the sweet spots move towards the tip, {unit}");
     let damped = analysis.bat.damped();
     let mut head = vec!["If …", "fastest ball", "least vibration", "least hand speed"];
     head.extend(damped.then_some("least hand shaking"));

@@ -10,7 +10,7 @@ use crate::show::plot::place::{along, mark};
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::route::Point;
 use crate::show::plot::series::{Series, bats, digits, hover};
-use crate::show::plot::sheet::Sheet;
+use crate::show::plot::sheet::{Sheet, Unit};
 use crate::show::plot::svg::{Mark, Pen, Svg};
 use crate::show::plot::theme::{Ink, SERIES, TEXT, TINT};
 use crate::show::plot::words::SMALL;
@@ -91,8 +91,8 @@ fn in_time(sheet: Sheet, subjects: &[Subject]) -> Picture {
     };
     svg.height = frame(1).bottom + NUMBERS + 4.0;
     let x = Axis::new("time since the first touch (ms)", [0.0, end]);
-    let force = diagram(&mut svg, (frame(0), &x), subjects, ("force", "kN", |m| 1e-3 * m.force));
-    let of = ("compression", "mm", (|m| 1e3 * m.compression) as fn(&Moment) -> f64);
+    let force = diagram(&mut svg, (frame(0), &x), subjects, ("force", sheet.force(), |m| m.force));
+    let of = ("compression", sheet.small(), (|m| m.compression) as fn(&Moment) -> f64);
     let pressed = diagram(&mut svg, (frame(1), &x), subjects, of);
     Plane { frame: frame(1), x, y: Axis::new("", [0.0, 1.0]) }.below(&mut svg);
     let alt = format!("Force and compression in time, {name}: {facts}; {force}, {pressed}.");
@@ -104,18 +104,20 @@ fn diagram(
     svg: &mut Svg,
     (frame, x): (Frame, &Axis),
     subjects: &[Subject],
-    (what, unit, of): (&str, &'static str, fn(&Moment) -> f64),
+    (what, unit, of): (&str, Unit, fn(&Moment) -> f64),
 ) -> String {
     let alone = subjects.len() == 1;
     let curve = |(k, s): (usize, &Subject)| {
         let points = s.moments.iter().map(|m| Some([1e3 * m.time, of(m)])).collect();
-        let series = Series::curve(if alone { what } else { s.name }, k, points).units("ms", unit);
+        let series =
+            Series::curve(if alone { what } else { s.name }, k, points).units("ms", unit.name);
         // A single bat's two diagrams have two colours.
         if alone && what != "force" { series.pen(Pen::new(SERIES[1], 2.0)) } else { series }
     };
     let curves: Vec<Series> = subjects.iter().enumerate().map(curve).collect();
     let values = curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
-    let y = Axis::around(&format!("{what} ({unit})"), values.chain([0.0]), ticks_up(DIAGRAM));
+    let values = values.map(|v| unit.per * v).chain([0.0]);
+    let y = Axis::around(what, values, ticks_up(DIAGRAM)).counted_in(unit);
     let plane = Plane { frame, x: x.clone(), y };
     plane.draw(svg);
     let mut told = vec![];
@@ -123,8 +125,12 @@ fn diagram(
         curve.draw(svg, &plane);
         let peak =
             curve.points.iter().flatten().fold([0.0; 2], |a, b| if b[1] > a[1] { *b } else { a });
-        let words =
-            format!("at most {} {unit}, after {} ms", digits(peak[1], 3), digits(peak[0], 3));
+        let words = format!(
+            "at most {} {}, after {} ms",
+            digits(unit.per * peak[1], 3),
+            unit.name,
+            digits(peak[0], 3)
+        );
         if alone {
             svg.mark(Mark::Circle, plane.at(peak), 3.0, TEXT, true);
             svg.text([frame.left, frame.top - 8.0], SMALL, &words);
@@ -149,12 +155,13 @@ fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
     let top = names(&mut svg, subjects) + 20.0;
     let frame = Frame::across(sheet, [top, top + HEIGHT]);
     svg.height = frame.bottom + NUMBERS + 4.0;
-    let curve = |(k, s)| Series::curve("ball", k, around(s)).units("mm", "kN");
+    let (squeeze, force) = (sheet.small(), sheet.force());
+    let curve = |(k, s)| Series::curve("ball", k, around(s)).units(squeeze.name, force.name);
     let curves: Vec<Series> = subjects.iter().enumerate().map(curve).collect();
     let points = || curves.iter().flat_map(|c| c.points.iter().flatten());
-    let values = |k: usize| points().map(move |at| at[k]).chain([0.0]);
-    let x = Axis::around("compression of the ball (mm)", values(0), 11);
-    let y = Axis::around("force (kN)", values(1), ticks_up(HEIGHT));
+    let values = |k: usize, unit: Unit| points().map(move |at| unit.per * at[k]).chain([0.0]);
+    let x = Axis::around("compression of the ball", values(0, squeeze), 11).counted_in(squeeze);
+    let y = Axis::around("force", values(1, force), ticks_up(HEIGHT)).counted_in(force);
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);
     for curve in &curves {
@@ -175,9 +182,9 @@ fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
     Picture::new("hysteresis", title, &alt, svg)
 }
 
-/// The loop of a hit, as it is drawn: mm and kN.
+/// The loop of a hit: compression (m) and force (N).
 fn around(subject: &Subject) -> Vec<Option<[f64; 2]>> {
-    let at = |m: &Moment| [1e3 * m.compression, 1e-3 * m.force];
+    let at = |m: &Moment| [m.compression, m.force];
     let last = subject.moments.last().map(at).filter(|[_, force]| *force > 0.0);
     // A ball that gives nothing back lets go at once.
     let end = last.map(|[deepest, _]| [deepest, 0.0]);

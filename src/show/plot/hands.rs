@@ -6,7 +6,7 @@ use crate::show::plot::picture::Picture;
 use crate::show::plot::place::along;
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, bats, hover, short};
-use crate::show::plot::sheet::{Paper, Sheet};
+use crate::show::plot::sheet::{Paper, Sheet, Unit};
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{FRAME, SERIES};
 use crate::show::plot::words::SMALL;
@@ -17,8 +17,13 @@ const IN_ALL: usize = 1800;
 /// Of each of the diagrams, and between them (px).
 const DIAGRAM: f64 = 150.0;
 const BETWEEN: f64 = 18.0;
-/// What is drawn, and its unit.
-const KINDS: [(&str, &str); 2] = [("displacement", "mm"), ("velocity", "m/s")];
+/// What is drawn.
+const KINDS: [&str; 2] = ["displacement", "velocity"];
+
+/// What that is counted in.
+fn unit_of(sheet: Sheet, kind: usize) -> Unit {
+    if kind == 0 { sheet.small() } else { sheet.speed() }
+}
 
 /// A bat after a hit, and where it is held.
 pub struct Subject<'a> {
@@ -51,14 +56,14 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
     svg.height = frame(1).bottom + NUMBERS + 4.0;
     let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
     let mut peaks = vec![];
-    for (k, (what, unit)) in KINDS.into_iter().enumerate() {
-        let values = || motions.iter().flatten().map(|m| m[k + 1]);
-        let label = format!("{what} ({unit})");
-        let y = Axis::around(&label, values().chain([0.0]), ticks_up(DIAGRAM));
+    for (k, what) in KINDS.into_iter().enumerate() {
+        let unit = unit_of(sheet, k);
+        let values = || motions.iter().flatten().map(|m| unit.per * m[k + 1]);
+        let y = Axis::around(what, values().chain([0.0]), ticks_up(DIAGRAM)).counted_in(unit);
         let plane = Plane { frame: frame(k), x: along.clone(), y };
         diagram(&mut svg, &plane, k, (subjects, &motions));
         let most = values().map(f64::abs).fold(0.0, f64::max);
-        peaks.push(format!("{what} up to {} {unit}", short(most)));
+        peaks.push(format!("{what} up to {} {}", short(most), unit.name));
     }
     match sheet.paper {
         Paper::File => svg.text([sheet.left(), frame(0).top - 6.0], SMALL, told(subjects)),
@@ -96,7 +101,7 @@ fn diagram(
     kind: usize,
     (subjects, motions): (&[Subject], &[Vec<[f64; 3]>]),
 ) {
-    let (what, unit) = KINDS[kind];
+    let (what, unit) = (KINDS[kind], unit_of(svg.sheet, kind));
     if let [one] = subjects {
         plane.band(svg, [0.0, 1e3 * one.after.end()], SERIES[5]);
     }
@@ -109,7 +114,7 @@ fn diagram(
             1 => Series::curve(what, kind, points).pen(Pen::new(SERIES[kind], 1.7)),
             _ => Series::curve(s.name, k, points),
         }
-        .units("ms", unit)
+        .units("ms", unit.name)
     };
     let curves: Vec<Series> = subjects.iter().zip(motions).enumerate().map(curve).collect();
     curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
@@ -119,7 +124,7 @@ fn diagram(
     }
 }
 
-/// Time (ms), displacement (mm) and velocity (m/s) at a place; where hardly anything moves beside the
+/// Time (ms), displacement (m) and velocity (m/s) at a place; where hardly anything moves beside the
 /// place of the hit, as on a clamp, nothing does.
 fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
     const NOTHING: f64 = 1e-9;
@@ -131,7 +136,7 @@ fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
     let still = speed(x) <= NOTHING * speed(after.place);
     let motion = |now: &Instant| {
         let [moved, speed, _] = if still { [0.0; 3] } else { after.motion(x, now) };
-        [1e3 * now.time, 1e3 * moved, speed]
+        [1e3 * now.time, moved, speed]
     };
     instants.iter().map(motion).collect()
 }

@@ -164,11 +164,14 @@ pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges])
             let pen = Pen::new(series(*bat).0, 0.8).dashed("1 3");
             let mut y = from;
             // The rows come from above.
-            for [_, top, _, bottom] in told[..k].iter().filter(|e| e[0] < x && x < e[2]) {
+            let above = |e: &&Edges| e[0] < x && x < e[2] && e[3] <= end + 8.0;
+            for [_, top, _, bottom] in told[..=k].iter().filter(above) {
                 svg.line(&[[x, y], [x, *top]], pen);
                 y = *bottom;
             }
-            svg.line(&[[x, y], [x, end]], pen);
+            if y < end {
+                svg.line(&[[x, y], [x, end]], pen);
+            }
         }
     }
 }

@@ -3,6 +3,9 @@
 use crate::base::units::{inches, miles_per_hour};
 use crate::bat::body::Bat;
 
+/// A pound-force (N), exactly.
+pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
 /// A unit of an axis: its name, and how many of it are one SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
@@ -52,6 +55,20 @@ impl Sheet {
         }
     }
 
+    /// Small lengths, such as the squeeze of a ball.
+    pub fn small(self) -> Unit {
+        if self.us { self.length() } else { Unit { name: "mm", per: 1e3 } }
+    }
+
+    /// Forces.
+    pub fn force(self) -> Unit {
+        if self.us {
+            Unit { name: "lbf", per: 1.0 / POUND_FORCE }
+        } else {
+            Unit { name: "kN", per: 1e-3 }
+        }
+    }
+
     /// Speeds.
     pub fn speed(self) -> Unit {
         if self.us {
@@ -73,7 +90,7 @@ impl Sheet {
 
     /// From the left edge to the frames, so that those above each other are in line (px).
     pub fn left(self) -> f64 {
-        if self.narrow() { 60.0 } else { 74.0 }
+        if self.narrow() { 68.0 } else { 74.0 }
     }
 
     /// From a frame to the right edge, where nothing else stands there (px).

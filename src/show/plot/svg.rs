@@ -17,7 +17,10 @@ pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"s
 
 /// The typeface that PNG is painted in, where the reader has it, and what is nearest to it elsewhere;
 /// whichever it is, its small letters are as high as those of the first.
-const FAMILY: &str = "Ubuntu, 'Ubuntu Sans', 'Noto Sans', 'Segoe UI', system-ui, sans-serif";
+const FAMILY: &str = "'Ubuntu Light', Ubuntu, 'Noto Sans', 'Segoe UI', system-ui, sans-serif";
+
+/// Height of that typeface's small letters, of its size: `sxHeight` of its table "OS/2".
+const X_HEIGHT: f64 = 0.517;
 
 /// A picture in the making.
 #[derive(Debug, Clone, PartialEq)]
@@ -174,7 +177,7 @@ impl Svg {
         format!(
             "{BEGINNING} role=\"img\" \
              viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-             font-family=\"{FAMILY}\" font-size-adjust=\"0.52\" fill=\"none\" stroke-linejoin=\"round\" \
+             font-family=\"{FAMILY}\" font-size-adjust=\"{X_HEIGHT}\" fill=\"none\" stroke-linejoin=\"round\" \
              stroke-linecap=\"butt\"{read_off}>\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>\n\
              <rect class=\"ss-f-paper\" fill=\"{}\" width=\"{width}\" height=\"{height}\"/>\n\
              {body}</svg>\n",
