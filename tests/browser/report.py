@@ -375,7 +375,7 @@ def plays_once(browser, path):
     value = VALUE.format("moment-player")
     check(waited(browser, f"{value} > 20"), "the film does not begin by itself")
     check(waited(browser, f"{value} === 1000", 20), "the film does not end")
-    check(browser.run("document.querySelector('#moment-player .play').textContent") == "Play", "the film begins anew")
+    check(waited(browser, "document.querySelector('#moment-player .play').textContent === 'Play'"), "the film begins anew")
 
 
 def sheets(browser, path, name):
