@@ -393,19 +393,20 @@ fn plain(text: &str) -> String {
 }
 
 /// Numbers and their units, one after the other: `5 ft 2 in` has two.
-fn terms(text: &str) -> Vec<(&str, &str)> {
-    let (number, rest) = split(text);
-    let begins = |(i, blank): (usize, &str)| {
-        let next = rest[i + blank.len()..].bytes().next();
-        (i > 0 && next.is_some_and(|byte| byte.is_ascii_digit())).then_some(i)
-    };
-    match rest.match_indices(' ').find_map(begins) {
-        None => vec![(number, rest)],
-        Some(end) => {
-            let mut all = vec![(number, rest[..end].trim_end())];
-            all.extend(terms(rest[end..].trim_start()));
-            all
-        }
+fn terms(mut text: &str) -> Vec<(&str, &str)> {
+    let mut all = vec![];
+    loop {
+        let (number, rest) = split(text);
+        let begins = |(i, blank): (usize, &str)| {
+            let next = rest[i + blank.len()..].bytes().next();
+            (i > 0 && next.is_some_and(|byte| byte.is_ascii_digit())).then_some(i)
+        };
+        let Some(end) = rest.match_indices(' ').find_map(begins) else {
+            all.push((number, rest));
+            return all;
+        };
+        all.push((number, rest[..end].trim_end()));
+        text = rest[end..].trim_start();
     }
 }
 
@@ -732,6 +733,7 @@ mod tests {
         assert!(parse("nan", Quantity::Length).is_err());
         assert!(parse("inf m", Quantity::Length).is_err());
         assert!(parse(&format!("1 {}", "m^9 ".repeat(100)), Quantity::Length).is_err());
+        assert!(parse(&"1 in ".repeat(100_000), Quantity::Length).is_err());
     }
 
     proptest! {

@@ -42,7 +42,7 @@ pub const SPACING: Use = Use::new(Quantity::Length, [0.0, 0.3], &["in", "cm", "m
 /// Speed of a ball or of a point of a bat in play.
 pub const PLAY_SPEED: Use = Use::new(Quantity::Speed, [0.0, 54.0], &["mph", "km/h"]);
 /// Speed of a ball in a laboratory's cannon.
-pub const CANNON_SPEED: Use = Use::new(Quantity::Speed, [0.0, 90.0], &["mph", "km/h"]);
+pub const CANNON_SPEED: Use = Use::new(Quantity::Speed, [0.0, 70.0], &["mph", "km/h"]);
 /// Angular speed of a swing.
 pub const SWING: Use = Use::new(Quantity::AngularSpeed, [0.0, 60.0], &["deg/s", "rpm"]);
 /// Stiffness of a ball or of a barrel's wall.
