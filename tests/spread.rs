@@ -147,8 +147,7 @@ impl Normal {
 fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
     let request = Request { modes: 12, tolerance: 1e-6, ..Request::default() };
     let solution = solve(bat, &request).unwrap();
-    let hitter =
-        Hitter::new(Model::Contact, scene, bat, &solution, Default::default()).unwrap();
+    let hitter = Hitter::new(Model::Contact, scene, bat, &solution, Default::default()).unwrap();
     let looked = Looked::by([0.5 * bat.length(), bat.length()], (24, 1e-4), &hitter);
     let best = looked.greatest(|seen| Some(seen.exit_speed)).unwrap();
     let [f1, f2] = [0, 1].map(|k| solution.modes[k].frequency());
@@ -199,11 +198,8 @@ fn a_sample_of_bats_that_were_weighed_and_tapped_scatters_as_the_first_order_say
     let scene = Scene::default();
     let free = bat(wooden(), ASH, Weighed::default());
     let (mass, note) = (free.inertia().mass, modes(&free).modes[0].frequency());
-    let weighed = |mass, note| Weighed {
-        mass: Some(mass),
-        first_bending: Some(note),
-        ..Weighed::default()
-    };
+    let weighed =
+        |mass, note| Weighed { mass: Some(mass), first_bending: Some(note), ..Weighed::default() };
     // Calipers so bad that they count beside the note.
     let readings = Readings { diameter: 5e-4, ..Readings::default() };
     let spread = spread(&bat(wooden(), ASH, weighed(mass, note)), &readings);
@@ -232,10 +228,12 @@ fn an_analysis_is_one_screen_of_24_lines_and_80_columns() {
     for entry in std::fs::read_dir(meshes).unwrap() {
         let path = entry.unwrap().path();
         for units in ["both", "si", "us"] {
-            let text = folder.text(&["analyze", path.to_str().unwrap(), "--units", units, "--quiet"]);
+            let text =
+                folder.text(&["analyze", path.to_str().unwrap(), "--units", units, "--quiet"]);
             let wide = text.lines().filter(|line| line.chars().count() > 80).count();
             assert!(text.lines().count() <= 24 && wide == 0, "{units}\n{text}");
-            for word in ["sweet spot", "fastest ball", "swing weight", "f3", "How far to trust it"] {
+            for word in ["sweet spot", "fastest ball", "swing weight", "f3", "How far to trust it"]
+            {
                 assert!(text.contains(word), "{word}\n{text}");
             }
         }

@@ -55,7 +55,9 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
     }
     let bat = mesh("r161");
     for units in ["si", "us", "both"] {
-        for args in [&["analyze", &bat, "--full"][..], &["hit", &bat, "--points", "5"], &["materials"]] {
+        for args in
+            [&["analyze", &bat, "--full"][..], &["hit", &bat, "--points", "5"], &["materials"]]
+        {
             let args = [args, &["--units", units]].concat();
             faults.extend(table_faults(&folder, &args, "Louisville"));
         }

@@ -416,7 +416,8 @@ fn settle(rows: &mut [Row], factor: &Answers, answer: Answer) -> Option<Answers>
 /// The answers with what all sources together make of them.
 fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
     let of = |(answer, value): (Answer, &Option<f64>)| {
-        let parts: Option<Vec<f64>> = rows.iter().map(|(_, parts)| parts[answer as usize]).collect();
+        let parts: Option<Vec<f64>> =
+            rows.iter().map(|(_, parts)| parts[answer as usize]).collect();
         let size = |parts: &Vec<f64>| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         let parts = parts.filter(|parts| size(parts).is_finite());
         let deviation = parts.as_ref().map(size);

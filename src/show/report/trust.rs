@@ -3,8 +3,8 @@
 use crate::base::number::{percent, significant};
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::Bat;
-use crate::collision::hit::Model;
 use crate::collision::figures::BarrelSpeed;
+use crate::collision::hit::Model;
 use crate::files::schema::analysis as file;
 use crate::show::analysis::Analysis;
 use crate::show::report::columns::{Columns, first};
@@ -127,7 +127,8 @@ fn word(source: &Source) -> &'static str {
 /// The answers, how far each may be off, and by what most.
 pub fn table(analysis: &Analysis, units: Units) -> String {
     let spread = &analysis.spread;
-    let head = if spread.sources.is_empty() { [""; 2] } else { ["± (two bats in three)", "most by"] };
+    let head =
+        if spread.sources.is_empty() { [""; 2] } else { ["± (two bats in three)", "most by"] };
     let columns =
         Columns::new([first(15, ""), first(28, "computed"), first(28, head[0]), first(9, head[1])]);
     let mut out = columns.heads();
@@ -232,7 +233,9 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     }
     by(Answer::Mass, Input::Density).then(|| {
         let known = Kind::Mass.about(units, task.readings.mass);
-        format!("Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}.")
+        format!(
+            "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
+        )
     })
 }
 
@@ -253,7 +256,8 @@ fn computation(analysis: &Analysis) -> String {
         (None, false) => format!(", asked within {asked:.0e} and NOT met"),
         (Some(_), _) => ", with the elements that were asked for".to_owned(),
     };
-    let told = if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
+    let told =
+        if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
     format!("Then the computation{verdict}: {told}.")
 }
 
