@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use crate::base::error::Complaint;
 use crate::base::number::significant;
+use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::theory::Theory;
 use crate::modes::solve::Solver;
@@ -99,7 +100,7 @@ impl Use {
     ///
     /// Both readings, and how each is written.
     pub fn sensible(&self, text: &str, bare: &str) -> std::result::Result<(), Complaint> {
-        let Some(number) = units::number(text) else { return Ok(()) };
+        let Some(number) = typed::number(text) else { return Ok(()) };
         let in_si = |unit: &str| units::factor(unit, self.quantity).map(|factor| number * factor);
         let plausible = |unit: &str| in_si(unit).is_ok_and(|value| self.has(value));
         let meant = self.trade.iter().find(|unit| plausible(unit));
@@ -121,7 +122,7 @@ impl Use {
 pub fn swing_speed(text: &str) -> std::result::Result<f64, String> {
     let speed = text.trim();
     let answer = format!("for the speed of a point of the barrel write --bat-speed \"{speed}");
-    match (units::number(text), units::parse(text, Quantity::Speed)) {
+    match (typed::number(text), units::parse(text, Quantity::Speed)) {
         (Some(number), _) if !SWING.has(number) && PLAY_SPEED.has(number * 0.447_04) => {
             Err(format!("found {speed}; {answer} mph\", for an angular speed \"{speed} rad/s\""))
         }
