@@ -45,7 +45,7 @@ fn group(error: &Error) -> Group<'static> {
 }
 
 /// What the library calls a value, as it is asked for on the command line.
-fn option(field: &str) -> &str {
+pub fn option(field: &str) -> &str {
     match field {
         "every" => "--every",
         "place of the force" => "--at",

@@ -5,7 +5,8 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown |
+//! | `done`, `style`, `diagnostic`, `mistakes` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
+//! | `delivered` | which results are files, and which one is standard output |
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
 //! | `common`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
@@ -14,6 +15,8 @@
 mod done;
 mod style;
 mod diagnostic;
+mod mistakes;
+mod delivered;
 mod value;
 mod help;
 mod progress;

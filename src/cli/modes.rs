@@ -10,9 +10,10 @@ use crate::modes::solve::Solution;
 use crate::show::exchange::npz;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
-use crate::show::report::{sketch, text, trust};
+use crate::show::report::{modes_csv, sketch, text, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
+use crate::cli::delivered::{one_on_stdout, put};
 use crate::cli::done::Done;
 use crate::cli::pictures;
 
@@ -40,6 +41,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     matrices: Option<PathBuf>,
 
+    /// Write a line for each mode to this CSV file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
     /// Draw the bat and its mode shapes into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
@@ -64,6 +69,7 @@ Examples:
       the best that two milliseconds give";
 
 pub fn run(args: &Args) -> Result<Done> {
+    one_on_stdout(&[("--json", &args.output.json), ("--csv", &args.csv)])?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     drop(progress);
@@ -87,7 +93,9 @@ pub fn run(args: &Args) -> Result<Done> {
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);
-    Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
+    let table = args.output.deliver(table, document)?;
+    let text = put(&args.csv, table, || Ok(modes_csv::table(&solution)))?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Which verb did the user type?
 
 use std::ffi::OsString;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 use crate::base::error::{Error, Result};
@@ -14,7 +14,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, analyze, bbcor, compare, completions, convert, frf, help, hit, licences, man,
-    materials, modes, new, ring, scene, schema, stop, style, trade, validate,
+    materials, mistakes, modes, new, ring, scene, schema, stop, style, trade, validate,
 };
 
 /// What a baseball bat does when it meets a ball
@@ -129,7 +129,12 @@ fn file_for_a_verb(said: clap::Error) -> clap::Error {
 /// Help and version, which are results as any other; wrong usage ends the program.
 fn say(said: &clap::Error) -> Result<Done> {
     if said.use_stderr() {
-        said.exit();
+        // There is nobody left to tell if stderr is closed.
+        let _ = said.print();
+        if mistakes::asked() {
+            let _ = std::io::stderr().write_all(mistakes::of_usage(said).as_bytes());
+        }
+        std::process::exit(said.exit_code());
     }
     let coloured = style::coloured(std::io::stdout().is_terminal());
     let text = said.render();

@@ -9,6 +9,7 @@ use crate::files::schema::bat::BatFile;
 use crate::files::schema::bbcor::BbcorFile;
 use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
+use crate::files::schema::error::ErrorFile;
 use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::materials::MaterialsFile;
@@ -30,7 +31,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<Case>(),
@@ -47,6 +48,7 @@ impl FileKind {
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),
         Self::of::<Data>(),
+        Self::of::<ErrorFile>(),
     ];
 
     const fn of<D: Document>() -> Self {

@@ -12,6 +12,7 @@
 
 pub mod amount;
 pub mod document;
+pub mod error;
 pub mod resolved;
 pub mod part;
 pub mod bat;

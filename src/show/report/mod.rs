@@ -8,6 +8,7 @@ pub mod curve;
 pub mod resolved;
 pub mod damped;
 pub mod json;
+pub mod modes_csv;
 pub mod text;
 pub mod sketch;
 pub mod hit_text;
