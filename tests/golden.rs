@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::documents::{Numbers, WRITTEN, folder, page, written};
+use common::documents::{Numbers, WRITTEN, error, folder, page, written};
 use serde_json::Value;
 
 /// Where the numbers are the program's own affair, and where a flat maximum is found roughly.
@@ -74,10 +74,10 @@ fn golden(name: &str) -> Value {
 fn the_documents_are_those_of_version_one() {
     let folder = folder("golden");
     let documents = WRITTEN.map(|document| (document.0, written(&folder, document), document.3));
-    for (name, mut now, like) in
-        documents.into_iter().chain([("page", page(&folder), Numbers::Rough)])
-    {
-        if !["modes", "hit"].contains(&name) {
+    let others =
+        [("page", page(&folder), Numbers::Rough), ("error", error(&folder), Numbers::Sharp)];
+    for (name, mut now, like) in documents.into_iter().chain(others) {
+        if !["modes", "hit", "error"].contains(&name) {
             cut(&mut now);
         }
         let mut all = vec![];

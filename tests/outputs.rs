@@ -636,3 +636,45 @@ fn matrices_are_written_whole() {
         assert_eq!((size[0], size[1], size[2]), (18, 18, lines.count()), "{name}");
     }
 }
+
+/// A table has the numbers of the JSON, under its names.
+#[test]
+fn modes_and_hits_are_tables_too() {
+    let folder = Folder::new("tables");
+    folder.write("bat.json", include_str!("golden/bat-1.json"));
+    let rows = |text: String| -> Vec<Vec<String>> {
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let modes = ["modes", "bat.json", "-n", "3", "--theory", "timoshenko"];
+    let json = folder.json(&[&modes[..], &["--json", "-"]].concat());
+    let table = rows(folder.text(&[&modes[..], &["--csv", "-"]].concat()));
+    assert_eq!(table.len(), 4);
+    for (row, mode) in table[1..].iter().zip(json["modes"].as_array().unwrap()) {
+        for (name, cell) in table[0].iter().zip(row) {
+            let value = match (name.strip_prefix("error."), name.strip_prefix("node_")) {
+                (Some(error), _) => &mode["error"][error],
+                (_, Some(node)) => {
+                    let number: usize = node.trim_end_matches("_m").parse().unwrap();
+                    &mode["nodes_m"][number - 1]
+                }
+                _ => &mode[name],
+            };
+            assert_eq!(cell.parse().ok(), value.as_f64(), "{name}");
+        }
+    }
+    let hit = ["hit", "bat.json", "-n", "2", "--theory", "timoshenko", "--points", "3"];
+    let both = folder.text(&[&hit[..], &["--csv", "hit.csv", "--json", "-"]].concat());
+    let json: Value = serde_json::from_str(&both).unwrap();
+    let table = rows(folder.read("hit.csv"));
+    assert_eq!(table.len(), 4);
+    for (row, impact) in table[1..].iter().zip(json["impacts"].as_array().unwrap()) {
+        assert_eq!(row.len(), table[0].len());
+        let cell = |name: &str| {
+            let k = table[0].iter().position(|column| column == name).unwrap();
+            row[k].parse::<f64>().ok()
+        };
+        for name in ["x_m", "exit_speed_m_s", "cor", "bbcor", "impulse_n_s"] {
+            assert!(cell(name).is_some() && cell(name) == impact[name].as_f64(), "{name}");
+        }
+    }
+}

@@ -16,7 +16,7 @@ use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
-use crate::cli::ring::on_the_bat;
+use crate::cli::ring_args::on_the_bat;
 use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS};
 
 /// BBCOR as laboratories measure it, computed

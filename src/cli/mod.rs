@@ -9,6 +9,8 @@
 //! | `delivered` | which results are files, and which one is standard output |
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
 //! | `common`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
+//! | `ring_args`, `ring_hit`, `ring_motion` | what `ring` is asked; its answers after a hit and after all else |
+//! | `frf_grid` | at which frequencies `frf` answers |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
@@ -35,10 +37,14 @@ mod hit_promise_table;
 mod extremes_table;
 mod modes;
 mod hit;
+mod ring_args;
+mod ring_hit;
+mod ring_motion;
 mod ring;
 mod bbcor;
 mod analyze;
 mod compare;
+mod frf_grid;
 mod frf;
 mod trade;
 mod advise;

@@ -9,6 +9,7 @@
 //! | [`force`], [`shape`] | which force pushes the bat; from which shape is it let go |
 //! | [`oscillator`] | how does one mode answer, damped or not |
 //! | [`ringing`] | how does the bat move in time |
+//! | [`peaks`] | where does that answer peak, how high and how wide |
 //! | [`frf`] | how does it answer at a frequency |
 //! | [`sound`] | what does it sound like |
 
@@ -18,5 +19,6 @@ pub mod force;
 pub mod shape;
 pub mod oscillator;
 pub mod ringing;
+pub mod peaks;
 pub mod frf;
 pub mod sound;

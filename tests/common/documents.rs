@@ -91,6 +91,10 @@ pub const WRITTEN: [Written; 15] = [
 const MEASURED: &str = "x_in,mode_1,mode_2\nfrequency_hz,178.2,583.0\ndamping_ratio,0.004,0.005\n\
     0,1.00,0.90\n3,0.55,0.12\n15,-0.5,0.3\n33,0.41,0.37\n";
 
+const MISTAKEN: &str = r#"{ "format": "sweetspot-bat/1", "material": "white-ahs",
+  "profile": { "x": [0, 1], "radius": [0.02, -1] } }
+"#;
+
 /// A folder with what the commands read.
 pub fn folder(test: &str) -> Folder {
     let folder = Folder::new(test);
@@ -99,6 +103,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("dowel.json", include_str!("../../meshes/dowel.json"));
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
+    folder.write("mistaken.json", MISTAKEN);
     folder
 }
 
@@ -106,6 +111,14 @@ pub fn folder(test: &str) -> Folder {
 pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
     let args: Vec<&str> = command.split(' ').chain(["--json", "-"]).collect();
     folder.json(&args)
+}
+
+/// What is said of a bat file with two mistakes, `sweetspot-error/1`.
+pub fn error(folder: &Folder) -> Value {
+    let output = folder.run(&["modes", "mistaken.json", "--json", "-"]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).unwrap();
+    serde_json::from_str(told.lines().last().unwrap()).unwrap()
 }
 
 /// The data of a report, `sweetspot-page/1`.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::base::error::{Complaint, Error, Place};
+use crate::base::error::{Complaint, Error, Place, shortened};
 use crate::files::schema::document::{Document, Format, Generator};
 
 /// Why a command with --json failed: the mistakes in its input or on its command line, in the order of
@@ -90,8 +90,7 @@ impl Mistake {
                 Self { file: Some(file.clone()), line, column, ..plain }.complaining(complaint)
             }
             Error::Value(complaint) => {
-                let complaint =
-                    Complaint { field: field(&complaint.field), ..complaint.clone() };
+                let complaint = Complaint { field: field(&complaint.field), ..complaint.clone() };
                 Self::saying(complaint.to_string()).complaining(&complaint)
             }
             Error::Read { path, source } | Error::Write { path, source } => {
@@ -110,7 +109,8 @@ impl Mistake {
     }
 
     fn complaining(self, complaint: &Complaint) -> Self {
-        let told = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+        // A field may hold a megabyte of somebody's file.
+        let told = |text: &str| (!text.is_empty()).then(|| shortened(text, 400));
         Self {
             place: told(&complaint.field),
             found: told(&complaint.found),

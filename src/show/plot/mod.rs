@@ -49,6 +49,8 @@ pub mod bbcor;
 pub mod ledger;
 pub mod contact;
 pub mod hands;
+pub mod response;
+pub mod ringing;
 pub mod front;
 pub mod u_curve;
 pub mod matrix;

@@ -1,0 +1,114 @@
+//! A frequency response: size and phase over frequency, with its peaks.
+
+use faer::c64;
+
+use crate::motion::frf::Kind;
+use crate::motion::peaks::Peak;
+use crate::show::plot::axis::Axis;
+use crate::show::plot::picture::Picture;
+use crate::show::plot::place::along;
+use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::show::plot::series::{Series, hover, legend, short};
+use crate::show::plot::sheet::Sheet;
+use crate::show::plot::svg::{MARKS, Pen, Svg};
+use crate::show::plot::theme::SERIES;
+use crate::show::report::frf::{phase, unit};
+
+/// Heights of size and phase, and between them (px).
+const DIAGRAMS: [f64; 2] = [230.0, 110.0];
+const BETWEEN: f64 = 18.0;
+/// What is less than that share of the largest is not drawn: an antiresonance may be 0.
+const LEAST: f64 = 1e-8;
+/// Points of a curve in a picture.
+const DRAWN: usize = 4000;
+
+/// A response, and what it is of.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// What the bat is called.
+    pub bat: &'a str,
+    /// Deflection, velocity or acceleration.
+    pub kind: Kind,
+    /// Where the force is (m from the knob end).
+    pub at: f64,
+    /// Where the answer is watched (m from the knob end).
+    pub to: f64,
+    /// Rising frequencies (Hz) and the answer per force there, in SI.
+    pub values: &'a [(f64, c64)],
+    /// Its peaks.
+    pub peaks: &'a [Peak],
+}
+
+/// Size and phase against frequency; picture `response`. None without two frequencies.
+pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
+    let Subject { bat, kind, at, to, values, peaks } = *subject;
+    let (low, high) = (values.first()?.0, values.last()?.0);
+    if low >= high {
+        return None;
+    }
+    let sizes = || values.iter().map(|(_, value)| value.norm());
+    let most = sizes().filter(|size| size.is_finite()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let every = values.len().div_ceil(DRAWN);
+    let kept = || values.iter().step_by(every);
+    let points = kept().map(|(f, value)| Some([*f, value.norm()])).collect();
+    let size = Series::curve("computed", 0, points).pen(Pen::new(SERIES[0], 1.7));
+    let size = size.units("Hz", unit(kind));
+    let tops = peaks.iter().filter_map(|peak| Some(Some([peak.frequency, peak.height?])));
+    let tops = Series::curve("peaks", 1, tops.collect()).units("Hz", unit(kind));
+    let tops = Series { joined: false, mark: Some(MARKS[0]), ..tops };
+    let title = format!("{} over frequency", capital(kind.name()));
+    let [forced, watched] = [at, to].map(|x| along(sheet, x));
+    let facts = format!("force at {forced}, answer at {watched} from the knob end");
+    let mut svg = Svg::on(sheet);
+    head(&mut svg, &title, [bat, &facts]);
+    let named: Vec<&Series> = [&size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
+    let top = legend(&mut svg, &named) + 14.0;
+    let first = Frame::across(sheet, [top, top + DIAGRAMS[0]]);
+    let below = first.bottom + BETWEEN;
+    let second = Frame::across(sheet, [below, below + DIAGRAMS[1]]);
+    svg.height = second.bottom + NUMBERS + 4.0;
+    let x = Axis::new("frequency (Hz)", [low, high]);
+    let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
+    let y = Axis::logarithmic(&format!("{} ({})", kind.name(), unit(kind)), drawn);
+    let plane = Plane { frame: first, x: x.clone(), y };
+    plane.draw(&mut svg);
+    named.iter().for_each(|series| series.draw(&mut svg, &plane));
+    hover(&mut svg, &plane, &named);
+    let turn = Axis::new("phase (deg)", [-180.0, 180.0]);
+    let plane = Plane { frame: second, x, y: turn };
+    plane.draw(&mut svg);
+    let turns = unbroken(kept().map(|(f, value)| [*f, phase(value.re, value.im)]));
+    let turns = Series::curve("phase", 0, turns).pen(Pen::new(SERIES[0], 1.7)).units("Hz", "deg");
+    turns.draw(&mut svg, &plane);
+    hover(&mut svg, &plane, &[&turns]);
+    plane.below(&mut svg);
+    let told = peaks.iter().map(|peak| {
+        let height = peak.height.map_or("without bound".into(), short);
+        format!("mode {} at {} Hz, {height}", peak.mode, short(peak.frequency))
+    });
+    let told: Vec<String> = told.collect();
+    let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
+    let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
+    Some(Picture::new("response", &title, &alt, svg))
+}
+
+/// Points with a gap where the phase turns from one end to the other.
+fn unbroken(points: impl Iterator<Item = [f64; 2]>) -> Vec<Option<[f64; 2]>> {
+    let mut all: Vec<Option<[f64; 2]>> = vec![];
+    for point in points {
+        if all.last().copied().flatten().is_some_and(|last| (last[1] - point[1]).abs() > 180.0) {
+            all.push(None);
+        }
+        all.push(Some(point));
+    }
+    all
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
+}
