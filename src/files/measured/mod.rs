@@ -4,6 +4,7 @@ mod cells;
 pub mod table;
 pub mod direction;
 pub mod universal;
+pub mod response;
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Measured modes from a universal file: nodes (15, 2411) and shapes (55).
+//! Measured modes from a universal file: nodes (15, 2411) and shapes (55, 2414).
 //!
 //! The bat's axis is the direction in which the nodes are farthest apart, and a mode's deflection is
 //! its motion in the direction normal to the axis in which it moves most: a round bat bends in any.
@@ -213,7 +213,7 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
             0 => {
                 let unread = skipped(universal);
                 let unread = unread.map_or(String::new(), |list| format!("; {list} not read"));
-                (format!("no modes{unread}"), "shapes in datasets 55")
+                (format!("no modes{unread}"), "shapes in datasets 55 or 2414")
             }
             count => (
                 format!("{count} functions in datasets 58 and no shapes"),
