@@ -152,7 +152,10 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     if let Some(folder) = &args.plots {
         let values = samples.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
-        let mut values: Vec<_> = values.collect();
+        let laid_at = laid.iter().flat_map(|laid| {
+            laid.measured.iter().zip(&laid.computed).map(|((f, _), value)| (*f, *value))
+        });
+        let mut values: Vec<_> = values.chain(laid_at).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let subject = plot::response::Subject {
             bat: bat.name(),

@@ -15,7 +15,7 @@ use crate::show::plot::theme::SERIES;
 use crate::show::report::frf::{phase, unit};
 
 /// Heights of size and phase, and between them (px).
-const DIAGRAMS: [f64; 2] = [230.0, 110.0];
+const DIAGRAMS: [f64; 2] = [230.0, 150.0];
 const BETWEEN: f64 = 18.0;
 /// What is less than that share of the largest is not drawn: an antiresonance may be 0.
 const LEAST: f64 = 1e-8;

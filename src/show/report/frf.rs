@@ -214,7 +214,8 @@ fn differences(response: &MeasuredResponse, laid: &Laid) -> String {
         numbers(14, "measured, Hz"),
         numbers(10, "apart, %"),
         numbers(12, "higher, dB"),
-        numbers(22, "damping, %: computed"),
+        numbers(11, "damping, %"),
+        numbers(11, "measured"),
     ]);
     out += &columns.heads();
     let percent = |peak: &Peak| match peak.damping_ratio() {
@@ -232,14 +233,17 @@ fn differences(response: &MeasuredResponse, laid: &Laid) -> String {
             of(&|m| format!("{:.2}", m.frequency)),
             of(&apart),
             of(&higher),
-            format!("{}, measured {}", percent(computed), of(&percent)),
+            percent(computed),
+            of(&percent),
         ];
         out += &columns.row(cells);
     }
     let Laid { frac, level, apart, .. } = laid;
+    let side = if *level < 0.0 { "below" } else { "above" };
     let whole = format!(
-        "  FRAC {frac:.3}; on average the computed response is {level:+.1} dB above the measured \
-         one, and {apart:.1} dB from it"
+        "  FRAC {frac:.3}; on average the computed response is {:.1} dB {side} the measured one, and \
+         {apart:.1} dB from it",
+        level.abs()
     );
     out += &wrapped(&whole, 2);
     for assumed in &response.assumed {
