@@ -12,6 +12,7 @@ use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
+use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::RingFile;
 use crate::files::schema::trade::TradeFile;
@@ -29,7 +30,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<Case>(),
@@ -44,6 +45,7 @@ impl FileKind {
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),
+        Self::of::<ErrorFile>(),
         Self::of::<Data>(),
     ];
 

@@ -20,3 +20,4 @@ pub mod advice;
 pub mod comparison;
 pub mod comparison_data;
 pub mod measured;
+pub mod mistakes;
