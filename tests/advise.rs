@@ -372,7 +372,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
         }
     }
     for bat in ["dowel", "r161", "two_piece"] {
-        let table = folder.text(&["analyze", &mesh(bat), "--quiet"]);
+        let table = folder.text(&["analyze", &mesh(bat), "--quiet", "--full"]);
         let lines = table.lines().skip_while(|line| !line.starts_with("Advice: "));
         let short: Vec<_> = lines.take_while(|line| !line.is_empty()).collect();
         assert!((3..=9).contains(&short.len()), "{short:#?}");

@@ -12,7 +12,7 @@ use crate::files::schema::hit::HitFile;
 use crate::show::csv;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
-use crate::show::report::{hit_json, hit_text, sketch};
+use crate::show::report::{hit_json, hit_text, sketch, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::csv_option::CsvArgs;
@@ -154,7 +154,7 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     let units = args.output.units;
     let table = format!(
-        "{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
+        "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
         hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
         hit_text::meaning(model),
         hit_text::impacts(&bat, &sweep.impacts, units),
@@ -162,6 +162,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::sweet_spot(&bat, &figures.spot, units),
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),
+        trust::IN_ANALYZE,
         hit_text::figures(&figures, units),
         hit_text::moves(&bat, &figures, units),
     );

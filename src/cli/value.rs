@@ -48,6 +48,10 @@ pub const CANNON_SPEED: Use = Use::new(Quantity::Speed, [0.0, 70.0], &["mph", "k
 pub const SWING: Use = Use::new(Quantity::AngularSpeed, [0.0, 60.0], &["deg/s", "rpm"]);
 /// Stiffness of a ball or of a barrel's wall.
 pub const STIFFNESS: Use = Use::new(Quantity::Stiffness, [1e5, 1e12], &["lbf/in"]);
+/// How far a reading of a length may be off.
+pub const READING: Use = Use::new(Quantity::Length, [0.0, 0.01], &["mm", "in"]);
+/// How far a scale may be off.
+pub const SCALE: Use = Use::new(Quantity::Mass, [0.0, 0.1], &["g", "oz"]);
 /// Mass of a part of a bat.
 pub const PART_MASS: Use = Use::new(Quantity::Mass, [0.0, 1.5], &["oz", "g"]);
 /// Moment of inertia of a bat about its handle.
@@ -74,6 +78,12 @@ impl Use {
     pub fn has(&self, value: f64) -> bool {
         let [least, most] = self.plausible;
         (least..=most).contains(&value.abs())
+    }
+
+    /// The plausible values, for error messages.
+    pub fn range(&self) -> String {
+        let [least, most] = self.plausible;
+        format!("{least} to {most} {}", self.quantity.unit())
     }
 
     /// A value from the command line in SI, for an option's `value_parser`.
