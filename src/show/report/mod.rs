@@ -19,5 +19,6 @@ pub mod trade;
 pub mod advice;
 pub mod trust;
 pub mod comparison;
+pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
