@@ -170,7 +170,7 @@ pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
 
 /// What is open of the bat in hand, and what would settle it.
 pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
-    [bat_first(&analysis.spread)].into_iter().chain(settled_by(analysis, units)).collect()
+    [bat_first(&analysis.spread, units)].into_iter().chain(settled_by(analysis, units)).collect()
 }
 
 /// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open.
@@ -181,7 +181,7 @@ pub fn about(spread: &Spread, answer: Answer, units: Units) -> Option<String> {
 }
 
 /// What is open of the bat, and what that makes of its first frequency.
-fn bat_first(spread: &Spread) -> String {
+fn bat_first(spread: &Spread, units: Units) -> String {
     let mut told: Vec<String> = vec![];
     let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
     let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
@@ -193,12 +193,16 @@ fn bat_first(spread: &Spread) -> String {
     if !wood.is_empty() {
         told.push(format!("clear wood of one kind differs by {}", wood.join(" and ")));
     }
-    let millimetres = |source: &Source| format!("{} mm", significant(1e3 * source.deviation, 2));
+    let small = |si: (f64, &str), us: (f64, &str), value: f64| {
+        let (factor, unit) = if units == Units::Us { us } else { si };
+        format!("{} {unit}", significant(factor * value, 2))
+    };
+    let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
     let read = [
-        (Input::Diameters, "calipers are off by", &millimetres as &dyn Fn(&Source) -> String),
-        (Input::Length, "a rule by", &millimetres),
+        (Input::Diameters, "calipers are off by", &length as &dyn Fn(&Source) -> String),
+        (Input::Length, "a rule by", &length),
         (Input::Mass, "a scale by", &|source| {
-            format!("{} g", significant(1e3 * source.deviation, 2))
+            small((1e3, "g"), (ounces(1.0), "oz"), source.deviation)
         }),
         (Input::Tap, "a tapped note by", &share),
     ];
