@@ -22,3 +22,4 @@ pub mod comparison;
 pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
+pub mod mistakes;
