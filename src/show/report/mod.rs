@@ -9,6 +9,7 @@ pub mod resolved;
 pub mod damped;
 pub mod json;
 pub mod text;
+pub mod frf;
 pub mod sketch;
 pub mod hit_text;
 pub mod hit_json;
