@@ -63,7 +63,7 @@ impl Folder {
 /// How many mistakes an error for programs has, each with a sentence.
 fn counted(file: &Value) -> Option<usize> {
     let mistakes = file["mistakes"].as_array()?;
-    mistakes.iter().all(|one| one["message"].is_string()).then_some(mistakes.len())
+    mistakes.iter().all(|one| one["found"].is_string()).then_some(mistakes.len())
 }
 
 fn assert_none(faults: Vec<String>) {

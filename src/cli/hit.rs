@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use crate::base::error::{Error, Result};
 use crate::base::units::inches;
 use crate::bat::body::Bat;
-use crate::collision::columns;
 use crate::collision::figures::Figures;
 use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Sweep, Trial, sweep_telling};
@@ -16,7 +15,7 @@ use crate::show::plot::sets::Hits;
 use crate::show::report::{hit_json, hit_text, sketch, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
-use crate::cli::delivered::{one_on_stdout, put};
+use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
@@ -44,14 +43,13 @@ pub struct Args {
     #[command(flatten)]
     solve: SolveArgs,
 
-    /// Write a line for each impact to this CSV file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-
     /// Draw into this folder, as SVG and PNG: the bat, exit speed and energies along it (without
     /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    csv: CsvArgs,
 
     #[command(flatten)]
     output: OutputArgs,
@@ -126,7 +124,7 @@ impl PlaceArgs {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    one_on_stdout(&[("--json", &args.output.json), ("--csv", &args.csv)])?;
+    args.csv.refuse_two(&args.output.json)?;
     let bat = args.bat.read(&args.output)?;
     let model = args.scene.model()?;
     args.solve.refuse_budget("hit")?;
@@ -173,9 +171,9 @@ pub fn run(args: &Args) -> Result<Done> {
         ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
     };
     let code = verdict(&args.solve, &sweep, &args.output);
-    let table = args.output.deliver(table, document)?;
-    let rows = || Ok(csv::impacts(&columns::ALL, &sweep.impacts));
-    Ok(Done::new(put(&args.csv, table, rows)?, code).with(warning))
+    let text = args.output.deliver(table, document)?;
+    let text = args.csv.deliver(text, || csv::hits(&sweep.impacts))?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

@@ -5,25 +5,23 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | `done`, `style`, `diagnostic`, `mistakes` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
-//! | `delivered` | which results are files, and which one is standard output |
+//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
-//! | `common`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, pictures, the scene of a hit |
-//! | `ring_args`, `ring_hit`, `ring_motion` | what `ring` is asked; its answers after a hit and after all else |
-//! | `frf_grid` | at which frequencies `frf` answers |
+//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
+//! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
 mod done;
 mod style;
 mod diagnostic;
-mod mistakes;
 mod delivered;
 mod value;
 mod help;
 mod progress;
 mod stop;
 mod common;
+mod csv_option;
 mod bat_text;
 mod pictures;
 mod balls;

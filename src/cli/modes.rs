@@ -7,13 +7,14 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::beam::assembly::{Pencil, write_matrix_market};
 use crate::modes::solve::Solution;
+use crate::show::csv;
 use crate::show::exchange::npz;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
-use crate::show::report::{modes_csv, sketch, text, trust};
+use crate::show::report::{sketch, text, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
-use crate::cli::delivered::{one_on_stdout, put};
+use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::pictures;
 
@@ -41,10 +42,6 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     matrices: Option<PathBuf>,
 
-    /// Write a line for each mode to this CSV file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
     /// Draw the bat and its mode shapes into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
@@ -52,6 +49,9 @@ pub struct Args {
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long, help_heading = "Output")]
     reproducible: bool,
+
+    #[command(flatten)]
+    csv: CsvArgs,
 
     #[command(flatten)]
     output: OutputArgs,
@@ -69,7 +69,7 @@ Examples:
       the best that two milliseconds give";
 
 pub fn run(args: &Args) -> Result<Done> {
-    one_on_stdout(&[("--json", &args.output.json), ("--csv", &args.csv)])?;
+    args.csv.refuse_two(&args.output.json)?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     drop(progress);
@@ -93,8 +93,7 @@ pub fn run(args: &Args) -> Result<Done> {
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);
-    let table = args.output.deliver(table, document)?;
-    let text = put(&args.csv, table, || Ok(modes_csv::table(&solution)))?;
+    let text = args.csv.deliver(args.output.deliver(table, document)?, || csv::modes(&solution))?;
     Ok(Done::new(text, code).with(warning))
 }
 

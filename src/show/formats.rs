@@ -9,11 +9,11 @@ use crate::files::schema::bat::BatFile;
 use crate::files::schema::bbcor::BbcorFile;
 use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
-use crate::files::schema::error::ErrorFile;
 use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
+use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::RingFile;
 use crate::files::schema::trade::TradeFile;
@@ -47,8 +47,8 @@ impl FileKind {
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),
-        Self::of::<Data>(),
         Self::of::<ErrorFile>(),
+        Self::of::<Data>(),
     ];
 
     const fn of<D: Document>() -> Self {

@@ -1,5 +1,7 @@
 //! A document of every format that the program writes, and the commands that make them.
 
+use std::io::BufRead;
+
 use serde_json::Value;
 
 use super::folder::Folder;
@@ -20,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 15] = [
+pub const WRITTEN: [Written; 16] = [
     (
         "modes",
         "modes",
@@ -82,6 +84,12 @@ pub const WRITTEN: [Written; 15] = [
         "frf dowel.json --at 0.3 --to 0.1 --frequencies 100,200 -n 2 --tol 1e-8 --kind accelerance",
         Numbers::Sharp,
     ),
+    (
+        "frf-peaks",
+        "frf",
+        "frf lossy.json --at 0.3 --to 0.1 --from-hz 50 --to-hz 2000 --points 2 -n 3 --tol 1e-8",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -91,9 +99,8 @@ pub const WRITTEN: [Written; 15] = [
 const MEASURED: &str = "x_in,mode_1,mode_2\nfrequency_hz,178.2,583.0\ndamping_ratio,0.004,0.005\n\
     0,1.00,0.90\n3,0.55,0.12\n15,-0.5,0.3\n33,0.41,0.37\n";
 
-const MISTAKEN: &str = r#"{ "format": "sweetspot-bat/1", "material": "white-ahs",
-  "profile": { "x": [0, 1], "radius": [0.02, -1] } }
-"#;
+const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
+    "material": { "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9, "loss_factor": 0.02 } }"#;
 
 /// A folder with what the commands read.
 pub fn folder(test: &str) -> Folder {
@@ -103,7 +110,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("dowel.json", include_str!("../../meshes/dowel.json"));
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
-    folder.write("mistaken.json", MISTAKEN);
+    folder.write("lossy.json", LOSSY);
     folder
 }
 
@@ -113,13 +120,17 @@ pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
     folder.json(&args)
 }
 
-/// What is said of a bat file with two mistakes, `sweetspot-error/1`.
+/// What is wrong with a bat, `sweetspot-error/1`: the last line on standard error.
 pub fn error(folder: &Folder) -> Value {
-    let output = folder.run(&["modes", "mistaken.json", "--json", "-"]);
-    assert_eq!(output.status.code(), Some(2));
-    let told = String::from_utf8(output.stderr).unwrap();
-    serde_json::from_str(told.lines().last().unwrap()).unwrap()
+    folder.write("wrong.json", WRONG);
+    let output = folder.run(&["modes", "wrong.json", "--json", "-"]);
+    assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{output:?}");
+    serde_json::from_slice(output.stderr.lines().last().unwrap().unwrap().as_bytes()).unwrap()
 }
+
+const WRONG: &str = r#"{ "format": "sweetspot-bat/1",
+  "profile": { "unit": "in", "x": [0, 33], "diameter": [1.0, "2 lb"] },
+  "material": { "density": -5, "youngs_modulos": 14e9 } }"#;
 
 /// The data of a report, `sweetspot-page/1`.
 pub fn page(folder: &Folder) -> Value {

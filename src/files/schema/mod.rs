@@ -12,7 +12,6 @@
 
 pub mod amount;
 pub mod document;
-pub mod error;
 pub mod resolved;
 pub mod part;
 pub mod bat;
@@ -29,6 +28,7 @@ pub mod frf;
 pub mod advice;
 pub mod u_curve;
 pub mod trade;
+pub mod mistakes;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

@@ -1,0 +1,26 @@
+//! `--csv`: the answer as a table for other programs, in a file or in place of the text.
+
+use std::path::PathBuf;
+
+use crate::base::error::Result;
+
+use crate::cli::delivered::{one_on_stdout, put};
+
+#[derive(clap::Args)]
+pub struct CsvArgs {
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+}
+
+impl CsvArgs {
+    /// Refuses CSV where JSON goes to standard output already.
+    pub fn refuse_two(&self, json: &Option<PathBuf>) -> Result<()> {
+        one_on_stdout(&[("--json", json), ("--csv", &self.csv)])
+    }
+
+    /// Writes the table where it was asked for; what goes to standard output then.
+    pub fn deliver(&self, text: String, table: impl FnOnce() -> String) -> Result<String> {
+        put(&self.csv, text, || Ok(table()))
+    }
+}
