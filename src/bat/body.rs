@@ -3,11 +3,14 @@
 //! [`Bat::builder`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
 //! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::base::quadrature::{RunningSum, converged, gauss};
+use crate::bat::edit::Edit;
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
@@ -30,6 +33,9 @@ pub struct Bat {
     fixtures: Fixtures,
     weighed: Weighed,
     factors: [f64; 2],
+    edits: Vec<Edit>,
+    /// The bat before its edits, where it has any.
+    unedited: Option<Arc<Bat>>,
 }
 
 /// What a bat is made of, before it is one.
@@ -160,22 +166,51 @@ impl Bat {
     }
 
     /// The same bat with something changed. What was weighed stays as it led to densities and moduli: it
-    /// was said of the bat before the change, and is not asked again.
+    /// was said of the bat before the change, and is not asked again. Its edits stay on its list.
     ///
     /// # Errors
     ///
     /// As [`Builder::build`].
-    pub fn with(&self, edit: impl FnOnce(&mut Parts)) -> Result<Self> {
-        let mut parts = Parts {
+    pub fn with(&self, change: impl FnOnce(&mut Parts)) -> Result<Self> {
+        let mut parts = self.parts();
+        change(&mut parts);
+        let bat = Self::of(parts, self.weighed, self.factors)?;
+        Ok(Self { edits: self.edits.clone(), unedited: self.unedited.clone(), ..bat })
+    }
+
+    fn parts(&self) -> Parts {
+        Parts {
             name: self.name.clone(),
             source: self.source.clone(),
             inches: self.inches,
             profile: self.profile.clone(),
             material: self.material().clone(),
             fixtures: self.fixtures.clone(),
-        };
-        edit(&mut parts);
-        Self::of(parts, self.weighed, self.factors)
+        }
+    }
+
+    /// The bat with these parts, which one more edit has made of its own.
+    pub(crate) fn after(
+        &self,
+        edit: &Edit,
+        change: impl FnOnce(&mut Parts) -> Result<()>,
+    ) -> Result<Self> {
+        let mut parts = self.parts();
+        change(&mut parts)?;
+        let bat = Self::of(parts, self.weighed, self.factors)?;
+        let edits = self.edits.iter().chain([edit]).cloned().collect();
+        let unedited = self.unedited.clone().unwrap_or_else(|| Arc::new(self.clone()));
+        Ok(Self { edits, unedited: Some(unedited), ..bat })
+    }
+
+    /// What was changed after it was weighed, in the order in which it was done.
+    pub fn edits(&self) -> &[Edit] {
+        &self.edits
+    }
+
+    /// The bat as it was weighed, before its edits; the bat itself where it has none.
+    pub fn unedited(&self) -> &Self {
+        self.unedited.as_deref().unwrap_or(self)
     }
 
     fn of(parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
@@ -183,7 +218,19 @@ impl Bat {
         let layups = vec![Layup::of(material)];
         fixtures.check(profile.length())?;
         fixtures.settle(&profile.borders());
-        let mut bat = Self { name, source, inches, profile, layups, fixtures, weighed, factors };
+        let (edits, unedited) = (vec![], None);
+        let mut bat = Self {
+            name,
+            source,
+            inches,
+            profile,
+            layups,
+            fixtures,
+            weighed,
+            factors,
+            edits,
+            unedited,
+        };
         bat.lay_out();
         bat.check_range()?;
         Ok(bat)
@@ -315,8 +362,16 @@ impl Bat {
     pub fn without_shear(&self) -> String {
         let regions = self.fixtures.regions.iter().enumerate();
         let parts = regions.flat_map(|(k, region)| {
-            let names = ["material", "core"].map(|part| format!("regions[{k}].{part}"));
-            names.into_iter().zip(region.layup.materials())
+            // An edit makes regions of its own, which no file knows.
+            let name = |part: &str| match self.edits.is_empty() {
+                true => format!("regions[{k}].{part}"),
+                false => format!("a {part} of regions or edits"),
+            };
+            let Layup { outer, core, sleeves, .. } = &region.layup;
+            let core = core.as_ref().map(|core| (name("core"), core));
+            let sleeves = sleeves.iter().map(|(sleeve, _)| (name("sleeve"), sleeve));
+            let wall = std::iter::once((name("material"), outer));
+            wall.chain(core).chain(sleeves).collect::<Vec<_>>()
         });
         let unknown = |material: &Material| material.shear_modulus.is_none();
         let region = parts.filter(|(_, material)| unknown(material)).map(|(name, _)| name).next();

@@ -8,6 +8,7 @@
 //! solved side by side.
 
 use crate::bat::body::Bat;
+use crate::bat::layup::Layup;
 use crate::bat::material::Material;
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
@@ -104,7 +105,9 @@ pub fn with_typical_shear(bat: &Bat) -> Bat {
     let with = bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();
         let layups = regions.flat_map(|region| {
-            std::iter::once(&mut region.layup.outer).chain(&mut region.layup.core)
+            let Layup { outer, core, sleeves, .. } = &mut region.layup;
+            let sleeves = sleeves.iter_mut().map(|(sleeve, _)| sleeve);
+            std::iter::once(outer).chain(core).chain(sleeves)
         });
         for material in std::iter::once(&mut parts.material).chain(layups) {
             let typical = typical_shear(material) * material.youngs_modulus;

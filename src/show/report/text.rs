@@ -92,7 +92,7 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     line("balance point, from knob", units.length(inertia.balance_point));
     line("balance point, from tip", units.length(length - inertia.balance_point));
     if let Some(weighed) = bat.weighed().balance_point {
-        line("  less the weighed one", units.length(inertia.balance_point - weighed));
+        line("  less the weighed one", units.length(bat.unedited().inertia().balance_point - weighed));
     }
     line("inertia about balance point", units.inertia(inertia.about_balance));
     line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
