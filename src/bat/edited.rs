@@ -11,7 +11,7 @@ use crate::bat::layup::Layup;
 use crate::bat::material::Material;
 use crate::bat::part::{Part as _, shown};
 use crate::bat::profile::SAME_PLACE;
-use crate::bat::rework::Blended;
+use crate::bat::rework::{Blended, place};
 
 impl Bat {
     /// The bat after these edits, one after the other, and after those it has already. Places count from
@@ -121,7 +121,7 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
         Change::Cup(cup) => {
             cup.check(path, length)?;
             if cup.depth >= length {
-                let expected = format!("less than the bat's length, {length} m");
+                let expected = format!("less than the bat's length, {}", place(length));
                 return Err(Error::value("depth", shown(cup.depth, "m"), expected));
             }
             check_unfilled(bat, [length - cup.depth, length])?;
@@ -149,7 +149,7 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
             match off < length * (1.0 - SAME_PLACE) && off > 0.0 {
                 true => Ok(()),
                 false => {
-                    let expected = format!("less than the bat's length, {length} m");
+                    let expected = format!("less than the bat's length, {}", place(length));
                     Err(Error::value("", format!("{} sawn off", shown(off, "m")), expected))
                 }
             }
@@ -163,7 +163,7 @@ fn check_blend(on: Blended) -> Result<()> {
     let half = 0.5 * (on.to - on.from);
     match on.blend {
         Some(blend) if blend > half * (1.0 + SAME_PLACE) => {
-            let expected = format!("{} at most, half of the stretch", shown(half, "m"));
+            let expected = format!("{} at most, half of the stretch", place(half));
             Err(Error::value("blend", shown(blend, "m"), expected))
         }
         _ => Ok(()),

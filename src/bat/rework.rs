@@ -271,8 +271,8 @@ fn across(radius: f64) -> String {
     format!("{:.2} mm ({:.3} in)", 1e3 * diameter, units::inches(diameter))
 }
 
-/// A place to be said (m).
-fn place(x: f64) -> String {
+/// A place or a length to be said (m).
+pub(crate) fn place(x: f64) -> String {
     format!("{x:.4} m ({:.2} in)", units::inches(x))
 }
 

@@ -8,6 +8,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
+use crate::show::report::edits;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::damped;
 use crate::study::ignored::ignored;
@@ -83,7 +84,7 @@ impl Units {
 pub fn summary(bat: &Bat, units: Units) -> String {
     let inertia = bat.inertia();
     let length = bat.length();
-    let mut out = format!("{}\n", bat.name());
+    let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
     let mut line = |what: &str, value: String| {
         let _ = writeln!(out, "  {what:<34} {value}");
     };
@@ -101,6 +102,15 @@ pub fn summary(bat: &Bat, units: Units) -> String {
         line("centre of percussion, from tip", units.length(length - center));
     }
     out
+}
+
+/// A line about the edits of a bat, in the unit of its file where both systems are shown; nothing for
+/// a bat that has none.
+pub fn edited(bat: &Bat, units: Units) -> String {
+    match edits::listed(bat, units == Units::Us || units == Units::Both && bat.inches()) {
+        list if list.is_empty() => list,
+        list => wrapped(&format!("  edited: {list}"), 4),
+    }
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long.
