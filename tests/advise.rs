@@ -372,7 +372,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
         }
     }
     for bat in ["dowel", "r161", "two_piece"] {
-        let table = folder.text(&["analyze", &mesh(bat), "--quiet"]);
+        let table = folder.text(&["analyze", &mesh(bat), "--quiet", "--full"]);
         let lines = table.lines().skip_while(|line| !line.starts_with("Advice: "));
         let short: Vec<_> = lines.take_while(|line| !line.is_empty()).collect();
         assert!((3..=9).contains(&short.len()), "{short:#?}");
@@ -400,4 +400,15 @@ fn what_cannot_be_asked_is_an_error() {
     for (modes, tolerance) in [(0, 0.1), (101, 0.1), (5, 0.0), (5, 1.0), (5, f64::NAN), (5, -1.0)] {
         assert!(advise(&bat, modes, tolerance).is_err(), "{modes} {tolerance}");
     }
+}
+
+#[test]
+fn a_bat_that_cannot_stand_without_a_part_says_without_which() {
+    let springs = json!([{ "x": 0.2, "stiffness": 1e6 }, { "x": 0.6, "stiffness": 1e-12 }]);
+    let held = json!({ "attachments": springs, "supports": [{ "x": 0, "type": "pinned" }] });
+    let bat = dowel("timo_dowel", held);
+    assert!(solve(&bat, &Request::default()).is_ok());
+    let said = advise(&bat, 3, 1e-3).unwrap_err().to_string();
+    assert!(said.contains("hold the bat against turning"), "{said}");
+    assert!(said.ends_with("that is the bat without supports"), "{said}");
 }

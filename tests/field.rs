@@ -186,7 +186,7 @@ fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
     let flat = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let commands: [&[&str]; 5] = [
         &["hit", "tube.json", "--points", "3"],
-        &["analyze", "tube.json", "--report", "tube.html"],
+        &["analyze", "tube.json", "--full", "--report", "tube.html"],
         &["bbcor", "tube.json"],
         &["compare", "tube.json", "tube.json"],
         &["ring", "tube.json", "--hit", "0.7"],

@@ -19,6 +19,8 @@ fn goes_to_other_threads<T: Send + Sync>() {}
 
 #[test]
 fn results_are_printed_written_and_shared() {
+    is_a_result::<sweetspot::study::spread::Spread>();
+    is_a_result::<sweetspot::study::spread::Readings>();
     is_a_result::<Inertia>();
     is_a_result::<Solution>();
     is_a_result::<Mode>();

@@ -40,6 +40,7 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
         let name = read.name();
         for args in [
             &["analyze", bat][..],
+            &["analyze", bat, "--full"],
             &["modes", bat, "-n", "25"],
             &["hit", bat, "--points", "3", "--reference-inertia", "10000 oz in2"],
             &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
@@ -54,7 +55,9 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
     }
     let bat = mesh("r161");
     for units in ["si", "us", "both"] {
-        for args in [&["analyze", &bat][..], &["hit", &bat, "--points", "5"], &["materials"]] {
+        for args in
+            [&["analyze", &bat, "--full"][..], &["hit", &bat, "--points", "5"], &["materials"]]
+        {
             let args = [args, &["--units", units]].concat();
             faults.extend(table_faults(&folder, &args, "Louisville"));
         }

@@ -8,7 +8,8 @@
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, `threads` | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
-//! | [`units`], [`number`] | what is a number with a unit in SI; how is a number written |
+//! | [`typed`], [`units`] | which numbers and units were typed; what is a number with a unit in SI |
+//! | [`number`] | how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
 //! | [`linear`], [`golden`] | products of vectors, two equations; the golden section |
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
@@ -21,6 +22,8 @@ pub(crate) mod clock;
 pub(crate) mod threads;
 #[doc(hidden)]
 pub mod file;
+#[doc(hidden)]
+pub mod typed;
 pub mod units;
 #[doc(hidden)]
 pub mod number;

@@ -20,6 +20,7 @@
 //! g₀ = 9.806 65 m/s². All other factors follow from these.
 
 use crate::base::error::{Complaint, nearest};
+use crate::base::typed::{mixed, number, plain, readings, split, terms};
 
 const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
@@ -306,14 +307,6 @@ pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     number(text).map_or_else(|| parse(text, quantity), Ok)
 }
 
-/// The value of a text that is a finite number alone, such as `33.5` or `33,5`; None for anything else,
-/// also for `1,234`, which may be read in two ways.
-pub fn number(text: &str) -> Option<f64> {
-    let text = text.trim();
-    let value = if readings(text).is_some() { None } else { decimal(text) };
-    value.filter(|value| value.is_finite()).map(|value| value + 0.0)
-}
-
 /// The factor to SI of a unit on its own, such as `"in"` or `"lb/in^3"`.
 ///
 /// # Errors
@@ -362,120 +355,6 @@ fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static st
         ) if of_mass => "lb is a mass here: write lbf",
         _ => "",
     }
-}
-
-/// A text as it is parsed: quotes and primes as `in` and `ft`, printed fractions and signs as typed ones.
-fn plain(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut letters = text.trim().chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' | '″' | '”' | '“' | '„' => out += " in ",
-            // Two of them, typed one after the other, are inches.
-            '\'' | '′' | '’' | '‘' => match letters.next_if(|next| *next == letter) {
-                Some(_) => out += " in ",
-                None => out += " ft ",
-            },
-            '¼' => out += " 1/4",
-            '½' => out += " 1/2",
-            '¾' => out += " 3/4",
-            '⅛' => out += " 1/8",
-            '⅜' => out += " 3/8",
-            '⅝' => out += " 5/8",
-            '⅞' => out += " 7/8",
-            '⁄' => out.push('/'),
-            '−' | '–' => out.push('-'),
-            '\u{a0}' | '\u{2009}' | '\u{202f}' => out.push(' '),
-            other => out.push(other),
-        }
-    }
-    out.trim().to_owned()
-}
-
-/// Numbers and their units, one after the other: `5 ft 2 in` has two.
-fn terms(mut text: &str) -> Vec<(&str, &str)> {
-    let mut all = vec![];
-    loop {
-        let (number, rest) = split(text);
-        let begins = |(i, blank): (usize, &str)| {
-            let next = rest[i + blank.len()..].bytes().next();
-            (i > 0 && next.is_some_and(|byte| byte.is_ascii_digit())).then_some(i)
-        };
-        let Some(end) = rest.match_indices(' ').find_map(begins) else {
-            all.push((number, rest));
-            return all;
-        };
-        all.push((number, rest[..end].trim_end()));
-        text = rest[end..].trim_start();
-    }
-}
-
-/// The value of a number that [`split`] has found: `2.5`, `5/8`, `2 5/8` or `2-5/8`.
-fn mixed(number: &str) -> Option<f64> {
-    let Some((above, below)) = number.split_once('/') else { return decimal(number) };
-    let joint = above.rfind([' ', '-']).filter(|i| *i > 0);
-    let (whole, above) = joint.map_or(("0", above), |i| (&above[..i], &above[i + 1..]));
-    let [whole, above, below] = [whole.trim_end(), above, below].map(decimal);
-    let (whole, above, below) = (whole?, above?, below?);
-    // No rule shows "2.5 5/8", and what "-2 1/8" means is anybody's guess.
-    (whole.fract() == 0.0 && whole >= 0.0).then_some(whole + above / below)
-}
-
-/// The value of a number with a decimal point or comma, or with commas between thousands.
-fn decimal(number: &str) -> Option<f64> {
-    match in_thousands(number) {
-        true => number.replace(',', "").parse().ok(),
-        false => number.replacen(',', ".", 1).parse().ok(),
-    }
-}
-
-/// Whether its commas can be between thousands, as in `1,234` and `1,234,567.8`.
-fn in_thousands(number: &str) -> bool {
-    let whole = number.split(['.', 'e', 'E']).next().unwrap_or_default();
-    let mut groups = whole.trim_start_matches(['+', '-']).split(',');
-    let first = groups.next().unwrap_or_default();
-    let begins = (1..=3).contains(&first.len()) && !first.starts_with('0');
-    begins && groups.all(|group| group.len() == 3)
-}
-
-/// Both readings of a number whose one comma is a decimal one or between thousands.
-fn readings(number: &str) -> Option<[String; 2]> {
-    let two = in_thousands(number) && number.matches(',').count() == 1 && !number.contains('.');
-    two.then(|| [".", ""].map(|comma| number.replace(',', comma)))
-}
-
-/// Splits a number from the unit after it.
-fn split(text: &str) -> (&str, &str) {
-    let bytes = text.as_bytes();
-    let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
-    let digits = |mut i: usize| {
-        while digit(i)
-            || bytes.get(i) == Some(&b'.')
-            || (bytes.get(i) == Some(&b',') && digit(i + 1))
-        {
-            i += 1;
-        }
-        i
-    };
-    let blanks = |i: usize| i + text[i..].bytes().take_while(|byte| *byte == b' ').count();
-    let sign = |i: usize| i + usize::from(matches!(bytes.get(i), Some(b'+' | b'-')));
-    let mut end = digits(sign(0));
-    if matches!(bytes.get(end), Some(b'e' | b'E')) {
-        let exponent = digits(sign(end + 1));
-        if exponent > sign(end + 1) {
-            end = exponent;
-        }
-    }
-    // The fraction of an inch rule, after whole inches or on its own.
-    let above = match bytes.get(end) {
-        Some(b'/') => end,
-        Some(b'-') => digits(end + 1),
-        _ => digits(blanks(end)),
-    };
-    if bytes.get(above) == Some(&b'/') && digits(above + 1) > above + 1 {
-        end = digits(above + 1);
-    }
-    (&text[..end], text[end..].trim())
 }
 
 /// The unrecognised unit and a suggested one.

@@ -221,7 +221,7 @@ impl Fixtures {
     }
 
     /// Every place that is given (m), in no order.
-    fn places(&mut self) -> impl Iterator<Item = &mut f64> {
+    pub(crate) fn places(&mut self) -> impl Iterator<Item = &mut f64> {
         let regions = self.regions.iter_mut().flat_map(|region| [&mut region.from, &mut region.to]);
         let tapes = self.tapes.iter_mut().flat_map(|tape| [&mut tape.from, &mut tape.to]);
         let grip = self.grip.iter_mut().flat_map(|grip| [&mut grip.from, &mut grip.to]);

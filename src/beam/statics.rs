@@ -35,7 +35,8 @@ use crate::beam::rule::Rule;
 use crate::beam::sections;
 use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
 
-/// Sums over more elements than this carry their rounding errors along.
+/// Sums over more elements than this carry their rounding errors along; up to here they round to at most
+/// `200 ε = 4e-14`, below every error that is stated, and the example `tuning_round_off` prints what they do.
 const LONG: usize = 200;
 
 /// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2`

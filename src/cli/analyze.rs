@@ -6,9 +6,10 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::collision::columns;
 use crate::files::schema;
+use crate::files::schema::analysis::AnalysisFile;
+use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::modes::ModesFile;
-use crate::files::schema::ring::Strength;
 use crate::modes::solve::Request;
 use crate::show::analysis::{Analysis, Proof, Task};
 use crate::show::csv;
@@ -19,8 +20,8 @@ use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::sketch::{self, SketchRow};
 use crate::show::report::text;
-use crate::show::report::{advice, aftermath, hit_json, hit_text};
-use serde::Serialize;
+use crate::show::report::{advice, aftermath, hit_json, hit_text, trust};
+use crate::study::spread::Readings;
 
 use crate::cli::common::{
     BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed,
@@ -29,15 +30,19 @@ use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
+use crate::cli::value::{READING, SCALE, Use};
 
-/// Everything about a bat on one screen
+/// A bat on one screen
 ///
-/// What is this bat like, how does it ring, where is its sweet spot? In this order: the bat as a
-/// body (mass, balance point, swing weight); a sketch with the nodes of its modes and the zone of
-/// the best exit speeds; its frequencies, how far they may be off and what the model left out; the
-/// solver's proof on a dowel whose frequencies are known exactly; what this bat's model needs;
-/// then the hit: exit speeds along the barrel, the sweet spot by every definition, why it is there,
-/// and the figures by which bats are compared.
+/// Where is its sweet spot, how fast does the ball leave there, how wide is the zone, what does the
+/// bat weigh in the swing, how does it ring? Beside every answer stands how far that of the bat in
+/// hand may be from it, and what does most of that: the wood, which differs from piece to piece, or
+/// what it was measured with. Then what would settle it, and what the computation adds.
+///
+/// With --full also: a sketch with the nodes of the modes and the zone of the best exit speeds; ten
+/// modes, how far they may be off and what the model left out; the solver's proof on a dowel whose
+/// frequencies are known exactly; what this bat's model needs; exit speeds along the barrel, the
+/// sweet spot by every definition, why it is there, and the figures by which bats are compared.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -49,6 +54,26 @@ pub struct Args {
 
     #[command(flatten)]
     scene: SceneArgs,
+
+    /// How far the calipers may be off, one standard deviation
+    #[arg(long, value_name = "m", default_value = "0.1 mm", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&READING, s))]
+    calipers: f64,
+
+    /// How far the rule may be off, one standard deviation
+    #[arg(long, value_name = "m", default_value = "1 mm", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&READING, s))]
+    rule: f64,
+
+    /// How far the scale may be off, one standard deviation; for a bat that was weighed
+    #[arg(long, value_name = "kg", default_value = "1 g", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&SCALE, s))]
+    scale: f64,
+
+    /// Everything, on several screens: a sketch, ten modes, the hits along the barrel, what the model
+    /// needs, figures
+    #[arg(long, help_heading = "Output")]
+    full: bool,
 
     /// Write modes.json, hit.json and curve.csv into this folder
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -76,6 +101,9 @@ Examples:
   sweetspot analyze r161
       a wooden bat of the major leagues, with an average swing at a 90 mph pitch
 
+  sweetspot analyze r161 --full
+      and everything else there is to say
+
   sweetspot analyze r161 --report r161.html
       and a report as a page of its own, to look at, to print and to send
 
@@ -84,14 +112,6 @@ Examples:
 
   sweetspot analyze r161 --out r161 --plots r161
       and modes.json, hit.json, curve.csv and pictures in the folder r161";
-
-/// Both documents and the strength, which have no format of their own together.
-#[derive(Serialize)]
-struct AnalysisFile {
-    modes: ModesFile,
-    hit: HitFile,
-    strength: Vec<Strength>,
-}
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
@@ -107,7 +127,13 @@ pub fn run(args: &Args) -> Result<Done> {
     let modes = args.solve.modes_within(10, bat.profile().pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));
-    let task = Task { model, scene, law, hits, proof };
+    let readings = Readings {
+        diameter: args.calipers,
+        length: args.rule,
+        mass: args.scale,
+        ..Readings::default()
+    };
+    let task = Task { model, scene, law, hits, proof, readings };
     let tell = |share: f64, what: &str| progress.say(share, what);
     let analysis = Analysis::telling(bat, solution, task, &tell)?;
     drop(progress);
@@ -127,15 +153,34 @@ pub fn run(args: &Args) -> Result<Done> {
         page::file::write(path, &report)?;
     }
     let all = || AnalysisFile {
+        format: Format::new(),
+        generator: Generator::this(),
         modes: modes_file(args, &analysis),
         hit: hit_file(&analysis),
         strength: aftermath::strengths_file(&analysis.strength),
+        open: trust::open(&analysis.spread),
     };
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
-    let table = table(&analysis, &args.output) + &written(args);
+    let table = match args.full {
+        true => table(&analysis, &args.output),
+        false => trust::screen(&analysis, args.output.units) + MORE,
+    };
+    let table = table + &written(args);
     let text = args.output.deliver(table, all)?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// What a short answer ends with.
+const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html\n";
+
+/// How far a reading may be off.
+fn reading(of: &Use, text: &str) -> std::result::Result<f64, String> {
+    let value = of.read(text)?;
+    match value >= 0.0 && of.has(value) {
+        true => Ok(value),
+        false => Err(format!("found {text}, expected {}", of.range())),
+    }
 }
 
 /// What was written for people to look at, and where.
@@ -162,16 +207,17 @@ fn rows(analysis: &Analysis) -> Vec<SketchRow> {
     rows
 }
 
-/// Everything on one screen.
+/// Everything, on several screens.
 fn table(analysis: &Analysis, output: &OutputArgs) -> String {
     let units = output.units;
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     format!(
-        "{}\n{}\n{}\n{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
+        "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
         text::summary(bat, units),
         output.sketch(bat, &rows(analysis)),
         text::modes(bat, solution, 3, units),
+        trust::text(analysis, units),
         text::model(bat, solution),
         proof(analysis),
         advice(analysis),

@@ -1,6 +1,7 @@
 //! What a person with a bat, a ruler, calipers and a scale answers.
 
 use crate::base::error::Complaint;
+use crate::base::typed;
 use crate::base::units::{self, Quantity, inches};
 use crate::bat::material::{BUILT_IN, BuiltIn};
 
@@ -84,7 +85,7 @@ pub fn put(
 /// 1,5 may mean one and a half.
 fn apart(text: &str, one_would_do: bool) -> Option<(&str, &str)> {
     let comma = if one_would_do && !text.contains('.') { ", " } else { "," };
-    let number = |text: &str| units::number(text).is_some();
+    let number = |text: &str| typed::number(text).is_some();
     let blank = || text.split_once(' ').map(|(x, diameter)| (x, diameter.trim()));
     text.split_once(comma).or_else(|| blank().filter(|(x, d)| number(x) && number(d)))
 }
@@ -114,7 +115,7 @@ fn in_metres(value: f64, unit: &str) -> f64 {
 /// A length in the ruler's unit: a bare number is in it, others are converted.
 pub fn measured(text: &str, unit: &str) -> Read<f64> {
     let text = text.trim();
-    match units::number(text) {
+    match typed::number(text) {
         Some(value) => Ok(value),
         None => {
             let bare = || units::parse(&format!("{text} {unit}"), Quantity::Length);
@@ -208,7 +209,7 @@ pub fn tape(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
 
 /// A mass with its unit, as it was written.
 pub fn weighed(text: &str) -> Read<String> {
-    let kilograms = match units::number(text) {
+    let kilograms = match typed::number(text) {
         Some(_) => {
             let expected = format!("its unit, too, such as \"{text} oz\" or \"{text} g\"");
             return Err(Complaint::new("", text, expected));

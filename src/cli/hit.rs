@@ -11,7 +11,7 @@ use crate::collision::sweep::{Sweep, Trial, sweep_telling};
 use crate::files::schema::hit::HitFile;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
-use crate::show::report::{hit_json, hit_text, sketch};
+use crate::show::report::{hit_json, hit_text, sketch, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::{Done, NOT_REACHED};
@@ -148,7 +148,7 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     let units = args.output.units;
     let table = format!(
-        "{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
+        "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
         hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
         hit_text::meaning(model),
         hit_text::impacts(&bat, &sweep.impacts, units),
@@ -156,6 +156,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::sweet_spot(&bat, &figures.spot, units),
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),
+        trust::IN_ANALYZE,
         hit_text::figures(&figures, units),
         hit_text::moves(&bat, &figures, units),
     );

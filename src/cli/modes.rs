@@ -10,7 +10,7 @@ use crate::modes::solve::Solution;
 use crate::show::exchange::npz;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
-use crate::show::report::{sketch, text};
+use crate::show::report::{sketch, text, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 use crate::cli::done::Done;
@@ -78,11 +78,12 @@ pub fn run(args: &Args) -> Result<Done> {
         )?;
     }
     let table = format!(
-        "{}\n{}\n{}\n{}",
+        "{}\n{}\n{}\n{}{}",
         text::summary(&bat, args.output.units),
         args.output.sketch(&bat, &sketch::of_modes(&bat, &solution)),
         text::modes(&bat, &solution, solution.modes.len(), args.output.units),
-        text::model(&bat, &solution)
+        text::model(&bat, &solution),
+        trust::of_wood(&bat)
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);

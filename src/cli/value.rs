@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use crate::base::error::Complaint;
 use crate::base::number::significant;
+use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::theory::Theory;
 use crate::modes::solve::Solver;
@@ -49,6 +50,10 @@ pub const CANNON_SPEED: Use = Use::new(Quantity::Speed, [0.0, 70.0], &["mph", "k
 pub const SWING: Use = Use::new(Quantity::AngularSpeed, [0.0, 60.0], &["deg/s", "rpm"]);
 /// Stiffness of a ball or of a barrel's wall.
 pub const STIFFNESS: Use = Use::new(Quantity::Stiffness, [1e5, 1e12], &["lbf/in"]);
+/// How far a reading of a length may be off.
+pub const READING: Use = Use::new(Quantity::Length, [0.0, 0.01], &["mm", "in"]);
+/// How far a scale may be off.
+pub const SCALE: Use = Use::new(Quantity::Mass, [0.0, 0.1], &["g", "oz"]);
 /// Mass of a part of a bat.
 pub const PART_MASS: Use = Use::new(Quantity::Mass, [0.0, 1.5], &["oz", "g"]);
 /// Moment of inertia of a bat about its handle.
@@ -77,6 +82,12 @@ impl Use {
         (least..=most).contains(&value.abs())
     }
 
+    /// The plausible values, for error messages.
+    pub fn range(&self) -> String {
+        let [least, most] = self.plausible;
+        format!("{least} to {most} {}", self.quantity.unit())
+    }
+
     /// A value from the command line in SI, for an option's `value_parser`.
     pub fn read(&self, text: &str) -> std::result::Result<f64, String> {
         self.sensible(text, self.quantity.si().0)
@@ -91,7 +102,7 @@ impl Use {
     ///
     /// Both readings, and how each is written.
     pub fn sensible(&self, text: &str, bare: &str) -> std::result::Result<(), Complaint> {
-        let Some(number) = units::number(text) else { return Ok(()) };
+        let Some(number) = typed::number(text) else { return Ok(()) };
         let in_si = |unit: &str| units::factor(unit, self.quantity).map(|factor| number * factor);
         let plausible = |unit: &str| in_si(unit).is_ok_and(|value| self.has(value));
         let meant = self.trade.iter().find(|unit| plausible(unit));
@@ -113,7 +124,7 @@ impl Use {
 pub fn swing_speed(text: &str) -> std::result::Result<f64, String> {
     let speed = text.trim();
     let answer = format!("for the speed of a point of the barrel write --bat-speed \"{speed}");
-    match (units::number(text), units::parse(text, Quantity::Speed)) {
+    match (typed::number(text), units::parse(text, Quantity::Speed)) {
         (Some(number), _) if !SWING.has(number) && PLAY_SPEED.has(number * 0.447_04) => {
             Err(format!("found {speed}; {answer} mph\", for an angular speed \"{speed} rad/s\""))
         }

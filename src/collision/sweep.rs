@@ -182,14 +182,15 @@ const MOST: usize = 120;
 /// Steps are not made better than this.
 const FINEST: f64 = 1e-12;
 /// Two rounds that leave more than this share of the error show that the answer is not defined
-/// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it.
+/// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it. The
+/// example `tuning_settling` prints what rounds leave, by the ball's restitution.
 const IDLE: f64 = 0.8;
 const IDLE_DEAD: f64 = 0.3;
 const DEAD: f64 = 0.05;
 /// The modes' own tolerance as a share of the tolerance of the exit speed. By the example `tuning_modes`
 /// modes to 1e-5 move it by less than 1e-8: the share is for the bound, which is far above.
 const MODES: f64 = 3e-4;
-/// Share of a change by fewer modes that steps may make of it.
+/// Share of a change by fewer modes that steps may make of it (example `tuning_settling`).
 const BLURRED: f64 = 0.003;
 
 impl Trial<'_> {

@@ -165,7 +165,7 @@ impl<'a> Looked<'a> {
     }
 
     /// How far from the peak the exit speed stays within 1 %, by the Illinois method on both sides.
-    fn zone(&self, peak: Peak) -> [f64; 2] {
+    pub fn zone(&self, peak: Peak) -> [f64; 2] {
         let floor = peak.value - 0.01 * peak.value.abs();
         let above = |glance: &Option<Glance>| glance.map_or(f64::NAN, |g| g.exit_speed - floor);
         let [from, to] = self.ends;

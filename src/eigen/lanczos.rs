@@ -32,7 +32,8 @@ pub struct Lanczos<R> {
     pub vectors: Vec<R>,
 }
 
-/// The eigenpair beyond the wanted ones may have a residual so many times as large.
+/// The eigenpair beyond the wanted ones may have a residual so many times as large: it need only
+/// show, and its value, of which nothing more is asked, is off by the square of that.
 const NEARLY: f64 = 100.0;
 
 /// What is asked of the iteration.

@@ -56,7 +56,9 @@ pub fn add_sections(mode: &mut Mode, sections: f64) {
     blur(mode, sections);
 }
 
-/// A faster motion's η may be this many times its estimate, or have made as much of the gap to it.
+/// A faster motion's η may be this many times its estimate, or have made as much of the gap to it. This and
+/// the two below are chosen on near twins: `search/bats.py --kind whips` prints the largest ratios of true
+/// to stated errors, of frequencies, masses and nodes.
 const UNSURE: f64 = 2.0;
 
 /// Where that share of the energy may be another motion's nothing is known of the nodes.

@@ -11,6 +11,7 @@ use crate::collision::sweep::{Sweep, Trial, sweep_telling};
 use crate::modes::solve::{Request, Solution};
 use crate::proof::validation::dowel_proof;
 use crate::study::advise::advice::{Advice, advise};
+use crate::study::spread::{Analysed, Readings, Spread};
 
 /// Impact points along the outer half of the bat.
 pub const POINTS: usize = 101;
@@ -28,6 +29,8 @@ pub struct Task {
     pub hits: Request,
     /// What is asked of the proof on the dowel.
     pub proof: Request,
+    /// How exactly the bat was measured.
+    pub readings: Readings,
 }
 
 /// Accuracy of the solver on the uniform dowel, where the truth is known.
@@ -59,6 +62,9 @@ pub struct Analysis {
     pub strength: Vec<Strength>,
     /// Accuracy of the solver on a dowel, whose frequencies are known.
     pub proof: Proof,
+    /// What calipers, scale and wood leave open; uncounted for a bat of so many pieces that it would
+    /// take long.
+    pub spread: Spread,
     /// What the model needs; None for a bat of so many pieces that it would take long, and where
     /// there is none to give.
     pub advice: Option<Advice>,
@@ -94,11 +100,29 @@ impl Analysis {
         let strength = strength(&bat, &task, &hits, &figures);
         let [truth, stated] = dowel_proof(&task.proof)?;
         let proof = Proof { modes: task.proof.modes, truth, stated };
-        tell(0.8, "what the model needs");
+        tell(0.7, "what calipers, scale and wood leave open");
+        let spot = &figures.spot;
+        let analysed = Analysed {
+            bat: &bat,
+            solution: &solution,
+            model: *model,
+            scene,
+            law: *law,
+            hits: &hits,
+            spot,
+        };
+        let spread = match bat.profile().pieces.len() {
+            0..=MOST_PIECES => Spread::new(&analysed, &task.readings),
+            _ => Spread::uncounted(&analysed),
+        };
+        tell(0.9, "what the model needs");
         let advice = advice(&bat, task.hits.tolerance);
-        Ok(Self { bat, solution, task, hits, figures, strength, proof, advice })
+        Ok(Self { bat, solution, task, hits, figures, strength, proof, spread, advice })
     }
 }
+
+/// Bats of more pieces are not computed anew with anything changed.
+const MOST_PIECES: usize = 1000;
 
 /// At the sweet spot, and five inches towards the hands, where a ball jams them.
 fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Strength> {
@@ -111,7 +135,6 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {
     const MODES: usize = 5;
-    const MOST_PIECES: usize = 1000;
     if bat.profile().pieces.len() > MOST_PIECES {
         return None;
     }

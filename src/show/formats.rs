@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::files::schema::advice::AdviceFile;
+use crate::files::schema::analysis::AnalysisFile;
 use crate::files::schema::ball::BallFile;
 use crate::files::schema::bat::BatFile;
 use crate::files::schema::bbcor::BbcorFile;
@@ -29,12 +30,13 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
+        Self::of::<AnalysisFile>(),
         Self::of::<BbcorFile>(),
         Self::of::<CompareFile>(),
         Self::of::<MeasuredFile>(),

@@ -20,7 +20,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 14] = [
+pub const WRITTEN: [Written; 15] = [
     (
         "modes",
         "modes",
@@ -32,6 +32,12 @@ pub const WRITTEN: [Written; 14] = [
         "hit",
         "hit bat-1.json -n 2 --tol 1e-8 --theory timoshenko --from 0.6 --to 0.7 --points 2 --ball ball-1.json --wall-stiffness 5e6 --wall-mass 0.05 --reference-inertia 0.2 --swing-exponent 0.3 --swing-speed 50 --pitch 40.2336",
         Numbers::Sharp,
+    ),
+    (
+        "analysis",
+        "analysis",
+        "analyze r161.json --tol 1e-3 --reproducible --swing-speed 50 --pitch 40.2336",
+        Numbers::Rough,
     ),
     ("bbcor", "bbcor", "bbcor dowel.json --tol 1e-4", Numbers::Rough),
     (

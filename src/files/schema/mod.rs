@@ -23,6 +23,7 @@ pub mod bbcor;
 pub mod compare;
 pub mod measured;
 pub mod ring;
+pub mod analysis;
 pub mod frf;
 pub mod advice;
 pub mod u_curve;

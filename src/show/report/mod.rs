@@ -18,6 +18,7 @@ pub mod aftermath;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;
+pub mod trust;
 pub mod comparison;
 pub mod comparison_data;
 pub mod measured;

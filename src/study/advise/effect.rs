@@ -139,7 +139,7 @@ pub fn effects(bench: &mut Bench, full: &Model) -> Result<Vec<Effect>> {
 /// By the full model's theory, or without shear where what is left has no known shear modulus.
 fn taken_off(bench: &mut Bench, full: &Model, switch: Switch, parts: &[Part]) -> Result<Effect> {
     let mut without = full.without(parts);
-    let known = without.bat(bench.bat()).knows_shear();
+    let known = without.bat(bench.bat())?.knows_shear();
     if without.theory.shears() && !known {
         without = without.by(Theory::Rayleigh);
     }

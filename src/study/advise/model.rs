@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, Inertia};
 use crate::bat::theory::Theory;
 use crate::modes::solve::{Request, Solution, solve};
@@ -42,11 +42,18 @@ impl Model {
     }
 
     /// The bat as this model sees it.
-    pub fn bat(&self, bat: &Bat) -> Bat {
+    ///
+    /// # Errors
+    ///
+    /// What is left is no bat that can be solved: without its supports it may hang on springs too weak.
+    pub fn bat(&self, bat: &Bat) -> Result<Bat> {
         let missing = Part::ALL.into_iter().filter(|part| !self.parts.contains(part));
-        let missing = missing.filter(|part| part.is_on(bat));
-        let seen = bat.with(|parts| missing.for_each(|part| part.take_off(&mut parts.fixtures)));
-        seen.expect("a bat with less on it is a bat")
+        let missing: Vec<Part> = missing.filter(|part| part.is_on(bat)).collect();
+        let left =
+            bat.with(|parts| missing.iter().for_each(|part| part.take_off(&mut parts.fixtures)));
+        let names: Vec<&str> = missing.iter().map(|part| part.name()).collect();
+        let hint = format!("that is the bat without {}", names.join(", "));
+        left.map_err(|error| error.placed(|found| Error::Value(found.hinted(hint.clone()))))
     }
 }
 
@@ -130,7 +137,7 @@ impl<'a> Bench<'a> {
         if let Some(known) = self.solved.iter().find(|known| known.model == *model) {
             return Ok(Rc::clone(known));
         }
-        let solved = Rc::new(Solved::new(model.clone(), model.bat(self.bat), &self.request)?);
+        let solved = Rc::new(Solved::new(model.clone(), model.bat(self.bat)?, &self.request)?);
         self.solved.push(Rc::clone(&solved));
         Ok(solved)
     }

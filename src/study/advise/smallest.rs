@@ -33,7 +33,7 @@ pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64, tell: Tell) -> 
         for model in models(full).filter(|model| model.size() == size) {
             tell(f64::from(tried) / all as f64, "smaller models");
             tried += 1;
-            let bat = model.bat(bench.bat());
+            let Ok(bat) = model.bat(bench.bat()) else { continue };
             let others = bat.fixtures().rigid_modes() != truth.bat.fixtures().rigid_modes();
             if others || (model.theory.shears() && !bat.knows_shear()) {
                 continue;

@@ -1,0 +1,214 @@
+//! Which values can an expression take on an interval, or on a box of the complex plane?
+//!
+//! [`Interval`] and [`Rectangle`] hold every value that exact arithmetic could give: results are
+//! rounded outwards, by one place after `+ − × ÷ √` and by `LIBRARY` after other functions. A
+//! [`Jet`] carries the derivative along, so that a range can be had from its middle too.
+//!
+//! # Source
+//!
+//! R. E. Moore, Interval Analysis (Prentice-Hall, 1966): interval arithmetic, the mean-value form.
+
+mod rectangle;
+mod jet;
+
+pub use jet::Jet;
+pub use rectangle::Rectangle;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// Relative error allowed to `exp`, `sin` and the other functions of the system's library.
+const LIBRARY: f64 = 8.0 * f64::EPSILON;
+
+/// All numbers from `low` to `high`; an infinite end stands for a number too large to write.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// The lower end.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// One number.
+    pub fn point(value: f64) -> Self {
+        Self { low: value, high: value }
+    }
+
+    /// From −`size` to `size`.
+    pub fn within(size: f64) -> Self {
+        Self { low: -size, high: size }
+    }
+
+    /// An interval whose ends were rounded once; 0 is taken to be exact.
+    fn rounded(low: f64, high: f64) -> Self {
+        let low = if low.is_nan() { f64::NEG_INFINITY } else { low };
+        let high = if high.is_nan() { f64::INFINITY } else { high };
+        let down = if low == 0.0 { low } else { low.next_down() };
+        let up = if high == 0.0 { high } else { high.next_up() };
+        Self { low: down, high: up }
+    }
+
+    /// An interval whose ends come from the system's library.
+    fn library(low: f64, high: f64) -> Self {
+        Self::rounded(low - LIBRARY * low.abs(), high + LIBRARY * high.abs())
+    }
+
+    /// Whether it is the number 0.
+    fn is_zero(self) -> bool {
+        self.low == 0.0 && self.high == 0.0
+    }
+
+    /// Whether `value` is in it.
+    pub fn contains(self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// The largest absolute value.
+    pub fn largest(self) -> f64 {
+        f64::max(-self.low, self.high)
+    }
+
+    /// The smallest absolute value.
+    pub fn smallest(self) -> f64 {
+        f64::max(0.0, f64::max(self.low, -self.high))
+    }
+
+    /// What two enclosures of one number leave.
+    pub fn and(self, other: Self) -> Self {
+        Self { low: self.low.max(other.low), high: self.high.min(other.high) }
+    }
+
+    /// The square, which is not negative.
+    pub fn square(self) -> Self {
+        let (small, large) = (self.smallest(), self.largest());
+        let square = Self::rounded(small * small, large * large);
+        Self { low: square.low.max(0.0), ..square }
+    }
+
+    /// The square root of what is not negative of it.
+    fn sqrt(self) -> Self {
+        let root = Self::rounded(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
+        Self { low: root.low.max(0.0), ..root }
+    }
+
+    /// `1/x`, if 0 is not in it.
+    fn reciprocal(self) -> Option<Self> {
+        (self.low > 0.0 || self.high < 0.0).then(|| Self::rounded(1.0 / self.high, 1.0 / self.low))
+    }
+
+    fn exp(self) -> Self {
+        let exp = Self::library(self.low.exp(), self.high.exp());
+        Self { low: exp.low.max(0.0), ..exp }
+    }
+
+    /// The logarithm of what is positive of it.
+    fn ln(self) -> Self {
+        Self::library(self.low.max(0.0).ln(), self.high.ln())
+    }
+
+    fn sinh(self) -> Self {
+        Self::library(self.low.sinh(), self.high.sinh())
+    }
+
+    fn cosh(self) -> Self {
+        Self::library(self.smallest().cosh(), self.largest().cosh())
+    }
+
+    fn tanh(self) -> Self {
+        Self::library(self.low.tanh(), self.high.tanh()).and(Self::within(1.0))
+    }
+
+    fn sin(self) -> Self {
+        Self { low: self.low - FRAC_PI_2, high: self.high - FRAC_PI_2 }.wave(self, f64::sin)
+    }
+
+    fn cos(self) -> Self {
+        self.wave(self, f64::cos)
+    }
+
+    /// A wave whose crests lie where this is a multiple of 2π, by its values at the ends of `at`.
+    fn wave(self, at: Self, wave: fn(f64) -> f64) -> Self {
+        // Beyond that a period is no longer told from the next.
+        const FARTHEST: f64 = 1e12;
+        let all = Self::within(1.0);
+        let span = at.high - at.low;
+        if span.is_nan() || span >= TAU || at.largest() > FARTHEST {
+            return all;
+        }
+        let (a, b) = (wave(at.low), wave(at.high));
+        let crosses =
+            |shift: f64| ((self.low - shift) / TAU).floor() < ((self.high - shift) / TAU).floor();
+        let low = if crosses(PI) { -1.0 } else { a.min(b) };
+        let high = if crosses(0.0) { 1.0 } else { a.max(b) };
+        // The places of crests are rounded too: near one the wave is flat.
+        let round = f64::EPSILON * (1.0 + at.largest());
+        Self::library(low - round * round, high + round * round).and(all)
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        match (self.is_zero(), other.is_zero()) {
+            (true, _) => other,
+            (_, true) => self,
+            _ => Self::rounded(self.low + other.low, self.high + other.high),
+        }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { low: -self.high, high: -self.low }
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        if self == Self::point(1.0) {
+            return other;
+        }
+        // 0 times a number too large to write is 0.
+        let times = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        let corners = [
+            times(self.low, other.low),
+            times(self.low, other.high),
+            times(self.high, other.low),
+            times(self.high, other.high),
+        ];
+        let low = corners.into_iter().fold(f64::INFINITY, f64::min);
+        Self::rounded(low, corners.into_iter().fold(f64::NEG_INFINITY, f64::max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_reach_their_crests_and_steep_steps_their_ends() {
+        let wave = Interval { low: 1.0, high: 2.0 }.sin();
+        assert!(wave.contains(1.0) && wave.low > 0.84, "{wave:?}");
+        assert_eq!(Interval { low: 3.0, high: 10.0 }.cos(), Interval::within(1.0));
+        let far = Rectangle { re: Interval { low: 400.0, high: 1e6 }, im: Interval::within(3e5) };
+        let step = far.tanh().unwrap();
+        assert!(step.re.contains(1.0) && step.modulus().high < 1.0 + 1e-12, "{step:?}");
+        assert!(
+            Rectangle { re: Interval::within(0.1), im: Interval::within(2.0) }.tanh().is_none()
+        );
+    }
+}

@@ -1,0 +1,313 @@
+//! The answers on one screen, each beside how far that of the bat in hand may be from it, and why.
+
+use crate::base::number::{percent, significant};
+use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::bat::body::Bat;
+use crate::collision::figures::BarrelSpeed;
+use crate::collision::hit::Model;
+use crate::files::schema::analysis as file;
+use crate::show::analysis::Analysis;
+use crate::show::report::columns::{Columns, first};
+use crate::show::report::hit_json::model_name;
+use crate::show::report::text::{Units, wrapped};
+use crate::study::ignored::thinnest_wall;
+use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
+
+/// The bat, the answers, and how far to trust them: 24 lines at most.
+pub fn screen(analysis: &Analysis, units: Units) -> String {
+    let name = analysis.bat.name();
+    let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
+    out += &wrapped(&scene(analysis, units), 2);
+    out += &table(analysis, units);
+    out + &reasons(analysis, units)
+}
+
+/// The answers and how far to trust them, as a part of more.
+pub fn text(analysis: &Analysis, units: Units) -> String {
+    format!("\nAnswers\n{}{}\n", table(analysis, units), reasons(analysis, units))
+}
+
+fn reasons(analysis: &Analysis, units: Units) -> String {
+    let told = trust(analysis, units);
+    let lines = told.iter().map(|text| wrapped(&format!("  {text}"), 2));
+    format!("How far to trust it\n{}", lines.collect::<String>())
+}
+
+/// Columns of a terminal.
+const WIDE: usize = 80;
+
+/// The hit in a line.
+fn scene(analysis: &Analysis, units: Units) -> String {
+    let (bat, scene) = (&analysis.bat, &analysis.task.scene);
+    let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
+    let model = match analysis.task.model {
+        Model::Contact => String::new(),
+        other => format!("; model {}", model_name(other)),
+    };
+    format!(
+        "  {}; swing {}, pitch {}{model}",
+        Kind::Length.shown(units, bat.length()),
+        Kind::Speed.shown(units, barrel.speed),
+        Kind::Speed.shown(units, scene.ball_speed)
+    )
+}
+
+/// What an answer counts in.
+#[derive(Clone, Copy)]
+enum Kind {
+    Length,
+    Speed,
+    Mass,
+    Inertia,
+    Frequency,
+}
+
+impl Kind {
+    fn of(answer: Answer) -> Self {
+        match answer {
+            Answer::Mass => Self::Mass,
+            Answer::SwingWeight => Self::Inertia,
+            Answer::Frequency1 | Answer::Frequency2 | Answer::Frequency3 => Self::Frequency,
+            Answer::ExitSpeed => Self::Speed,
+            _ => Self::Length,
+        }
+    }
+
+    /// Units with their factors and the decimals of a value, in SI and in US units.
+    fn scales(self) -> [(f64, usize, &'static str); 2] {
+        match self {
+            Self::Length => [(100.0, 2, "cm"), (inches(1.0), 2, "in")],
+            Self::Speed => [(1.0, 2, "m/s"), (miles_per_hour(1.0), 1, "mph")],
+            Self::Mass => [(1e3, 1, "g"), (ounces(1.0), 2, "oz")],
+            Self::Inertia => [(1.0, 4, "kg m²"), (ounce_square_inches(1.0), 0, "oz in²")],
+            Self::Frequency => [(1.0, 1, "Hz"), (1.0, 1, "Hz")],
+        }
+    }
+
+    /// In both systems of units, or in one.
+    fn said(self, units: Units, say: impl Fn(f64, usize) -> String) -> String {
+        let [si, us] = self.scales();
+        let told = |(factor, decimals, name): (f64, usize, &str)| {
+            format!("{} {name}", say(factor, decimals))
+        };
+        match (units, self) {
+            (_, Self::Frequency) | (Units::Si, _) => told(si),
+            (Units::Us, _) => told(us),
+            (Units::Both, _) => format!("{} ({})", told(si), told(us)),
+        }
+    }
+
+    fn shown(self, units: Units, value: f64) -> String {
+        self.said(units, |factor, decimals| format!("{:.decimals$}", factor * value + 0.0))
+    }
+
+    /// A deviation to two digits.
+    fn about(self, units: Units, value: f64) -> String {
+        self.said(units, |factor, _| two_digits(factor * value))
+    }
+}
+
+/// Two significant digits, the last of them also where it is 0.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    let power = if rounded > 0.0 { rounded.log10().floor() as i32 } else { 0 };
+    format!("{rounded:.*}", (1 - power).clamp(0, 9) as usize)
+}
+
+/// What moves an answer, in a word.
+fn word(source: &Source) -> &'static str {
+    match source.input {
+        Input::Diameters => "calipers",
+        Input::Length => "rule",
+        Input::Mass => "scale",
+        other => other.name(),
+    }
+}
+
+/// The answers, how far each may be off, and by what most.
+pub fn table(analysis: &Analysis, units: Units) -> String {
+    let spread = &analysis.spread;
+    let head =
+        if spread.sources.is_empty() { [""; 2] } else { ["± (two bats in three)", "most by"] };
+    let columns =
+        Columns::new([first(15, ""), first(28, "computed"), first(28, head[0]), first(9, head[1])]);
+    let mut out = columns.heads();
+    let mut row = |what: &str, answer: Answer| {
+        let Some(estimate) = spread.of(answer) else { return };
+        let kind = Kind::of(answer);
+        let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
+        let open = estimate.deviation.filter(|_| !mostly.is_empty());
+        let open = open.map_or(String::new(), |open| format!("± {}", kind.about(units, open)));
+        let value = kind.shown(units, estimate.value);
+        out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
+        if answer == Answer::BestPlace {
+            let tip = kind.shown(units, analysis.bat.length() - estimate.value);
+            out += &columns.row(["    from tip", &tip, "", ""]);
+        }
+    };
+    row("sweet spot", Answer::BestPlace);
+    row("fastest ball", Answer::ExitSpeed);
+    row("1 % less at", Answer::ZoneFrom);
+    row("     and at", Answer::ZoneTo);
+    row("swing weight", Answer::SwingWeight);
+    row("mass", Answer::Mass);
+    row("f1", Answer::Frequency1);
+    row("f2", Answer::Frequency2);
+    row("f3", Answer::Frequency3);
+    out
+}
+
+/// What of a hollow barrel is left out, in short: [`crate::study::ignored::in_hit`] says more.
+const HOLLOW: &str = "Left out: how a hollow barrel's wall gives way; --full says what that means.";
+
+/// How far to trust the answers: the bat first, what would settle it, then the computation.
+pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
+    let mut told = vec![bat_first(&analysis.spread)];
+    told.extend(settled_by(analysis, units));
+    told.push(computation(analysis));
+    let rigid = thinnest_wall(&analysis.bat).filter(|_| analysis.task.scene.wall.is_none());
+    told.extend(rigid.map(|_| HOLLOW.to_owned()));
+    told
+}
+
+/// What is open of the bat, and what that makes of its first frequency.
+fn bat_first(spread: &Spread) -> String {
+    let mut told: Vec<String> = vec![];
+    let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
+    let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
+    let wood = [(Input::Stiffness, "stiffness"), (Input::Density, "density")];
+    let wood = wood.into_iter().filter_map(|(input, what)| {
+        find(input).map(|source| format!("{} in {what}", share(source)))
+    });
+    let wood: Vec<String> = wood.collect();
+    if !wood.is_empty() {
+        told.push(format!("clear wood of one kind differs by {}", wood.join(" and ")));
+    }
+    let millimetres = |source: &Source| format!("{} mm", significant(1e3 * source.deviation, 2));
+    let read = [
+        (Input::Diameters, "calipers are off by", &millimetres as &dyn Fn(&Source) -> String),
+        (Input::Length, "a rule by", &millimetres),
+        (Input::Mass, "a scale by", &|source| {
+            format!("{} g", significant(1e3 * source.deviation, 2))
+        }),
+        (Input::Tap, "a tapped note by", &share),
+    ];
+    let read = read.into_iter().filter_map(|(input, what, size)| {
+        find(input).map(|source| format!("{what} {}", size(source)))
+    });
+    told.extend(read);
+    let left_out = match &spread.left_out[..] {
+        [] => String::new(),
+        [one] => format!(" Not counted: {one}."),
+        [one, others @ ..] => format!(" Not counted: {one}; {} more in the JSON.", others.len()),
+    };
+    if told.is_empty() {
+        return format!("The bat first: nothing of it was counted as open.{left_out}");
+    }
+    let range = spread.of(Answer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
+    let range = range.map_or(String::new(), |(value, [low, high])| {
+        format!("; f1, {value:.1} Hz here, is {low:.0} to {high:.0} Hz in two bats of three")
+    });
+    format!("The bat first: {}{range}.{left_out}", told.join(", "))
+}
+
+/// What would settle most of it, where a note or a scale would.
+fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
+    /// From this share of the variance on it is worth a tap.
+    const MOST: f64 = 0.5;
+    let Analysis { bat, solution, spread, task, .. } = analysis;
+    let by = |answer: Answer, input: Input| {
+        spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
+    };
+    if by(Answer::Frequency1, Input::Stiffness) {
+        let known = percent(task.readings.tap, 0);
+        let free = bat.fixtures().rigid_modes() == 2;
+        let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
+        let hold = node.map_or("Tap it".to_owned(), |x| {
+            format!("Tap it, held loosely {} from the knob", Kind::Length.shown(units, *x))
+        });
+        return Some(format!(
+            "{hold}, type the note into its file, \"weighed\": {{ \"first_bending_hz\": ... }}, and f1 is \
+             known to {known}."
+        ));
+    }
+    by(Answer::Mass, Input::Density).then(|| {
+        let known = Kind::Mass.about(units, task.readings.mass);
+        format!(
+            "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
+        )
+    })
+}
+
+/// What the computation adds.
+fn computation(analysis: &Analysis) -> String {
+    let Analysis { solution, hits, .. } = analysis;
+    let mut told = vec![];
+    let shown = solution.modes.iter().take(3).map(|mode| mode.error.total());
+    if let Some(worst) = shown.reduce(f64::max) {
+        told.push(format!("these frequencies within {worst:.0e}"));
+    }
+    if let Some((_, outcome)) = hits.worst() {
+        told.push(format!("exit speeds within {:.0e} of the closing speed", outcome.error));
+    }
+    let asked = analysis.task.hits.tolerance;
+    let verdict = match (analysis.task.hits.elements, solution.met && hits.met) {
+        (None, true) => ", which adds nothing that matters".to_owned(),
+        (None, false) => format!(", asked within {asked:.0e} and NOT met"),
+        (Some(_), _) => ", with the elements that were asked for".to_owned(),
+    };
+    let told =
+        if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
+    format!("Then the computation{verdict}: {told}.")
+}
+
+/// How far the wood alone leaves every frequency open, in a line; empty where that is not known.
+pub fn of_wood(bat: &Bat) -> String {
+    let Some(open) = of_frequencies(bat) else { return String::new() };
+    let text = format!(
+        "Trust: wood differs from piece to piece, and by it every frequency by {} (one standard \
+         deviation). A tapped note in the bat file settles that: \"weighed\": {{ \"first_bending_hz\" }}",
+        percent(open, 0)
+    );
+    wrapped(&text, 7)
+}
+
+/// Where what is open of a hit is told.
+pub const IN_ANALYZE: &str =
+    "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
+
+/// The member `open` of the `sweetspot-analysis/1` document.
+pub fn open(spread: &Spread) -> file::Open {
+    let source = |source: &Source| file::Source {
+        input: source.input.name(),
+        material: source.material.clone(),
+        standard_deviation: source.deviation,
+    };
+    let answer = |estimate: &Estimate| file::Answer {
+        answer: key(estimate.answer),
+        value: estimate.value,
+        standard_deviation: estimate.deviation,
+        by_source: estimate.parts.clone(),
+    };
+    file::Open {
+        sources: spread.sources.iter().map(source).collect(),
+        answers: spread.estimates.iter().map(answer).collect(),
+        left_out: spread.left_out.clone(),
+    }
+}
+
+/// The name of an answer in JSON, its unit at the end.
+fn key(answer: Answer) -> &'static str {
+    match answer {
+        Answer::Mass => "mass_kg",
+        Answer::BalancePoint => "balance_point_m",
+        Answer::SwingWeight => "inertia_pivot_kg_m2",
+        Answer::Frequency1 => "frequency_1_hz",
+        Answer::Frequency2 => "frequency_2_hz",
+        Answer::Frequency3 => "frequency_3_hz",
+        Answer::BestPlace => "best_place_m",
+        Answer::ExitSpeed => "exit_speed_m_s",
+        Answer::ZoneFrom => "zone_from_m",
+        Answer::ZoneTo => "zone_to_m",
+    }
+}
