@@ -282,13 +282,13 @@ fn layered(parts: &mut Parts, [from, to]: [f64; 2], change: impl Fn(&mut Layup))
 ///
 /// [`Error::Value`] where something at one place would be sawn off.
 fn saw_off(fixtures: &mut Fixtures, [from, to]: [f64; 2]) -> Result<()> {
-    let attachments = fixtures.attachments.iter_mut().map(|a| ("attachments", &mut a.x));
-    let absorbers = fixtures.absorbers.iter_mut().map(|a| ("absorbers", &mut a.x));
-    let joints = fixtures.joints.iter_mut().map(|joint| ("joints", &mut joint.x));
-    let supports = fixtures.supports.iter_mut().map(|support| ("supports", &mut support.x));
-    for (list, x) in attachments.chain(absorbers).chain(joints).chain(supports) {
+    let attachments = fixtures.attachments.iter_mut().map(|a| ("a weight or a spring", &mut a.x));
+    let absorbers = fixtures.absorbers.iter_mut().map(|a| ("an absorber", &mut a.x));
+    let joints = fixtures.joints.iter_mut().map(|joint| ("a joint", &mut joint.x));
+    let supports = fixtures.supports.iter_mut().map(|support| ("a support", &mut support.x));
+    for (what, x) in attachments.chain(absorbers).chain(joints).chain(supports) {
         if *x < from || *x > to {
-            let found = format!("something of \"{list}\" at {} on what is sawn off", shown(*x, "m"));
+            let found = format!("{what} at {}, on what is sawn off", place(*x));
             return Err(Error::value("", found, "nothing fixed there: saw first, then fix it"));
         }
         *x -= from;

@@ -7,6 +7,7 @@
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
 use crate::base::error::{Error, Result, nearest};
+use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
 use crate::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
@@ -251,7 +252,7 @@ fn read(verb: &str, text: &str) -> std::result::Result<Change, String> {
     };
     let of = OPTIONS.iter().find(|option| option.verb == verb);
     let example = of.map_or("", |option| option.example);
-    change.map_err(|said| format!("{said}; a {} is written \"{example}\"", option(verb)))
+    change.map_err(|said| format!("{said}; written as \"{example}\""))
 }
 
 /// What stands between commas; one between two digits is a decimal comma.
@@ -327,7 +328,7 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
                 return Ok(part);
             }
             Kind::Number(None, _) => {
-                let number = units::number(value);
+                let number = typed::number(value);
                 let number = number.ok_or(format!("found \"{value}\", expected a factor, such as 1.05"))?;
                 set(field, number, &mut part);
             }

@@ -58,7 +58,7 @@ pub fn words(change: &Change, us: bool) -> String {
         }
         Change::Wood(material) => made_of(material),
     };
-    format!("{} {said}", change.verb())
+    format!("{} {said}", change.verb().replace('_', "-"))
 }
 
 /// A material by its name, else by its numbers.
