@@ -1,5 +1,8 @@
 //! What-ifs hold: a bat is weighed once, and its edits come after it.
 
+mod common;
+
+use common::folder::Folder;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
 use sweetspot::{Bat, Material, Request, solve};
@@ -360,9 +363,9 @@ fn an_edit_that_does_not_fit_is_told_with_its_place_and_its_name() {
             { "cup": { "depth": "1 in", "diameter": "1.5 in" } }"#,
          "edits[1].cup: found a bat that is hollow there"),
         (r#"{ "shorten": { "knob": 0.5, "tip": 0.5 } }"#, "edits[0].shorten: found 1 m sawn off"),
-        (r#"{ "shorten": {} }"#, "edits[0].shorten: found none of knob, tip"),
+        (r#"{ "shorten": {} }"#, "edits[0].shorten: found none of \"knob\", \"tip\""),
         (r#"{ "wood": "balsa" }"#, "edits[0].wood: found \"balsa\""),
-        (r#"{ "trim": 1 }"#, "found unknown key \"trim\""),
+        (r#"{ "trim": 1 }"#, "found no change, expected one of \"cut\""),
         (r#"{ "scale_diameter": { "from": 0.1, "to": 0.2, "by": -1 } }"#, "edits[0].scale_diameter.by: found -1"),
     ] {
         let said = read(&format!(", \"edits\": [ {edits} ]")).unwrap_err();
@@ -371,4 +374,138 @@ fn an_edit_that_does_not_fit_is_told_with_its_place_and_its_name() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// A folder with a maple that weighs 31 oz and is not edited.
+fn shop(test: &str) -> Folder {
+    let folder = Folder::new(test);
+    folder.write(
+        "maple.json",
+        r#"{ "format": "sweetspot-bat/1", "name": "maple", "material": "sugar-maple-dynamic",
+  "weighed": { "mass": "31 oz" },
+  "profile": { "unit": "in", "x": [0, 0.5, 1, 2, 4, 10, 16, 22, 26, 30, 33, 33.5],
+    "diameter": [1.8, 2, 1.6, 1.05, 0.98, 1.0, 1.3, 1.95, 2.4, 2.55, 2.5, 2.3] } }"#,
+    );
+    folder
+}
+
+#[test]
+fn options_are_the_edits_of_a_file_in_the_order_typed() {
+    let folder = shop("edit_options");
+    let typed = [
+        ("--shorten", "knob 0.5 in", r#"{ "shorten": { "knob": "0.5 in" } }"#),
+        ("--knob", "2 oz", r#"{ "knob": "2 oz" }"#),
+        ("--cut", "24 in to 30 in, 1 mm", r#"{ "cut": { "from": "24 in", "to": "30 in", "depth": "1 mm" } }"#),
+        ("--cut", "4 in to 10 in, 0.5 mm, 2 in blend",
+         r#"{ "cut": { "from": "4 in", "to": "10 in", "depth": "0.5 mm", "blend": "2 in" } }"#),
+        ("--cup", "1 in deep, 1.5 in wide", r#"{ "cup": { "depth": "1 in", "diameter": "1.5 in" } }"#),
+        ("--bore", "20 in to 25 in, 0.5 in", r#"{ "bore": { "from": "20 in", "to": "25 in", "diameter": "0.5 in" } }"#),
+        ("--cork", "20 in to 25 in, 0.5 in, 200 kg/m^3, 20 MPa, 8 MPa",
+         r#"{ "cork": { "from": "20 in", "to": "25 in", "diameter": "0.5 in",
+            "material": { "density": 200, "youngs_modulus": 2e7, "shear_modulus": 8e6 } } }"#),
+        ("--scale-diameter", "11 in to 14 in, by 1.05", r#"{ "scale_diameter": { "from": "11 in", "to": "14 in", "by": 1.05 } }"#),
+        ("--sleeve", "26 in to 30 in, 1 mm thick, aluminium-7075",
+         r#"{ "sleeve": { "from": "26 in", "to": "30 in", "thickness": "1 mm", "material": "aluminium-7075" } }"#),
+        ("--wood", "white-ash-dynamic", r#"{ "wood": "white-ash-dynamic" }"#),
+    ];
+    let plain = folder.read("maple.json");
+    let edits: Vec<&str> = typed.iter().map(|(_, _, edit)| *edit).collect();
+    let edits = format!(", \"edits\": [ {} ] }}", edits.join(", "));
+    folder.write("edited.json", plain.trim_end().strip_suffix('}').unwrap().to_owned() + &edits);
+    let mut args = vec!["modes", "maple.json", "-n", "2", "--json", "-"];
+    args.extend(typed.iter().flat_map(|(option, value, _)| [*option, *value]));
+    let by_options = folder.json(&args);
+    let by_file = folder.json(&["modes", "edited.json", "-n", "2", "--json", "-"]);
+    for key in ["bat", "summary", "modes"] {
+        assert_eq!(by_options[key], by_file[key], "{key}");
+    }
+    let listed = by_file["bat"]["edits"].as_array().unwrap();
+    assert_eq!(listed.len(), typed.len());
+    assert_eq!(listed[1]["knob"], 2.0 * OUNCE);
+    // What was understood is a bat file of the same bat.
+    folder.write("understood.json", by_file["bat"].to_string());
+    let again = folder.json(&["modes", "understood.json", "-n", "2", "--json", "-"]);
+    for key in ["mass_kg", "inertia_pivot_kg_m2", "balance_point_m"] {
+        let [a, b] = [&again, &by_file].map(|file| file["summary"][key].as_f64().unwrap());
+        close(a, b, 1e-14);
+    }
+    // In the other order a cut is elsewhere.
+    let turned = ["modes", "maple.json", "-n", "2", "--json", "-", "--cut", "24 in to 30 in, 1 mm"];
+    let turned = folder.json(&[&turned[..], &["--shorten", "knob 1 in"]].concat());
+    assert_eq!(turned["bat"]["edits"][1]["shorten"]["knob"], INCH);
+}
+
+#[test]
+fn every_table_says_what_was_edited() {
+    let folder = shop("edit_tables");
+    let knob = ["--knob", "2 oz", "--units", "us"];
+    for args in [
+        &["modes", "maple.json", "-n", "2"][..],
+        &["hit", "maple.json", "--at", "28 in", "-n", "3"],
+        &["advise", "maple.json", "-n", "1", "--tol", "5%"],
+        &["bbcor", "maple.json", "--tol", "1e-2"],
+        &["analyze", "maple.json"],
+        &["analyze", "maple.json", "--full"],
+    ] {
+        let text = folder.text(&[args, &knob[..]].concat());
+        assert!(text.contains("edited: knob 2 oz"), "{args:?}\n{text}");
+    }
+}
+
+#[test]
+fn a_bat_stands_beside_itself_changed_and_a_hidden_change_is_told() {
+    let folder = shop("edit_compare");
+    let args = ["compare", "maple.json", "-n", "3", "--json", "-"];
+    let edits = ["--edit", "knob 2 oz", "--edit", "slim: cut 24 in to 30 in, 1 mm; cup 1 in deep, 1.5 in"];
+    let file = folder.json(&[&args[..], &edits[..]].concat());
+    let bats = file["bats"].as_array().unwrap();
+    let names: Vec<&str> = bats.iter().map(|bat| bat["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["maple", "maple: knob 2 oz", "maple: slim"]);
+    assert!(bats[0].get("edits").is_none());
+    assert_eq!(bats[2]["edits"][1]["name"], "slim");
+    let figure = |k: usize, key: &str| bats[k]["figures"][key]["difference"].as_f64().unwrap();
+    close(figure(1, "mass_kg"), 2.0 * OUNCE, 1e-9);
+    close(figure(1, "swing_weight_kg_m2"), 2.0 * OUNCE * STANDARD_PIVOT.powi(2), 1e-8);
+    assert!(figure(2, "mass_kg") < 0.0 && figure(2, "swing_weight_kg_m2") < 0.0);
+
+    // As it was done before there were edits: the weighed mass hides the change.
+    let thinner = folder.read("maple.json").replace("2.4, 2.55", "2.36, 2.51");
+    folder.write("thinner.json", thinner);
+    let warned = folder.run(&["compare", "maple.json", "thinner.json", "-n", "3"]);
+    let said = String::from_utf8_lossy(&warned.stderr).into_owned();
+    assert!(said.contains("thinner.json and maple.json are both weighed at 0.8788 kg"), "{said}");
+    assert!(said.contains("write the change as an edit"), "{said}");
+    let quiet = folder.run(&["compare", "maple.json", "maple.json", "-n", "3"]);
+    assert!(quiet.stderr.is_empty());
+}
+
+#[test]
+fn words_that_are_no_edit_are_told_with_how_one_is_written() {
+    let folder = shop("edit_words");
+    for (args, expected) in [
+        (&["--cut", "24 in, 1 mm"][..], "expected a stretch, such as \"24 in to 30 in\""),
+        (&["--cut", "24 in to 40 in, 1 mm"], "--cut, to: found 1.016 m, expected a place on the bat"),
+        (&["--cut", "24 to 30, 1 mm"], "24 in or 24 m?"),
+        (&["--knob", "1 oz", "--cut", "24 in to 30 in, 9 in"], "edit 2 of 2, --cut: found no wood left near"),
+        (&["--cup", "1 in"], "expected \"diameter\": how wide the cup is at the tip"),
+        (&["--shorten", "1 in"], "found \"1 in\", expected knob or tip"),
+        (&["--sleeve", "24 in to 30 in, 1 mm, aluminum-7075"], "did you mean aluminium-7075?"),
+        (&["--scale-diameter", "4 in to 8 in, 5 %"], "expected a factor, such as 1.05"),
+        (&["--knob", "2"], "2 oz or 2 kg?"),
+    ] {
+        let run = folder.run(&[&["modes", "maple.json"], args].concat());
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(run.status.code() == Some(2) && said.contains(expected), "{args:?}\n{said}");
+    }
+    for (edit, expected) in [
+        ("slim cut 2", "found \"slim\", expected one of cut, knob"),
+        ("shortn tip 1 in", "did you mean shorten?"),
+        (": knob 2 oz", "found no name before the colon"),
+        ("slim:", "found no edit"),
+        ("slim: knob 2 oz; cut 24 in to 40 in, 1 mm", "edit 2 of 2, --edit slim, cut, to: found 1.016 m"),
+    ] {
+        let run = folder.run(&["compare", "maple.json", "--edit", edit]);
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(run.status.code() == Some(2) && said.contains(expected), "{edit:?}\n{said}");
+    }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::base::quadrature::{RunningSum, converged, gauss};
-use crate::bat::edit::Edit;
+use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
@@ -197,7 +197,12 @@ impl Bat {
     ) -> Result<Self> {
         let mut parts = self.parts();
         change(&mut parts)?;
-        let bat = Self::of(parts, self.weighed, self.factors)?;
+        // Another wood is not the one that was weighed and tapped.
+        let (weighed, factors) = match edit.change {
+            Change::Wood(_) => (Weighed::default(), [1.0; 2]),
+            _ => (self.weighed, self.factors),
+        };
+        let bat = Self::of(parts, weighed, factors)?;
         let edits = self.edits.iter().chain([edit]).cloned().collect();
         let unedited = self.unedited.clone().unwrap_or_else(|| Arc::new(self.clone()));
         Ok(Self { edits, unedited: Some(unedited), ..bat })
@@ -266,7 +271,8 @@ impl Bat {
         &self.fixtures
     }
 
-    /// Mass, balance point and first frequency as they were measured.
+    /// Mass, balance point and first frequency as they were measured, of the bat before its edits;
+    /// nothing of a bat that was made of another wood since.
     pub fn weighed(&self) -> Weighed {
         self.weighed
     }

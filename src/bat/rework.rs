@@ -219,10 +219,12 @@ impl Profile {
             let inside = widest.map(|s| (piece.start + s * piece.length, piece.at(s)));
             let both = [(piece.start, piece.at(0.0)), (end, piece.at(1.0))];
             for (x, section) in [Some(both[0]), inside, Some(both[1])].into_iter().flatten() {
-                let known = told.x.last() == Some(&x)
-                    && told.outer.last() == Some(&section.outer)
-                    && told.inner.last() == Some(&section.inner);
-                if !known {
+                // But for the last digits: that is no step.
+                let same = |column: &[f64], value: f64| {
+                    column.last().is_some_and(|last| (last - value).abs() <= 1e-12 * section.outer)
+                };
+                let known = told.x.last() == Some(&x);
+                if !(known && same(&told.outer, section.outer) && same(&told.inner, section.inner)) {
                     told.x.push(x);
                     told.outer.push(section.outer);
                     told.inner.push(section.inner);

@@ -326,7 +326,11 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
             size: readings.tap * note,
         });
         if tap.is_none() {
-            left_out.push("the tap, whose note is of none of the first three modes".to_owned());
+            let heard = match analysed.bat.edits().is_empty() {
+                true => "the tap, whose note is of none of the first three modes",
+                false => "the tap, which was heard of the bat before its edits",
+            };
+            left_out.push(heard.to_owned());
         }
         tap
     });

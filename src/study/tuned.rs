@@ -22,7 +22,7 @@ use crate::modes::solve::{Request, solve};
 pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     const MOST_STEPS: usize = 60;
     const STIFFER: f64 = 1.01;
-    let Some(tapped) = bat.weighed().first_bending else { return Ok(bat) };
+    let Some(tapped) = bat.unedited().weighed().first_bending else { return Ok(bat) };
     if !bat.edits().is_empty() {
         // The tap was heard of the bat before its edits.
         let tuned = tuned(bat.unedited().clone(), theory, tolerance)?.edited(bat.edits())?;
