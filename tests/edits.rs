@@ -36,8 +36,7 @@ fn cone(length: f64) -> Bat {
 }
 
 fn edited(bat: &Bat, changes: impl IntoIterator<Item = Change>) -> Bat {
-    let edits: Vec<Edit> =
-        changes.into_iter().map(|change| Edit { name: None, change }).collect();
+    let edits: Vec<Edit> = changes.into_iter().map(|change| Edit { name: None, change }).collect();
     bat.edited(&edits).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -339,34 +338,60 @@ fn a_tapped_bat_is_tuned_before_it_is_edited() {
 fn an_edit_that_does_not_fit_is_told_with_its_place_and_its_name() {
     let mut wrong = vec![];
     for (edits, expected) in [
-        (r#"{ "cut": { "from": "24 in", "to": "40 in", "depth": "1 mm" } }"#,
-         "maple.json:4:128: edits[0].cut.to: found \"40 in\""),
-        (r#"{ "name": "slim", "cut": { "from": 0.6, "to": 0.7, "depth": 0.2 } }"#,
-         "edits[0].cut: found no wood left near"),
-        (r#"{ "name": "slim", "cut": { "from": 0.6, "to": 0.7, "depth": 0.2 } }"#,
-         "this is of the edit \"slim\""),
-        (r#"{ "knob": "1 oz" }, { "cut": { "from": 0.6, "to": 0.7, "depth": 1e-3, "blend": 0.06 } }"#,
-         "edits[1].cut.blend: found 0.06 m, expected 0.0500 m (1.97 in) at most, half of the stretch"),
-        (r#"{ "cut": { "from": 0.6, "to": 0.7, "depth": 0 } }"#, "edits[0].cut.depth: found 0 m, expected a number above 0"),
+        (
+            r#"{ "cut": { "from": "24 in", "to": "40 in", "depth": "1 mm" } }"#,
+            "maple.json:4:128: edits[0].cut.to: found \"40 in\"",
+        ),
+        (
+            r#"{ "name": "slim", "cut": { "from": 0.6, "to": 0.7, "depth": 0.2 } }"#,
+            "edits[0].cut: found no wood left near",
+        ),
+        (
+            r#"{ "name": "slim", "cut": { "from": 0.6, "to": 0.7, "depth": 0.2 } }"#,
+            "this is of the edit \"slim\"",
+        ),
+        (
+            r#"{ "knob": "1 oz" }, { "cut": { "from": 0.6, "to": 0.7, "depth": 1e-3, "blend": 0.06 } }"#,
+            "edits[1].cut.blend: found 0.06 m, expected 0.0500 m (1.97 in) at most, half of the stretch",
+        ),
+        (
+            r#"{ "cut": { "from": 0.6, "to": 0.7, "depth": 0 } }"#,
+            "edits[0].cut.depth: found 0 m, expected a number above 0",
+        ),
         (r#"{ "cut": { "from": 0.6, "to": 0.7 } }"#, "how much thinner the bat becomes"),
-        (r#"{ "knob": "2 oz", "cup": { "depth": 0.02, "diameter": 0.03 } }"#,
-         "found both \"knob\" and \"cup\", expected one of them"),
+        (
+            r#"{ "knob": "2 oz", "cup": { "depth": 0.02, "diameter": 0.03 } }"#,
+            "found both \"knob\" and \"cup\", expected one of them",
+        ),
         (r#"{ "name": "nothing" }"#, "found no change, expected one of \"cut\", \"knob\""),
         (r#"{ "knob": 0 }"#, "edits[0].knob: found 0 kg, expected a mass above 0"),
         (r#"{ "knob": "2 in" }"#, "edits[0].knob"),
-        (r#"{ "cup": { "depth": "1 in", "diameter": "2.4 in" } }"#, "edits[0].cup: found no wood left near"),
-        (r#"{ "bore": { "from": 0.1, "to": 0.5, "diameter": "1 in" } }"#, "a hole of 25.40 mm (1.000 in) in a bat"),
-        (r#"{ "bore": { "from": 0.6, "to": 0.8, "diameter": "1 in" } },
+        (
+            r#"{ "cup": { "depth": "1 in", "diameter": "2.4 in" } }"#,
+            "edits[0].cup: found no wood left near",
+        ),
+        (
+            r#"{ "bore": { "from": 0.1, "to": 0.5, "diameter": "1 in" } }"#,
+            "a hole of 25.40 mm (1.000 in) in a bat",
+        ),
+        (
+            r#"{ "bore": { "from": 0.6, "to": 0.8, "diameter": "1 in" } },
             { "bore": { "from": 0.7, "to": 0.8, "diameter": "0.5 in" } }"#,
-         "edits[1].bore.diameter: found \"0.5 in\" (a hole of 12.70 mm (0.500 in)), expected a wider one"),
-        (r#"{ "bore": { "from": 0.6, "to": 0.85, "diameter": "1 in" } },
+            "edits[1].bore.diameter: found \"0.5 in\" (a hole of 12.70 mm (0.500 in)), expected a wider one",
+        ),
+        (
+            r#"{ "bore": { "from": 0.6, "to": 0.85, "diameter": "1 in" } },
             { "cup": { "depth": "1 in", "diameter": "1.5 in" } }"#,
-         "edits[1].cup: found a bat that is hollow there"),
+            "edits[1].cup: found a bat that is hollow there",
+        ),
         (r#"{ "shorten": { "knob": 0.5, "tip": 0.5 } }"#, "edits[0].shorten: found 1 m sawn off"),
         (r#"{ "shorten": {} }"#, "edits[0].shorten: found none of \"knob\", \"tip\""),
         (r#"{ "wood": "balsa" }"#, "edits[0].wood: found \"balsa\""),
         (r#"{ "trim": 1 }"#, "found no change, expected one of \"cut\""),
-        (r#"{ "scale_diameter": { "from": 0.1, "to": 0.2, "by": -1 } }"#, "edits[0].scale_diameter.by: found -1"),
+        (
+            r#"{ "scale_diameter": { "from": 0.1, "to": 0.2, "by": -1 } }"#,
+            "edits[0].scale_diameter.by: found -1",
+        ),
     ] {
         let said = read(&format!(", \"edits\": [ {edits} ]")).unwrap_err();
         if !said.contains(expected) {
@@ -395,17 +420,42 @@ fn options_are_the_edits_of_a_file_in_the_order_typed() {
     let typed = [
         ("--shorten", "knob 0.5 in", r#"{ "shorten": { "knob": "0.5 in" } }"#),
         ("--knob", "2 oz", r#"{ "knob": "2 oz" }"#),
-        ("--cut", "24 in to 30 in, 1 mm", r#"{ "cut": { "from": "24 in", "to": "30 in", "depth": "1 mm" } }"#),
-        ("--cut", "4 in to 10 in, 0.5 mm, 2 in blend",
-         r#"{ "cut": { "from": "4 in", "to": "10 in", "depth": "0.5 mm", "blend": "2 in" } }"#),
-        ("--cup", "1 in deep, 1.5 in wide", r#"{ "cup": { "depth": "1 in", "diameter": "1.5 in" } }"#),
-        ("--bore", "20 in to 25 in, 0.5 in", r#"{ "bore": { "from": "20 in", "to": "25 in", "diameter": "0.5 in" } }"#),
-        ("--cork", "20 in to 25 in, 0.5 in, 200 kg/m^3, 20 MPa, 8 MPa",
-         r#"{ "cork": { "from": "20 in", "to": "25 in", "diameter": "0.5 in",
-            "material": { "density": 200, "youngs_modulus": 2e7, "shear_modulus": 8e6 } } }"#),
-        ("--scale-diameter", "11 in to 14 in, by 1.05", r#"{ "scale_diameter": { "from": "11 in", "to": "14 in", "by": 1.05 } }"#),
-        ("--sleeve", "26 in to 30 in, 1 mm thick, aluminium-7075",
-         r#"{ "sleeve": { "from": "26 in", "to": "30 in", "thickness": "1 mm", "material": "aluminium-7075" } }"#),
+        (
+            "--cut",
+            "24 in to 30 in, 1 mm",
+            r#"{ "cut": { "from": "24 in", "to": "30 in", "depth": "1 mm" } }"#,
+        ),
+        (
+            "--cut",
+            "4 in to 10 in, 0.5 mm, 2 in blend",
+            r#"{ "cut": { "from": "4 in", "to": "10 in", "depth": "0.5 mm", "blend": "2 in" } }"#,
+        ),
+        (
+            "--cup",
+            "1 in deep, 1.5 in wide",
+            r#"{ "cup": { "depth": "1 in", "diameter": "1.5 in" } }"#,
+        ),
+        (
+            "--bore",
+            "20 in to 25 in, 0.5 in",
+            r#"{ "bore": { "from": "20 in", "to": "25 in", "diameter": "0.5 in" } }"#,
+        ),
+        (
+            "--cork",
+            "20 in to 25 in, 0.5 in, 200 kg/m^3, 20 MPa, 8 MPa",
+            r#"{ "cork": { "from": "20 in", "to": "25 in", "diameter": "0.5 in",
+            "material": { "density": 200, "youngs_modulus": 2e7, "shear_modulus": 8e6 } } }"#,
+        ),
+        (
+            "--scale-diameter",
+            "11 in to 14 in, by 1.05",
+            r#"{ "scale_diameter": { "from": "11 in", "to": "14 in", "by": 1.05 } }"#,
+        ),
+        (
+            "--sleeve",
+            "26 in to 30 in, 1 mm thick, aluminium-7075",
+            r#"{ "sleeve": { "from": "26 in", "to": "30 in", "thickness": "1 mm", "material": "aluminium-7075" } }"#,
+        ),
         ("--wood", "white-ash-dynamic", r#"{ "wood": "white-ash-dynamic" }"#),
     ];
     let plain = folder.read("maple.json");
@@ -456,7 +506,8 @@ fn every_table_says_what_was_edited() {
 fn a_bat_stands_beside_itself_changed_and_a_hidden_change_is_told() {
     let folder = shop("edit_compare");
     let args = ["compare", "maple.json", "-n", "3", "--json", "-"];
-    let edits = ["--edit", "knob 2 oz", "--edit", "slim: cut 24 in to 30 in, 1 mm; cup 1 in deep, 1.5 in"];
+    let edits =
+        ["--edit", "knob 2 oz", "--edit", "slim: cut 24 in to 30 in, 1 mm; cup 1 in deep, 1.5 in"];
     let file = folder.json(&[&args[..], &edits[..]].concat());
     let bats = file["bats"].as_array().unwrap();
     let names: Vec<&str> = bats.iter().map(|bat| bat["name"].as_str().unwrap()).collect();
@@ -484,9 +535,15 @@ fn words_that_are_no_edit_are_told_with_how_one_is_written() {
     let folder = shop("edit_words");
     for (args, expected) in [
         (&["--cut", "24 in, 1 mm"][..], "expected a stretch, such as \"24 in to 30 in\""),
-        (&["--cut", "24 in to 40 in, 1 mm"], "--cut, to: found 1.016 m, expected a place on the bat"),
+        (
+            &["--cut", "24 in to 40 in, 1 mm"],
+            "--cut, to: found 1.016 m, expected a place on the bat",
+        ),
         (&["--cut", "24 to 30, 1 mm"], "24 in or 24 m?"),
-        (&["--knob", "1 oz", "--cut", "24 in to 30 in, 9 in"], "edit 2 of 2, --cut: found no wood left near"),
+        (
+            &["--knob", "1 oz", "--cut", "24 in to 30 in, 9 in"],
+            "edit 2 of 2, --cut: found no wood left near",
+        ),
         (&["--cup", "1 in"], "expected \"diameter\": how wide the cup is at the tip"),
         (&["--shorten", "1 in"], "found \"1 in\", expected knob or tip"),
         (&["--sleeve", "24 in to 30 in, 1 mm, aluminum-7075"], "did you mean aluminium-7075?"),
@@ -502,7 +559,10 @@ fn words_that_are_no_edit_are_told_with_how_one_is_written() {
         ("shortn tip 1 in", "did you mean shorten?"),
         (": knob 2 oz", "found no name before the colon"),
         ("slim:", "found no edit"),
-        ("slim: knob 2 oz; cut 24 in to 40 in, 1 mm", "edit 2 of 2, --edit slim, cut, to: found 1.016 m"),
+        (
+            "slim: knob 2 oz; cut 24 in to 40 in, 1 mm",
+            "edit 2 of 2, --edit slim, cut, to: found 1.016 m",
+        ),
     ] {
         let run = folder.run(&["compare", "maple.json", "--edit", edit]);
         let said = String::from_utf8_lossy(&run.stderr).into_owned();

@@ -364,25 +364,27 @@ impl Bat {
         self.profile.pieces.iter().all(known)
     }
 
-    /// The first material whose shear modulus is not known, as the bat file calls it.
-    pub fn without_shear(&self) -> String {
-        let regions = self.fixtures.regions.iter().enumerate();
-        let parts = regions.flat_map(|(k, region)| {
+    /// The materials of the regions, each with what a bat file calls it.
+    pub fn regional(&self) -> impl Iterator<Item = (String, &Material)> {
+        self.fixtures.regions.iter().enumerate().flat_map(|(k, region)| {
             // An edit makes regions of its own, which no file knows.
-            let name = |part: &str| match self.edits.is_empty() {
+            let name = move |part: &str| match self.edits.is_empty() {
                 true => format!("regions[{k}].{part}"),
                 false => format!("a {part} of regions or edits"),
             };
             let Layup { outer, core, sleeves, .. } = &region.layup;
-            let core = core.as_ref().map(|core| (name("core"), core));
-            let sleeves = sleeves.iter().map(|(sleeve, _)| (name("sleeve"), sleeve));
-            let wall = std::iter::once((name("material"), outer));
-            wall.chain(core).chain(sleeves).collect::<Vec<_>>()
-        });
+            let core = core.iter().map(move |core| (name("core"), core));
+            let sleeves = sleeves.iter().map(move |(sleeve, _)| (name("sleeve"), sleeve));
+            std::iter::once((name("material"), outer)).chain(core).chain(sleeves)
+        })
+    }
+
+    /// The first material whose shear modulus is not known, as the bat file calls it.
+    pub fn without_shear(&self) -> String {
         let unknown = |material: &Material| material.shear_modulus.is_none();
-        let region = parts.filter(|(_, material)| unknown(material)).map(|(name, _)| name).next();
+        let region = self.regional().find(|(_, material)| unknown(material));
         match region {
-            Some(name) if !unknown(self.material()) => name,
+            Some((name, _)) if !unknown(self.material()) => name,
             _ => "material".to_owned(),
         }
     }

@@ -110,9 +110,9 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
             check_bare(bat, [scale.from, scale.to])
         }
         Change::Knob(mass) => {
-            Attachment { mass: *mass, ..Attachment::default() }.check("", length).map_err(|_| {
-                Error::value("", shown(*mass, "kg"), "the mass of a weight on the knob")
-            })?;
+            Attachment { mass: *mass, ..Attachment::default() }.check("", length).map_err(
+                |_| Error::value("", shown(*mass, "kg"), "the mass of a weight on the knob"),
+            )?;
             match *mass > 0.0 {
                 true => Ok(()),
                 false => Err(Error::value("", shown(*mass, "kg"), "a mass above 0")),
@@ -130,7 +130,9 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
                 let overlaps = piece.start < tip[1] && piece.start + piece.length > tip[0];
                 overlaps && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
             }) {
-                true => Err(Error::value("", "a bat that is hollow there", "a solid end of the bat")),
+                true => {
+                    Err(Error::value("", "a bat that is hollow there", "a solid end of the bat"))
+                }
                 false => Ok(()),
             }
         }

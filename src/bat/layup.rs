@@ -93,7 +93,8 @@ impl Layup {
         let own = self.outer.density * wall.second_moment() + ring;
         let inside = |core: &Material| core.density * section.bore().second_moment();
         let own = own + self.core.as_ref().map_or(0.0, inside);
-        self.rings(wall).fold(own, |sum, (sleeve, ring)| sum + sleeve.density * ring.second_moment())
+        self.rings(wall)
+            .fold(own, |sum, (sleeve, ring)| sum + sleeve.density * ring.second_moment())
     }
 
     /// All four: those of the layers added, each layer bending about the bat's axis.
@@ -201,10 +202,15 @@ impl Layup {
         std::iter::once(&self.outer).chain(&self.core).chain(sleeves)
     }
 
+    /// The materials to be changed, that of the wall first.
+    pub fn materials_mut(&mut self) -> impl Iterator<Item = &mut Material> {
+        let sleeves = self.sleeves.iter_mut().map(|(sleeve, _)| sleeve);
+        std::iter::once(&mut self.outer).chain(&mut self.core).chain(sleeves)
+    }
+
     /// Makes the materials heavier by one factor and stiffer by another; tape keeps its mass.
     pub fn scaled(&mut self, density: f64, modulus: f64) {
-        let sleeves = self.sleeves.iter_mut().map(|(sleeve, _)| sleeve);
-        for material in std::iter::once(&mut self.outer).chain(&mut self.core).chain(sleeves) {
+        for material in self.materials_mut() {
             material.density *= density;
             material.youngs_modulus *= modulus;
             material.shear_modulus.iter_mut().for_each(|shear| *shear *= modulus);

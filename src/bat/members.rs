@@ -265,8 +265,10 @@ impl Part for Cork {
         })
         .needed(DIAMETER)
         .like("1 in"),
-        Field::<Self>::of_kind("material", Kind::Material, |cork| Slot::Material(&mut cork.material))
-            .needed("\"material\": what fills the hole"),
+        Field::<Self>::of_kind("material", Kind::Material, |cork| {
+            Slot::Material(&mut cork.material)
+        })
+        .needed("\"material\": what fills the hole"),
     ];
 
     fn stretch(&self) -> Option<[f64; 2]> {

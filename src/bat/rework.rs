@@ -224,7 +224,8 @@ impl Profile {
                     column.last().is_some_and(|last| (last - value).abs() <= 1e-12 * section.outer)
                 };
                 let known = told.x.last() == Some(&x);
-                if !(known && same(&told.outer, section.outer) && same(&told.inner, section.inner)) {
+                if !(known && same(&told.outer, section.outer) && same(&told.inner, section.inner))
+                {
                     told.x.push(x);
                     told.outer.push(section.outer);
                     told.inner.push(section.inner);

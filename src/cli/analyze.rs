@@ -23,9 +23,7 @@ use crate::show::report::text;
 use crate::show::report::{advice, aftermath, hit_json, hit_text, trust};
 use crate::study::spread::Readings;
 
-use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed,
-};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::pictures;

@@ -14,9 +14,7 @@ use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
-use crate::cli::common::{
-    OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read,
-};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::cli::pictures;
@@ -190,7 +188,11 @@ fn bats_beside(args: &Args) -> Result<Done> {
             1 => "1 bat".to_owned(),
             count => format!("{count} bats"),
         };
-        return Err(Error::value("compare", found, format!("2 to {MOST} that can be compared: files, or --edit of the first")));
+        return Err(Error::value(
+            "compare",
+            found,
+            format!("2 to {MOST} that can be compared: files, or --edit of the first"),
+        ));
     }
     if let Some(path) = &args.report {
         page::file::expected_page(path)?;

@@ -6,7 +6,7 @@
 
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use crate::base::error::{Error, Result, nearest};
+use crate::base::error::{Complaint, Error, Result, nearest};
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
@@ -119,7 +119,8 @@ pub fn edited(bat: &Bat, edits: &[Edit], called: impl Fn(usize) -> String) -> Re
     bat.edited(edits).map_err(|error| {
         error.placed(|mut complaint| {
             let of = complaint.field.strip_prefix("edits[").and_then(|rest| rest.split_once(']'));
-            let Some((k, key)) = of.and_then(|(k, key)| Some((k.parse::<usize>().ok()?, key))) else {
+            let Some((k, key)) = of.and_then(|(k, key)| Some((k.parse::<usize>().ok()?, key)))
+            else {
                 return Error::Value(complaint);
             };
             // After the change's own name.
@@ -149,7 +150,9 @@ impl clap::Args for EditArgs {
                 .value_name(value)
                 .help(help)
                 .long_help(format!("{help}, such as \"{example}\""))
-                .help_heading("What if (edits of the bat, after it was weighed, in the order typed)")
+                .help_heading(
+                    "What if (edits of the bat, after it was weighed, in the order typed)",
+                )
                 .action(ArgAction::Append)
                 .allow_hyphen_values(true)
                 .hide_short_help(true)
@@ -212,9 +215,8 @@ pub fn what_if(text: &str) -> std::result::Result<WhatIf, String> {
             None => {
                 let verbs = Change::VERBS.map(option);
                 let verbs: Vec<&str> = verbs.iter().map(String::as_str).collect();
-                let hint = nearest(verb, &verbs).map_or(String::new(), |near| {
-                    format!("; did you mean {near}?")
-                });
+                let hint = nearest(verb, &verbs)
+                    .map_or(String::new(), |near| format!("; did you mean {near}?"));
                 let expected = verbs.join(", ");
                 return Err(format!("found \"{verb}\", expected one of {expected}{hint}"));
             }
@@ -258,7 +260,8 @@ fn read(verb: &str, text: &str) -> std::result::Result<Change, String> {
 /// What stands between commas; one between two digits is a decimal comma.
 fn items(text: &str) -> Vec<&str> {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let apart = |at: &usize| !(digit(text[..*at].chars().last()) && digit(text[at + 1..].chars().next()));
+    let apart =
+        |at: &usize| !(digit(text[..*at].chars().last()) && digit(text[at + 1..].chars().next()));
     let commas = text.match_indices(',').map(|(at, _)| at).filter(apart);
     let (mut items, mut start) = (vec![], 0);
     for at in commas.chain([text.len()]) {
@@ -301,7 +304,9 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
         let ends = items.first().and_then(|first| first.split_once(" to "));
         let Some((from, to)) = ends else {
             let found = items.first().copied().unwrap_or_default();
-            return Err(format!("found \"{found}\", expected a stretch, such as \"24 in to 30 in\""));
+            return Err(format!(
+                "found \"{found}\", expected a stretch, such as \"24 in to 30 in\""
+            ));
         };
         for (field, text) in stretch.zip([from, to]) {
             set(field, PLACE.read(text)?, &mut part);
@@ -315,7 +320,8 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
         let k = said.or(in_order.then_some(0));
         let Some(k) = k.filter(|_| !item.is_empty()) else {
             let left: Vec<&str> = fields.iter().map(|field| field.key).collect();
-            let expected = if left.is_empty() { "nothing more".to_owned() } else { left.join(" or ") };
+            let expected =
+                if left.is_empty() { "nothing more".to_owned() } else { left.join(" or ") };
             return Err(format!("found \"{item}\", expected {expected}"));
         };
         let field = fields.remove(k);
@@ -329,7 +335,8 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
             }
             Kind::Number(None, _) => {
                 let number = typed::number(value);
-                let number = number.ok_or(format!("found \"{value}\", expected a factor, such as 1.05"))?;
+                let number =
+                    number.ok_or(format!("found \"{value}\", expected a factor, such as 1.05"))?;
                 set(field, number, &mut part);
             }
             _ => set(field, plausible(field.key).read(value)?, &mut part),
@@ -364,12 +371,12 @@ fn plausible(key: &str) -> &'static Use {
 
 /// A material by its built-in name, or by density, Young's modulus and, if known, shear modulus.
 fn material(items: &[&str]) -> std::result::Result<Material, String> {
-    let said = |complaint: crate::base::error::Complaint| complaint.to_string();
+    let said = |complaint: Complaint| complaint.to_string();
     match items {
         [name] => Material::named(name).ok_or_else(|| {
             let names: Vec<&str> = BUILT_IN.iter().map(|known| known.name).collect();
-            let hint =
-                nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
+            let hint = nearest(name, &names)
+                .map_or(String::new(), |near| format!("; did you mean {near}?"));
             format!(
                 "found \"{name}\", expected a built-in material ({}) or a density and a Young's \
                  modulus{hint}",
@@ -386,6 +393,9 @@ fn material(items: &[&str]) -> std::result::Result<Material, String> {
             material.check().map_err(|error| error.to_string())?;
             Ok(material)
         }
-        _ => Err("found no material, expected a built-in one or a density and a Young's modulus".into()),
+        _ => {
+            Err("found no material, expected a built-in one or a density and a Young's modulus"
+                .into())
+        }
     }
 }

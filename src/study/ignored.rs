@@ -8,7 +8,6 @@
 //! solved side by side.
 
 use crate::bat::body::Bat;
-use crate::bat::layup::Layup;
 use crate::bat::material::Material;
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
@@ -104,11 +103,7 @@ fn typical_shear(material: &Material) -> f64 {
 pub fn with_typical_shear(bat: &Bat) -> Bat {
     let with = bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();
-        let layups = regions.flat_map(|region| {
-            let Layup { outer, core, sleeves, .. } = &mut region.layup;
-            let sleeves = sleeves.iter_mut().map(|(sleeve, _)| sleeve);
-            std::iter::once(outer).chain(core).chain(sleeves)
-        });
+        let layups = regions.flat_map(|region| region.layup.materials_mut());
         for material in std::iter::once(&mut parts.material).chain(layups) {
             let typical = typical_shear(material) * material.youngs_modulus;
             material.shear_modulus.get_or_insert(typical);

@@ -228,7 +228,10 @@ pub fn profile(analysis: &Analysis) -> Table {
     let profile = analysis.bat.unedited().profile();
     let before = if analysis.bat.edits().is_empty() { "" } else { ", before its edits" };
     if let Some(formulas) = &profile.formulas {
-        let mut table = Table::of_words(format!("The profile{before}"), &["From, m", "To, m", "Radius", "Bore"]);
+        let mut table = Table::of_words(
+            format!("The profile{before}"),
+            &["From, m", "To, m", "Radius", "Bore"],
+        );
         for piece in &formulas.pieces {
             let bore = piece.inner.as_ref().map_or("none", |inner| inner.text());
             let [from, to] = [piece.from, piece.to].map(shown::plain);

@@ -29,7 +29,8 @@ pub fn words(change: &Change, us: bool) -> String {
         false => format!("{} mm", significant(1e3 * x, DIGITS)),
     };
     let stretch = |from: f64, to: f64| format!("{} to {}", length(from), length(to));
-    let blend = |blend: Option<f64>| blend.map_or(String::new(), |b| format!(", {} blend", length(b)));
+    let blend =
+        |blend: Option<f64>| blend.map_or(String::new(), |b| format!(", {} blend", length(b)));
     let said = match change {
         Change::Cut(cut) => {
             format!("{}, {}{}", stretch(cut.from, cut.to), length(cut.depth), blend(cut.blend))
@@ -49,7 +50,8 @@ pub fn words(change: &Change, us: bool) -> String {
         Change::Shorten(shorten) => {
             let ends = [("knob", shorten.knob), ("tip", shorten.tip)];
             let ends = ends.into_iter().filter_map(|(end, off)| Some((end, off?)));
-            let ends: Vec<String> = ends.map(|(end, off)| format!("{end} {}", length(off))).collect();
+            let ends: Vec<String> =
+                ends.map(|(end, off)| format!("{end} {}", length(off))).collect();
             ends.join(", ")
         }
         Change::ScaleDiameter(scale) => {

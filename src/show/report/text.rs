@@ -8,9 +8,9 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
-use crate::show::report::edits;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::damped;
+use crate::show::report::edits;
 use crate::study::ignored::ignored;
 use crate::study::trade::reference::solver_name;
 
@@ -93,7 +93,10 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     line("balance point, from knob", units.length(inertia.balance_point));
     line("balance point, from tip", units.length(length - inertia.balance_point));
     if let Some(weighed) = bat.weighed().balance_point {
-        line("  less the weighed one", units.length(bat.unedited().inertia().balance_point - weighed));
+        line(
+            "  less the weighed one",
+            units.length(bat.unedited().inertia().balance_point - weighed),
+        );
     }
     line("inertia about balance point", units.inertia(inertia.about_balance));
     line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
