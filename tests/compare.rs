@@ -158,9 +158,14 @@ fn table_json_and_csv_say_the_same_and_a_hit_says_it_too() {
     let folder = meshes("outputs");
     let two = ["compare", "r161.json", "torpedo.json"];
     let ask = |more: &[&str]| folder.text(&[&two[..], more].concat());
-    for units in ["si", "us", "both"] {
-        let table = ask(&["--units", units]);
-        assert!(table.lines().all(|line| line.chars().count() <= 80), "{units}");
+    for more in [
+        &["--units", "si"][..],
+        &["--units", "us"],
+        &["--units", "both"],
+        &["--full", "--units", "both"],
+    ] {
+        let table = ask(more);
+        assert!(table.lines().all(|line| line.chars().count() <= 80), "{more:?}");
         assert!(table.contains("All are swung at 43.0 rad/s") && table.contains("In words"));
     }
     let json = folder.json(&[&two[..], &["--json", "-"]].concat());
@@ -231,7 +236,7 @@ fn energies_are_compared_only_where_all_are_seen_from_the_same_place() {
             }
             assert!(bat["figures"]["best_exit_speed_m_s"].is_object());
         }
-        let table = folder.text(&args);
+        let table = folder.text(&[&args[..], &["--full"]].concat());
         assert_eq!(table.contains("Vibration is not compared"), !alike, "{bats:?}");
         assert_eq!(table.contains("vibration at the best place"), alike, "{bats:?}");
     }
@@ -240,7 +245,8 @@ fn energies_are_compared_only_where_all_are_seen_from_the_same_place() {
 #[test]
 fn more_bats_have_a_table_of_all_and_a_rigid_one_no_vibration() {
     let folder = meshes("three");
-    let three = ["compare", "r161.json", "torpedo.json", "house.json", "--model", "rigid"];
+    let three =
+        ["compare", "r161.json", "torpedo.json", "house.json", "--model", "rigid", "--full"];
     let table = folder.text(&three);
     assert!(table.contains("\nAll (places") && table.contains("\nC beside A"));
     assert!(!table.contains("vibration") && !table.contains("BBCOR"));
@@ -250,12 +256,34 @@ fn more_bats_have_a_table_of_all_and_a_rigid_one_no_vibration() {
     assert!(table.contains("One batter swings each") && table.contains("C is swung at"));
 }
 
+/// Two screens of 24 lines and 80 columns; what does not differ is named, not shown.
+#[test]
+fn five_bats_fit_on_two_screens_and_two_on_one() {
+    let folder = Folder::new("screens");
+    let five = ["compare", "r161", "torpedo", "house", "tanh", "corked", "--quiet"];
+    let two = ["compare", "r161", "torpedo", "--quiet"];
+    let same = ["compare", "r161", "r161", "--quiet"];
+    for (args, most) in [(&five[..], 48), (&two, 32), (&same, 24)] {
+        for units in ["both", "si", "us"] {
+            let table = folder.text(&[args, &["--units", units]].concat());
+            assert!(table.lines().count() <= most, "{}\n{table}", table.lines().count());
+            assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+        }
+    }
+    let shown = folder.text(&five);
+    let first = shown.lines().position(|line| line.starts_with("What differs")).unwrap();
+    assert!(shown.lines().nth(first + 1).unwrap().starts_with("  best exit speed"));
+    let shown = folder.text(&same);
+    assert!(shown.contains("No difference beyond the errors: best exit speed"), "{shown}");
+    assert!(!shown.contains("+"), "{shown}");
+}
+
 #[test]
 fn six_bats_fit_into_the_pictures_too() {
     let folder = meshes("pictures");
     let bats = ["r161.json", "torpedo.json", "house.json"];
     let six: Vec<&str> = bats.into_iter().cycle().take(6).collect();
-    let args = [&["compare"], &six[..], &["--plots", "p", "--every", "2 in"]].concat();
+    let args = [&["compare", "--full"], &six[..], &["--plots", "p", "--every", "2 in"]].concat();
     let table = folder.text(&args);
     assert!(table.contains("\nF beside A") && table.lines().all(|l| l.chars().count() <= 80));
     for name in ["profile", "shapes", "exit_speed", "difference"] {

@@ -188,7 +188,7 @@ fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
         &["hit", "tube.json", "--points", "3"],
         &["analyze", "tube.json", "--full", "--report", "tube.html"],
         &["bbcor", "tube.json"],
-        &["compare", "tube.json", "tube.json"],
+        &["compare", "tube.json", "tube.json", "--full"],
         &["ring", "tube.json", "--hit", "0.7"],
     ];
     for command in commands {

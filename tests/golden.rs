@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::documents::{Numbers, WRITTEN, folder, page, written};
+use common::documents::{Numbers, WRITTEN, error, folder, page, written};
 use serde_json::Value;
 
 /// Where the numbers are the program's own affair, and where a flat maximum is found roughly.
@@ -74,8 +74,9 @@ fn golden(name: &str) -> Value {
 fn the_documents_are_those_of_version_one() {
     let folder = folder("golden");
     let documents = WRITTEN.map(|document| (document.0, written(&folder, document), document.3));
+    let wrong = ("error", error(&folder), Numbers::Sharp);
     for (name, mut now, like) in
-        documents.into_iter().chain([("page", page(&folder), Numbers::Rough)])
+        documents.into_iter().chain([("page", page(&folder), Numbers::Rough), wrong])
     {
         if !["modes", "hit"].contains(&name) {
             cut(&mut now);

@@ -20,10 +20,11 @@ fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Exit code and standard error of a failed run.
+/// Exit code and standard error of a failed run, that for people.
 fn failure(output: &Output) -> String {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
+    let told = told.split("{\"format\":\"sweetspot-error/1\"").next().unwrap().to_owned();
     let (each, _) = diagnostics(&told);
     assert!(told.starts_with("error: ") && each.len() == 1 && each[0].rest.is_empty(), "{told}");
     told
@@ -618,6 +619,82 @@ fn the_u_curve_is_shown() {
     assert_eq!(csv.lines().count(), rows);
     let table = folder.text(&args);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+}
+
+/// Every cell of `modes --csv` and `hit --csv` is the number of the JSON, to the last bit.
+#[test]
+fn tables_for_other_programs_hold_the_numbers_of_the_json() {
+    let folder = Folder::new("tables");
+    let bat = mesh("r161");
+    let lists = [
+        ("modes", "modes", ["-n", "4", "--tol", "1e-6"]),
+        ("hit", "impacts", ["--points", "5", "--from", "0.4"]),
+    ];
+    for (verb, list, more) in lists {
+        let args = [&[verb, &bat, "--csv", "t.csv", "--json", "-"][..], &more].concat();
+        let document = folder.json(&args);
+        let mut reader = csv::Reader::from_path(folder.0.join("t.csv")).unwrap();
+        let names = reader.headers().unwrap().clone();
+        let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), document[list].as_array().unwrap().len());
+        for (row, item) in rows.iter().zip(document[list].as_array().unwrap()) {
+            for (name, cell) in names.iter().zip(row) {
+                let path = format!("/{}", name.replace('.', "/"));
+                let known =
+                    match name.strip_prefix("node_").and_then(|rest| rest.strip_suffix("_m")) {
+                        Some(k) => item["nodes_m"].get(k.parse::<usize>().unwrap() - 1),
+                        None if name == "vibration_j" => item.pointer("/energy_j/vibration"),
+                        None => item.pointer(&path),
+                    };
+                match known {
+                    Some(Value::Number(number)) => {
+                        assert_eq!(cell.parse::<f64>().ok(), number.as_f64(), "{name}");
+                    }
+                    Some(Value::Array(words)) => {
+                        let words: Vec<&str> = words.iter().map(|w| w.as_str().unwrap()).collect();
+                        assert_eq!(cell, words.join(" "), "{name}");
+                    }
+                    _ => assert_eq!(cell, "", "{name} {known:?}"),
+                }
+            }
+        }
+        assert_eq!(
+            folder.text(&[verb, &bat, "--csv", "-", more[0], more[1], more[2], more[3]]),
+            folder.read("t.csv")
+        );
+        let output = folder.run(&[verb, &bat, "--csv", "-", "--json", "-"]);
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty());
+    }
+}
+
+/// With `--json` the last line on standard error is what is wrong, for other programs; without it is not.
+#[test]
+fn what_is_wrong_is_json_too_where_json_is_asked_for() {
+    let folder = Folder::new("errors");
+    folder.write("bat.json", "{ \"format\": \"sweetspot-bat/1\", }");
+    for (args, place, line) in [
+        (&["modes", "bat.json"][..], None, Some(1)),
+        (&["modes", "none.json"], None, None),
+        (&["modes", "bat.json", "--tol", "x"], Some("--tol"), None),
+        (&["hit", "bat.json", "--pich", "3"], Some("--pich"), None),
+        (&["hit"], None, None),
+    ] {
+        let plain = folder.run(args);
+        for json in ["--json=-", "--json=out.json"] {
+            let output = folder.run(&[args, &[json]].concat());
+            assert_eq!(output.status.code(), Some(2), "{args:?}");
+            assert!(output.stdout.is_empty() && !folder.0.join("out.json").exists());
+            let told = String::from_utf8(output.stderr).unwrap();
+            let (people, last) = told.trim_end().rsplit_once('\n').unwrap();
+            let plain = String::from_utf8_lossy(&plain.stderr);
+            assert_eq!(people.lines().next(), plain.lines().next(), "{args:?}");
+            let document: Value = serde_json::from_str(last).unwrap();
+            let mistake = &document["mistakes"][0];
+            assert_eq!(mistake["place"].as_str(), place, "{document}");
+            assert_eq!(mistake["line"].as_u64(), line, "{document}");
+            assert!(!mistake["found"].as_str().unwrap().is_empty());
+        }
+    }
 }
 
 #[test]

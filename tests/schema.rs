@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::documents::{WRITTEN, folder, page, written};
+use common::documents::{WRITTEN, error, folder, page, written};
 use jsonschema::Validator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -230,7 +230,8 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
     assert_eq!(folder.json(&["schema"]), formats::all());
     let all = validator(&formats::all());
     let documents = WRITTEN.map(|document| (document.1, written(&folder, document)));
-    for (format, document) in documents.into_iter().chain([("page", page(&folder))]) {
+    let others = [("page", page(&folder)), ("error", error(&folder))];
+    for (format, document) in documents.into_iter().chain(others) {
         assert_eq!(document["format"], format!("sweetspot-{format}/1"));
         assert_valid(&validator(&kind(format).schema()), &document, format);
         assert_valid(&all, &document, format);
@@ -242,7 +243,8 @@ fn every_format_is_written_and_pinned_or_read() {
     let read = ["bat", "ball", "validation"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
-        let known = written || file.name() == "page" || read.contains(&file.name());
+        let known =
+            written || ["page", "error"].contains(&file.name()) || read.contains(&file.name());
         assert!(known, "{}", file.name());
     }
 }
@@ -264,7 +266,8 @@ fn kind(name: &str) -> FileKind {
 #[test]
 fn outputs_may_grow_but_not_lose_a_member_change_a_type_or_be_of_another_version() {
     let all = validator(&formats::all());
-    for (name, format) in WRITTEN.map(|document| (document.0, document.1)) {
+    let written = WRITTEN.map(|document| (document.0, document.1));
+    for (name, format) in written.into_iter().chain([("error", "error")]) {
         let path = format!("{}/tests/golden/{name}-1.json", env!("CARGO_MANIFEST_DIR"));
         let document: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
         let validator = validator(&kind(format).schema());

@@ -1,9 +1,8 @@
 //! `sweetspot bbcor BAT`: the laboratories' test, computed.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::base::error::{Error, Result};
-use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::bbcor::{Protocol, TEST_SPEED};
 use crate::collision::hit::{Model, Scene};
@@ -13,6 +12,7 @@ use crate::show::report::bbcor as report;
 
 use crate::cli::balls::{ball, cor};
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
@@ -64,9 +64,8 @@ pub struct Args {
     #[command(flatten)]
     solve: SolveArgs,
 
-    /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
 
     /// Draw BBCOR along the bat into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -85,11 +84,7 @@ Examples:
       with a livelier ball, as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let standard = Some(Path::new("-"));
-    if args.output.json.as_deref() == standard && args.csv.as_deref() == standard {
-        let expected = "one of --json and --csv on standard output";
-        return Err(Error::value("--csv", "- and --json -", expected));
-    }
+    args.csv.refuse_two(args.output.json.as_deref())?;
     args.solve.refuse_budget("bbcor")?;
     let bat = args.bat.read(&args.output)?;
     let protocol = protocol(args, &bat)?;
@@ -111,11 +106,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = verdict(&args.solve, &tested.sweep, &args.output);
     let table = report::text(&tested, &source, args.output.units);
     let out = args.output.deliver(table, || report::document(&tested, &source))?;
-    let text = match &args.csv {
-        Some(path) if path == Path::new("-") => report::csv(&tested),
-        Some(path) => file::write(path, report::csv(&tested).as_bytes()).map(|()| out)?,
-        None => out,
-    };
+    let text = args.csv.deliver(out, || report::csv(&tested))?;
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -6,7 +6,7 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
 use crate::files::measured;
-use crate::show::report::{self, comparison, comparison_data};
+use crate::show::report::{self, comparison, comparison_data, comparison_screen};
 use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
 use crate::study::comparison::hidden::hidden;
@@ -23,10 +23,11 @@ use crate::cli::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
 ///
-/// Swings two to six bats alike and says what differs: size and mass, swing weight, frequencies and
-/// nodes, the best exit speed and where, the exit speed at the same places from the tip and from the
-/// knob, BBCOR, vibration. The first bat is the one the others are measured by. Every difference
-/// stands beside how far it may be off; one within that is shown as none.
+/// Swings two to six bats alike and says what differs and matters: the best exit speed and where, the
+/// zone, swing weight, mass, the first frequency, BBCOR, and where along the barrel which bat is
+/// faster. The first bat is the one the others are measured by; a difference within the errors is
+/// none. With --full also: every frequency and node, vibration, and the exit speed at the same places
+/// from the tip and from the knob, each difference beside how far it may be off.
 ///
 /// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
 /// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, their mass
@@ -87,6 +88,10 @@ pub struct Args {
     /// Write all of it on one page for people into this file (.html): what differs first
     #[arg(long, value_name = "FILE", conflicts_with = "measured")]
     report: Option<PathBuf>,
+
+    /// Every figure of every bat beside the first one's, and the exit speeds place by place
+    #[arg(long, conflicts_with = "measured")]
+    full: bool,
 
     #[command(flatten)]
     scene: SceneArgs,
@@ -218,13 +223,17 @@ fn bats_beside(args: &Args) -> Result<Done> {
     };
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;
+    let table = match args.full {
+        true => comparison::text(&compared, args.output.units),
+        false => comparison_screen::screen(&compared, args.output.units),
+    };
     let text = match &args.csv {
         Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),
         Some(path) => {
             file::write(path, comparison_data::csv(&compared).as_bytes())?;
-            comparison::text(&compared, args.output.units)
+            table
         }
-        None => comparison::text(&compared, args.output.units),
+        None => table,
     };
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));

@@ -1,6 +1,10 @@
 //! Errors as a person at a terminal sees them: the line of the file, a caret, what to do.
 
+use std::io::Write;
+
 use crate::base::error::{Complaint, Error, Excerpt, Place};
+use crate::files::schema;
+use crate::files::schema::mistakes::ErrorFile;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::cli::done::printable;
@@ -21,6 +25,15 @@ pub fn render(error: &Error, coloured: bool) -> String {
             each + &show(Group::with_title(title))
         }
         one => show(group(one)),
+    }
+}
+
+/// The same for other programs, in one line on standard error, if the command line asks for JSON.
+pub fn as_json(document: impl FnOnce() -> ErrorFile) {
+    let mut options = std::env::args_os().skip(1).take_while(|word| word != "--");
+    if options.any(|word| word == "--json" || word.as_encoded_bytes().starts_with(b"--json=")) {
+        // There is nobody left to tell if standard error is closed.
+        let _ = writeln!(std::io::stderr(), "{}", schema::value(&document()));
     }
 }
 

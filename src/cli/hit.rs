@@ -9,11 +9,13 @@ use crate::collision::figures::Figures;
 use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Sweep, Trial, sweep_telling};
 use crate::files::schema::hit::HitFile;
+use crate::show::csv;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
 use crate::show::report::{hit_json, hit_text, sketch, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
@@ -45,6 +47,9 @@ pub struct Args {
     /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    csv: CsvArgs,
 
     #[command(flatten)]
     output: OutputArgs,
@@ -119,6 +124,7 @@ impl PlaceArgs {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
+    args.csv.refuse_two(args.output.json.as_deref())?;
     let bat = args.bat.read(&args.output)?;
     let model = args.scene.model()?;
     args.solve.refuse_budget("hit")?;
@@ -165,7 +171,9 @@ pub fn run(args: &Args) -> Result<Done> {
         ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
     };
     let code = verdict(&args.solve, &sweep, &args.output);
-    Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
+    let text = args.output.deliver(table, document)?;
+    let text = args.csv.deliver(text, || csv::hits(&sweep.impacts))?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

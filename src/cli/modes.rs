@@ -7,12 +7,14 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::beam::assembly::{Pencil, write_matrix_market};
 use crate::modes::solve::Solution;
+use crate::show::csv;
 use crate::show::exchange::npz;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::{sketch, text, trust};
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
+use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::pictures;
 
@@ -49,6 +51,9 @@ pub struct Args {
     reproducible: bool,
 
     #[command(flatten)]
+    csv: CsvArgs,
+
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -64,6 +69,7 @@ Examples:
       the best that two milliseconds give";
 
 pub fn run(args: &Args) -> Result<Done> {
+    args.csv.refuse_two(args.output.json.as_deref())?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     drop(progress);
@@ -87,7 +93,8 @@ pub fn run(args: &Args) -> Result<Done> {
     );
     let document = || json::modes(&bat, &solution, args.shape_points, !args.reproducible);
     let code = args.solve.verdict(&solution, &args.output);
-    Ok(Done::new(args.output.deliver(table, document)?, code).with(warning))
+    let text = args.csv.deliver(args.output.deliver(table, document)?, || csv::modes(&solution))?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {

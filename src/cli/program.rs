@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use crate::base::error::Error;
 use crate::cli::done::{Done, NOT_REACHED, printable};
 use crate::cli::{diagnostic, style, verbs};
+use crate::show::report::mistakes;
 
 /// Runs the verb on the command line; what it answers goes to standard output, what is wrong to
 /// standard error. 0 is an answer as accurate as asked, 2 a mistake in what came in, 3 an accuracy
@@ -18,6 +19,7 @@ pub fn run() -> ExitCode {
             let mut err = io::stderr();
             let coloured = style::coloured(err.is_terminal());
             let _ = write!(err, "{}", diagnostic::render(&error, coloured));
+            diagnostic::as_json(|| mistakes::document(&error));
             // Modes that do not converge are an accuracy not reached; all else is the input.
             let code = if matches!(error, Error::NotConverged { .. }) { NOT_REACHED } else { 2 };
             return ExitCode::from(code);

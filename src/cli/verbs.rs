@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
 use crate::proof::bundled;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -13,9 +13,10 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, analyze, bbcor, compare, completions, convert, frf, help, hit, licences, man,
-    materials, modes, new, ring, scene, schema, stop, style, trade, validate,
+    advise, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
+    man, materials, modes, new, ring, scene, schema, stop, style, trade, validate,
 };
+use crate::show::report::mistakes;
 
 /// What a baseball bat does when it meets a ball
 #[derive(Parser)]
@@ -126,14 +127,33 @@ fn file_for_a_verb(said: clap::Error) -> clap::Error {
     Cli::command().error(ErrorKind::InvalidSubcommand, text)
 }
 
-/// Help and version, which are results as any other; wrong usage ends the program.
+/// Help and version, which are results as any other; wrong usage is told and answered with 2.
 fn say(said: &clap::Error) -> Result<Done> {
     if said.use_stderr() {
-        said.exit();
+        // A closed standard error changes nothing.
+        let _ = said.print();
+        diagnostic::as_json(|| mistakes::of_option(&complaint(said)));
+        return Ok(Done::new(String::new(), said.exit_code() as u8));
     }
     let coloured = style::coloured(std::io::stdout().is_terminal());
     let text = said.render();
     Ok(Done::new(if coloured { text.ansi().to_string() } else { text.to_string() }, 0))
+}
+
+/// Wrong usage in parts: the option, what was found, what was expected, a tip.
+fn complaint(said: &clap::Error) -> Complaint {
+    let text = said.render().to_string();
+    let mut parts =
+        text.split("\n\n").map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
+    let first = parts.next().unwrap_or_default();
+    let first = first.trim_start_matches("error: ");
+    let (found, expected) = first.split_once(": expected ").unwrap_or((first, ""));
+    let tip = parts.find_map(|part| part.strip_prefix("tip: ").map(str::to_owned));
+    let option = match said.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(option)) => option.split(' ').next().unwrap_or_default(),
+        _ => "",
+    };
+    Complaint::new(option, found, expected).hinted(tip.unwrap_or_default())
 }
 
 /// Whether an option stands on the command line.

@@ -3,8 +3,10 @@
 
 use csv::Writer;
 
-use crate::collision::columns::Column;
+use crate::collision::columns::{self, Column};
 use crate::collision::hit::Impact;
+use crate::modes::mode::ModeError;
+use crate::modes::solve::Solution;
 
 /// One cell.
 pub struct Cell(String);
@@ -82,6 +84,50 @@ pub fn impacts(columns: &[Column], impacts: &[Impact]) -> String {
     let mut table = Csv::new(columns.iter().map(|column| column.name));
     for impact in impacts {
         table.row(columns.iter().map(|column| column.at(impact).into()));
+    }
+    table.text()
+}
+
+/// A line for each hit: every figure, how many modes took part, how far its exit speed may be off, and what
+/// is unusual in it.
+pub fn hits(impacts: &[Impact]) -> String {
+    let names = columns::ALL.iter().map(|column| column.name);
+    let mut table = Csv::new(names.chain(["modes_used", "error.exit_speed", "flags"]));
+    for impact in impacts {
+        let figures = columns::ALL.iter().map(|column| column.at(impact).into());
+        let outcome = impact.outcome.as_ref();
+        let error = outcome.map(|outcome| outcome.error).filter(|error| error.is_finite());
+        let modes = outcome.map(|outcome| outcome.energy.vibration_by_mode.len());
+        let rest = [modes.into(), error.into(), impact.flags.join(" ").into()];
+        table.row(figures.chain(rest));
+    }
+    table.text()
+}
+
+/// A line for each mode: its figures, how far they may be off, and its nodes in columns of their own.
+pub fn modes(solution: &Solution) -> String {
+    const FIGURES: [&str; 9] = [
+        "order",
+        "frequency_hz",
+        "damping_ratio",
+        "modal_mass_kg",
+        "error.discretization",
+        "error.round_off",
+        "error.residual",
+        "error.nodes_m",
+        "error.modal_mass",
+    ];
+    let most = solution.modes.iter().map(|mode| mode.nodes.len()).max().unwrap_or(0);
+    let nodes = (1..=most).map(|k| format!("node_{k}_m"));
+    let mut table = Csv::new(FIGURES.map(str::to_owned).into_iter().chain(nodes));
+    for (k, mode) in solution.modes.iter().enumerate() {
+        let ModeError { discretization, round_off, residual, nodes, modal_mass, .. } = mode.error;
+        let known = |error: f64| Some(error).filter(|error| error.is_finite()).into();
+        let damping = solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio);
+        let figures = [mode.frequency(), damping, mode.modal_mass].map(Cell::from);
+        let errors = [discretization, round_off, residual, nodes, modal_mass].map(known);
+        let nodes = (0..most).map(|k| mode.nodes.get(k).copied().into());
+        table.row([mode.order.into()].into_iter().chain(figures).chain(errors).chain(nodes));
     }
     table.text()
 }

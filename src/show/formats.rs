@@ -13,6 +13,7 @@ use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
+use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::RingFile;
 use crate::files::schema::trade::TradeFile;
@@ -30,7 +31,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<Case>(),
@@ -46,6 +47,7 @@ impl FileKind {
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),
+        Self::of::<ErrorFile>(),
         Self::of::<Data>(),
     ];
 

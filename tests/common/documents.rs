@@ -1,5 +1,7 @@
 //! A document of every format that the program writes, and the commands that make them.
 
+use std::io::BufRead;
+
 use serde_json::Value;
 
 use super::folder::Folder;
@@ -107,6 +109,18 @@ pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
     let args: Vec<&str> = command.split(' ').chain(["--json", "-"]).collect();
     folder.json(&args)
 }
+
+/// What is wrong with a bat, `sweetspot-error/1`: the last line on standard error.
+pub fn error(folder: &Folder) -> Value {
+    folder.write("wrong.json", WRONG);
+    let output = folder.run(&["modes", "wrong.json", "--json", "-"]);
+    assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{output:?}");
+    serde_json::from_slice(output.stderr.lines().last().unwrap().unwrap().as_bytes()).unwrap()
+}
+
+const WRONG: &str = r#"{ "format": "sweetspot-bat/1",
+  "profile": { "unit": "in", "x": [0, 33], "diameter": [1.0, "2 lb"] },
+  "material": { "density": -5, "youngs_modulos": 14e9 } }"#;
 
 /// The data of a report, `sweetspot-page/1`.
 pub fn page(folder: &Folder) -> Value {

@@ -28,6 +28,7 @@ pub mod frf;
 pub mod advice;
 pub mod u_curve;
 pub mod trade;
+pub mod mistakes;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

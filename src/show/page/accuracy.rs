@@ -6,8 +6,14 @@ use crate::show::page::shown::{self, length, speed};
 use crate::show::report::advice;
 use crate::show::report::hit_text;
 use crate::show::report::text::Units;
+use crate::show::report::trust;
 use crate::study::ignored::{ignored, in_hit};
 use crate::study::trade::reference::solver_name;
+
+/// What wood, scale and calipers leave open of the bat in hand, and what would settle it.
+pub fn open(analysis: &Analysis, units: Units) -> Vec<String> {
+    trust::of_bat(analysis, units).iter().map(|text| shown::sentence(text)).collect()
+}
 
 /// What is certified, a sentence each.
 pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {

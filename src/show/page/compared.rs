@@ -7,23 +7,9 @@ use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::shown;
 use crate::show::page::table::Table;
 use crate::show::plot::compared::pictures;
-use crate::show::report::comparison::{Row, letter, rows, swing, words};
+use crate::show::report::comparison::{ALONG, FIRST, Row, letter, rows, swing, words};
 use crate::show::report::text::Units;
 use crate::study::comparison::table::Comparison;
-
-/// What matters of bats side by side, in this order, by the keys of the rows: all else is folded.
-const FIRST: [&str; 10] = [
-    "best_exit_speed",
-    "best_place",
-    "zone_from",
-    "zone_to",
-    "swing_weight",
-    "mass",
-    "length",
-    "balance_point",
-    "frequency_1",
-    "largest_bbcor",
-];
 
 /// The page of bats side by side, made by that command; `us` says which units are shown first.
 ///
@@ -83,9 +69,6 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
         section(ScreenOnly, "inputs", "How they were compared", how),
     ]
 }
-
-/// How sentences begin that say where along the barrel a bat is faster.
-const ALONG: &str = "By distance from the tip";
 
 /// The pictures of energies, one for each bat there can be.
 const LEDGERS: [&str; 6] = ["ledger_A", "ledger_B", "ledger_C", "ledger_D", "ledger_E", "ledger_F"];

@@ -121,7 +121,7 @@ impl<'a> Report<'a> {
         if !self.hits() {
             return vec![Part::Missing(NO_HIT)];
         }
-        let headline = Part::Facts("headline", self.summary.headline(units));
+        let headline = Part::Facts("headline", self.summary.headline(units, &self.analysis.spread));
         let why = accuracy::why(self.analysis, units).map(Part::Text);
         [Part::Picture("sweet_spot"), headline].into_iter().chain(why).collect()
     }
@@ -134,7 +134,7 @@ impl<'a> Report<'a> {
     }
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
-        let facts = Part::Facts("facts", self.summary.facts(units));
+        let facts = Part::Facts("facts", self.summary.facts(units, &self.analysis.spread));
         let edits = edits::listed(&self.analysis.bat, units == Units::Us);
         let edited = (!edits.is_empty())
             .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));
@@ -212,7 +212,9 @@ impl<'a> Report<'a> {
 
     fn accuracy(&'a self, units: Units) -> Vec<Part<'a>> {
         let mut parts = vec![
-            Part::Heading("What is certified"),
+            Part::Heading("What wood, scale and calipers leave open"),
+            Part::List(accuracy::open(self.analysis, units)),
+            Part::Heading("What the computation adds"),
             Part::List(accuracy::certified(self.analysis, units)),
             Part::Heading("What was left out, and what that costs"),
             Part::List(accuracy::left_out(self.analysis)),

@@ -7,6 +7,8 @@ use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length};
 use crate::show::report::text::Units;
+use crate::show::report::trust::about;
+use crate::study::spread::{Answer, Spread};
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -75,8 +77,9 @@ impl Summary {
         }
     }
 
-    /// The three answers: where, how fast, how wide. Empty where no ball is hit.
-    pub fn headline(&self, units: Units) -> Vec<Fact> {
+    /// The three answers: where, how fast, how wide, and how far the bat in hand may be from them. Empty
+    /// where no ball is hit.
+    pub fn headline(&self, units: Units, spread: &Spread) -> Vec<Fact> {
         let (Some(x), Some(speed), Some([from, to])) =
             (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
         else {
@@ -89,6 +92,8 @@ impl Summary {
             shown::speed(units, self.ball_speed_m_s)
         );
         let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
+        let [tip, scene] = [(tip, Answer::BestPlace), (scene, Answer::ExitSpeed)]
+            .map(|(note, answer)| with_open(note, about(spread, answer, units)));
         let (place, width) = (length(units, x), length(units, to - from));
         vec![
             fact("sweet_spot_m", "Sweet spot, from the knob", place, tip),
@@ -98,14 +103,15 @@ impl Summary {
     }
 
     /// All the rest, those left out that there are no numbers for.
-    pub fn facts(&self, units: Units) -> Vec<Fact> {
-        let mut facts = self.body(units);
+    pub fn facts(&self, units: Units, spread: &Spread) -> Vec<Fact> {
+        let mut facts = self.body(units, spread);
         if let Some((first, others)) = self.frequencies_hz.split_first() {
             let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
             let note = match others.is_empty() {
                 true => String::new(),
                 false => format!("then {} Hz", others.join(" and ")),
             };
+            let note = with_open(note, about(spread, Answer::Frequency1, units));
             let value = format!("{} Hz", shown::decimals(*first, 1));
             facts.push(fact("frequencies_hz", "First bending frequency", value, note));
         }
@@ -117,19 +123,25 @@ impl Summary {
     }
 
     /// The bat as a rigid body.
-    fn body(&self, units: Units) -> Vec<Fact> {
+    fn body(&self, units: Units, spread: &Spread) -> Vec<Fact> {
         let from_tip = |x: f64| format!("{} from the tip", length(units, self.length_m - x));
         let (balance, weight) = (self.balance_point_m, self.inertia_pivot_kg_m2);
         let along = |x: f64| length(units, x);
+        let open = |answer: Answer| about(spread, answer, units);
         let mut facts = vec![
             fact("length_m", "Length", along(self.length_m), String::new()),
-            fact("mass_kg", "Mass", shown::mass(units, self.mass_kg), String::new()),
+            fact(
+                "mass_kg",
+                "Mass",
+                shown::mass(units, self.mass_kg),
+                with_open(String::new(), open(Answer::Mass)),
+            ),
             fact("balance_point_m", "Balance point", along(balance), from_tip(balance)),
             fact(
                 "inertia_pivot_kg_m2",
                 "Swing weight",
                 shown::inertia(units, weight),
-                "about 6 in from the knob".to_owned(),
+                with_open("about 6 in from the knob".to_owned(), open(Answer::SwingWeight)),
             ),
         ];
         if let Some(x) = self.center_of_percussion_m {
@@ -139,6 +151,17 @@ impl Summary {
         }
         facts
     }
+}
+
+/// A note with how far the bat in hand may be from what it is of.
+fn with_open(note: String, open: Option<String>) -> String {
+    let open = open.map(|open| format!("{open} for the bat in hand"));
+    [Some(note), open]
+        .into_iter()
+        .flatten()
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 fn fact(key: &'static str, label: &'static str, value: String, note: String) -> Fact {

@@ -12,6 +12,23 @@ use crate::study::comparison::stretches::Stretch;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::in_hit;
 
+/// What matters of bats side by side, in this order, by the keys of the rows: all else comes after it.
+pub const FIRST: [&str; 10] = [
+    "best_exit_speed",
+    "best_place",
+    "zone_from",
+    "zone_to",
+    "swing_weight",
+    "mass",
+    "length",
+    "balance_point",
+    "frequency_1",
+    "largest_bbcor",
+];
+
+/// How sentences begin that say where along the barrel a bat is faster.
+pub const ALONG: &str = "By distance from the tip";
+
 /// What a bat is called in the tables: A, B, …
 pub fn letter(bat: usize) -> char {
     char::from(b'A' + bat as u8)
@@ -98,8 +115,15 @@ fn legend(comparison: &Comparison, units: Units) -> String {
             out += &wrapped(&format!("     left out: {effect}"), 5);
         }
     }
-    let first = &comparison.bats[0];
-    let Scene { pivot, ball, ball_speed, .. } = &first.scene;
+    out += &hit(comparison, units);
+    let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
+                  with a smaller --tol. A difference within it is shown as none.";
+    out + &wrapped(within, 5)
+}
+
+/// How all of them are hit.
+pub fn hit(comparison: &Comparison, units: Units) -> String {
+    let Scene { pivot, ball, ball_speed, .. } = &comparison.bats[0].scene;
     let side = if *pivot < 0.0 { "inside" } else { "beyond" };
     let scene = format!(
         "Hit: model {}, swung about a point {} {side} the knob end, {} at {}",
@@ -108,11 +132,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         ball.name,
         units.inline(units.speed(*ball_speed)),
     );
-    out += &wrapped(&scene, 5);
-    out += &wrapped(&swing(comparison, units), 5);
-    let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
-                  with a smaller --tol. A difference within it is shown as none.";
-    out + &wrapped(within, 5)
+    wrapped(&scene, 5) + &wrapped(&swing(comparison, units), 5)
 }
 
 /// How the swings of the bats go together.
@@ -228,21 +248,28 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
 
 /// One bat beside the first: figures, then exit speeds by place.
 fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
+    let all: Vec<&ComparedFigure> = shown(comparison).collect();
+    let mut out = figures(&all, bat, units);
+    let near: Vec<_> = comparison.from_tip.iter().zip(&comparison.by_tip).step_by(4).collect();
+    out += &by_place("Exit speed from the tip", &near, bat, units);
+    if !comparison.same_length() {
+        let near: Vec<_> = comparison.from_knob.iter().zip(&comparison.by_knob).collect();
+        out += &by_place("Exit speed from the knob end", &near, bat, units);
+    }
+    out
+}
+
+/// Figures of one bat beside those of the first.
+pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
     let (us, name) = (units == Units::Us, letter(bat));
     let less = format!("{name} less A");
     let title = format!("{name} beside A");
     let in_us = if units == Units::Both { less.clone() } else { String::new() };
     let heads = [title, "A".into(), name.to_string(), less, "within".into(), in_us];
     let mut out = format!("\n{}", columns(heads).heads());
-    for figure in shown(comparison) {
+    for figure in all {
         let scale = scale(figure.unit, us);
         out += &compared(figure, bat, &format!("  {}", label(figure, &scale)), units);
-    }
-    let near: Vec<_> = comparison.from_tip.iter().zip(&comparison.by_tip).step_by(4).collect();
-    out += &by_place("Exit speed from the tip", &near, bat, units);
-    if !comparison.same_length() {
-        let near: Vec<_> = comparison.from_knob.iter().zip(&comparison.by_knob).collect();
-        out += &by_place("Exit speed from the knob end", &near, bat, units);
     }
     out
 }
@@ -313,29 +340,35 @@ fn columns(heads: [String; 6]) -> Columns {
 /// A sentence or two about each bat beside the first.
 pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
     let mut all = vec![];
-    for (bat, contender) in comparison.bats.iter().enumerate().skip(1) {
+    for bat in 1..comparison.bats.len() {
         all.push(best(comparison, bat, units));
-        let place = |x: f64| {
-            units.inline(units.show(format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x))))
-        };
-        let stretch = |s: &Stretch| stretch(s, letter(bat), &place, units);
-        let parts: Vec<String> = comparison.stretches(bat).iter().map(stretch).collect();
+        let parts = along(comparison, bat, units);
         if !parts.is_empty() {
-            all.push(format!("By distance from the tip: {}.", parts.join("; ")));
+            all.push(format!("{ALONG}: {parts}."));
         }
-        if contender.scene.swing != comparison.bats[0].scene.swing {
-            all.push(format!(
-                "{} is swung at {:.2} rad/s, A at {:.2}.",
-                letter(bat),
-                contender.scene.swing,
-                comparison.bats[0].scene.swing
-            ));
-        }
+        all.extend(swung(comparison, bat));
     }
     if !energies_compare(&comparison.bats) {
         all.push(NO_ENERGIES.to_owned());
     }
     all
+}
+
+/// Where along the barrel that bat or the first is faster; empty where neither is hit.
+pub fn along(comparison: &Comparison, bat: usize, units: Units) -> String {
+    let place = |x: f64| {
+        units.inline(units.show(format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x))))
+    };
+    let stretch = |s: &Stretch| stretch(s, letter(bat), &place, units);
+    let parts: Vec<String> = comparison.stretches(bat).iter().map(stretch).collect();
+    parts.join("; ")
+}
+
+/// How that bat is swung, where the first is swung otherwise.
+pub fn swung(comparison: &Comparison, bat: usize) -> Option<String> {
+    let [this, first] = [bat, 0].map(|k| comparison.bats[k].scene.swing);
+    let name = letter(bat);
+    (this != first).then(|| format!("{name} is swung at {this:.2} rad/s, A at {first:.2}."))
 }
 
 const NO_ENERGIES: &str = "Vibration is not compared: the energies of a held bat are as its hands see \

@@ -20,5 +20,7 @@ pub mod trade;
 pub mod advice;
 pub mod trust;
 pub mod comparison;
+pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
+pub mod mistakes;

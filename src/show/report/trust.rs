@@ -137,8 +137,7 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
         let Some(estimate) = spread.of(answer) else { return };
         let kind = Kind::of(answer);
         let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
-        let open = estimate.deviation.filter(|_| !mostly.is_empty());
-        let open = open.map_or(String::new(), |open| format!("± {}", kind.about(units, open)));
+        let open = about(spread, answer, units).unwrap_or_default();
         let value = kind.shown(units, estimate.value);
         out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
         if answer == Answer::BestPlace {
@@ -163,16 +162,27 @@ const HOLLOW: &str = "Left out: how a hollow barrel's wall gives way; --full say
 
 /// How far to trust the answers: the bat first, what would settle it, then the computation.
 pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
-    let mut told = vec![bat_first(&analysis.spread)];
-    told.extend(settled_by(analysis, units));
+    let mut told = of_bat(analysis, units);
     told.push(computation(analysis));
     let rigid = thinnest_wall(&analysis.bat).filter(|_| analysis.task.scene.wall.is_none());
     told.extend(rigid.map(|_| HOLLOW.to_owned()));
     told
 }
 
+/// What is open of the bat in hand, and what would settle it.
+pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
+    [bat_first(&analysis.spread, units)].into_iter().chain(settled_by(analysis, units)).collect()
+}
+
+/// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open.
+pub fn about(spread: &Spread, answer: Answer, units: Units) -> Option<String> {
+    spread.mostly(answer)?;
+    let deviation = spread.of(answer)?.deviation?;
+    Some(format!("± {}", Kind::of(answer).about(units, deviation)))
+}
+
 /// What is open of the bat, and what that makes of its first frequency.
-fn bat_first(spread: &Spread) -> String {
+fn bat_first(spread: &Spread, units: Units) -> String {
     let mut told: Vec<String> = vec![];
     let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
     let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
@@ -184,12 +194,16 @@ fn bat_first(spread: &Spread) -> String {
     if !wood.is_empty() {
         told.push(format!("clear wood of one kind differs by {}", wood.join(" and ")));
     }
-    let millimetres = |source: &Source| format!("{} mm", significant(1e3 * source.deviation, 2));
+    let small = |si: (f64, &str), us: (f64, &str), value: f64| {
+        let (factor, unit) = if units == Units::Us { us } else { si };
+        format!("{} {unit}", significant(factor * value, 2))
+    };
+    let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
     let read = [
-        (Input::Diameters, "calipers are off by", &millimetres as &dyn Fn(&Source) -> String),
-        (Input::Length, "a rule by", &millimetres),
+        (Input::Diameters, "calipers are off by", &length as &dyn Fn(&Source) -> String),
+        (Input::Length, "a rule by", &length),
         (Input::Mass, "a scale by", &|source| {
-            format!("{} g", significant(1e3 * source.deviation, 2))
+            small((1e3, "g"), (ounces(1.0), "oz"), source.deviation)
         }),
         (Input::Tap, "a tapped note by", &share),
     ];
@@ -271,6 +285,18 @@ pub fn of_wood(bat: &Bat) -> String {
         percent(open, 0)
     );
     wrapped(&text, 7)
+}
+
+/// What the wood alone makes of the differences between bats, in a line; empty where none is of wood.
+pub fn between_bats<'a>(bats: impl Iterator<Item = &'a Bat>) -> String {
+    let open = bats.filter_map(of_frequencies).fold(0.0, f64::max);
+    match open > 0.0 {
+        true => format!(
+            "Trust: the wood alone leaves a bat's frequencies open by {}: sweetspot analyze\n",
+            percent(open, 0)
+        ),
+        false => String::new(),
+    }
 }
 
 /// Where what is open of a hit is told.

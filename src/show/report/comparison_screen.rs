@@ -1,0 +1,80 @@
+//! Several bats side by side on two screens: what differs and matters, then where along the barrel.
+
+use crate::show::report::columns::{Columns, first, numbers};
+use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
+use crate::show::report::text::{Units, wrapped};
+use crate::show::report::trust;
+use crate::study::comparison::rows::ComparedFigure;
+use crate::study::comparison::table::Comparison;
+use crate::study::ignored::thinnest_wall;
+
+/// What a short answer ends with.
+const MORE: &str =
+    "Every figure and every place: --full; on a page to look at: --report FILE.html\n";
+
+/// What differs, and where along the barrel: of five bats 48 lines at most. Several bats count in one
+/// system of units, that of the first one's file unless another is asked for.
+pub fn screen(comparison: &Comparison, units: Units) -> String {
+    let one = match units {
+        Units::Both if comparison.bats[0].bat.inches() => Units::Us,
+        Units::Both => Units::Si,
+        one => one,
+    };
+    let mut out = bats(comparison) + &hit(comparison, units);
+    let (differing, same) = ordered(comparison, one);
+    out += &match (comparison.bats.len(), differing.is_empty()) {
+        (_, true) => String::new(),
+        (2, _) => {
+            let keyed = |row: &Row| comparison.figures.iter().find(|figure| figure.key == row.key);
+            let all: Vec<&ComparedFigure> = differing.iter().filter_map(keyed).collect();
+            figures(&all, 1, units)
+        }
+        _ => table(comparison, &differing),
+    };
+    if !same.is_empty() {
+        let name = |row: &Row| row.label.split(", ").next().unwrap_or_default().to_owned();
+        let same: Vec<String> = same.iter().map(name).collect();
+        out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
+    }
+    out += "\nIn words, by distance from the tip\n";
+    for bat in 1..comparison.bats.len() {
+        let parts = along(comparison, bat, one);
+        let hit = if parts.is_empty() { "one of the two hits no ball".to_owned() } else { parts };
+        let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
+        out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
+    }
+    out + &trust::between_bats(comparison.bats.iter().map(|contender| &contender.bat)) + MORE
+}
+
+/// The bats, each in a line.
+fn bats(comparison: &Comparison) -> String {
+    let mut out = String::from("Bats compared; A is the one the others are measured by\n");
+    for (k, contender) in comparison.bats.iter().enumerate() {
+        let hollow = thinnest_wall(&contender.bat).filter(|_| contender.scene.wall.is_none());
+        let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
+        out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
+    }
+    out
+}
+
+/// What matters, in order: what differs of some bat, and what does of none.
+fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
+    let mut all = rows(comparison, units);
+    all.retain(|row| FIRST.contains(&row.key.as_str()));
+    all.sort_by_key(|row| FIRST.iter().position(|key| row.key == *key));
+    all.into_iter().partition(|row| row.differs)
+}
+
+/// The values of all bats, and below them what each other one has more than the first.
+fn table(comparison: &Comparison, differing: &[Row]) -> String {
+    let width = (48 / comparison.bats.len()).min(10);
+    let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
+    let heads = first(32, "What differs, and by how much");
+    let columns = Columns::new([heads].into_iter().chain(bats));
+    let mut out = format!("\n{}", columns.heads());
+    for Row { label, values, differences, .. } in differing {
+        out += &columns.row([format!("  {label}")].iter().chain(values));
+        out += &columns.row([String::new(), String::new()].iter().chain(differences));
+    }
+    out
+}
