@@ -366,9 +366,10 @@ impl Bat {
 
     /// The materials of the regions, each with what a bat file calls it.
     pub fn regional(&self) -> impl Iterator<Item = (String, &Material)> {
-        self.fixtures.regions.iter().enumerate().flat_map(|(k, region)| {
-            // An edit makes regions of its own, which no file knows.
-            let name = move |part: &str| match self.edits.is_empty() {
+        // An edit makes regions of its own, which no file knows.
+        let of_file = self.edits.is_empty();
+        self.fixtures.regions.iter().enumerate().flat_map(move |(k, region)| {
+            let name = move |part: &str| match of_file {
                 true => format!("regions[{k}].{part}"),
                 false => format!("a {part} of regions or edits"),
             };
