@@ -236,7 +236,7 @@ fn damped_bats_go_from_their_file_to_json() {
         serde_json::from_str(&ask(&[&listed[..], &["--json", "-"]].concat())).unwrap();
     let own = "format generator kind at_m to_m theory modes strains static_compliance_m_per_n \
                rigid_modes frequency_hz real_1_per_kg imaginary_1_per_kg truncation_1_per_kg \
-               frequencies_within";
+               peaks frequencies_within";
     assert_eq!(keys(&json), set(own));
     assert_eq!(json["format"], "sweetspot-frf/1");
     let csv = ask(&[&listed[..], &["--csv", "-"]].concat());

@@ -3,20 +3,25 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use faer::c64;
+
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
-use crate::files::schema::frf::{Answer, FrfFile};
+use crate::files::schema::frf::{self as schema, Answer, FrfFile, Size};
 use crate::files::uff::{self, Stamp, six_digits};
 use crate::modes::solve::{self, Request};
 use crate::motion::frf::{Frf, Kind, Sample};
+use crate::motion::peaks::{Peak, around};
 use crate::show::exchange::frf_uff::{self, Measured};
+use crate::show::plot::response::{self, Curve};
 use crate::show::report::text::wrapped;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
+use crate::cli::pictures;
 use crate::cli::value::{FREQUENCY, PLACE, TOP_FREQUENCY, named, shown_length};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
@@ -25,8 +30,9 @@ use crate::show::report::columns::{Columns, numbers};
 ///
 /// What would an accelerometer at one place see if a force swings at another? The table gives size
 /// and phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) for
-/// a unit force, and how much of it the modes left out may be. Undamped bats peak without bound at
-/// their frequencies: give the material a loss_factor.
+/// a unit force, and how much of it the modes left out may be; above it stand the peaks, each looked
+/// for by itself. Undamped bats peak without bound at their frequencies: give the material a
+/// loss_factor.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -61,6 +67,8 @@ pub struct Args {
     to_hz: Option<f64>,
 
     /// Number of frequencies from the lowest to the highest
+    ///
+    /// Without --linear more stand around every peak in CSV, JSON, pictures and universal files.
     #[arg(long, value_name = "N", default_value = "61", help_heading = "The force",
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: u32,
@@ -84,6 +92,10 @@ pub struct Args {
     /// first, and they rise; with --linear the steps are even in it
     #[arg(long, value_name = "FILE")]
     uff: Option<PathBuf>,
+
+    /// Draw size and phase over frequency into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
 
     /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
     #[arg(long, requires = "uff")]
@@ -123,15 +135,34 @@ pub fn run(args: &Args) -> Result<Done> {
     let [at, to] = [at, to].map(|x| x.min(bat.length()));
     let _progress = args.output.progress("modes and answers");
     let mut frf = reaching(&bat, &request, [at, to], args)?;
-    let (mut frequencies, even) = frequencies(args, &frf);
+    let (asked, even) = frequencies(args, &frf);
+    let mut frequencies = asked.clone();
+    let mut samples = frf.receptances(&frequencies)?;
+    let peaks = peaks(args, &frf, &frequencies);
+    if even.is_none() && !peaks.is_empty() {
+        add_peaks(args, &peaks, &mut frequencies);
+        samples = frf.receptances(&frequencies)?;
+    }
     if args.uff.is_some() {
         rising(args, &mut frequencies)?;
+        samples = frf.receptances(&frequencies)?;
     }
-    let samples = frf.receptances(&frequencies)?;
     let measured = Measured { bat: bat.name(), kind: args.kind, at, to, even };
-    let table = || table(args.kind, [at, to], &frf, &samples);
+    let answers = Answers { kind: args.kind, samples: &samples, peaks: &peaks };
+    let table = || answers.table([at, to], &frf, &asked);
     let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
-    let document = || document(&measured, &samples, &frf);
+    if let Some(folder) = &args.plots {
+        let subject = response::Subject {
+            name: bat.name(),
+            kind: args.kind,
+            points: [at, to],
+            linear: args.linear,
+        };
+        let curve = Curve { name: "computed", answers: answers.all() };
+        let picture = response::picture(args.output.sheet(&bat), &subject, &[curve]);
+        pictures::write(folder, picture.as_slice(), args.output.quiet)?;
+    }
+    let document = || document(&measured, &answers, &frf);
     let code = match frf.solution.worst() <= args.solve.tol {
         true => 0,
         false => args.solve.verdict(&frf.solution, &args.output),
@@ -139,9 +170,34 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
 }
 
+/// The peaks between the ends of a range; none of frequencies that were asked for one by one.
+fn peaks(args: &Args, frf: &Frf, frequencies: &[f64]) -> Vec<Peak> {
+    match (frequencies, args.frequencies.is_empty()) {
+        ([low, .., high], true) => frf.peaks(args.kind, [*low, *high]),
+        _ => vec![],
+    }
+}
+
+/// Adds what shows the peaks, as a universal file holds it, each frequency once.
+fn add_peaks(args: &Args, peaks: &[Peak], frequencies: &mut Vec<f64>) {
+    let [low, high] = [frequencies[0], frequencies[frequencies.len() - 1]];
+    let held = |f: f64| if args.uff.is_some() { six_digits(f) } else { f };
+    let more = peaks.iter().flat_map(around).map(held).filter(|f| (low..=high).contains(f));
+    frequencies.extend(more);
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+}
+
+/// What was found.
+struct Answers<'a> {
+    kind: Kind,
+    samples: &'a [Sample],
+    peaks: &'a [Peak],
+}
+
 /// The `sweetspot-frf/1` document.
-fn document(measured: &Measured, samples: &[Sample], frf: &Frf) -> FrfFile {
-    let kind = measured.kind;
+fn document(measured: &Measured, answers: &Answers, frf: &Frf) -> FrfFile {
+    let Answers { kind, samples, peaks } = *answers;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
     let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
@@ -163,7 +219,22 @@ fn document(measured: &Measured, samples: &[Sample], frf: &Frf) -> FrfFile {
             Kind::Mobility => Answer::Mobility { real, imaginary, truncation },
             Kind::Accelerance => Answer::Accelerance { real, imaginary, truncation },
         },
+        peaks: peaks.iter().map(|peak| of_peak(kind, peak)).collect(),
         frequencies_within: frf.solution.worst(),
+    }
+}
+
+fn of_peak(kind: Kind, peak: &Peak) -> schema::Peak {
+    let magnitude = peak.size;
+    schema::Peak {
+        mode: peak.mode,
+        frequency_hz: peak.frequency,
+        size: match kind {
+            Kind::Receptance => Size::Receptance { magnitude },
+            Kind::Mobility => Size::Mobility { magnitude },
+            Kind::Accelerance => Size::Accelerance { magnitude },
+        },
+        half_power_damping_ratio: peak.damping,
     }
 }
 
@@ -326,42 +397,80 @@ fn phase(re: f64, im: f64) -> f64 {
     (im + 0.0).atan2(re + 0.0).to_degrees()
 }
 
-fn table(kind: Kind, [at, to]: [f64; 2], frf: &Frf, samples: &[Sample]) -> String {
-    let unit = match kind {
-        Kind::Receptance => "m/N",
-        Kind::Mobility => "m/(s N)",
-        Kind::Accelerance => "1/kg",
-    };
-    let name = kind.name();
-    let title =
-        format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
-    let mut out = wrapped(&title, 4);
-    let columns = Columns::new([
-        numbers(16, "frequency, Hz"),
-        numbers(19, format!("size, {unit}")),
-        numbers(15, "phase, deg"),
-    ]);
-    out += &columns.heads();
-    for sample in samples {
-        let value = sample.receptance * kind.of(sample.frequency);
-        let phase = phase(value.re, value.im);
-        out += &columns.row([
-            format!("{:.3}", sample.frequency),
-            format!("{:.5e}", value.norm()),
-            format!("{phase:.2}"),
-        ]);
+impl Answers<'_> {
+    /// Frequency and answer, in the unit of its kind.
+    fn all(&self) -> Vec<(f64, c64)> {
+        let of = |s: &Sample| (s.frequency, s.receptance * self.kind.of(s.frequency));
+        self.samples.iter().map(of).collect()
     }
-    let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
-    let missing = samples.iter().map(share).fold(0.0, f64::max);
-    let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
-    let _ = writeln!(out, "  under a constant force {:.6e} m/N{bending}", frf.static_compliance());
-    let modes = frf.solution.modes.len();
-    let made = format!(
-        "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
-         is missing, and the modes' frequencies are within {:.0e}",
-        frf.strains() - modes.min(frf.strains()),
-        frf.solution.worst()
-    );
-    out += &wrapped(&made, 2);
-    out
+
+    /// The peaks, and the answer at the frequencies that were asked for.
+    fn table(&self, [at, to]: [f64; 2], frf: &Frf, asked: &[f64]) -> String {
+        let unit = match self.kind {
+            Kind::Receptance => "m/N",
+            Kind::Mobility => "m/(s N)",
+            Kind::Accelerance => "1/kg",
+        };
+        let name = self.kind.name();
+        let title =
+            format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
+        let mut out = wrapped(&title, 4);
+        if !self.peaks.is_empty() {
+            out += &self.peak_table(unit);
+        }
+        let columns = Columns::new([
+            numbers(16, "frequency, Hz"),
+            numbers(19, format!("size, {unit}")),
+            numbers(15, "phase, deg"),
+        ]);
+        out += &columns.heads();
+        for (frequency, value) in self.all().into_iter().filter(|(f, _)| asked.contains(f)) {
+            out += &columns.row([
+                format!("{frequency:.3}"),
+                format!("{:.5e}", value.norm()),
+                format!("{:.2}", phase(value.re, value.im)),
+            ]);
+        }
+        let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
+        let missing = self.samples.iter().map(share).fold(0.0, f64::max);
+        let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
+        let constant = frf.static_compliance();
+        let _ = writeln!(out, "  under a constant force {constant:.6e} m/N{bending}");
+        let modes = frf.solution.modes.len();
+        let made = format!(
+            "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
+             is missing, and the modes' frequencies are within {:.0e}",
+            frf.strains() - modes.min(frf.strains()),
+            frf.solution.worst()
+        );
+        out += &wrapped(&made, 2);
+        let more = self.samples.len() - asked.len().min(self.samples.len());
+        if more > 0 {
+            let told =
+                format!("  {more} more frequencies around the peaks: --csv, --json, --plots");
+            out += &wrapped(&told, 2);
+        }
+        out
+    }
+
+    fn peak_table(&self, unit: &str) -> String {
+        let columns = Columns::new([
+            numbers(6, "mode"),
+            numbers(16, "peak, Hz"),
+            numbers(19, format!("size, {unit}")),
+            numbers(21, "half-power damping"),
+        ]);
+        let mut out = columns.heads();
+        for peak in self.peaks {
+            let size = peak.size.map_or("without bound".to_owned(), |size| format!("{size:.5e}"));
+            let damping = match (peak.size, peak.damping) {
+                (_, Some(damping)) => format!("{:.4} %", 100.0 * damping),
+                (None, _) => "none".to_owned(),
+                _ => "-".to_owned(),
+            };
+            let frequency = format!("{:.3}", peak.frequency);
+            out += &columns.row([peak.mode.to_string(), frequency, size, damping]);
+        }
+        out + "\n"
+    }
 }

@@ -153,6 +153,16 @@ impl Frf {
         motions.map(|(motion, (a, b))| -a * b / (square * motion.mass)).sum::<f64>() + 0.0
     }
 
+    /// The whole receptance (m/N) at a frequency above 0, of the strains that are there.
+    pub fn receptance(&self, frequency: f64) -> c64 {
+        self.strained(frequency) + c64::new(self.rigid(frequency), 0.0)
+    }
+
+    /// Where the force is, and where the answer is looked at (m from the knob end).
+    pub fn points(&self) -> [f64; 2] {
+        self.points
+    }
+
     /// How many strains the answers are made of, modes included.
     pub fn strains(&self) -> usize {
         self.reduced.len()

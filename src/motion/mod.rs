@@ -10,6 +10,7 @@
 //! | [`oscillator`] | how does one mode answer, damped or not |
 //! | [`ringing`] | how does the bat move in time |
 //! | [`frf`] | how does it answer at a frequency |
+//! | [`peaks`] | where does that peak, how high and how wide |
 //! | [`sound`] | what does it sound like |
 
 #[doc(hidden)]
@@ -19,4 +20,5 @@ pub mod shape;
 pub mod oscillator;
 pub mod ringing;
 pub mod frf;
+pub mod peaks;
 pub mod sound;

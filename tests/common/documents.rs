@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 15] = [
+pub const WRITTEN: [Written; 16] = [
     (
         "modes",
         "modes",
@@ -84,6 +84,12 @@ pub const WRITTEN: [Written; 15] = [
         "frf dowel.json --at 0.3 --to 0.1 --frequencies 100,200 -n 2 --tol 1e-8 --kind accelerance",
         Numbers::Sharp,
     ),
+    (
+        "frf-peaks",
+        "frf",
+        "frf lossy.json --at 0.3 --to 0.1 --from-hz 50 --to-hz 2000 --points 2 -n 3 --tol 1e-8",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -93,6 +99,9 @@ pub const WRITTEN: [Written; 15] = [
 const MEASURED: &str = "x_in,mode_1,mode_2\nfrequency_hz,178.2,583.0\ndamping_ratio,0.004,0.005\n\
     0,1.00,0.90\n3,0.55,0.12\n15,-0.5,0.3\n33,0.41,0.37\n";
 
+const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
+    "material": { "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9, "loss_factor": 0.02 } }"#;
+
 /// A folder with what the commands read.
 pub fn folder(test: &str) -> Folder {
     let folder = Folder::new(test);
@@ -101,6 +110,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("dowel.json", include_str!("../../meshes/dowel.json"));
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
+    folder.write("lossy.json", LOSSY);
     folder
 }
 

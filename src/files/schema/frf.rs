@@ -39,12 +39,54 @@ pub struct FrfFile {
     /// The answer at every frequency.
     #[serde(flatten)]
     pub answer: Answer,
+    /// The peaks between the lowest and the highest frequency, by modes; empty where single frequencies were
+    /// asked for.
+    pub peaks: Vec<Peak>,
     /// Largest relative error of a mode's frequency.
     pub frequencies_within: f64,
 }
 
 impl Document for FrfFile {
     const NAME: &'static str = "frf";
+}
+
+/// A peak of the answer.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Peak {
+    /// Number of the bending mode.
+    pub mode: usize,
+    /// Where the answer is largest (Hz).
+    pub frequency_hz: f64,
+    /// How large the answer is there.
+    #[serde(flatten)]
+    pub size: Size,
+    /// Damping ratio by the width of the peak at half its power; null where the answer does not fall so far
+    /// on both sides, and where nothing damps the mode.
+    pub half_power_damping_ratio: Option<f64>,
+}
+
+/// Size of the answer at a peak, in the unit of its kind; null where it is without bound.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Size {
+    /// Deflection per force.
+    Receptance {
+        /// Absolute value (m/N).
+        #[serde(rename = "magnitude_m_per_n")]
+        magnitude: Option<f64>,
+    },
+    /// Velocity per force.
+    Mobility {
+        /// Absolute value (m/(s N)).
+        #[serde(rename = "magnitude_m_per_s_n")]
+        magnitude: Option<f64>,
+    },
+    /// Acceleration per force.
+    Accelerance {
+        /// Absolute value (1/kg).
+        #[serde(rename = "magnitude_1_per_kg")]
+        magnitude: Option<f64>,
+    },
 }
 
 /// The answer at every frequency, in the unit of its kind.
