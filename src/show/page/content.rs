@@ -99,8 +99,8 @@ impl<'a> Report<'a> {
             section(Open, "hit", "The hit, slowed down", self.hit()),
             section(Folded, "bat", "The bat", self.bat(units)),
             section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
-            section(Folded, "energy", "Where the energy goes", self.energy()),
-            section(Folded, "modes", "How the bat vibrates", self.modes()),
+            section(Folded, "energy", "Where the energy goes", self.energy(units)),
+            section(Folded, "modes", "How the bat vibrates", self.modes(units)),
             section(Folded, "figures", "Figures", self.standard(units)),
             section(Folded, "accuracy", "How far to trust this", self.accuracy(units)),
             section(ScreenOnly, "contact", "The ball on the bat, and the hands", self.contact()),
@@ -148,7 +148,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn energy(&'a self) -> Vec<Part<'a>> {
+    fn energy(&'a self, units: Units) -> Vec<Part<'a>> {
         if !self.hits() {
             return vec![Part::Missing(NOTHING)];
         }
@@ -160,7 +160,7 @@ impl<'a> Report<'a> {
             parts.push(Part::Missing("A bat that does not bend takes no vibration."));
         }
         parts.push(Part::Hovered("ledger"));
-        parts.push(Part::Table(tables::ledger(self.analysis)));
+        parts.push(Part::Table(tables::ledger(self.analysis, units)));
         parts
     }
 
@@ -189,7 +189,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn modes(&'a self) -> Vec<Part<'a>> {
+    fn modes(&'a self, units: Units) -> Vec<Part<'a>> {
         if self.analysis.solution.modes.is_empty() {
             return vec![Part::Missing(NO_MODES)];
         }
@@ -198,7 +198,7 @@ impl<'a> Report<'a> {
             Part::Text(format!("Bending modes, {freedom}.")),
             Part::Moving(players::modes(self.analysis)),
             Part::Picture("shapes"),
-            Part::Table(tables::modes(self.analysis)),
+            Part::Table(tables::modes(self.analysis, units)),
         ]
     }
 

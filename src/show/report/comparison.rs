@@ -231,7 +231,12 @@ fn alone(figure: &ComparedFigure, unit: &str) -> String {
 pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
     let bats = comparison.bats.len();
     let row = |figure: &ComparedFigure| {
-        let scale = scale(figure.unit, units == Units::Us);
+        let (name, factor) = units.of_energy();
+        let scale = match figure.unit {
+            // Too wide a name for the columns of a terminal.
+            Unit::Joules => Scale { factor, decimals: 2, name },
+            unit => scale(unit, units == Units::Us),
+        };
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
         let value = |v: &Option<Figure>| v.map_or(String::new(), |v| scale.value(v.value));

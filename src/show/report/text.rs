@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::base::number::rounded;
-use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::base::units::{FOOT_POUND, inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
@@ -55,6 +55,18 @@ impl Units {
     pub fn speed(self, value: f64) -> String {
         let (si, us) = (rounded(value, 2), rounded(miles_per_hour(value), 1));
         self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
+    }
+
+    /// What energies are counted in, and how many of it are a joule: joules unless US units alone are
+    /// asked for.
+    pub fn of_energy(self) -> (&'static str, f64) {
+        if self == Self::Us { ("ft·lbf", 1.0 / FOOT_POUND) } else { ("J", 1.0) }
+    }
+
+    /// An energy, given in joules, with so many decimals.
+    pub fn energy(self, value: f64, decimals: usize) -> String {
+        let (name, per) = self.of_energy();
+        format!("{:.decimals$} {name}", per * value)
     }
 
     /// A quantity of this type's other functions as running text: `0.0635 m (2.50 in)`.
