@@ -69,7 +69,10 @@ impl Laid {
         (peaks, [low, high]): (&[Peak], [f64; 2]),
     ) -> Result<Self> {
         let within = |f: f64| (low..=high).contains(&f);
-        let turned = |(f, value): &(f64, c64)| (*f, value * kind.of(*f) / response.kind.of(*f));
+        let turned = |(f, value): &(f64, c64)| match kind == response.kind {
+            true => (*f, *value),
+            false => (*f, value * kind.of(*f) / response.kind.of(*f)),
+        };
         let values = response.values.iter().filter(|(f, _)| within(*f));
         let measured: Vec<(f64, c64)> = values.map(turned).collect();
         if measured.len() < 3 {
