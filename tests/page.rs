@@ -288,13 +288,13 @@ fn one_switch_changes_every_number_axis_and_caption() {
         let split = |c: char| c.is_whitespace() || "();,:".contains(c);
         cut(text).split(split).map(str::to_owned).collect()
     };
-    for unit in ["in", "mph", "oz", "lbf"] {
+    for unit in ["in", "mph", "oz", "lbf", "ft·lbf"] {
         let shown = words(&si).windows(2).any(|pair| {
             pair[1] == unit && pair[0].parse::<f64>().is_ok() && pair[0] != "6" && pair[0] != "1"
         });
         assert!(!shown, "{unit} in SI");
     }
-    for unit in ["cm", "mm", "m/s", "kg", "g", "kN"] {
+    for unit in ["cm", "mm", "m/s", "kg", "g", "kN", "N", "J"] {
         let shown =
             words(&us).windows(2).any(|pair| pair[1] == unit && pair[0].parse::<f64>().is_ok());
         assert!(!shown, "{unit} in US units: {:?}", words(&us));

@@ -193,7 +193,7 @@ fn several_bats_fit_into_one_picture() {
     });
     let along = all.iter().map(|s| exit_speed::Subject {
         name: s.bat.name(),
-        length: s.bat.length(),
+        bat: &s.bat,
         impacts: &s.sweep.impacts,
         spot: &s.spot,
     });
@@ -230,8 +230,8 @@ fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
 fn whoever_reads_the_curve_off_the_axes_finds_the_computed_speeds() {
     let struck = struck(bat("r161"), Model::Contact, Scene::default());
     let name = "R161";
-    let (length, impacts) = (struck.bat.length(), &struck.sweep.impacts);
-    let subject = exit_speed::Subject { name, length, impacts, spot: &struck.spot };
+    let (bat, impacts) = (&struck.bat, &struck.sweep.impacts);
+    let subject = exit_speed::Subject { name, bat, impacts, spot: &struck.spot };
     let picture = exit_speed::picture(SHEET, &[subject]).unwrap();
     let document = Document::parse(&picture.svg).unwrap();
     let height = number(document.root_element(), "height");
@@ -254,7 +254,7 @@ fn whoever_reads_the_curve_off_the_axes_finds_the_computed_speeds() {
         let truth = impact.outcome.as_ref().unwrap().exit_speed;
         // A pixel is about 0.2 m/s.
         assert!((speed(y) - truth).abs() < 0.03, "{place} {} {truth}", speed(y));
-        assert!((tip(x) - 100.0 * (length - place)).abs() < 0.02, "{place}");
+        assert!((tip(x) - 100.0 * (bat.length() - place)).abs() < 0.02, "{place}");
     }
 }
 

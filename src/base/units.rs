@@ -28,7 +28,9 @@ const MILE: f64 = 1609.344;
 const POUND: f64 = 0.453_592_37;
 const OUNCE: f64 = POUND / 16.0;
 /// 0.453 592 37 kg × 9.806 65 m/s², exactly.
-const POUND_FORCE: f64 = 4.448_221_615_260_5;
+pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// A foot times a pound-force (J), exactly.
+pub const FOOT_POUND: f64 = FOOT * POUND_FORCE;
 /// One pound-force per foot per second squared.
 const SLUG: f64 = POUND_FORCE / FOOT;
 /// Pound-force per square inch, rounded once from the exact quotient.

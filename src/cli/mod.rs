@@ -6,7 +6,7 @@
 //! | file | question |
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
-//! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
+//! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
 //! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
 //! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
@@ -20,6 +20,7 @@ mod value;
 mod help;
 mod progress;
 mod stop;
+mod edits;
 mod common;
 mod csv_option;
 mod bat_text;

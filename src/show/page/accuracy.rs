@@ -148,11 +148,12 @@ pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
         return Some("Further out the bat gives way more than its speed makes up for.".to_owned());
     };
     Some(format!(
-        "A bat that does not bend would be best at {}, but there this one loses {there:.0} J to \
-         vibration, and at its sweet spot, {} from there, {:.0} J.",
+        "A bat that does not bend would be best at {}, but there this one loses {} to vibration, and \
+         at its sweet spot, {} from there, {}.",
         length(units, rigid.x),
+        units.energy(there, 0),
         length(units, (peak.x - rigid.x).abs()),
-        here.energy.vibration(),
+        units.energy(here.energy.vibration(), 0),
     ))
 }
 

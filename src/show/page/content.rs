@@ -17,6 +17,7 @@ use crate::show::page::players;
 use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
 use crate::show::plot::sets::of_analysis;
+use crate::show::report::edits;
 use crate::show::report::text::Units;
 
 /// What a report is made from.
@@ -98,8 +99,8 @@ impl<'a> Report<'a> {
             section(Open, "hit", "The hit, slowed down", self.hit()),
             section(Folded, "bat", "The bat", self.bat(units)),
             section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
-            section(Folded, "energy", "Where the energy goes", self.energy()),
-            section(Folded, "modes", "How the bat vibrates", self.modes()),
+            section(Folded, "energy", "Where the energy goes", self.energy(units)),
+            section(Folded, "modes", "How the bat vibrates", self.modes(units)),
             section(Folded, "figures", "Figures", self.standard(units)),
             section(Folded, "accuracy", "How far to trust this", self.accuracy(units)),
             section(ScreenOnly, "contact", "The ball on the bat, and the hands", self.contact()),
@@ -133,10 +134,11 @@ impl<'a> Report<'a> {
     }
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
-        vec![
-            Part::Facts("facts", self.summary.facts(units, &self.analysis.spread)),
-            Part::Picture("profile"),
-        ]
+        let facts = Part::Facts("facts", self.summary.facts(units, &self.analysis.spread));
+        let edits = edits::listed(&self.analysis.bat, units == Units::Us);
+        let edited = (!edits.is_empty())
+            .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));
+        edited.into_iter().chain([facts, Part::Picture("profile")]).collect()
     }
 
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {
@@ -146,7 +148,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn energy(&'a self) -> Vec<Part<'a>> {
+    fn energy(&'a self, units: Units) -> Vec<Part<'a>> {
         if !self.hits() {
             return vec![Part::Missing(NOTHING)];
         }
@@ -158,7 +160,7 @@ impl<'a> Report<'a> {
             parts.push(Part::Missing("A bat that does not bend takes no vibration."));
         }
         parts.push(Part::Hovered("ledger"));
-        parts.push(Part::Table(tables::ledger(self.analysis)));
+        parts.push(Part::Table(tables::ledger(self.analysis, units)));
         parts
     }
 
@@ -187,7 +189,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    fn modes(&'a self) -> Vec<Part<'a>> {
+    fn modes(&'a self, units: Units) -> Vec<Part<'a>> {
         if self.analysis.solution.modes.is_empty() {
             return vec![Part::Missing(NO_MODES)];
         }
@@ -196,7 +198,7 @@ impl<'a> Report<'a> {
             Part::Text(format!("Bending modes, {freedom}.")),
             Part::Moving(players::modes(self.analysis)),
             Part::Picture("shapes"),
-            Part::Table(tables::modes(self.analysis)),
+            Part::Table(tables::modes(self.analysis, units)),
         ]
     }
 

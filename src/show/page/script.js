@@ -230,21 +230,22 @@
     Math.abs(place - x) < Math.abs(places[best] - x) ? k : best, 0);
   let shownAt = 0;
   const point = (k) => { shownAt = k; hairs.forEach((hair) => hair(k)); };
-  const shown = (value, digits, unit) => value === null ? "none" : `${value.toFixed(digits)} ${unit}`;
   const told = (k, energies) => {
     const x = places[k], tip = data.summary.length_m - x, { curve } = data, us = inUs();
     const place = (x) => us ? `${(x / 0.0254).toFixed(2)} in` : `${(100 * x).toFixed(1)} cm`;
     const speed = (v) => v === null ? "none" : us ? `${(v / 0.44704).toFixed(1)} mph` : `${v.toFixed(2)} m/s`;
+    const energy = (v, digits) => v === null ? "none"
+      : us ? `${(v / 1.3558179483314004).toFixed(digits)} ft·lbf` : `${v.toFixed(digits)} J`;
     const here = Math.abs(x - spot) < 1e-6 ? " (sweet spot)" : "";
     return [["From the knob", place(x) + here], ["From the tip", place(tip)], ...(energies ? [
-      ["Ball, after", shown(curve.ball_j[k], 1, "J")],
-      ["Lost in the ball", shown(curve.lost_in_ball_j[k], 1, "J")],
-      ["Vibration", shown(curve.vibration_j[k], 2, "J")],
-      ["Bat as a whole", shown(curve.bat_j[k], 1, "J")],
+      ["Ball, after", energy(curve.ball_j[k], 1)],
+      ["Lost in the ball", energy(curve.lost_in_ball_j[k], 1)],
+      ["Vibration", energy(curve.vibration_j[k], 2)],
+      ["Bat as a whole", energy(curve.bat_j[k], 1)],
     ] : [
       ["Exit speed", speed(curve.exit_speed_m_s[k])],
       ["If it did not bend", speed(curve.rigid_exit_speed_m_s[k])],
-      ["Left in vibration", shown(curve.vibration_j[k], 2, "J")],
+      ["Left in vibration", energy(curve.vibration_j[k], 2)],
     ])];
   };
   /** How far along the places one of them is, and back. */

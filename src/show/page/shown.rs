@@ -1,8 +1,7 @@
 //! Numbers as a person reads them: in SI or in US units, errors as powers of ten.
 
 use crate::base::number::rounded;
-use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use crate::show::plot::sheet::POUND_FORCE;
+use crate::base::units::{POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::show::report::text::Units;
 
 /// What there is no number for.
@@ -37,6 +36,11 @@ pub fn inertia(units: Units, value: f64) -> String {
 /// A force (N).
 pub fn force(units: Units, value: f64) -> String {
     units.show(format!("{:.2} kN", 1e-3 * value), format!("{:.0} lbf", value / POUND_FORCE))
+}
+
+/// An impulse (N s).
+pub fn impulse(units: Units, value: f64) -> String {
+    units.show(format!("{value:.3} N s"), format!("{:.3} lbf s", value / POUND_FORCE))
 }
 
 /// A speed (m/s).

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::base::number;
-use crate::base::units::{gravities, inches};
+use crate::base::units::{gravities, inches, ounces};
 use crate::collision::figures::Swung;
 use crate::collision::hit::Outcome;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
@@ -17,10 +17,11 @@ const LISTED: usize = 6;
 const LARGEST: usize = 3;
 
 /// Frequencies with their errors, modal masses, damping where there is any.
-pub fn modes(analysis: &Analysis) -> Table {
+pub fn modes(analysis: &Analysis, units: Units) -> Table {
     let solution = &analysis.solution;
     let damped = &solution.damping.modes;
-    let mut head = vec!["Mode", "Frequency, Hz", "f/f₁", "Relative error", "Modal mass, g"];
+    let mass = if units == Units::Us { "Modal mass, oz" } else { "Modal mass, g" };
+    let mut head = vec!["Mode", "Frequency, Hz", "f/f₁", "Relative error", mass];
     if !damped.is_empty() {
         head.extend(["Damped frequency, Hz", "Damping ratio, %"]);
     }
@@ -32,7 +33,7 @@ pub fn modes(analysis: &Analysis) -> Table {
             decimals(mode.frequency(), 2),
             decimals(mode.omega / first, 3),
             format!("≤ {}", shown::error(mode.error.total())),
-            decimals(1e3 * mode.modal_mass, 1),
+            units.show(decimals(1e3 * mode.modal_mass, 1), decimals(ounces(mode.modal_mass), 2)),
         ];
         if let Some(damped) = damped.get(k) {
             row.extend([decimals(damped.swinging() / TAU, 2), decimals(100.0 * damped.ratio, 3)]);
@@ -69,7 +70,7 @@ pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
         line(what, peak.map(|p| p.x), peak.map_or(String::new(), |p| value(p.value)));
     };
     peak("fastest ball", spot.exit_speed_max, &|v| speed(units, v));
-    peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
+    peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
     peak("least hand speed (rms, undamped)", spot.hands_velocity_min, &|v| speed(units, v));
     if analysis.bat.damped() {
         peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
@@ -87,8 +88,9 @@ pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
 }
 
 /// Where the energy of the best hit goes; empty where no ball is hit.
-pub fn ledger(analysis: &Analysis) -> Table {
-    let mut table = Table::new("Energy of the hit at the sweet spot", &["Energy", "J", "%"]);
+pub fn ledger(analysis: &Analysis, units: Units) -> Table {
+    let (unit, per) = units.of_energy();
+    let mut table = Table::new("Energy of the hit at the sweet spot", &["Energy", unit, "%"]);
     let best = analysis.figures.best.as_ref();
     let Some(energy) = best.and_then(|best| best.outcome.as_ref()).map(|outcome| &outcome.energy)
     else {
@@ -98,7 +100,7 @@ pub fn ledger(analysis: &Analysis) -> Table {
         let share = 100.0 * value / energy.initial;
         let hundredths = |value: f64| format!("{:.2}", value + 0.0).replace('-', "−");
         let share = if share.is_finite() { hundredths(share) } else { NONE.to_owned() };
-        table.row([what.to_owned(), hundredths(value), share]);
+        table.row([what.to_owned(), hundredths(per * value), share]);
     };
     line("before: ball and bat together", energy.initial);
     line("after: the ball flies on with", energy.ball);
@@ -162,7 +164,7 @@ fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
         ("collision efficiency e_A", three(outcome.collision_efficiency)),
         ("BBCOR, of a free bat", three(outcome.bbcor)),
         ("BBCOR, of a bat held 6 in from the knob", three(outcome.bbcor_pivoted)),
-        ("impulse on the ball", format!("{:.3} N s", outcome.impulse)),
+        ("impulse on the ball", shown::impulse(units, outcome.impulse)),
     ];
     if let Some(time) = outcome.contact_time {
         lines.push(("time of contact", format!("{:.3} ms", 1e3 * time)));

@@ -42,7 +42,7 @@ pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     let along: Vec<_> = both()
         .map(|(c, name)| exit_speed::Subject {
             name,
-            length: c.bat.length(),
+            bat: &c.bat,
             impacts: &c.sweep.impacts,
             spot: &c.spot,
         })

@@ -148,7 +148,7 @@ fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
     const HEIGHT: f64 = 320.0;
     let mut svg = Svg::on(sheet);
     let title = "What the ball takes and gives back";
-    let ([name, facts], lost) = (second(sheet, subjects), lost(subjects));
+    let ([name, facts], lost) = (second(sheet, subjects), lost(sheet.energy(), subjects));
     let alone = subjects.len() == 1;
     let told = format!("{facts}; {lost}");
     head(&mut svg, title, [&name, if alone { &facts } else { &told }]);
@@ -192,11 +192,13 @@ fn around(subject: &Subject) -> Vec<Option<[f64; 2]>> {
 }
 
 /// What is lost in the ball, bat by bat.
-fn lost(subjects: &[Subject]) -> String {
-    let joules: Vec<String> = subjects.iter().map(|s| digits(s.lost, 3)).collect();
-    match joules.iter().all(|joules| joules == "0") {
+fn lost(unit: Unit, subjects: &[Subject]) -> String {
+    let energies: Vec<String> = subjects.iter().map(|s| digits(unit.per * s.lost, 3)).collect();
+    match energies.iter().all(|energy| energy == "0") {
         true => "nothing is lost in the ball".to_owned(),
-        false => format!("lost in the ball: {} J, the area inside", joules.join(", ")),
+        false => {
+            format!("lost in the ball: {} {}, the area inside", energies.join(", "), unit.name)
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! How fast the ball leaves along the bat, and where the sweet spot is by each definition.
 
+use crate::bat::body::Bat;
 use crate::collision::hit::Impact;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::plot::axis::Axis;
@@ -16,8 +17,8 @@ use crate::show::plot::theme::{SERIES, series};
 pub struct Subject<'a> {
     /// What the bat is called.
     pub name: &'a str,
-    /// Length of the bat (m).
-    pub length: f64,
+    /// The bat.
+    pub bat: &'a Bat,
     /// Impacts, by rising place.
     pub impacts: &'a [Impact],
     /// Sweet spot by every definition.
@@ -50,7 +51,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
     let side = top + DIAGRAM;
     let bottom = side + 6.0 + place::height(sheet, &rows);
     svg.height = bottom + NUMBERS + 4.0;
-    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.length)).collect();
+    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let [x, tip] = place::axes(sheet, [from, to], &bats);
     let fast = sheet.speed();
     let y = Axis::around("exit speed", values().map(|v| fast.per * v), ticks_up(DIAGRAM));
@@ -87,7 +88,7 @@ fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, 
     };
     let most = one.spot.exit_speed_max.map(|Peak { x, value }| {
         let unit = sheet.speed();
-        let place = place::shown(sheet, x, one.length);
+        let place = place::shown(sheet, x, one.bat.length());
         format!("at most {:.1} {}, {place}", unit.per * value, unit.name)
     });
     (title, one.name, most.unwrap_or_default())
@@ -146,15 +147,18 @@ fn zone(svg: &mut Svg, plane: &Plane, subjects: &[Subject]) {
 
 /// A row for every definition that has a place.
 fn sweet_spots(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
-    type Of = fn(&SweetSpot) -> Option<f64>;
+    type Of = fn(&Subject) -> Option<f64>;
     let all: [(&str, Of); 7] = [
-        ("fastest ball", |s| s.exit_speed_max.map(|p| p.x)),
-        ("least vibration", |s| s.vibration_min.map(|p| p.x)),
-        ("node of mode 1", |s| s.node_mode_1),
-        ("node of mode 2", |s| s.node_mode_2),
-        ("centre of percussion of the swing", |s| s.center_of_percussion),
-        ("slowest at the hands", |s| s.hands_velocity_min.map(|p| p.x)),
-        ("least shaken at the hands", |s| s.hands_acceleration_min.map(|p| p.x)),
+        ("fastest ball", |s| s.spot.exit_speed_max.map(|p| p.x)),
+        ("least vibration", |s| s.spot.vibration_min.map(|p| p.x)),
+        ("node of mode 1", |s| s.spot.node_mode_1),
+        ("node of mode 2", |s| s.spot.node_mode_2),
+        ("centre of percussion of the swing", |s| s.spot.center_of_percussion),
+        ("slowest at the hands", |s| s.spot.hands_velocity_min.map(|p| p.x)),
+        // Nobody feels the shaking of a bat that nothing damps, which has no end.
+        ("least shaken at the hands", |s| {
+            s.spot.hands_acceleration_min.filter(|_| s.bat.damped()).map(|p| p.x)
+        }),
     ];
     let mut rows: Vec<PlaceRow> =
         all.iter().filter_map(|(what, of)| row(sheet, subjects, what, *of)).collect();
@@ -174,13 +178,13 @@ fn row(
     sheet: Sheet,
     subjects: &[Subject],
     what: &str,
-    of: impl Fn(&SweetSpot) -> Option<f64>,
+    of: impl Fn(&Subject) -> Option<f64>,
 ) -> Option<PlaceRow> {
     let places: Vec<(usize, f64)> =
-        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s.spot)?))).collect();
+        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s)?))).collect();
     let label = match (subjects, places.as_slice()) {
         (_, []) => return None,
-        ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.length)),
+        ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
         _ => {
             format!("{what}: {}", place::listed(sheet, &places))
         }

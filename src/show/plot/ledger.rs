@@ -8,7 +8,7 @@ use crate::show::plot::place;
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::route::Point;
 use crate::show::plot::series::{Tag, digits, room, short, tags};
-use crate::show::plot::sheet::Sheet;
+use crate::show::plot::sheet::{Sheet, Unit};
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
 use crate::show::plot::words::{LABEL, width};
@@ -98,19 +98,21 @@ pub fn picture(
     let frame = Frame { right: if sheet.narrow() { frame.right } else { beside }, ..frame };
     let stacks = stacked(&layers);
     let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest, up_to]);
-    let y = Axis::around("energy (J)", heights, ticks_up(DIAGRAM));
-    let plane = Plane { frame, x: knob, y };
+    let unit = sheet.energy();
+    let y = Axis::around("energy", heights.map(|v| unit.per * v), ticks_up(DIAGRAM));
+    let plane = Plane { frame, x: knob, y: y.counted_in(unit) };
     svg.height = frame.bottom + NUMBERS + 4.0;
     svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
     let least = initial.iter().copied().fold(f64::INFINITY, f64::min);
     let sum = if greatest - least < 1e-6 * greatest {
-        format!("{} J before the hit", short(greatest))
+        format!("{} {} before the hit", short(unit.per * greatest), unit.name)
     } else {
-        format!("{} to {} J before the hit", short(least), short(greatest))
+        let [least, greatest] = [least, greatest].map(|energy| short(unit.per * energy));
+        format!("{least} to {greatest} {} before the hit", unit.name)
     };
     let title = "Where the energy goes";
     let held = if bat.fixtures().holding() { ", as the hands see it" } else { "" };
-    let facts = format!("{sum}{held}, {}", books(impacts, greatest));
+    let facts = format!("{sum}{held}, {}", books(unit, impacts, greatest));
     head(&mut svg, title, [name, &facts]);
     plane.draw(&mut svg);
     draw(&mut svg, &plane, impacts, (&layers, &stacks));
@@ -122,12 +124,15 @@ pub fn picture(
 }
 
 /// Whether everything is there after the hit.
-fn books(impacts: &[Impact], greatest: f64) -> String {
+fn books(unit: Unit, impacts: &[Impact], greatest: f64) -> String {
     let off = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.imbalance().abs()));
     let most = off.fold(0.0, f64::max);
     match most < 1e-3 * greatest {
         true => "all of it accounted for".into(),
-        false => format!("the line; the model misplaces up to {} J", digits(most, 3)),
+        false => {
+            let most = digits(unit.per * most, 3);
+            format!("the line; the model misplaces up to {most} {}", unit.name)
+        }
     }
 }
 
@@ -153,7 +158,7 @@ fn draw(
     impacts: &[Impact],
     (layers, stacks): (&[Layer], &[Vec<Option<f64>>]),
 ) {
-    let floor = vec![Some(0.0); impacts.len()];
+    let (floor, unit) = (vec![Some(0.0); impacts.len()], svg.sheet.energy());
     let below = std::iter::once(&floor).chain(stacks);
     let mut names: Vec<Tag> = vec![];
     for (layer, (below, above)) in layers.iter().zip(below.zip(stacks)) {
@@ -169,7 +174,7 @@ fn draw(
         }
         let told = |(at, energy): (&Option<[Point; 2]>, &Option<f64>)| {
             let [low, high] = (*at)?;
-            let words = format!("{}: {} J", layer.name, short((*energy)?));
+            let words = format!("{}: {} {}", layer.name, short(unit.per * (*energy)?), unit.name);
             Some(([low[0], 0.5 * (low[1] + high[1])], words))
         };
         let told: Vec<_> = edges.iter().zip(&layer.energies).filter_map(told).collect();

@@ -52,8 +52,8 @@ impl Hits<'_> {
     /// As [`Hitter::new`].
     pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
         let Self { bat, model, scene, sweep, spot } = *self;
-        let (name, length, impacts) = (bat.name(), bat.length(), &sweep.impacts);
-        let along = exit_speed::Subject { name, length, impacts, spot };
+        let (name, impacts) = (bat.name(), &sweep.impacts);
+        let along = exit_speed::Subject { name, bat, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
         all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {

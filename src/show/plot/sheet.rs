@@ -1,10 +1,7 @@
 //! What a picture is drawn on: the units it counts in, and how much room it has.
 
-use crate::base::units::{inches, miles_per_hour};
+use crate::base::units::{FOOT_POUND, POUND_FORCE, inches, miles_per_hour};
 use crate::bat::body::Bat;
-
-/// A pound-force (N), exactly.
-pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// A unit of an axis: its name, and how many of it are one SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,6 +73,12 @@ impl Sheet {
         } else {
             Unit { name: "m/s", per: 1.0 }
         }
+    }
+
+    /// Energies.
+    pub fn energy(self) -> Unit {
+        let (name, per) = if self.us { ("ft·lbf", 1.0 / FOOT_POUND) } else { ("J", 1.0) };
+        Unit { name, per }
     }
 
     /// Whether it is as narrow as a telephone.

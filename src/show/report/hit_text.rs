@@ -11,6 +11,7 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::report::curve;
+use crate::show::report::edits;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::ignored;
 
@@ -46,7 +47,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         Units::Us => ("in", ""),
         Units::Both => ("in", "mph"),
     };
-    out += &row([near, tip, far, far, second, far, "", "J"].map(str::to_owned));
+    out += &row([near, tip, far, far, second, far, "", units.of_energy().0].map(str::to_owned));
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
         // Adding 0 turns a length of −0 into 0.
@@ -72,7 +73,8 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         }
         cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
         cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
-        cells[7] = told(columns::VIBRATION, &|energy| format!("{energy:.2}"));
+        cells[7] =
+            told(columns::VIBRATION, &|energy| format!("{:.2}", units.of_energy().1 * energy));
         let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
         let marks: String = letters.collect();
         let gap = if marks.is_empty() { "" } else { " " };
@@ -120,11 +122,12 @@ pub fn why(figures: &Figures, units: Units) -> String {
     };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
     let text = format!(
-        "Why there: a bat that does not bend would be best at {}; vibration takes {there:.2} J there \
-         and {:.2} J at the sweet spot, {} {way}. Further out recoil and vibration take more than the \
+        "Why there: a bat that does not bend would be best at {}; vibration takes {} there and {} \
+         at the sweet spot, {} {way}. Further out recoil and vibration take more than the \
          bat's speed there makes up for.",
         place(rigid.x),
-        here.energy.vibration(),
+        units.energy(there, 2),
+        units.energy(here.energy.vibration(), 2),
         place((peak.x - rigid.x).abs())
     );
     wrapped(&text, 0)
@@ -193,8 +196,12 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     };
     let speed = |v: f64| units.inline(units.speed(v));
     peak("fastest ball", spot.exit_speed_max, &speed);
-    peak("least vibration", spot.vibration_min, &|energy| format!("{energy:.2} J"));
-    peak("least hand speed, undamped", spot.hands_velocity_min, &|v| format!("{v:.2} m/s"));
+    peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
+    let slow = |v: f64| match units {
+        Units::Us => format!("{:.2} mph", miles_per_hour(v)),
+        _ => format!("{v:.2} m/s"),
+    };
+    peak("least hand speed, undamped", spot.hands_velocity_min, &slow);
     if bat.damped() {
         let shaken = |a: f64| format!("{:.0} g", gravities(a));
         peak("least hand shaking (rms)", spot.hands_acceleration_min, &shaken);
@@ -314,6 +321,10 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
             false => "by its speed".to_owned(),
         }
     );
+    if !bat.edits().is_empty() {
+        let us = units == Units::Us || units == Units::Both && bat.inches();
+        out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, us)), 5);
+    }
     if let Some(wall) = scene.wall {
         let _ = writeln!(
             out,
