@@ -1,7 +1,6 @@
 //! What did the user type?
 //!
-//! One file a verb; no physics. A verb parses its options, calls the library and returns what is to be
-//! printed as `Done`.
+//! One file a verb; no physics. A verb parses its options, calls the library and returns `Done`.
 //!
 //! | file | question |
 //! |---|---|
