@@ -680,10 +680,10 @@ fn what_is_assumed_of_a_universal_file_is_said() {
     }
     let mm = uff::Units { length: 1000.0, description: "mm".into(), ..uff::Units::si() };
     file.datasets.insert(0, Dataset::Units(mm));
-    let text = uff::write(&file.datasets).unwrap() + "    -1\n  2414\nany\n    -1\n";
+    let text = uff::write(&file.datasets).unwrap() + "    -1\n  2420\nany\n    -1\n";
     let measured = universal::of(&parse("m.uff", text.as_bytes()).unwrap(), "m.uff").unwrap();
     for said in [
-        "dataset 2414 is left out",
+        "dataset 2420 is left out",
         "the file's unit of length is 0.001 m, as its dataset 164 says",
         "the nodes' places are taken as in the file's global system",
         "mode_2 lists 6 of the 12 nodes that move, the others are taken at rest",
