@@ -15,8 +15,9 @@ use crate::show::plot::theme::{FRAME, SERIES};
 const MOTION: f64 = 130.0;
 const ALONE: f64 = 250.0;
 const BETWEEN: f64 = 18.0;
-/// Instants of a curve.
+/// Instants of a curve, and at most of all.
 const INSTANTS: usize = 900;
+const IN_ALL: usize = 3600;
 /// Curves in one picture: more are not told apart.
 const MOST: usize = 6;
 
@@ -58,8 +59,9 @@ impl AfterHit<'_> {
         if self.until <= 0.0 || self.watched.is_empty() {
             return None;
         }
-        let times: Vec<f64> =
-            (0..=INSTANTS).map(|k| self.until * k as f64 / INSTANTS as f64).collect();
+        let curves = self.watched.len().min(MOST) * if self.damped { 3 } else { 2 };
+        let last = INSTANTS.min(IN_ALL / curves);
+        let times: Vec<f64> = (0..=last).map(|k| self.until * k as f64 / last as f64).collect();
         let instants = self.after.at(&times);
         let shaken = Unit { name: "km/s²", per: 1e-3 };
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
