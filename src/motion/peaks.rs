@@ -211,7 +211,8 @@ mod tests {
             let near = grid.iter().filter(|f| (*f / peak.natural - 1.0).abs() < 0.01);
             let largest = near.map(|f| size(*f)).fold(0.0, f64::max);
             let height = peak.height.unwrap();
-            assert!(largest <= height * (1.0 + 1e-12) && largest > 0.99 * height, "{peak:?}");
+            // The top is looked for within 1e-9 of its frequency, of a half-width of 1.5e-3: 1e-12.
+            assert!(largest <= height * (1.0 + 1e-11) && largest > 0.99 * height, "{peak:?}");
             assert!((peak.damping_ratio().unwrap() / 1.5e-3 - 1.0).abs() < 0.02, "{peak:?}");
         }
     }
