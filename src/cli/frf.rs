@@ -17,7 +17,7 @@ use crate::motion::frf::{Frf, Kind, Sample};
 use crate::motion::peaks::{Peak, around};
 use crate::show::exchange::frf_uff::{self, Measured};
 use crate::show::plot::response::{self, Curve};
-use crate::show::report::text::wrapped;
+use crate::show::report::text::{Units, edited, wrapped};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::done::Done;
@@ -148,7 +148,7 @@ pub fn run(args: &Args) -> Result<Done> {
         samples = frf.receptances(&frequencies)?;
     }
     let measured = Measured { bat: bat.name(), kind: args.kind, at, to, even };
-    let answers = Answers { kind: args.kind, samples: &samples, peaks: &peaks };
+    let answers = Answers { bat: &bat, kind: args.kind, samples: &samples, peaks: &peaks };
     let table = || answers.table([at, to], &frf, &asked);
     let text = deliver(args, &measured, &samples)?.unwrap_or_else(table);
     if let Some(folder) = &args.plots {
@@ -190,6 +190,7 @@ fn add_peaks(args: &Args, peaks: &[Peak], frequencies: &mut Vec<f64>) {
 
 /// What was found.
 struct Answers<'a> {
+    bat: &'a Bat,
     kind: Kind,
     samples: &'a [Sample],
     peaks: &'a [Peak],
@@ -197,7 +198,7 @@ struct Answers<'a> {
 
 /// The `sweetspot-frf/1` document.
 fn document(measured: &Measured, answers: &Answers, frf: &Frf) -> FrfFile {
-    let Answers { kind, samples, peaks } = *answers;
+    let Answers { bat, kind, samples, peaks } = *answers;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
     let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
@@ -205,6 +206,7 @@ fn document(measured: &Measured, answers: &Answers, frf: &Frf) -> FrfFile {
     FrfFile {
         format: Format::new(),
         generator: Generator::this(),
+        edits: bat.edits().to_vec(),
         kind: kind.name(),
         at_m: measured.at,
         to_m: measured.to,
@@ -414,7 +416,7 @@ impl Answers<'_> {
         let name = self.kind.name();
         let title =
             format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
-        let mut out = wrapped(&title, 4);
+        let mut out = wrapped(&title, 4) + &edited(self.bat, Units::Both);
         if !self.peaks.is_empty() {
             out += &self.peak_table(unit);
         }
