@@ -142,6 +142,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let laid = measured.as_ref().map(lay).transpose()?;
     drop(progress);
     let told = Told {
+        bat: &bat,
         kind,
         places: [at, to],
         frf: &frf,
