@@ -58,6 +58,24 @@ const LIGHTER: &str = r#"{
   "regions": [ { "from": 0.6, "to": 0.84, "material": { "name": "sugar-maple", "loss_factor": 0.02 } } ]
 }"#;
 
+/// A bat that was changed after it was weighed, in every way there is.
+const EDITED: &str = r#"{
+  "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "weighed": { "mass": "40 oz" },
+  "profile": { "x": [0, 0.84], "radius": [0.03, 0.03] },
+  "edits": [
+    { "shorten": { "knob": "0.4 in", "tip": 0.01 } },
+    { "name": "slim", "cut": { "from": 0.5, "to": "60 cm", "depth": "1 mm", "blend": "1 in" } },
+    { "scale_diameter": { "from": 0.2, "to": 0.3, "by": 0.9, "blend": 0.02 } },
+    { "bore": { "from": 0.1, "to": 0.15, "diameter": "0.5 in" } },
+    { "cork": { "from": 0.7, "to": 0.75, "diameter": "1 in", "material": {
+        "density": 200, "youngs_modulus": "20 MPa" } } },
+    { "cup": { "depth": "1 in", "diameter": 0.04 } },
+    { "sleeve": { "from": 0.4, "to": 0.6, "thickness": "1 mm", "material": "aluminium-7075" } },
+    { "knob": "2 oz" },
+    { "wood": { "name": "sugar-maple", "density": 700 } }
+  ]
+}"#;
+
 fn validator() -> Validator {
     jsonschema::draft202012::new(&of::<BatFile>()).unwrap()
 }
@@ -126,7 +144,7 @@ fn every_bat_of_this_project_is_valid() {
     bats.extend(
         files("validation").iter().map(|case| case["bat"].clone()).filter(Value::is_object),
     );
-    bats.extend([FULL, FORMULAS, CSV, LIGHTER].map(parsed));
+    bats.extend([FULL, FORMULAS, CSV, LIGHTER, EDITED].map(parsed));
     assert!(bats.len() > 80, "{}", bats.len());
     let validator = validator();
     for bat in &bats {
@@ -147,7 +165,7 @@ fn what_the_reader_accepts_the_schema_accepts() {
         "tip", "clamped", "csv", "0.02", [], [0], [0, 1], [0, "1 in"], {}, null, true ]"#;
     let strange = parsed(strange);
     let mut accepted = 0;
-    for bat in [FULL, FORMULAS, CSV].map(parsed) {
+    for bat in [FULL, FORMULAS, CSV, EDITED].map(parsed) {
         let all = all_paths(&bat);
         let put = all.iter().flat_map(|path| {
             let bat = &bat;
@@ -175,7 +193,7 @@ fn what_the_reader_accepts_the_schema_accepts() {
 fn values_of_another_type_are_refused_by_both() {
     let reader = Reader::new("types");
     let validator = validator();
-    for bat in [FULL, FORMULAS, CSV].map(parsed) {
+    for bat in [FULL, FORMULAS, CSV, EDITED].map(parsed) {
         for path in all_paths(&bat) {
             for junk in [json!(null), json!(true), json!({}), json!([]), json!([[]])] {
                 let changed = with(&bat, &path, junk.clone());
@@ -260,9 +278,9 @@ fn broken_bats_are_refused_by_both() {
     }
 }
 
-/// Objects of the schema (its definitions, and itself as "") and where they are in [`FULL`] and
-/// [`FORMULAS`].
-const PLACES: [(&str, &str); 13] = [
+/// Objects of the schema (its definitions, and itself as "") and where they are in [`FULL`],
+/// [`FORMULAS`] and [`EDITED`].
+const PLACES: [(&str, &str); 21] = [
     ("", ""),
     ("MaterialNumbers", "/material"),
     ("MaterialNumbers", "/regions/0/core"),
@@ -276,7 +294,24 @@ const PLACES: [(&str, &str); 13] = [
     ("Support", "/supports/0"),
     ("Grip", "/grip"),
     ("Piece", "/profile/pieces/0"),
+    ("Edit", "/edits/7"),
+    ("Shorten", "/edits/0/shorten"),
+    ("Cut", "/edits/1/cut"),
+    ("ScaleDiameter", "/edits/2/scale_diameter"),
+    ("Bore", "/edits/3/bore"),
+    ("Cork", "/edits/4/cork"),
+    ("Cup", "/edits/5/cup"),
+    ("Sleeve", "/edits/6/sleeve"),
 ];
+
+/// The bat in which such an object is.
+fn holder((name, place): (&str, &str)) -> Value {
+    parsed(match (name, place) {
+        ("Piece", _) => FORMULAS,
+        _ if place.starts_with("/edits") => EDITED,
+        _ => FULL,
+    })
+}
 
 fn definition<'a>(schema: &'a Value, name: &str) -> &'a Value {
     if name.is_empty() { schema } else { &schema["$defs"][name] }
@@ -287,7 +322,7 @@ fn reader_and_schema_know_the_same_members() {
     let reader = Reader::new("members");
     let schema = of::<BatFile>();
     for (name, place) in PLACES {
-        let mut bat = parsed(if name == "Piece" { FORMULAS } else { FULL });
+        let mut bat = holder((name, place));
         bat.pointer_mut(place).unwrap()["qqqqqqqqqqqq"] = json!(1);
         let said = reader.refusal(&bat).unwrap();
         let (_, known) = said.split_once("expected one of ").expect(&said);
@@ -325,7 +360,7 @@ fn a_named_material_keeps_what_is_not_said_of_it() {
 fn a_remark_is_a_text_or_a_list_of_texts() {
     let validator = validator();
     for (name, place) in PLACES {
-        let bat = parsed(if name == "Piece" { FORMULAS } else { FULL });
+        let bat = holder((name, place));
         for (remark, right) in [
             (json!("turned by hand"), true),
             (json!(["measured twice", "and once more"]), true),
@@ -365,7 +400,7 @@ fn every_bound_of_the_schema_is_the_readers() {
         tried += 1;
     };
     for (name, place) in PLACES {
-        let mut bat = parsed(if name == "Piece" { FORMULAS } else { FULL });
+        let mut bat = holder((name, place));
         if let Some(weighed) = bat["weighed"].as_object_mut() {
             // An added mass moves the balance point, and is not what is tried here.
             weighed.shift_remove("balance_point");

@@ -3,11 +3,14 @@
 //! [`Bat::builder`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
 //! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::base::quadrature::{RunningSum, converged, gauss};
+use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
@@ -30,6 +33,9 @@ pub struct Bat {
     fixtures: Fixtures,
     weighed: Weighed,
     factors: [f64; 2],
+    edits: Vec<Edit>,
+    /// The bat before its edits, where it has any.
+    unedited: Option<Arc<Bat>>,
 }
 
 /// What a bat is made of, before it is one.
@@ -160,22 +166,56 @@ impl Bat {
     }
 
     /// The same bat with something changed. What was weighed stays as it led to densities and moduli: it
-    /// was said of the bat before the change, and is not asked again.
+    /// was said of the bat before the change, and is not asked again. Its edits stay on its list.
     ///
     /// # Errors
     ///
     /// As [`Builder::build`].
-    pub fn with(&self, edit: impl FnOnce(&mut Parts)) -> Result<Self> {
-        let mut parts = Parts {
+    pub fn with(&self, change: impl FnOnce(&mut Parts)) -> Result<Self> {
+        let mut parts = self.parts();
+        change(&mut parts);
+        let bat = Self::of(parts, self.weighed, self.factors)?;
+        Ok(Self { edits: self.edits.clone(), unedited: self.unedited.clone(), ..bat })
+    }
+
+    fn parts(&self) -> Parts {
+        Parts {
             name: self.name.clone(),
             source: self.source.clone(),
             inches: self.inches,
             profile: self.profile.clone(),
             material: self.material().clone(),
             fixtures: self.fixtures.clone(),
+        }
+    }
+
+    /// The bat with these parts, which one more edit has made of its own.
+    pub(crate) fn after(
+        &self,
+        edit: &Edit,
+        change: impl FnOnce(&mut Parts) -> Result<()>,
+    ) -> Result<Self> {
+        let mut parts = self.parts();
+        change(&mut parts)?;
+        // Another wood is not the one that was weighed and tapped.
+        let (weighed, factors) = match edit.change {
+            Change::Wood(_) => (Weighed::default(), [1.0; 2]),
+            _ => (self.weighed, self.factors),
         };
-        edit(&mut parts);
-        Self::of(parts, self.weighed, self.factors)
+        let bat = Self::of(parts, weighed, factors)?;
+        let edits = self.edits.iter().chain([edit]).cloned().collect();
+        let unedited = self.unedited.clone().unwrap_or_else(|| Arc::new(self.clone()));
+        Ok(Self { edits, unedited: Some(unedited), ..bat })
+    }
+
+    /// What was changed after it was weighed, in the order in which it was done.
+    pub fn edits(&self) -> &[Edit] {
+        &self.edits
+    }
+
+    /// The bat as it was weighed, before its edits; the bat itself where it has none.
+    pub fn unedited(&self) -> &Self {
+        self.unedited.as_deref().unwrap_or(self)
     }
 
     fn of(parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
@@ -183,7 +223,19 @@ impl Bat {
         let layups = vec![Layup::of(material)];
         fixtures.check(profile.length())?;
         fixtures.settle(&profile.borders());
-        let mut bat = Self { name, source, inches, profile, layups, fixtures, weighed, factors };
+        let (edits, unedited) = (vec![], None);
+        let mut bat = Self {
+            name,
+            source,
+            inches,
+            profile,
+            layups,
+            fixtures,
+            weighed,
+            factors,
+            edits,
+            unedited,
+        };
         bat.lay_out();
         bat.check_range()?;
         Ok(bat)
@@ -219,7 +271,8 @@ impl Bat {
         &self.fixtures
     }
 
-    /// Mass, balance point and first frequency as they were measured.
+    /// Mass, balance point and first frequency as they were measured, of the bat before its edits;
+    /// nothing of a bat that was made of another wood since.
     pub fn weighed(&self) -> Weighed {
         self.weighed
     }
@@ -311,17 +364,28 @@ impl Bat {
         self.profile.pieces.iter().all(known)
     }
 
+    /// The materials of the regions, each with what a bat file calls it.
+    pub fn regional(&self) -> impl Iterator<Item = (String, &Material)> {
+        // An edit makes regions of its own, which no file knows.
+        let of_file = self.edits.is_empty();
+        self.fixtures.regions.iter().enumerate().flat_map(move |(k, region)| {
+            let name = move |part: &str| match of_file {
+                true => format!("regions[{k}].{part}"),
+                false => format!("a {part} of regions or edits"),
+            };
+            let Layup { outer, core, sleeves, .. } = &region.layup;
+            let core = core.iter().map(move |core| (name("core"), core));
+            let sleeves = sleeves.iter().map(move |(sleeve, _)| (name("sleeve"), sleeve));
+            std::iter::once((name("material"), outer)).chain(core).chain(sleeves)
+        })
+    }
+
     /// The first material whose shear modulus is not known, as the bat file calls it.
     pub fn without_shear(&self) -> String {
-        let regions = self.fixtures.regions.iter().enumerate();
-        let parts = regions.flat_map(|(k, region)| {
-            let names = ["material", "core"].map(|part| format!("regions[{k}].{part}"));
-            names.into_iter().zip(region.layup.materials())
-        });
         let unknown = |material: &Material| material.shear_modulus.is_none();
-        let region = parts.filter(|(_, material)| unknown(material)).map(|(name, _)| name).next();
+        let region = self.regional().find(|(_, material)| unknown(material));
         match region {
-            Some(name) if !unknown(self.material()) => name,
+            Some((name, _)) if !unknown(self.material()) => name,
             _ => "material".to_owned(),
         }
     }

@@ -17,6 +17,10 @@ pub struct Layup {
     /// Material that fills the bore, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub core: Option<Material>,
+    /// Layers around the wall, from the inside out: material and thickness (m). The outer radius of a
+    /// section is that of the last of them.
+    #[serde(skip)]
+    pub sleeves: Vec<(Material, f64)>,
     /// Mass of tape on the surface, which adds no stiffness (kg per m of bat).
     #[serde(skip)]
     pub tape: f64,
@@ -38,14 +42,15 @@ pub struct Worth {
 impl Layup {
     /// One material and nothing in the bore.
     pub fn of(outer: Material) -> Self {
-        Self { outer, core: None, tape: 0.0 }
+        Self { outer, core: None, sleeves: vec![], tape: 0.0 }
     }
 
     /// EI (N m²) and ρA (kg/m): all that the Euler–Bernoulli beam knows of a section.
     #[inline(always)]
     pub fn bending_and_mass(&self, section: Section) -> [f64; 2] {
-        let (outer, area) = (&self.outer, section.area());
-        let (r, ri) = (section.outer, section.inner);
+        let wall = self.wall(section);
+        let (outer, area) = (&self.outer, wall.area());
+        let (r, ri) = (wall.outer, wall.inner);
         let mut bending = outer.youngs_modulus * (area * (r * r + ri * ri) / 4.0);
         let mut mass = outer.density * area + self.tape;
         if let Some(core) = &self.core {
@@ -53,41 +58,76 @@ impl Layup {
             bending += core.youngs_modulus * bore.second_moment();
             mass += core.density * bore.area();
         }
+        for (sleeve, ring) in self.rings(wall) {
+            bending += sleeve.youngs_modulus * ring.second_moment();
+            mass += sleeve.density * ring.area();
+        }
         [bending, mass]
+    }
+
+    /// The section without the sleeves.
+    #[inline(always)]
+    fn wall(&self, section: Section) -> Section {
+        if self.sleeves.is_empty() {
+            return section;
+        }
+        let sleeves: f64 = self.sleeves.iter().map(|(_, thickness)| thickness).sum();
+        // At the edge of a wall that comes to a point a rounding must not turn it inside out.
+        Section { outer: (section.outer - sleeves).max(section.inner), ..section }
+    }
+
+    /// The sleeves around that wall, from the inside out, as sections of their own.
+    fn rings(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
+        self.sleeves.iter().scan(wall.outer, |inner, (material, thickness)| {
+            let ring = Section { outer: *inner + thickness, inner: *inner };
+            *inner = ring.outer;
+            Some((material, ring))
+        })
     }
 
     /// ρI (kg m): the rotary inertia per length; of tape on the surface, a ring, `½ m r²`.
     #[inline(always)]
     pub fn turning(&self, section: Section) -> f64 {
         let ring = 0.5 * self.tape * section.outer * section.outer;
-        let own = self.outer.density * section.second_moment() + ring;
+        let wall = self.wall(section);
+        let own = self.outer.density * wall.second_moment() + ring;
         let inside = |core: &Material| core.density * section.bore().second_moment();
-        own + self.core.as_ref().map_or(0.0, inside)
+        let own = own + self.core.as_ref().map_or(0.0, inside);
+        self.rings(wall)
+            .fold(own, |sum, (sleeve, ring)| sum + sleeve.density * ring.second_moment())
     }
 
     /// All four: those of the layers added, each layer bending about the bat's axis.
     ///
     /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core
     /// is as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is
-    /// no core, the solid rod where it is of the same material, an interpolation between.
+    /// no core, the solid rod where it is of the same material, an interpolation between. A sleeve is a
+    /// tube that is filled with the layer below it in the same way.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
         let turning = self.turning(section);
-        let [outer, inside] = self.shears(section);
-        Worth { bending, mass, turning, shear: outer + inside }
+        let wall = self.wall(section);
+        let [outer, inside] = self.shears(wall);
+        let shear = self.shears_of_sleeves(wall).fold(outer + inside, |sum, ring| sum + ring);
+        Worth { bending, mass, turning, shear }
     }
 
-    /// κGA (N) of the outer layer and of the core.
-    fn shears(&self, section: Section) -> [f64; 2] {
-        let hole = (section.inner / section.outer).powi(2);
-        let shear = |material: &Material, area: f64, hole: f64| match material.shear_modulus {
-            Some(modulus) => material.kappa(hole) * modulus * area,
-            None => f64::INFINITY,
-        };
-        let bore = section.bore();
+    /// κGA (N) of the wall and of the core.
+    fn shears(&self, wall: Section) -> [f64; 2] {
+        let hole = (wall.inner / wall.outer).powi(2);
+        let bore = wall.bore();
         let core = self.core.as_ref().filter(|_| bore.outer > 0.0);
         let inside = core.map_or(0.0, |core| shear(core, bore.area(), 0.0));
-        [shear(&self.outer, section.area(), hole * self.emptiness()), inside]
+        [shear(&self.outer, wall.area(), hole * self.emptiness()), inside]
+    }
+
+    /// κGA (N) of the sleeves around a wall.
+    fn shears_of_sleeves(&self, wall: Section) -> impl Iterator<Item = f64> {
+        let below = std::iter::once(&self.outer).chain(self.sleeves.iter().map(|(below, _)| below));
+        self.rings(wall).zip(below).map(|((sleeve, ring), below)| {
+            let hole = (ring.inner / ring.outer).powi(2);
+            shear(sleeve, ring.area(), hole * unfilled(sleeve, Some(below)))
+        })
     }
 
     /// `κG` of the core, as a share of the tube's G.
@@ -100,11 +140,7 @@ impl Layup {
 
     /// How empty the bore is of what bears shear: 1 without a core, 0 with one as stiff as the tube.
     pub(crate) fn emptiness(&self) -> f64 {
-        let of_core = self.core.as_ref().and_then(|core| core.shear_modulus);
-        match (of_core, self.outer.shear_modulus) {
-            (Some(of_core), Some(of_tube)) => (1.0 - of_core / of_tube).max(0.0),
-            _ => 1.0,
-        }
+        unfilled(&self.outer, self.core.as_ref())
     }
 
     /// The loss factors of the section in bending and in shear: those of the layers, each weighted
@@ -117,6 +153,9 @@ impl Layup {
     /// composite is the mean of the parts' weighted with their strain energies.
     pub fn loss(&self, section: Section) -> [f64; 2] {
         let own = self.outer.loss_factor;
+        if !self.sleeves.is_empty() {
+            return self.loss_of_all(section);
+        }
         let Some(core) = self.core.as_ref().filter(|core| core.loss_factor != own) else {
             return [own; 2];
         };
@@ -129,18 +168,69 @@ impl Layup {
         [share, sheared].map(|share| own + share * (core.loss_factor - own))
     }
 
-    /// The materials, the outer one first.
+    /// [`Self::loss`] with sleeves around the wall.
+    fn loss_of_all(&self, section: Section) -> [f64; 2] {
+        let wall = self.wall(section);
+        let [outer, core] = self.shears(wall);
+        let inside = |core: &Material| core.youngs_modulus * wall.bore().second_moment();
+        let own = self.outer.youngs_modulus * wall.second_moment();
+        let bent = [own, self.core.as_ref().map_or(0.0, inside)].into_iter();
+        let bent =
+            bent.chain(self.rings(wall).map(|(m, ring)| m.youngs_modulus * ring.second_moment()));
+        let sheared = [outer, core].into_iter().chain(self.shears_of_sleeves(wall));
+        let of_core = self.core.as_ref().map_or(0.0, |core| core.loss_factor);
+        let losses = [self.outer.loss_factor, of_core].into_iter();
+        let losses = losses.chain(self.sleeves.iter().map(|(sleeve, _)| sleeve.loss_factor));
+        let mean = |stiff: Vec<f64>| {
+            // Of two that do not give way in shear neither has a share.
+            let finite = stiff.iter().all(|k| k.is_finite());
+            let whole: f64 = stiff.iter().sum();
+            let sum: f64 = losses.clone().zip(&stiff).map(|(loss, k)| loss * k / whole).sum();
+            if finite { sum } else { self.outer.loss_factor }
+        };
+        [mean(bent.collect()), mean(sheared.collect())]
+    }
+
+    /// The material at the surface.
+    pub fn surface(&self) -> &Material {
+        self.sleeves.last().map_or(&self.outer, |(sleeve, _)| sleeve)
+    }
+
+    /// The materials, that of the wall first.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
-        std::iter::once(&self.outer).chain(&self.core)
+        let sleeves = self.sleeves.iter().map(|(sleeve, _)| sleeve);
+        std::iter::once(&self.outer).chain(&self.core).chain(sleeves)
+    }
+
+    /// The materials to be changed, that of the wall first.
+    pub fn materials_mut(&mut self) -> impl Iterator<Item = &mut Material> {
+        let sleeves = self.sleeves.iter_mut().map(|(sleeve, _)| sleeve);
+        std::iter::once(&mut self.outer).chain(&mut self.core).chain(sleeves)
     }
 
     /// Makes the materials heavier by one factor and stiffer by another; tape keeps its mass.
     pub fn scaled(&mut self, density: f64, modulus: f64) {
-        for material in std::iter::once(&mut self.outer).chain(&mut self.core) {
+        for material in self.materials_mut() {
             material.density *= density;
             material.youngs_modulus *= modulus;
             material.shear_modulus.iter_mut().for_each(|shear| *shear *= modulus);
         }
+    }
+}
+
+/// κGA (N) of a ring of that area (m²) whose `(r_i/r)²` is `hole`; infinite if G is not known.
+fn shear(material: &Material, area: f64, hole: f64) -> f64 {
+    match material.shear_modulus {
+        Some(modulus) => material.kappa(hole) * modulus * area,
+        None => f64::INFINITY,
+    }
+}
+
+/// How empty a tube is of what bears shear: 1 with nothing inside, 0 with something as stiff as itself.
+fn unfilled(tube: &Material, inside: Option<&Material>) -> f64 {
+    match (inside.and_then(|inside| inside.shear_modulus), tube.shear_modulus) {
+        (Some(inside), Some(tube)) => (1.0 - inside / tube).max(0.0),
+        _ => 1.0,
     }
 }
 
@@ -179,6 +269,28 @@ mod tests {
         assert!((worth.bending / worth.mass / (15e9 * r * r / 1300.0) - 1.0).abs() < 1e-8);
         let area = worth.mass / 650.0;
         assert!((worth.shear / (1e9 * area) / (2.6 / 4.9) - 1.0).abs() < 1e-8);
+    }
+
+    /// All layers bend about one axis, so that rings of one material are the tube they make together.
+    #[test]
+    fn sleeves_of_the_wall_s_own_material_are_a_thicker_wall() {
+        let section = Section { outer: 0.033, inner: 0.01 };
+        let sleeves = vec![(wood(), 0.001), (wood(), 0.002)];
+        let sleeved = Layup { sleeves, ..Layup::of(wood()) };
+        let (thick, layered) = (Layup::of(wood()).worth(section), sleeved.worth(section));
+        for (a, b) in [
+            (layered.bending, thick.bending),
+            (layered.mass, thick.mass),
+            (layered.turning, thick.turning),
+        ] {
+            assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
+        }
+        // Cowper's κ of the wall is that of a tube; of what is around it, of a rod.
+        let solid = Section { outer: 0.033, inner: 0.0 };
+        close(sleeved.worth(solid), Layup::of(wood()).worth(solid));
+        let lossy = |loss: f64| Material { loss_factor: loss, ..wood() };
+        let two = Layup { sleeves: vec![(lossy(0.04), 0.003)], ..Layup::of(lossy(0.04)) };
+        assert!(two.loss(solid).iter().all(|loss| (loss - 0.04).abs() < 1e-15));
     }
 
     #[test]

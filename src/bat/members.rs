@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::base::error::Result;
 use crate::base::units::Quantity;
+use crate::bat::edit::{Bore, Cork, Cup, Cut, ScaleDiameter, Shorten, Sleeve};
 use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
 use crate::bat::material::Material;
 use crate::bat::part::Slot::{self, Number, Unknown};
@@ -194,6 +195,129 @@ impl Part for Grip {
         }),
     ];
     const SOME: &'static [&'static str] = &["stiffness", "damping"];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+/// What is expected where the diameter of a hole is missing.
+const DIAMETER: &str = "\"diameter\": how wide the hole is";
+const BLEND: &str = "1 in";
+
+impl Part for Cut {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |cut| Number(&mut cut.from)),
+        Field::<Self>::place("to", |cut| Number(&mut cut.to)),
+        Field::<Self>::new("depth", Quantity::Length, Range::Positive, |cut| {
+            Number(&mut cut.depth)
+        })
+        .needed("\"depth\": how much thinner the bat becomes, of the diameter")
+        .like("1 mm"),
+        Field::<Self>::new("blend", Quantity::Length, Range::NotNegative, |cut| {
+            Unknown(&mut cut.blend)
+        })
+        .like(BLEND),
+    ];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Cup {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("depth", Quantity::Length, Range::Positive, |cup| {
+            Number(&mut cup.depth)
+        })
+        .needed("\"depth\": how deep the cup goes into the bat")
+        .like("1 in"),
+        Field::<Self>::new("diameter", Quantity::Length, Range::Positive, |cup| {
+            Number(&mut cup.diameter)
+        })
+        .needed("\"diameter\": how wide the cup is at the tip")
+        .like("1.5 in"),
+    ];
+}
+
+impl Part for Bore {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |bore| Number(&mut bore.from)),
+        Field::<Self>::place("to", |bore| Number(&mut bore.to)),
+        Field::<Self>::new("diameter", Quantity::Length, Range::Positive, |bore| {
+            Number(&mut bore.diameter)
+        })
+        .needed(DIAMETER)
+        .like("1 in"),
+    ];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Cork {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |cork| Number(&mut cork.from)),
+        Field::<Self>::place("to", |cork| Number(&mut cork.to)),
+        Field::<Self>::new("diameter", Quantity::Length, Range::Positive, |cork| {
+            Number(&mut cork.diameter)
+        })
+        .needed(DIAMETER)
+        .like("1 in"),
+        Field::<Self>::of_kind("material", Kind::Material, |cork| {
+            Slot::Material(&mut cork.material)
+        })
+        .needed("\"material\": what fills the hole"),
+    ];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Sleeve {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |sleeve| Number(&mut sleeve.from)),
+        Field::<Self>::place("to", |sleeve| Number(&mut sleeve.to)),
+        Field::<Self>::new("thickness", Quantity::Length, Range::Positive, |sleeve| {
+            Number(&mut sleeve.thickness)
+        })
+        .needed("\"thickness\": how thick the sleeve is")
+        .like("1 mm"),
+        Field::<Self>::of_kind("material", Kind::Material, |sleeve| {
+            Slot::Material(&mut sleeve.material)
+        })
+        .needed("\"material\": what the sleeve is made of"),
+    ];
+
+    fn stretch(&self) -> Option<[f64; 2]> {
+        Some([self.from, self.to])
+    }
+}
+
+impl Part for Shorten {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("knob", Quantity::Length, Range::Positive, |s| Unknown(&mut s.knob))
+            .like("0.5 in"),
+        Field::<Self>::new("tip", Quantity::Length, Range::Positive, |s| Unknown(&mut s.tip))
+            .like("0.5 in"),
+    ];
+    const SOME: &'static [&'static str] = &["knob", "tip"];
+}
+
+impl Part for ScaleDiameter {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::place("from", |scale| Number(&mut scale.from)),
+        Field::<Self>::place("to", |scale| Number(&mut scale.to)),
+        Field::<Self>::ratio("by", Range::Positive, |scale| Number(&mut scale.by))
+            .needed("\"by\": the factor on the diameter, such as 1.02")
+            .like("1.02"),
+        Field::<Self>::new("blend", Quantity::Length, Range::NotNegative, |scale| {
+            Unknown(&mut scale.blend)
+        })
+        .like(BLEND),
+    ];
 
     fn stretch(&self) -> Option<[f64; 2]> {
         Some([self.from, self.to])

@@ -10,9 +10,10 @@
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
 //! | [`layup`] | what is the section worth: stiffness and mass per length |
-//! | [`fixtures`], [`weighed`] | masses, springs, supports, grips, joints; what a scale and a tap said |
+//! | `rework` | the radii where wood is turned off, drilled out or sawn off |
+//! | [`fixtures`], [`weighed`], [`edit`] | masses, springs, supports, grips, joints; what a scale and a tap said; what is changed after that |
 //! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; can they be there |
-//! | [`body`] | the whole bat |
+//! | [`body`], `edited` | the whole bat; a bat after its edits |
 
 pub mod material;
 pub mod theory;
@@ -25,10 +26,13 @@ pub(crate) mod tip;
 pub mod profile;
 pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
+pub(crate) mod rework;
 pub mod layup;
 pub mod fixtures;
 pub mod weighed;
+pub mod edit;
 pub(crate) mod part;
 mod members;
 pub(crate) mod fixtures_check;
 pub mod body;
+mod edited;

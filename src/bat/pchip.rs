@@ -72,6 +72,12 @@ pub fn blossom(b: &[f64; 4], s: f64, t: f64, u: f64) -> f64 {
     cut(cut(c0, c1, t), cut(c1, c2, t), u)
 }
 
+/// Bernstein coefficients of the same cubic between `s0` and `s1`.
+#[inline]
+pub fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
+    [blossom(b, s0, s0, s0), blossom(b, s0, s0, s1), blossom(b, s0, s1, s1), blossom(b, s1, s1, s1)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::bat::formula::Formula;
-use crate::bat::pchip::{bernstein, blossom, cubics};
+use crate::bat::pchip::{bernstein, cubics, subdivide};
 use crate::bat::tip::{NEVER_BACK, sends_back};
 
 /// Places that are no farther apart, as a share of the bat's length, are one place given in other
@@ -316,6 +316,20 @@ impl Cubics {
         Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
     }
 
+    /// Where between its ends, in (0, 1), the wall is gone, two cubics having crossed.
+    pub(crate) fn no_wall_at(&self) -> Option<f64> {
+        let wall: [f64; 4] = std::array::from_fn(|i| self.outer[i] - self.inner[i]);
+        if wall[1] > 0.0 && wall[2] > 0.0 {
+            return None;
+        }
+        let step = |i: usize| wall[i + 1] - wall[i];
+        // Wall thickness is least where its derivative, a quadratic in Bernstein form, is 0.
+        let (a, b, c) = (step(0) - 2.0 * step(1) + step(2), step(1) - step(0), step(0));
+        let root = (b * b - a * c).max(0.0).sqrt();
+        let places = [(-b + root) / a, (-b - root) / a, -c / (2.0 * b)];
+        places.into_iter().find(|s| *s > 0.0 && *s < 1.0 && bernstein(&wall, *s) <= 0.0)
+    }
+
     /// The part of these cubics between `s0` and `s1` in [0, 1], by de Casteljau's subdivision.
     #[inline]
     pub fn part(&self, s0: f64, s1: f64) -> Self {
@@ -492,25 +506,14 @@ fn lines(y: &[f64]) -> Vec<[f64; 4]> {
 
 /// The wall must not vanish between stations either, where two cubics may cross.
 fn check_wall(piece: &Piece, stations: &Stations) -> Result<()> {
-    let Radii::Cubic(Cubics { outer, inner, .. }) = &piece.radii else { return Ok(()) };
-    let wall: [f64; 4] = std::array::from_fn(|i| outer[i] - inner[i]);
-    if wall[1] > 0.0 && wall[2] > 0.0 {
+    let Radii::Cubic(cubics) = &piece.radii else { return Ok(()) };
+    if cubics.no_wall_at().is_none() {
         return Ok(());
     }
-    let step = |i: usize| wall[i + 1] - wall[i];
-    // Wall thickness is least where its derivative, a quadratic in Bernstein form, is 0.
-    let (a, b, c) = (step(0) - 2.0 * step(1) + step(2), step(1) - step(0), step(0));
-    let root = (b * b - a * c).max(0.0).sqrt();
-    let places = [(-b + root) / a, (-b - root) / a, -c / (2.0 * b)];
-    for s in places.into_iter().filter(|s| *s > 0.0 && *s < 1.0) {
-        if bernstein(&wall, s) <= 0.0 {
-            let k = stations.x.partition_point(|at| *at <= piece.start) - 1;
-            let found = format!("a wall that vanishes between x[{k}] and x[{}]", k + 1);
-            let expected = "inner radius below outer radius there too: add a station";
-            return Err(Error::Value(Complaint::new(format!("inner[{k}]"), found, expected)));
-        }
-    }
-    Ok(())
+    let k = stations.x.partition_point(|at| *at <= piece.start) - 1;
+    let found = format!("a wall that vanishes between x[{k}] and x[{}]", k + 1);
+    let expected = "inner radius below outer radius there too: add a station";
+    Err(Error::Value(Complaint::new(format!("inner[{k}]"), found, expected)))
 }
 
 /// Both ends of the bat, the latter at that station, must send waves back.
@@ -520,12 +523,6 @@ fn check_tips(pieces: &[Piece], last_station: usize) -> Result<()> {
     let Some(end) = back.into_iter().position(|back| !back) else { return Ok(()) };
     let [found, expected] = NEVER_BACK;
     Err(Error::value(format!("outer[{}]", end * last_station), found, expected))
-}
-
-/// Bernstein coefficients of the same cubic between `s0` and `s1`.
-#[inline]
-fn subdivide(b: &[f64; 4], s0: f64, s1: f64) -> [f64; 4] {
-    [blossom(b, s0, s0, s0), blossom(b, s0, s0, s1), blossom(b, s0, s1, s1), blossom(b, s1, s1, s1)]
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ const SHORT: f64 = 1e-8;
 /// How much of the sections on an element the points of its rule may miss, relative; 0 where that
 /// is mere round-off.
 ///
-/// Stations are polynomials that the rule holds exactly, but for the κGA of a bore that tapers: the
+/// Stations are polynomials that the rule holds exactly, but for the κGA of a bore or a sleeve that tapers: the
 /// last terms of its Legendre series through the points count. Of formulas it is what bounds from
 /// the parse tree leave of EI, ρA and κGA, and on an element so short that nothing on it matters its variation times
 /// its share of the bat.
@@ -67,7 +67,8 @@ pub fn missed(bat: &Bat, e: &Element, rule: &Rule, theory: Theory) -> f64 {
     let piece = &bat.profile().pieces[e.piece];
     let layup = bat.layup(piece);
     let missed = match &piece.radii {
-        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] || cubics.degree == 0 => 0.0,
+        Radii::Cubic(cubics) if cubics.degree == 0 => 0.0,
+        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] && layup.sleeves.is_empty() => 0.0,
         Radii::Cubic(_) if theory.shears() => shear_tail(bat, e, rule),
         Radii::Cubic(_) => 0.0,
         Radii::Formula(curves) => {

@@ -8,6 +8,7 @@ use crate::study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::cli::common::{OutputArgs, examples, read};
 use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::edits::EditArgs;
 use crate::cli::value::tolerance;
 
 /// Which physics this bat needs, and which it can do without
@@ -22,6 +23,9 @@ pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
 
     /// Number of bending modes
     #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
@@ -46,7 +50,7 @@ Examples:
       the same figures as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = read(&args.bat, args.output.quiet)?;
+    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
     let progress = args.output.progress("the full model");
     let tell = |share, what: &str| progress.say(share, what);
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;

@@ -23,9 +23,7 @@ use crate::show::report::text;
 use crate::show::report::{advice, aftermath, hit_json, hit_text, trust};
 use crate::study::spread::Readings;
 
-use crate::cli::common::{
-    BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed, read_with_text,
-};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::pictures;
@@ -118,7 +116,7 @@ pub fn run(args: &Args) -> Result<Done> {
     // A report that cannot be written is told before it is computed.
     args.report.as_deref().map(page::file::expected).transpose()?;
     args.solve.refuse_budget("analyze")?;
-    let (bat, text) = read_with_text(args.bat.path(), args.output.quiet)?;
+    let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve_for(bat, &args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat)?;

@@ -21,6 +21,7 @@ use crate::study::tuned;
 use serde::Serialize;
 
 use crate::cli::done::{NOT_REACHED, printable};
+use crate::cli::edits::EditArgs;
 use crate::cli::progress::{self, Progress};
 use crate::cli::style;
 use crate::cli::value::{
@@ -55,14 +56,12 @@ pub struct BatArgs {
     #[arg(long, value_name = "HZ", conflicts_with = "count", allow_hyphen_values = true,
           value_parser = |s: &str| TOP_FREQUENCY.read(s))]
     up_to: Option<f64>,
+
+    #[command(flatten)]
+    edits: EditArgs,
 }
 
 impl BatArgs {
-    /// The bat's file.
-    pub fn path(&self) -> &Path {
-        &self.bat
-    }
-
     /// Number of bending modes where no frequency was given.
     pub fn count(&self) -> usize {
         self.count.unwrap_or(10).into()
@@ -73,9 +72,19 @@ impl BatArgs {
         self.count.is_some() || self.up_to.is_some()
     }
 
+    /// The bat's file.
+    pub fn path(&self) -> &Path {
+        &self.bat
+    }
+
     /// Reads the bat and passes its warnings on.
     pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
-        read(&self.bat, output.quiet)
+        self.read_with_text(output).map(|(bat, _)| bat)
+    }
+
+    /// Reads the bat, passes its warnings on, and returns the text of its file too.
+    pub fn read_with_text(&self, output: &OutputArgs) -> Result<(Bat, String)> {
+        read_with_text(&self.bat, &self.edits, output.quiet)
     }
 
     /// Reads the bat and finds its modes.
@@ -318,14 +327,14 @@ pub fn printed(path: &Path) -> String {
     printable(&path.display().to_string())
 }
 
-/// Reads a bat and passes its warnings on.
-pub fn read(path: &Path, quiet: bool) -> Result<Bat> {
-    read_with_text(path, quiet).map(|(bat, _)| bat)
+/// Reads a bat, edits it and passes its warnings on.
+pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
+    read_with_text(path, edits, quiet).map(|(bat, _)| bat)
 }
 
-/// Reads a bat, passes its warnings on, and returns the text of its file too. A name without ending
-/// is that of a built-in bat, unless there is a file of it.
-pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
+/// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
+/// ending is that of a built-in bat, unless there is a file of it.
+fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
     let Named { bat, text, columns_outside } = match built_in(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;
@@ -338,6 +347,7 @@ pub fn read_with_text(path: &Path, quiet: bool) -> Result<(Bat, String)> {
         let columns = columns.display();
         warn(&format!("note: {file} is of {columns}, which is outside of its folder"), quiet);
     }
+    let bat = edits.edit(bat)?;
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok((bat, text))
 }

@@ -4,16 +4,19 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
+use crate::bat::body::Bat;
 use crate::files::measured;
 use crate::show::report::{self, comparison, comparison_data, comparison_screen};
 use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
+use crate::study::comparison::hidden::hidden;
 use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
-use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, read};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
 use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{PLACE, SPACING};
@@ -32,9 +35,18 @@ use crate::cli::value::{PLACE, SPACING};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat files (JSON) or names of built-in bats, two to six; one with --measured
+    /// Bat files (JSON) or names of built-in bats, two to six; one with --edit or --measured
     #[arg(required = true, value_name = "BAT")]
     bats: Vec<PathBuf>,
+
+    /// What if: the first bat changed so, as a bat of its own beside it; once for each
+    ///
+    /// Edits with semicolons between them, and a name before a colon: "thin: cut 24 in to 30 in, 1 mm;
+    /// knob 2 oz". An edit is written as the option of its name in the other verbs: cut, knob, cup, bore,
+    /// cork, sleeve, shorten, scale-diameter, wood. Edits come after the bat was weighed, and after those of
+    /// its file.
+    #[arg(long = "edit", value_name = "EDITS", value_parser = what_if, conflicts_with = "measured")]
+    edits: Vec<WhatIf>,
 
     /// Measured modes (CSV or UFF) to stand beside the bat's own
     #[arg(long, value_name = "FILE", conflicts_with_all = ["SceneArgs", "every", "csv"])]
@@ -96,6 +108,10 @@ Examples:
   sweetspot compare r161 torpedo --units us
       which hits harder, and where
 
+  sweetspot compare r161 --edit \"knob 2 oz\" \\
+      --edit \"slim: cut 24 in to 30 in, 1 mm\"
+      what a knob weight does, and what a thinner barrel
+
   sweetspot compare r161 torpedo --report bats.html
       and on a page of its own, to look at, to print and to send
 
@@ -140,7 +156,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         return Err(Error::value("compare", found, "one bat file"));
     };
     let measured = measured::read(file)?;
-    let bat = read(path, args.output.quiet)?;
+    let bat = read(path, &EditArgs::default(), args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let first = match (args.knob_first, args.tip_first) {
@@ -171,12 +187,17 @@ fn bats_beside(args: &Args) -> Result<Done> {
         let expected = "one of them on standard output";
         return Err(Error::value("--csv", "- beside --json -", expected));
     }
-    if !(2..=MOST).contains(&args.bats.len()) {
-        let found = match args.bats.len() {
+    let count = args.bats.len() + args.edits.len();
+    if !(2..=MOST).contains(&count) {
+        let found = match count {
             1 => "1 bat".to_owned(),
             count => format!("{count} bats"),
         };
-        return Err(Error::value("compare", found, format!("2 to {MOST} that can be compared")));
+        return Err(Error::value(
+            "compare",
+            found,
+            format!("2 to {MOST} that can be compared: files, or --edit of the first"),
+        ));
     }
     if let Some(path) = &args.report {
         page::file::expected_page(path)?;
@@ -184,8 +205,9 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     let mut warnings = vec![];
     let mut entries = vec![];
-    for path in &args.bats {
-        let bat = read(path, args.output.quiet)?;
+    let bats = bats(args)?;
+    let files: Vec<String> = bats.iter().map(|(path, _)| path.display().to_string()).collect();
+    for (path, bat) in bats {
         let modes = args.count.map_or(10, usize::from);
         let prepared = args.solve.prepare(bat, modes, &args.output)?;
         let (scene, law) = args.scene.scene(&prepared.bat)?;
@@ -213,10 +235,31 @@ fn bats_beside(args: &Args) -> Result<Done> {
         }
         None => table,
     };
-    let files: Vec<String> = args.bats.iter().map(|path| path.display().to_string()).collect();
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
+}
+
+/// The bats of the files, then the first of them with each set of edits; and a word about a change that
+/// a weighed mass hides.
+fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
+    let mut bats: Vec<(&Path, Bat)> = vec![];
+    for path in &args.bats {
+        bats.push((path, read(path, &EditArgs::default(), args.output.quiet)?));
+    }
+    let (path, first) = bats[0].clone();
+    for (file, other) in &bats[1..] {
+        let called = [path, *file].map(printed);
+        if let Some(said) = hidden((&called[0], &first), (&called[1], other)) {
+            args.output.warn(&format!("warning: {said}"));
+        }
+    }
+    for what_if in &args.edits {
+        let WhatIf { name, edits } = what_if;
+        let bat = edited(&first, edits, |k| format!("--edit {name}, {}", edits[k].change.verb()))?;
+        bats.push((path, bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?));
+    }
+    Ok(bats)
 }
 
 /// Pictures and the page, where they were asked for.

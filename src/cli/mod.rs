@@ -6,7 +6,7 @@
 //! | file | question |
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown |
-//! | `value`, `help`, `stop`, `progress` | values with units; help that fits; signals; how far a computation is |
+//! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
 //! | `common`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, tables, pictures, the scene of a hit |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
@@ -18,6 +18,7 @@ mod value;
 mod help;
 mod progress;
 mod stop;
+mod edits;
 mod common;
 mod csv_option;
 mod bat_text;

@@ -15,6 +15,7 @@ use crate::study::trade::u_curve as curve;
 
 use crate::cli::common::{Prepared, examples, prepare, read};
 use crate::cli::done::Done;
+use crate::cli::edits::EditArgs;
 use crate::cli::progress::Progress;
 use crate::cli::value::{TheoryChoice, budget, theory};
 use crate::cli::{pictures, style};
@@ -31,6 +32,9 @@ pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
 
     /// Number of bending modes
     #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
@@ -93,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let modes = usize::from(args.count);
     let theory = args.theory.0.unwrap_or_default();
     let request = Request { modes, theory, ..Request::default() };
-    let bat = read(&args.bat, args.quiet)?;
+    let bat = read(&args.bat, &args.edits, args.quiet)?;
     let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
     let theory = request.theory;
     let progress = Progress::new(args.quiet, "the reference");

@@ -36,6 +36,8 @@ pub const PLACE: Use = Use::new(Quantity::Length, [0.0, 1.2], &["in", "cm", "mm"
 pub const BAT_LENGTH: Use = Use::new(Quantity::Length, [0.45, 1.2], &["in", "cm", "mm"]);
 /// Diameter of a bat.
 pub const DIAMETER: Use = Use::new(Quantity::Length, [0.005, 0.1], &["in", "cm", "mm"]);
+/// What is turned off a bat, or put around it.
+pub const LITTLE: Use = Use::new(Quantity::Length, [0.0, 0.02], &["mm", "in"]);
 /// Rotation centre of a swing, from the knob end.
 pub const PIVOT: Use = Use::new(Quantity::Length, [0.0, 0.6], &["in", "cm"]);
 /// Distance between places on a bat.

@@ -230,9 +230,9 @@ impl<'a> Aftermath<'a> {
         places.iter().map(at).collect()
     }
 
-    /// Young's modulus (Pa) of the outer material at `x` (m).
+    /// Young's modulus (Pa) of the material at the surface at `x` (m).
     pub fn modulus(&self, x: f64) -> f64 {
-        self.bat.layup(self.bat.profile().piece_at(x)).outer.youngs_modulus
+        self.bat.layup(self.bat.profile().piece_at(x)).surface().youngs_modulus
     }
 
     /// Number of modes.

@@ -53,7 +53,7 @@ pub struct Load {
 /// The nearest to a limit among the largest strains of every place; None where no material has it.
 pub fn nearest(bat: &Bat, envelope: &[Strained], limit: Limit) -> Option<Load> {
     let load = |at: &Strained| {
-        let bears = limit.of(&bat.layup(bat.profile().piece_at(at.x)).outer)?;
+        let bears = limit.of(bat.layup(bat.profile().piece_at(at.x)).surface())?;
         let reached = if limit == Limit::Stress { at.stress } else { at.strain };
         Some(Load { limit, bears, at: *at, share: reached / bears })
     };

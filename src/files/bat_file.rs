@@ -13,6 +13,7 @@ use crate::bat::material::Material;
 use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
 use crate::bat::weighed::Weighed;
 use crate::files::document::Document;
+use crate::files::edits_file;
 use crate::files::fixtures_file;
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
@@ -32,6 +33,7 @@ const KEYS: &[&str] = &[
     "joints",
     "supports",
     "grip",
+    "edits",
     "$schema",
 ];
 /// The members of a profile beside its columns.
@@ -164,13 +166,15 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let material = material.unwrap_or_else(sound);
     let on = fixtures_file::On { material: &material, length };
     let fixtures = fixtures_file::read(&root, &on, &mut mistakes);
+    let edits = mistakes.note(edits_file::read(&root));
     let placed = |error: Error| error.placed(|complaint| root.node.locate(complaint));
     let weighed = weighed.unwrap_or_default();
     mistakes.end(())?;
     let (profile, inches) = profile.expect("a profile that could not be read was noted");
     let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
     let bat = Bat::builder(profile, material).name(name).source(source.unwrap_or_default());
-    bat.inches(inches).fixtures(fixtures).weighed(weighed).build().map_err(placed)
+    let bat = bat.inches(inches).fixtures(fixtures).weighed(weighed).build();
+    bat.and_then(|bat| bat.edited(&edits)).map_err(placed)
 }
 
 /// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
 //! | `csv_file`, `station_table` | a table; the stations of a profile |
-//! | `part_file`, `fixtures_file`, [`bat_file`] | a bat |
+//! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`shape_file`], [`force_file`] | a ball; an initial shape; a force in time |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
@@ -19,6 +19,7 @@ pub(crate) mod csv_file;
 pub(crate) mod station_table;
 pub(crate) mod part_file;
 pub(crate) mod fixtures_file;
+pub(crate) mod edits_file;
 pub mod bat_file;
 pub mod ball_file;
 pub mod shape_file;

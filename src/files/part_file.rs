@@ -72,6 +72,13 @@ pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Resul
     }))
 }
 
+/// A material for which nothing that was measured stands in.
+pub(crate) fn whole_material(node: &Node) -> Result<Material> {
+    let density = Err("\"density\", such as \"0.6 g/cm^3\"");
+    let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
+    material(node, density, modulus)
+}
+
 /// A material of the built-in list.
 fn named(node: &Node) -> Result<Material> {
     let names: Vec<(&str, &str)> = BUILT_IN.iter().map(|m| (m.name, m.name)).collect();
@@ -129,17 +136,12 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
         }
         (None, Some(expected)) => return object.require(field.key, expected).map(|_| ()),
     };
-    let whole = || {
-        let density = Err("\"density\", such as \"0.6 g/cm^3\"");
-        let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
-        material(node, density, modulus)
-    };
     match (field.of)(part) {
         Slot::Number(value) => *value = number(node, field, length)?,
         Slot::Unknown(value) => *value = Some(number(node, field, length)?),
         Slot::Held(held) => *held = node.word(&HELD)?,
-        Slot::Material(outer) => *outer = whole()?,
-        Slot::Core(core) => *core = Some(whole()?),
+        Slot::Material(outer) => *outer = whole_material(node)?,
+        Slot::Core(core) => *core = Some(whole_material(node)?),
     }
     Ok(())
 }

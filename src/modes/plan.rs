@@ -37,6 +37,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::bat::body::Bat;
+use crate::bat::profile::{Piece, Radii};
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
@@ -215,8 +216,11 @@ impl Plan {
 /// the κ of a bore that tapers, than the wanted error has room for.
 fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     let Wanted { theory, tolerance, .. } = *wanted;
-    let bored = bat.profile().stations.inner.iter().any(|r| *r > 0.0);
-    if bat.profile().formulas.is_none() && !(bored && theory.shears()) {
+    let profile = bat.profile();
+    let layered = profile.stations.inner.iter().any(|r| *r > 0.0)
+        || bat.layups().iter().any(|layup| !layup.sleeves.is_empty());
+    let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
+    if !profile.pieces.iter().any(formula) && !(layered && theory.shears()) {
         return mesh;
     }
     let rule = Rule::of(bat, degree);

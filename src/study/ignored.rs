@@ -103,9 +103,7 @@ fn typical_shear(material: &Material) -> f64 {
 pub fn with_typical_shear(bat: &Bat) -> Bat {
     let with = bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();
-        let layups = regions.flat_map(|region| {
-            std::iter::once(&mut region.layup.outer).chain(&mut region.layup.core)
-        });
+        let layups = regions.flat_map(|region| region.layup.materials_mut());
         for material in std::iter::once(&mut parts.material).chain(layups) {
             let typical = typical_shear(material) * material.youngs_modulus;
             material.shear_modulus.get_or_insert(typical);
@@ -180,8 +178,11 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     ignored
 }
 
+/// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
+pub const CUP: f64 = 0.04;
+
 /// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
-/// where that half is solid. A bore with a core in it is hollow too.
+/// where that half is solid. A bore with a core in it is hollow too; a cup in the tip is not.
 pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
     const STRETCHES: usize = 200;
     let half = 0.5 * bat.length();
@@ -191,7 +192,10 @@ pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
         let section = bat.profile().at(x);
         (section.inner > 0.0).then_some([section.outer - section.inner, x])
     };
-    (0..STRETCHES).filter_map(wall).min_by(|a, b| a[0].total_cmp(&b[0]))
+    let barrel = |wall: &[f64; 2]| wall[1] < bat.length() - CUP;
+    let walls: Vec<[f64; 2]> = (0..STRETCHES).filter_map(wall).collect();
+    let hollow = walls.iter().any(barrel);
+    walls.into_iter().filter(|_| hollow).min_by(|a, b| a[0].total_cmp(&b[0]))
 }
 
 /// What a hit on this bat leaves out, a sentence each: of a hollow barrel whose wall has no figures,

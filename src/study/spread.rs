@@ -326,7 +326,11 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
             size: readings.tap * note,
         });
         if tap.is_none() {
-            left_out.push("the tap, whose note is of none of the first three modes".to_owned());
+            let heard = match analysed.bat.edits().is_empty() {
+                true => "the tap, whose note is of none of the first three modes",
+                false => "the tap, which was heard of the bat before its edits",
+            };
+            left_out.push(heard.to_owned());
         }
         tap
     });
@@ -384,15 +388,10 @@ fn open(
 
 /// Every material of a bat once, with its place in a bat file.
 fn materials(bat: &Bat) -> Vec<(String, Material)> {
-    let regions = bat.fixtures().regions.iter().enumerate();
-    let parts = regions.flat_map(|(k, region)| {
-        let names = ["material", "core"].map(|part| format!("regions[{k}].{part}"));
-        names.into_iter().zip(region.layup.materials().cloned())
-    });
     let mut all = vec![("material".to_owned(), bat.material().clone())];
-    for (place, material) in parts {
-        if all.iter().all(|(_, known)| *known != material) {
-            all.push((place, material));
+    for (place, material) in bat.regional() {
+        if all.iter().all(|(_, known)| known != material) {
+            all.push((place, material.clone()));
         }
     }
     all
@@ -538,9 +537,7 @@ fn changed(bat: &Bat, change: &Change, by: f64) -> Result<Bat> {
         }
         Change::Of(which, property) => bat.with(|parts| {
             let regions = parts.fixtures.regions.iter_mut();
-            let others = regions.flat_map(|region| {
-                std::iter::once(&mut region.layup.outer).chain(&mut region.layup.core)
-            });
+            let others = regions.flat_map(|region| region.layup.materials_mut());
             let all = std::iter::once(&mut parts.material).chain(others);
             all.filter(|one| *one == which).for_each(|one| scaled(one, *property));
         }),

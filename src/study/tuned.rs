@@ -22,7 +22,12 @@ use crate::modes::solve::{Request, solve};
 pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     const MOST_STEPS: usize = 60;
     const STIFFER: f64 = 1.01;
-    let Some(tapped) = bat.weighed().first_bending else { return Ok(bat) };
+    let Some(tapped) = bat.unedited().weighed().first_bending else { return Ok(bat) };
+    if !bat.edits().is_empty() {
+        // The tap was heard of the bat before its edits.
+        let tuned = tuned(bat.unedited().clone(), theory, tolerance)?.edited(bat.edits())?;
+        return tuned.with(|parts| bat.name().clone_into(&mut parts.name));
+    }
     let tolerance = (0.01 * tolerance).clamp(1e-12, 1e-6);
     // Hands and springs leave at most two slow motions that are rigid by themselves; an absorber
     // adds one more each.

@@ -15,7 +15,7 @@ use crate::bat::profile::Interpolation;
 use crate::bat::weighed::Weighed;
 use crate::files::schema::amount::{Amount, Measures, column};
 use crate::files::schema::document::{Document, Format};
-use crate::files::schema::part::{self, Comment, InFile, Material};
+use crate::files::schema::part::{self, Comment, EditInFile, InFile, Material};
 use crate::files::schema::resolved::End;
 use crate::files::station_table::COLUMNS;
 
@@ -62,6 +62,9 @@ pub struct BatFile {
     pub supports: Option<Vec<InFile<Support>>>,
     /// Hands that hold the bat as an elastic bed.
     pub grip: Option<InFile<Grip>>,
+    /// What is changed about the bat after it was weighed and tapped, one edit after the other. Places
+    /// are those of the bat as it is when the edit comes to it.
+    pub edits: Option<Vec<EditInFile>>,
 }
 
 impl Document for BatFile {

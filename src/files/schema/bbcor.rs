@@ -4,6 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bat::edit::Edit;
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::Ball;
 
@@ -19,6 +20,9 @@ pub struct BbcorFile {
     pub generator: Generator,
     /// What the bat is called.
     pub bat_name: String,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// Always false: a computed value is no certificate.
     pub certified: bool,
     /// The test: what was shot at the bat, and how it was held.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
+use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::{Ball, Wall};
@@ -77,6 +78,9 @@ pub struct ComparedBat {
     pub name: String,
     /// The bat's file.
     pub file: String,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,
     /// Who sees the energies: the ground, or of a held bat its hands.

@@ -8,6 +8,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::bat::body::Bat;
+use crate::bat::edit::Edit;
+
 /// A kind of document, told from the others by its member `format`.
 pub trait Document: JsonSchema {
     /// Name of the kind, such as `modes`.
@@ -89,4 +92,14 @@ impl Generator {
 pub struct BatName {
     /// What the bat is called.
     pub name: String,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
+}
+
+impl BatName {
+    /// The name of that bat, and its edits.
+    pub fn of(bat: &Bat) -> Self {
+        Self { name: bat.name().to_owned(), edits: bat.edits().to_vec() }
+    }
 }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
 use crate::files::schema::document::{Document, Format, Generator};
 
@@ -52,6 +53,9 @@ pub struct ComputedBat {
     pub name: String,
     /// The bat's file.
     pub file: String,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// Beam theory.
     #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: &'static str,

@@ -8,6 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
 use crate::base::units::Quantity;
+use crate::bat::edit::{self, Change, Edit};
 use crate::bat::fixtures::Held;
 use crate::bat::material::{self as bat, BUILT_IN, BuiltIn};
 use crate::bat::part::{Bound, Field, HEAVIEST, Instead, Kind, MOST, Part, Range, SOFTEST};
@@ -130,6 +131,72 @@ impl<P: Part + JsonSchema> JsonSchema for InFile<P> {
             schema.insert("dependentRequired".to_owned(), beside.into());
         }
         schema
+    }
+}
+
+/// An edit, as a bat file may write it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EditInFile;
+
+impl JsonSchema for EditInFile {
+    fn schema_name() -> Cow<'static, str> {
+        "Edit".into()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        "file edit".into()
+    }
+
+    /// A name and one of the changes.
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let said = |key: &str, of: &[Schema]| {
+            let found = of.iter().find_map(|change| {
+                let member = change.pointer(&format!("/properties/{key}"))?;
+                Some(member.get("description").or(change.get("description"))?.as_str()?.to_owned())
+            });
+            found.unwrap_or_default()
+        };
+        let own = Edit::json_schema(&mut SchemaGenerator::default());
+        let changes: Vec<Schema> = Change::json_schema(&mut SchemaGenerator::default())
+            .get("oneOf")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .filter_map(|change| change.clone().try_into().ok())
+            .collect();
+        let weight = said("knob", &changes);
+        let weight = weight.replace(" (kg)", "");
+        let mut weight = amount(&weight, Some("2 oz"), Quantity::Mass, generator);
+        weight.insert("exclusiveMinimum".to_owned(), json!(0));
+        let mut wood = described(generator.subschema_for::<Material>(), &said("wood", &changes));
+        wood.insert("allOf".to_owned(), json!([whole()]));
+        let parts = [
+            ("cut", generator.subschema_for::<InFile<edit::Cut>>()),
+            ("knob", weight),
+            ("cup", generator.subschema_for::<InFile<edit::Cup>>()),
+            ("bore", generator.subschema_for::<InFile<edit::Bore>>()),
+            ("cork", generator.subschema_for::<InFile<edit::Cork>>()),
+            ("sleeve", generator.subschema_for::<InFile<edit::Sleeve>>()),
+            ("shorten", generator.subschema_for::<InFile<edit::Shorten>>()),
+            ("scale_diameter", generator.subschema_for::<InFile<edit::ScaleDiameter>>()),
+            ("wood", wood),
+        ];
+        let comment = generator.subschema_for::<Comment>().to_value();
+        let mut properties = Map::from_iter([("comment".to_owned(), comment)]);
+        let name = json!({ "type": "string", "description": said("name", &[own]) });
+        properties.insert("name".to_owned(), name);
+        for (key, part) in parts {
+            let part = described(part, &said(key, &changes));
+            properties.insert(key.to_owned(), part.to_value());
+        }
+        let one: Value = Change::VERBS.iter().map(|key| json!({ "required": [key] })).collect();
+        json_schema!({
+            "description": "One change of the bat, with a name if it has one.",
+            "type": "object",
+            "properties": properties,
+            "additionalProperties": false,
+            "oneOf": one,
+        })
     }
 }
 

@@ -3,14 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bat::edit::Edit;
 use crate::bat::fixtures::Fixtures;
 use crate::bat::material::Material;
 use crate::bat::profile::Interpolation;
 use crate::bat::weighed::Weighed;
 use crate::files::schema::document::{Document, Format};
 
-/// The bat as it was understood: SI, defaults filled in, materials as they were weighed. A bat file
-/// in its own right, of the same bat. Positions count from the knob end.
+/// The bat as it was understood: SI, defaults filled in, materials as they were weighed, its edits listed.
+/// A bat file in its own right, of the same bat. Positions count from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResolvedBat {
     /// Name of the format and its version: sweetspot-bat/1.
@@ -29,6 +30,10 @@ pub struct ResolvedBat {
     /// Mass, balance point and first frequency as they were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<Weighed>,
+    /// What is changed about the bat that the other members describe, after it was weighed, in the order
+    /// in which it is done.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
 }
 
 impl Document for ResolvedBat {

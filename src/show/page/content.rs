@@ -17,6 +17,7 @@ use crate::show::page::players;
 use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
 use crate::show::plot::sets::of_analysis;
+use crate::show::report::edits;
 use crate::show::report::text::Units;
 
 /// What a report is made from.
@@ -133,10 +134,11 @@ impl<'a> Report<'a> {
     }
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
-        vec![
-            Part::Facts("facts", self.summary.facts(units, &self.analysis.spread)),
-            Part::Picture("profile"),
-        ]
+        let facts = Part::Facts("facts", self.summary.facts(units, &self.analysis.spread));
+        let edits = edits::listed(&self.analysis.bat, units == Units::Us);
+        let edited = (!edits.is_empty())
+            .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));
+        edited.into_iter().chain([facts, Part::Picture("profile")]).collect()
     }
 
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {

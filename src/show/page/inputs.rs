@@ -206,7 +206,9 @@ fn unit(path: &str) -> &'static str {
     let grip = path.starts_with("grip");
     match path.rsplit('.').next().unwrap_or_default() {
         "x" | "from" | "to" | "offset" | "balance_point" => "m",
-        "mass" => "kg",
+        "depth" | "diameter" | "thickness" | "blend" | "tip" => "m",
+        "knob" if path.ends_with("shorten.knob") => "m",
+        "mass" | "knob" => "kg",
         "density" => "kg/m³",
         "youngs_modulus" | "shear_modulus" => "Pa",
         "rotary_inertia" => "kg m²",
@@ -222,9 +224,14 @@ fn unit(path: &str) -> &'static str {
 
 /// The columns of the profile in SI, the first many of them; formulas as they were written.
 pub fn profile(analysis: &Analysis) -> Table {
-    let profile = analysis.bat.profile();
+    // Edits change it piece by piece, and no column has them.
+    let profile = analysis.bat.unedited().profile();
+    let before = if analysis.bat.edits().is_empty() { "" } else { ", before its edits" };
     if let Some(formulas) = &profile.formulas {
-        let mut table = Table::of_words("The profile", &["From, m", "To, m", "Radius", "Bore"]);
+        let mut table = Table::of_words(
+            format!("The profile{before}"),
+            &["From, m", "To, m", "Radius", "Bore"],
+        );
         for piece in &formulas.pieces {
             let bore = piece.inner.as_ref().map_or("none", |inner| inner.text());
             let [from, to] = [piece.from, piece.to].map(shown::plain);
@@ -235,8 +242,8 @@ pub fn profile(analysis: &Analysis) -> Table {
     let stations = &profile.stations;
     let count = stations.x.len();
     let caption = match count > MOST {
-        true => format!("The profile: the first {MOST} of {count} stations"),
-        false => "The profile".to_owned(),
+        true => format!("The profile{before}: the first {MOST} of {count} stations"),
+        false => format!("The profile{before}"),
     };
     let mut table = Table::new(caption, &["x, m", "Radius, m", "Inner radius, m"]);
     let metres = |x: f64| format!("{:.5}", x);

@@ -95,11 +95,11 @@ fn made_of(bat: &Bat, region: &Region) -> Option<String> {
     };
     let outer = &region.layup.outer;
     let wall = (outer != bat.material()).then(|| name(outer));
-    let core = region.layup.core.as_ref().map(name);
-    match (wall, core) {
-        (Some(wall), Some(core)) => Some(format!("hatched: {wall} with a core of {core}")),
-        (Some(wall), None) => Some(format!("hatched: {wall}")),
-        (None, Some(core)) => Some(format!("hatched: core of {core}")),
-        (None, None) => None,
-    }
+    let core = region.layup.core.as_ref().map(|core| format!("core of {}", name(core)));
+    let sleeves =
+        region.layup.sleeves.iter().map(|(sleeve, _)| format!("sleeve of {}", name(sleeve)));
+    let parts: Vec<String> = wall.into_iter().chain(core).chain(sleeves).collect();
+    let (first, others) = parts.split_first()?;
+    let others: Vec<String> = others.iter().map(|part| format!(" with a {part}")).collect();
+    Some(format!("hatched: {first}{}", others.concat()))
 }

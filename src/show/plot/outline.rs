@@ -100,7 +100,7 @@ impl Lying<'_> {
     /// Stretches of another material.
     fn regions(&self, svg: &mut Svg, bat: &Bat) {
         for region in &bat.fixtures().regions {
-            if region.layup.outer != *bat.material() {
+            if region.layup.surface() != bat.material() {
                 self.hatched(svg, bat, [region.from, region.to], false);
             }
         }

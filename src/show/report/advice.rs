@@ -9,7 +9,7 @@ use crate::files::schema::advice as file;
 use crate::files::schema::document::{BatName, Format, Generator};
 use crate::modes::damping::Damped;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::{Units, edited, wrapped};
 use crate::study::advise::advice::Advice;
 use crate::study::advise::effect::{Effect, Shift, Switch};
 use crate::study::advise::model::{Model, Solved};
@@ -24,6 +24,7 @@ const CELL: usize = 10;
 pub fn text(advice: &Advice, units: Units) -> String {
     let full = &advice.full;
     let mut out = wrapped(&format!("Advice on {}", full.bat.name()), 4);
+    out += &edited(&full.bat, units);
     let worst = advice.effects.iter().flat_map(|effect| [&effect.with, &effect.without]);
     let worst = worst.map(|solved| solved.solution.worst()).fold(0.0, f64::max);
     let line = format!("  full model: {}; solved, each within {worst:.0e}", model(&full.model));
@@ -339,7 +340,7 @@ pub fn document(advice: &Advice) -> file::AdviceFile {
     file::AdviceFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName { name: full.bat.name().to_owned() },
+        bat: BatName::of(&full.bat),
         modes: full.solution.modes.len(),
         tolerance: advice.tolerance,
         full_model: file::FullModel { model: of_model(full), tolerance_met: advice.met() },

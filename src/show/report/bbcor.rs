@@ -11,7 +11,7 @@ use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::hit_json::ball_out;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::{Units, edited, wrapped};
 use crate::study::ignored;
 
 /// Where the ball's restitution is from: the source of the default, the ball's file, or who asked.
@@ -28,6 +28,7 @@ pub fn cor_source(tested: &Tested, given: bool) -> String {
 pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
     let protocol = &tested.protocol;
     let mut out = format!("BBCOR of {} (computed, not certified)\n", tested.bat.name());
+    out += &edited(&tested.bat, units);
     let pivot = units.inline(units.length(STANDARD_PIVOT));
     let speed = units.inline(units.speed(protocol.ball_speed));
     let cor = match protocol.ball.cor_by_speed.is_empty() {
@@ -136,6 +137,7 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
         format: Format::new(),
         generator: Generator::this(),
         bat_name: tested.bat.name().to_owned(),
+        edits: tested.bat.edits().to_vec(),
         certified: false,
         protocol: file::Protocol {
             pivot_m: STANDARD_PIVOT,

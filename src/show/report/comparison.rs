@@ -3,6 +3,7 @@
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
+use crate::show::report::edits;
 use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::comparison::contender::Figure;
@@ -106,6 +107,10 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         let theory = contender.sweep.solution.theory.name();
         let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name());
         out += &wrapped(&line, 5);
+        if !contender.bat.edits().is_empty() {
+            let us = units == Units::Us || units == Units::Both && contender.bat.inches();
+            out += &wrapped(&format!("     edited: {}", edits::listed(&contender.bat, us)), 5);
+        }
         for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
             out += &wrapped(&format!("     left out: {effect}"), 5);
         }

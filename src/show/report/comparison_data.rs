@@ -71,6 +71,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
     file::ComparedBat {
         name: bat.bat.name().to_owned(),
         file: file.to_owned(),
+        edits: bat.bat.edits().to_vec(),
         swing_rad_s: bat.scene.swing,
         energies_seen_from: seen_from(&bat.bat),
         theory: bat.sweep.solution.theory.name(),

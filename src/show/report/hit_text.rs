@@ -11,6 +11,7 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::report::curve;
+use crate::show::report::edits;
 use crate::show::report::text::{Units, wrapped};
 use crate::study::ignored;
 
@@ -320,6 +321,10 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
             false => "by its speed".to_owned(),
         }
     );
+    if !bat.edits().is_empty() {
+        let us = units == Units::Us || units == Units::Both && bat.inches();
+        out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, us)), 5);
+    }
     if let Some(wall) = scene.wall {
         let _ = writeln!(
             out,

@@ -93,11 +93,13 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
 fn summary(bat: &Bat) -> file::Summary {
     let inertia = bat.inertia();
     let measured = bat.weighed().balance_point;
+    // That was said of the bat before its edits.
+    let weighed = bat.unedited().inertia();
     let weighed = (bat.weighed() != Weighed::default()).then(|| file::WeighedFactors {
         density_factor: bat.factors()[0],
         modulus_factor: bat.factors()[1],
         balance_point_m: measured,
-        balance_point_difference_m: measured.map(|x| inertia.balance_point - x),
+        balance_point_difference_m: measured.map(|x| weighed.balance_point - x),
     });
     file::Summary {
         length_m: bat.length(),

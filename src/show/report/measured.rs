@@ -10,14 +10,14 @@ use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::measured as file;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::{Units, edited, wrapped};
 use crate::study::measured::pairing::{LEAST, octaves};
 use crate::study::measured::study::{Pair, Shapes, Study};
 use crate::study::measured::words::words;
 
 /// Everything for the terminal.
 pub fn text(bat: &Bat, study: &Study, units: Units) -> String {
-    let mut out = format!("{}\n", bat.name());
+    let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
     out += &source(study, units);
     out += &modes(study);
     if let Some(shapes) = study.shapes.as_ref().filter(|_| !study.bending.is_empty()) {
@@ -247,6 +247,7 @@ pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
         bat: file::ComputedBat {
             name: bat.name().to_owned(),
             file: file.to_owned(),
+            edits: bat.edits().to_vec(),
             theory: solution.theory.name(),
         },
         source: study.measured.source.clone(),

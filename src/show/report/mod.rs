@@ -8,6 +8,7 @@ pub mod curve;
 pub mod resolved;
 pub mod damped;
 pub mod json;
+pub mod edits;
 pub mod text;
 pub mod sketch;
 pub mod hit_text;

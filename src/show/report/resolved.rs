@@ -10,14 +10,18 @@ use crate::files::schema::resolved::ResolvedBat;
 /// The bat as it was understood: SI, defaults filled in, materials as they were weighed. Read as a
 /// bat file it is the same bat.
 pub fn resolved(bat: &Bat) -> ResolvedBat {
+    let edits = bat.edits().to_vec();
+    let name = bat.name().to_owned();
+    let bat = bat.unedited();
     ResolvedBat {
         format: Format::new(),
-        name: bat.name().to_owned(),
+        name,
         source: bat.source().to_owned(),
         material: bat.material().clone(),
         profile: profile(bat.profile()),
         fixtures: bat.fixtures().clone(),
         weighed: Some(bat.weighed()).filter(|weighed| *weighed != Weighed::default()),
+        edits,
     }
 }
 

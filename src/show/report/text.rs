@@ -10,6 +10,7 @@ use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::damped;
+use crate::show::report::edits;
 use crate::study::ignored::ignored;
 use crate::study::trade::reference::solver_name;
 
@@ -95,7 +96,7 @@ impl Units {
 pub fn summary(bat: &Bat, units: Units) -> String {
     let inertia = bat.inertia();
     let length = bat.length();
-    let mut out = format!("{}\n", bat.name());
+    let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
     let mut line = |what: &str, value: String| {
         let _ = writeln!(out, "  {what:<34} {value}");
     };
@@ -104,7 +105,10 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     line("balance point, from knob", units.length(inertia.balance_point));
     line("balance point, from tip", units.length(length - inertia.balance_point));
     if let Some(weighed) = bat.weighed().balance_point {
-        line("  less the weighed one", units.length(inertia.balance_point - weighed));
+        line(
+            "  less the weighed one",
+            units.length(bat.unedited().inertia().balance_point - weighed),
+        );
     }
     line("inertia about balance point", units.inertia(inertia.about_balance));
     line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
@@ -113,6 +117,15 @@ pub fn summary(bat: &Bat, units: Units) -> String {
         line("centre of percussion, from tip", units.length(length - center));
     }
     out
+}
+
+/// A line about the edits of a bat, in the unit of its file where both systems are shown; nothing for
+/// a bat that has none.
+pub fn edited(bat: &Bat, units: Units) -> String {
+    match edits::listed(bat, units == Units::Us || units == Units::Both && bat.inches()) {
+        list if list.is_empty() => list,
+        list => wrapped(&format!("  edited: {list}"), 4),
+    }
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long.

@@ -105,7 +105,7 @@ pub fn document(bat: &Bat, trade: &Trade) -> file::TradeFile {
     file::TradeFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName { name: bat.name().to_owned() },
+        bat: BatName::of(bat),
         modes: trade.reference.omegas.len(),
         reference: of_reference(&trade.reference),
         runs: trade.runs.iter().map(of_run).collect(),

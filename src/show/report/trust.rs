@@ -9,7 +9,7 @@ use crate::files::schema::analysis as file;
 use crate::show::analysis::Analysis;
 use crate::show::report::columns::{Columns, first};
 use crate::show::report::hit_json::model_name;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::{Units, edited, wrapped};
 use crate::study::ignored::thinnest_wall;
 use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
 
@@ -17,6 +17,7 @@ use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequenci
 pub fn screen(analysis: &Analysis, units: Units) -> String {
     let name = analysis.bat.name();
     let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
+    out += &edited(&analysis.bat, units);
     out += &wrapped(&scene(analysis, units), 2);
     out += &table(analysis, units);
     out + &reasons(analysis, units)

@@ -8,7 +8,7 @@ use crate::files::schema::u_curve as file;
 use crate::modes::solve::Solver;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::text::wrapped;
+use crate::show::report::text::{Units, edited, wrapped};
 use crate::study::trade::reference::{Choice, Reference, solver_name};
 use crate::study::trade::u_curve::{Column, End, Way, best, loss};
 
@@ -27,7 +27,7 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
         discretisation(&reference.other),
         reference.agreement.max(f64::EPSILON)
     );
-    wrapped(&title, 4) + &wrapped(&truth, 4)
+    wrapped(&title, 4) + &edited(bat, Units::Both) + &wrapped(&truth, 4)
 }
 
 /// Errors at which 8 digits, 4 digits and none are left.
@@ -148,7 +148,7 @@ pub fn document(bat: &Bat, reference: &Reference, curve: &[Column]) -> file::UCu
     file::UCurveFile {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName { name: bat.name().to_owned() },
+        bat: BatName::of(bat),
         modes: reference.omegas.len(),
         degree: 3,
         reference: of_reference(reference),

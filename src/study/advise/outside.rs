@@ -1,11 +1,12 @@
 //! The physics of bats that no model here has.
 
 use crate::bat::body::Bat;
+use crate::study::ignored::CUP;
 
 /// What is out of scope, a sentence each, as far as it can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {
     let hollow = bat.profile().pieces.iter().any(|piece| {
-        let empty = bat.layup(piece).core.is_none();
+        let empty = bat.layup(piece).core.is_none() && piece.start < bat.length() - CUP;
         empty && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
     });
     let mut outside = vec![
