@@ -5,7 +5,7 @@ mod common;
 
 use std::fs;
 
-use common::diagnostic::{Diagnostic, diagnostics};
+use common::diagnostic::{Diagnostic, ERROR, diagnostics};
 use common::folder::{Folder, but_shear};
 use serde_json::Value;
 
@@ -15,8 +15,15 @@ impl Folder {
     fn misanswer(&self, args: &[&str], says: &[&str]) -> Option<String> {
         let before = self.names();
         let output = self.run(args);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let all = String::from_utf8_lossy(&output.stderr).into_owned();
+        // For programs, with --json, the same again on the last line.
+        let (told, again) = match all.trim_end().rsplit_once('\n') {
+            Some((told, last)) if last.starts_with(ERROR) => (format!("{told}\n"), Some(last)),
+            _ => (all.clone(), None),
+        };
         let (each, summary) = diagnostics(&told);
+        let again = again.map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let asked = args.iter().any(|arg| *arg == "--json");
         let lines: Vec<String> = each.iter().map(Diagnostic::one_line).collect();
         let message = lines.join("\n");
         let missing: Vec<_> = says.iter().filter(|words| !message.contains(**words)).collect();
@@ -25,6 +32,11 @@ impl Folder {
         let fault = match () {
             () if output.status.code() != Some(2) => format!("ended with {}", output.status),
             () if !told.starts_with("error: ") => "does not begin with \"error:\"".to_owned(),
+            () if all.chars().any(|c| c.is_control() && c != '\n') => "controls in JSON".to_owned(),
+            () if asked != again.is_some() => "is not told to programs, or to people".to_owned(),
+            () if again.is_some_and(|file| counted(&file) != Some(each.len())) => {
+                "is told otherwise to programs".to_owned()
+            }
             () if (each.len() > 1) != summary.is_some() => "is not counted".to_owned(),
             () if summary.as_ref().is_some_and(|said| !said.starts_with(&count)) => {
                 format!("is counted {summary:?}")
@@ -46,6 +58,12 @@ impl Folder {
         };
         Some(format!("{args:?}: {fault}\n    {told}"))
     }
+}
+
+/// How many mistakes an error for programs has, each with a sentence.
+fn counted(file: &Value) -> Option<usize> {
+    let mistakes = file["mistakes"].as_array()?;
+    mistakes.iter().all(|one| one["found"].is_string()).then_some(mistakes.len())
 }
 
 fn assert_none(faults: Vec<String>) {

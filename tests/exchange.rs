@@ -348,9 +348,12 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
         let frequencies = list(&document["frequency_hz"]);
         let real = list(&document[format!("real_{unit}")]);
         let imaginary = list(&document[format!("imaginary_{unit}")]);
+        assert!(values.len() == frequencies.len() || kind == "accelerance");
         for k in 0..values.len() {
-            assert_eq!(function.abscissa.at(k), frequencies[k]);
-            for (found, truth) in [(values[k][0], real[k]), (values[k][1], imaginary[k])] {
+            // In equal steps the file has no room for what shows the peaks besides.
+            let at = function.abscissa.at(k);
+            let j = frequencies.iter().position(|f| *f == at).unwrap();
+            for (found, truth) in [(values[k][0], real[j]), (values[k][1], imaginary[j])] {
                 assert!((found - truth).abs() <= 0.5001e-12 * truth.abs());
             }
         }

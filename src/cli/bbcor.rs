@@ -16,7 +16,7 @@ use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
-use crate::cli::ring::on_the_bat;
+use crate::cli::ring_args::on_the_bat;
 use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS};
 
 /// BBCOR as laboratories measure it, computed
@@ -84,7 +84,7 @@ Examples:
       with a livelier ball, as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.refuse_two(args.output.json.as_deref())?;
+    args.csv.refuse_two(&args.output.json)?;
     args.solve.refuse_budget("bbcor")?;
     let bat = args.bat.read(&args.output)?;
     let protocol = protocol(args, &bat)?;

@@ -1,9 +1,10 @@
 //! `--csv`: the answer as a table for other programs, in a file or in place of the text.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::base::error::{Error, Result};
-use crate::base::file;
+use crate::base::error::Result;
+
+use crate::cli::delivered::{one_on_stdout, put};
 
 #[derive(clap::Args)]
 pub struct CsvArgs {
@@ -14,20 +15,12 @@ pub struct CsvArgs {
 
 impl CsvArgs {
     /// Refuses CSV where JSON goes to standard output already.
-    pub fn refuse_two(&self, json: Option<&Path>) -> Result<()> {
-        if [self.csv.as_deref(), json] == [Some(Path::new("-")); 2] {
-            let expected = "one of --json and --csv on standard output";
-            return Err(Error::value("--csv", "- and --json -", expected));
-        }
-        Ok(())
+    pub fn refuse_two(&self, json: &Option<PathBuf>) -> Result<()> {
+        one_on_stdout(&[("--json", json), ("--csv", &self.csv)])
     }
 
     /// Writes the table where it was asked for; what goes to standard output then.
     pub fn deliver(&self, text: String, table: impl FnOnce() -> String) -> Result<String> {
-        match &self.csv {
-            Some(path) if path.as_os_str() == "-" => Ok(table()),
-            Some(path) => file::write(path, table().as_bytes()).map(|()| text),
-            None => Ok(text),
-        }
+        put(&self.csv, text, || Ok(table()))
     }
 }

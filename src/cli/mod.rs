@@ -1,19 +1,20 @@
 //! What did the user type?
 //!
-//! One file a verb; no physics. A verb parses its options, calls the library and returns what is to be
-//! printed as `Done`.
+//! One file a verb; no physics. A verb parses its options, calls the library and returns `Done`.
 //!
 //! | file | question |
 //! |---|---|
-//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown |
+//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, tables, pictures, the scene of a hit |
+//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
+//! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
 mod done;
 mod style;
 mod diagnostic;
+mod delivered;
 mod value;
 mod help;
 mod progress;
@@ -34,10 +35,14 @@ mod hit_promise_table;
 mod extremes_table;
 mod modes;
 mod hit;
+mod ring_args;
+mod ring_hit;
+mod ring_motion;
 mod ring;
 mod bbcor;
 mod analyze;
 mod compare;
+mod frf_grid;
 mod frf;
 mod trade;
 mod advise;

@@ -23,6 +23,7 @@ use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::modes::reduced::{Answer, Place, Reduced};
 use crate::modes::solve::{Request, Solution, solve};
+use crate::motion::peaks::{self, Peak};
 
 /// What is answered to a force.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -153,14 +154,34 @@ impl Frf {
         motions.map(|(motion, (a, b))| -a * b / (square * motion.mass)).sum::<f64>() + 0.0
     }
 
-    /// The whole receptance (m/N) at a frequency above 0, of the strains that are there.
-    pub fn receptance(&self, frequency: f64) -> c64 {
-        self.strained(frequency) + c64::new(self.rigid(frequency), 0.0)
+    /// The receptance (m/N) at a frequency (Hz) by the strains that are there.
+    fn receptance(&self, frequency: f64) -> c64 {
+        let rigid =
+            if self.reduced.flexible.rigid.is_empty() { 0.0 } else { self.rigid(frequency) };
+        self.strained(frequency) + c64::new(rigid, 0.0)
     }
 
-    /// Where the force is, and where the answer is looked at (m from the knob end).
-    pub fn points(&self) -> [f64; 2] {
-        self.points
+    /// Natural frequency (Hz) and damping ratio of every mode.
+    fn modes(&self) -> Vec<[f64; 2]> {
+        let ratio = |k: usize| self.solution.damping.modes.get(k).map_or(0.0, |d| d.ratio);
+        let modes = self.solution.modes.iter().enumerate();
+        modes.map(|(k, mode)| [mode.frequency(), ratio(k)]).collect()
+    }
+
+    /// Frequencies between two (Hz) that show every peak: the natural ones, and those around them at
+    /// shares of their half-power width ([`peaks::around`]), rising.
+    pub fn around_modes(&self, [low, high]: [f64; 2]) -> Vec<f64> {
+        let all = self.modes().into_iter().flat_map(|[f, ratio]| peaks::around(f, ratio));
+        let mut within: Vec<f64> = all.filter(|f| (low..=high).contains(f)).collect();
+        within.sort_by(f64::total_cmp);
+        within
+    }
+
+    /// The peaks between the ends of a rising grid of frequencies (Hz), their sizes in the unit of
+    /// that kind, by the strains that are there: [`Self::receptances`] adds those that are missed.
+    pub fn peaks(&self, kind: Kind, grid: &[f64]) -> Vec<Peak> {
+        let size = |f: f64| (self.receptance(f) * kind.of(f)).norm();
+        peaks::of(grid, &self.modes(), &size)
     }
 
     /// How many strains the answers are made of, modes included.

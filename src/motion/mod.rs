@@ -9,8 +9,8 @@
 //! | [`force`], [`shape`] | which force pushes the bat; from which shape is it let go |
 //! | [`oscillator`] | how does one mode answer, damped or not |
 //! | [`ringing`] | how does the bat move in time |
+//! | [`peaks`] | where does that answer peak, how high and how wide |
 //! | [`frf`] | how does it answer at a frequency |
-//! | [`peaks`] | where does that peak, how high and how wide |
 //! | [`sound`] | what does it sound like |
 
 #[doc(hidden)]
@@ -19,6 +19,6 @@ pub mod force;
 pub mod shape;
 pub mod oscillator;
 pub mod ringing;
-pub mod frf;
 pub mod peaks;
+pub mod frf;
 pub mod sound;

@@ -1,185 +1,224 @@
-//! Where does a frequency response peak, how high, and how wide?
+//! Where does a response peak, how high and how wide?
 //!
-//! [`Frf::peaks`] looks at every mode by itself, not at a list of frequencies, so that none is missed however
-//! narrow it is; [`around`] has the frequencies that show it.
+//! A mode of damping ratio ζ has half its power `ζf` beside its natural frequency f. [`around`] has
+//! frequencies that close, so that a grid with them cannot miss a peak; [`of`] finds the peaks of a
+//! grid, and between its points with what the response is there.
 
-use crate::base::golden;
-use crate::motion::frf::{Frf, Kind};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// A peak of a response.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-#[non_exhaustive]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Number of the mode, 1 for the lowest bending mode.
+    /// Number of the mode, from 1: the one of the nearest natural frequency.
     pub mode: usize,
-    /// Where the answer is largest (Hz).
+    /// Its undamped natural frequency (Hz).
+    pub natural: f64,
+    /// Where the response is largest (Hz).
     pub frequency: f64,
-    /// Size of the answer there, in the unit of its kind; None where nothing damps the mode: it is without
-    /// bound.
-    pub size: Option<f64>,
-    /// Damping ratio by the width at 1/√2 of the size; None where the answer does not fall so far on both
-    /// sides.
-    pub damping: Option<f64>,
+    /// Size of the response there; None where nothing damps the mode, and it has no bound.
+    pub height: Option<f64>,
+    /// Where the response has half the power, below and above (Hz); None where it rises again before.
+    pub half_power: Option<[f64; 2]>,
 }
 
-/// Damping below that is none: a peak so narrow is lost in the frequencies' own digits.
-const UNDAMPED: f64 = 1e-12;
-
-impl Frf {
-    /// Peaks between two frequencies (Hz), of the strains there are: after [`Frf::receptances`]. A mode that
-    /// has a node at one of the two places has none, and one that is lost in its neighbours has none.
+impl Peak {
+    /// Damping ratio by the half-power points f₁ and f₂: `ζ = (f₂² − f₁²)/(4f²)`.
     ///
-    /// The damping ratio is `(f₂ − f₁)/(f₁ + f₂)` of the frequencies at which the answer has half of its
-    /// peak's power, which for a mode far from the others is its own ζ but for terms of order ζ².
-    ///
-    /// # Source
-    ///
-    /// D. J. Ewins, Modal Testing: Theory, Practice and Application, 2nd ed. (Research Studies Press, 2000),
-    /// section 4.2.2, the peak-amplitude method.
-    pub fn peaks(&self, kind: Kind, [low, high]: [f64; 2]) -> Vec<Peak> {
-        let modes = &self.solution.modes;
-        let inside = (0..modes.len()).filter(|k| (low..=high).contains(&modes[*k].frequency()));
-        inside.filter_map(|k| self.peak(kind, k)).collect()
-    }
-
-    /// Size of the answer.
-    fn size(&self, kind: Kind, frequency: f64) -> f64 {
-        (self.receptance(frequency) * kind.of(frequency)).norm()
-    }
-
-    /// The peak of mode k, counted from 0.
-    fn peak(&self, kind: Kind, k: usize) -> Option<Peak> {
-        /// So many half widths from a mode's own frequency its peak is looked for, and its sides.
-        const REACH: f64 = 8.0;
-        /// Deflections of a shape, whose largest is 1, that are a node's but for round-off.
-        const NODE: f64 = 1e-9;
-        let modes = &self.solution.modes;
-        let damped = self.solution.damping.modes.get(k);
-        let (own, ratio) = damped.map_or((modes[k].frequency(), 0.0), |damped| {
-            (damped.natural / std::f64::consts::TAU, damped.ratio)
-        });
-        let moved = self.points().map(|x| modes[k].shape.deflection(x).abs());
-        if moved[0] * moved[1] < NODE || ratio >= 1.0 {
-            return None;
-        }
-        let mode = modes[k].order;
-        if ratio < UNDAMPED {
-            return Some(Peak { mode, frequency: own, size: None, damping: None });
-        }
-        // Half way to the neighbours another mode's peak begins.
-        let beside = [k.checked_sub(1), Some(k + 1)];
-        let beside = beside.map(|k| k.and_then(|k| modes.get(k)).map(|mode| mode.frequency()));
-        let room = |other: Option<f64>| other.map_or(own, |other| 0.5 * (other - own).abs());
-        let reach = beside.map(|other| room(other).min(REACH * ratio * own).min(0.9 * own));
-        let [from, to] = [own - reach[0], own + reach[1]];
-        let frequency = golden::least(from, to, |f| -self.size(kind, f));
-        let size = self.size(kind, frequency);
-        if [from, to].iter().any(|end| self.size(kind, *end) >= size) {
-            return None;
-        }
-        let half = |end: f64| {
-            self.falls_to(kind, size * std::f64::consts::FRAC_1_SQRT_2, [frequency, end])
-        };
-        let halves = half(from).zip(half(to));
-        let damping = halves.map(|(below, above)| (above - below) / (above + below));
-        Some(Peak { mode, frequency, size: Some(size), damping })
-    }
-
-    /// Where the answer has fallen to that size between a peak and an end; None where it has not.
-    fn falls_to(&self, kind: Kind, size: f64, [mut above, mut below]: [f64; 2]) -> Option<f64> {
-        const STEPS: usize = 52;
-        if self.size(kind, below) > size {
-            return None;
-        }
-        for _ in 0..STEPS {
-            let middle = 0.5 * (above + below);
-            *(if self.size(kind, middle) > size { &mut above } else { &mut below }) = middle;
-        }
-        Some(0.5 * (above + below))
+    /// Of one mode `H ∝ 1/(1 − r² + iη)` with r the frequency over the natural one: half of the power
+    /// at resonance is where `(1 − r²)² = η²`, so `r₂² − r₁² = 2η` exactly, and η = 2ζ. A viscous one
+    /// has `iηr` in its place, and the same to second order in ζ.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        let [below, above] = self.half_power?;
+        Some((above - below) * (above + below) / (4.0 * self.frequency * self.frequency))
     }
 }
 
-/// Frequencies (Hz) that show a peak from its foot to its top: at the top, and half widths and parts of
-/// them beside it; of one without bound, ever nearer to it on both sides.
-pub fn around(peak: &Peak) -> Vec<f64> {
-    const WIDTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
-    const NEARER: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
-    let top = peak.size.map(|_| peak.frequency);
-    let shares: Vec<f64> = match (peak.size, peak.damping) {
-        (None, _) => NEARER.to_vec(),
-        (_, Some(damping)) => WIDTHS.iter().map(|width| width * damping).collect(),
-        _ => vec![],
+/// Distances from a natural frequency, in half-widths `ζf`. Between two of those near it, a resonance
+/// is at most an eighth of a half-width away from one of them and `√(1 + 1/64)`, 0.8 %, higher.
+const DISTANCES: [f64; 11] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0];
+/// An undamped mode has no width; it has frequencies so near to it, and none on it.
+const SHARP: f64 = 1e-3;
+
+/// Frequencies (Hz) at and around a natural frequency with that damping ratio, unsorted.
+pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
+    let sharp = ratio <= 0.0;
+    let width = if sharp { SHARP } else { ratio.min(1.0) };
+    let far = DISTANCES.into_iter().filter(|far| !sharp || *far >= 1.0);
+    let both = far.flat_map(|far| [1.0 - width * far, 1.0 + width * far]);
+    both.filter(|share| *share > 0.0).map(|share| natural * share).collect()
+}
+
+/// The peaks of a response between the ends of a rising grid (Hz), by rising frequency. `modes` are
+/// natural frequencies and damping ratios, `size` is the response's size at a frequency.
+///
+/// A mode whose response at this place is hidden by others has no peak.
+pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<Peak> {
+    let sizes: Vec<f64> = grid.iter().map(|f| size(*f)).collect();
+    let nearest = |f: f64| {
+        let far = |mode: &[f64; 2]| (mode[0] - f).abs();
+        let order = |k: &usize, j: &usize| far(&modes[*k]).total_cmp(&far(&modes[*j]));
+        (0..modes.len()).min_by(order)
     };
-    let sides = shares.into_iter().filter(|share| *share < 0.5);
-    let sides =
-        sides.flat_map(|share| [peak.frequency * (1.0 - share), peak.frequency * (1.0 + share)]);
-    top.into_iter().chain(sides).collect()
+    let top = |k: &usize| sizes[*k] > sizes[*k - 1] && sizes[*k] >= sizes[*k + 1];
+    let tops = (1..grid.len().saturating_sub(1)).filter(top);
+    let bounded = tops.filter_map(|k| {
+        let frequency = highest(size, [grid[k - 1], grid[k + 1]]);
+        let mode = nearest(frequency)?;
+        let height = size(frequency);
+        let half_power = half_power(size, frequency, grid[k + 1] - grid[k - 1]);
+        let natural = modes[mode][0];
+        // Beside an undamped mode there is a largest point of the grid, and no largest value.
+        let sharp = modes[mode][1] <= 0.0 && (frequency / natural - 1.0).abs() < 2.0 * SHARP;
+        let (mode, height) = (mode + 1, Some(height));
+        (!sharp).then_some(Peak { mode, natural, frequency, height, half_power })
+    });
+    let mut peaks: Vec<Peak> = bounded.collect();
+    let within = |f: f64| grid.first().is_some_and(|low| f > *low) && grid.last() > Some(&f);
+    for (k, [natural, ratio]) in modes.iter().copied().enumerate() {
+        // A pole goes as the inverse of the distance.
+        let beside = |far: f64| size(natural * (1.0 + far));
+        if ratio <= 0.0 && within(natural) && beside(1e-8) > 5.0 * beside(1e-7) {
+            let (mode, frequency) = (k + 1, natural);
+            peaks.push(Peak { mode, natural, frequency, height: None, half_power: None });
+        }
+    }
+    peaks.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    peaks
+}
+
+/// Where a function with one maximum between two ends is largest, by the golden section.
+fn highest(size: &impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    /// Halves of the digits of a double: a maximum is flat.
+    const WITHIN: f64 = 1e-9;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
+    let [mut a, mut b] = inner(low, high);
+    let [mut at_a, mut at_b] = [size(a), size(b)];
+    while high - low > WITHIN * high {
+        if at_a > at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = inner(low, high)[0];
+            at_a = size(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = inner(low, high)[1];
+            at_b = size(b);
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Where the response has fallen to half the power on both sides of a peak (Hz), looked for from steps
+/// of a tenth of `width` on.
+pub fn half_power(size: &impl Fn(f64) -> f64, peak: f64, width: f64) -> Option<[f64; 2]> {
+    let half = FRAC_1_SQRT_2 * size(peak);
+    let side = |direction: f64| {
+        let (mut step, mut near, mut before) = (0.1 * width, peak, size(peak));
+        loop {
+            let far = near + direction * step;
+            let now = if far > 0.0 { size(far) } else { f64::INFINITY };
+            if !(now <= before * (1.0 + 1e-9)) {
+                return None;
+            }
+            if now <= half {
+                return Some(crossing(size, half, [near, far]));
+            }
+            (near, before, step) = (far, now, 1.2 * step);
+        }
+    };
+    Some([side(-1.0)?, side(1.0)?])
+}
+
+/// Where a function falls to a value, between an end where it is above and one where it is not.
+fn crossing(size: &impl Fn(f64) -> f64, value: f64, [mut above, mut below]: [f64; 2]) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (above + below);
+        *(if size(middle) > value { &mut above } else { &mut below }) = middle;
+    }
+    0.5 * (above + below)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bat::body::Bat;
-    use crate::modes::solve::Request;
-    use std::path::Path;
 
-    fn dowel(loss: f64) -> Bat {
-        let text = format!(
-            r#"{{ "format": "sweetspot-bat/1", "profile": {{ "x": [0, 0.8], "radius": [0.02, 0.02] }},
-                 "material": {{ "density": 700, "youngs_modulus": 14e9, "loss_factor": {loss} }} }}"#
-        );
-        Bat::from_text("dowel.json", &text, Path::new("")).unwrap()
+    /// Hysteretic modes of unit stiffness: natural frequency and loss factor.
+    fn sum(modes: &[[f64; 2]], f: f64) -> f64 {
+        let [mut real, mut imaginary] = [0.0, 0.0];
+        for [natural, loss] in modes {
+            let (a, b) = (1.0 - (f / natural).powi(2), *loss);
+            real += a / (a * a + b * b);
+            imaginary -= b / (a * a + b * b);
+        }
+        real.hypot(imaginary)
     }
 
-    fn response(bat: &Bat, at: f64, to: f64) -> Frf {
-        let mut frf = Frf::new(bat, &Request { modes: 6, ..Request::default() }, at, to).unwrap();
-        frf.receptances(&[10.0, 100.0, 1000.0, 5000.0]).unwrap();
-        frf
-    }
-
-    /// A lightly damped mode far from others: mobility `φ(a) φ(x)/(2ζωm)` at its frequency, the width its
-    /// own damping, and a constant loss factor is twice that.
+    /// Of one mode 1/(1 − r² + iη) the peak is at r = 1, 1/η high, and r² = 1 ± η at half power.
     #[test]
-    fn a_peak_is_that_of_one_oscillator() {
-        let loss = 1e-4;
-        let frf = response(&dowel(loss), 0.8, 0.15);
-        let peaks = frf.peaks(Kind::Mobility, [1.0, 1e4]);
-        assert_eq!(peaks.iter().map(|peak| peak.mode).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6]);
-        for (peak, mode) in peaks.iter().zip(&frf.solution.modes) {
-            let gain = mode.shape.deflection(0.8) * mode.shape.deflection(0.15) / mode.modal_mass;
-            let known = gain.abs() / (loss * mode.omega);
-            assert!((peak.size.unwrap() / known - 1.0).abs() < 1e-3, "{peak:?} {known}");
-            assert!((peak.damping.unwrap() / (0.5 * loss) - 1.0).abs() < 2e-3, "{peak:?}");
-            assert!((peak.frequency / mode.frequency() - 1.0).abs() < 1e-7, "{peak:?}");
+    fn a_single_mode_has_its_peak_and_its_damping_to_all_digits() {
+        for loss in [1e-4, 4e-3, 0.1] {
+            let (natural, ratio) = (170.0, 0.5 * loss);
+            let size = |f: f64| sum(&[[natural, loss]], f);
+            let mut grid = around(natural, ratio);
+            grid.extend([20.0, 300.0]);
+            grid.sort_by(f64::total_cmp);
+            let [peak] = of(&grid, &[[natural, ratio]], &size)[..] else { panic!("{loss}") };
+            assert_eq!(peak.mode, 1);
+            assert!((peak.frequency / natural - 1.0).abs() < 1e-6 * loss.max(1e-2), "{peak:?}");
+            assert!((peak.height.unwrap() * loss - 1.0).abs() < 1e-8, "{peak:?}");
+            let [low, high] = peak.half_power.unwrap();
+            assert!((low / (natural * (1.0 - loss).sqrt()) - 1.0).abs() < 1e-7, "{peak:?}");
+            assert!((high / (natural * (1.0 + loss).sqrt()) - 1.0).abs() < 1e-7, "{peak:?}");
+            let found = peak.damping_ratio().unwrap();
+            assert!((found / ratio - 1.0).abs() < 1e-4, "{found} of {ratio}");
         }
     }
 
-    /// No frequency of a fine scan answers more than the nearest peak, nor is there a top without a peak.
+    /// Of viscous damping the half-power points are at r² = 1 − 2ζ² ± 2ζ√(1 − ζ²).
     #[test]
-    fn a_fine_scan_finds_the_same_peaks() {
-        let frf = response(&dowel(0.01), 0.8, 0.8);
-        for kind in Kind::ALL {
-            let peaks = frf.peaks(kind, [20.0, 5000.0]);
-            let scan: Vec<f64> =
-                (0..60_000).map(|k| 20.0 * 250f64.powf(f64::from(k) / 6e4)).collect();
-            let sizes: Vec<f64> = scan.iter().map(|f| frf.size(kind, *f)).collect();
-            let tops: Vec<usize> = (1..scan.len() - 1)
-                .filter(|k| sizes[*k] > sizes[k - 1] && sizes[*k] > sizes[k + 1])
-                .collect();
-            assert_eq!(tops.len(), peaks.len(), "{kind:?}");
-            for (top, peak) in tops.iter().zip(&peaks) {
-                assert!((scan[*top] / peak.frequency - 1.0).abs() < 2e-4, "{kind:?} {peak:?}");
-                assert!((peak.size.unwrap() / sizes[*top] - 1.0).abs() < 1e-3, "{kind:?} {peak:?}");
-            }
+    fn a_viscous_mode_has_its_damping_to_second_order() {
+        let ratio = 0.02;
+        let size = |f: f64| {
+            let r = f / 100.0;
+            1.0 / (1.0 - r * r).hypot(2.0 * ratio * r)
+        };
+        let mut grid = around(100.0, ratio);
+        grid.sort_by(f64::total_cmp);
+        let [peak] = of(&grid, &[[100.0, ratio]], &size)[..] else { panic!() };
+        let found = peak.damping_ratio().unwrap();
+        assert!((found / ratio - 1.0).abs() < 3.0 * ratio * ratio, "{found}");
+        assert!((peak.frequency / 100.0 - (1.0 - 2.0 * ratio * ratio).sqrt()).abs() < 1e-7);
+    }
+
+    /// However coarse the asked grid: the points around the natural frequencies come within 1 % of
+    /// every peak of a sum of modes.
+    #[test]
+    fn a_grid_with_the_points_around_its_modes_misses_no_peak() {
+        let modes: Vec<[f64; 2]> = [170.0, 571.0, 1161.0].map(|f| [f, 3e-3]).to_vec();
+        let size = |f: f64| sum(&modes, f);
+        let ratios: Vec<[f64; 2]> = modes.iter().map(|[f, loss]| [*f, 0.5 * loss]).collect();
+        let mut grid: Vec<f64> = ratios.iter().flat_map(|[f, ratio]| around(*f, *ratio)).collect();
+        grid.extend([10.0, 1500.0]);
+        grid.sort_by(f64::total_cmp);
+        let peaks = of(&grid, &ratios, &size);
+        assert_eq!(peaks.iter().map(|peak| peak.mode).collect::<Vec<_>>(), [1, 2, 3]);
+        for peak in peaks {
+            let near = grid.iter().filter(|f| (*f / peak.natural - 1.0).abs() < 0.01);
+            let largest = near.map(|f| size(*f)).fold(0.0, f64::max);
+            let height = peak.height.unwrap();
+            assert!(largest <= height * (1.0 + 1e-12) && largest > 0.99 * height, "{peak:?}");
+            assert!((peak.damping_ratio().unwrap() / 1.5e-3 - 1.0).abs() < 0.02, "{peak:?}");
         }
     }
 
-    /// A free bat's middle is a node of every second mode, and what nothing damps has no top.
     #[test]
-    fn nodes_have_no_peak_and_undamped_modes_no_size() {
-        let frf = response(&dowel(0.0), 0.4, 0.4);
-        let peaks = frf.peaks(Kind::Receptance, [1.0, 1e4]);
-        assert_eq!(peaks.iter().map(|peak| peak.mode).collect::<Vec<_>>(), [1, 3, 5]);
-        assert!(peaks.iter().all(|peak| peak.size.is_none() && around(peak).len() == 8));
+    fn an_undamped_mode_has_a_peak_without_bound() {
+        let size = |f: f64| 1.0 / (1.0 - (f / 170.0).powi(2)).abs();
+        let mut grid = around(170.0, 0.0);
+        assert!(!grid.contains(&170.0));
+        grid.extend([20.0, 300.0]);
+        grid.sort_by(f64::total_cmp);
+        let [peak] = of(&grid, &[[170.0, 0.0]], &size)[..] else { panic!() };
+        assert_eq!((peak.frequency, peak.height, peak.damping_ratio()), (170.0, None, None));
     }
 }

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+/// How the line begins that says it to programs, with `--json`.
+pub const ERROR: &str = "{\"format\":\"sweetspot-error/1\"";
+
 /// One thing that is wrong, as it is shown.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Diagnostic {
@@ -75,7 +78,7 @@ pub fn diagnostics(told: &str) -> (Vec<Diagnostic>, Option<String>) {
     let mut found: Vec<Diagnostic> = Vec::new();
     // Which text a line without a name goes on with.
     let mut footer = "";
-    for text in told.lines() {
+    for text in told.lines().filter(|line| !line.starts_with(ERROR)) {
         if let Some(title) = text.strip_prefix("error: ") {
             found.push(Diagnostic { title: title.to_owned(), ..Diagnostic::default() });
             footer = "";

@@ -39,54 +39,14 @@ pub struct FrfFile {
     /// The answer at every frequency.
     #[serde(flatten)]
     pub answer: Answer,
-    /// The peaks between the lowest and the highest frequency, by modes; empty where single frequencies were
-    /// asked for.
-    pub peaks: Vec<Peak>,
+    /// The peaks between the lowest and the highest frequency.
+    pub peaks: Vec<PeakLine>,
     /// Largest relative error of a mode's frequency.
     pub frequencies_within: f64,
 }
 
 impl Document for FrfFile {
     const NAME: &'static str = "frf";
-}
-
-/// A peak of the answer.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Peak {
-    /// Number of the bending mode.
-    pub mode: usize,
-    /// Where the answer is largest (Hz).
-    pub frequency_hz: f64,
-    /// How large the answer is there.
-    #[serde(flatten)]
-    pub size: Size,
-    /// Damping ratio by the width of the peak at half its power; null where the answer does not fall so far
-    /// on both sides, and where nothing damps the mode.
-    pub half_power_damping_ratio: Option<f64>,
-}
-
-/// Size of the answer at a peak, in the unit of its kind; null where it is without bound.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Size {
-    /// Deflection per force.
-    Receptance {
-        /// Absolute value (m/N).
-        #[serde(rename = "magnitude_m_per_n")]
-        magnitude: Option<f64>,
-    },
-    /// Velocity per force.
-    Mobility {
-        /// Absolute value (m/(s N)).
-        #[serde(rename = "magnitude_m_per_s_n")]
-        magnitude: Option<f64>,
-    },
-    /// Acceleration per force.
-    Accelerance {
-        /// Absolute value (1/kg).
-        #[serde(rename = "magnitude_1_per_kg")]
-        magnitude: Option<f64>,
-    },
 }
 
 /// The answer at every frequency, in the unit of its kind.
@@ -128,5 +88,49 @@ pub enum Answer {
         /// How much the modes left out may be (1/kg).
         #[serde(rename = "truncation_1_per_kg")]
         truncation: Vec<f64>,
+    },
+}
+
+/// A peak of the answer.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ResponsePeak")]
+pub struct PeakLine {
+    /// Number of the mode, from 1: the one of the nearest natural frequency.
+    pub mode: usize,
+    /// Undamped natural frequency of that mode (Hz).
+    pub natural_frequency_hz: f64,
+    /// Frequency at which the answer is largest (Hz).
+    pub frequency_hz: f64,
+    /// How large it is there.
+    #[serde(flatten)]
+    pub height: Height,
+    /// Damping ratio by the half-power points, (f2^2 - f1^2)/(4 f^2); null without them.
+    pub damping_ratio: Option<f64>,
+    /// Where the answer has half the power, below and above the peak (Hz); null where it rises again
+    /// before, and where nothing damps the bat.
+    pub half_power_hz: Option<[f64; 2]>,
+}
+
+/// The size of the answer at a peak, in the unit of its kind; null where it has no bound.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Height {
+    /// Deflection per force.
+    Receptance {
+        /// Size of the answer (m/N); null without bound.
+        #[serde(rename = "magnitude_m_per_n")]
+        magnitude: Option<f64>,
+    },
+    /// Velocity per force.
+    Mobility {
+        /// Size of the answer (m/(s N)); null without bound.
+        #[serde(rename = "magnitude_m_per_s_n")]
+        magnitude: Option<f64>,
+    },
+    /// Acceleration per force.
+    Accelerance {
+        /// Size of the answer (1/kg); null without bound.
+        #[serde(rename = "magnitude_1_per_kg")]
+        magnitude: Option<f64>,
     },
 }

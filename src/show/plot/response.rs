@@ -1,123 +1,114 @@
-//! Frequency responses: size and phase over frequency.
+//! A frequency response: size and phase over frequency, with its peaks.
 
 use faer::c64;
 
 use crate::motion::frf::Kind;
+use crate::motion::peaks::Peak;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
 use crate::show::plot::place::along;
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::show::plot::series::{Series, hover, legend, short};
 use crate::show::plot::sheet::Sheet;
-use crate::show::plot::svg::Svg;
+use crate::show::plot::svg::{MARKS, Pen, Svg};
+use crate::show::plot::theme::SERIES;
+use crate::show::report::frf::{phase, unit};
 
-/// Of the diagram of sizes and of that of phases, and between them (px).
-const SIZES: f64 = 260.0;
-const PHASES: f64 = 120.0;
+/// Heights of size and phase, and between them (px).
+const DIAGRAMS: [f64; 2] = [230.0, 110.0];
 const BETWEEN: f64 = 18.0;
+/// What is less than that share of the largest is not drawn: an antiresonance may be 0.
+const LEAST: f64 = 1e-8;
+/// Points of a curve in a picture.
+const DRAWN: usize = 4000;
 
-/// A response: what it is called, and the answers (in the unit of their kind) over frequency (Hz), which
-/// rises.
-pub struct Curve<'a> {
-    /// What the legend calls it.
-    pub name: &'a str,
-    /// Frequency and answer.
-    pub answers: Vec<(f64, c64)>,
-}
-
-/// What is drawn: a bat, forced and watched at two places (m from the knob end).
+/// A response, and what it is of.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
     /// What the bat is called.
-    pub name: &'a str,
-    /// What is answered.
+    pub bat: &'a str,
+    /// Deflection, velocity or acceleration.
     pub kind: Kind,
-    /// Where the force is, and where the answer is seen.
-    pub points: [f64; 2],
-    /// Whether frequencies are equal steps apart, not equal ratios.
-    pub linear: bool,
+    /// Where the force is (m from the knob end).
+    pub at: f64,
+    /// Where the answer is watched (m from the knob end).
+    pub to: f64,
+    /// Rising frequencies (Hz) and the answer per force there, in SI.
+    pub values: &'a [(f64, c64)],
+    /// Its peaks.
+    pub peaks: &'a [Peak],
 }
 
-/// Size above phase; picture `response`. None without two frequencies above 0.
-pub fn picture(sheet: Sheet, subject: &Subject, curves: &[Curve]) -> Option<Picture> {
-    let Subject { name, kind, points, linear } = *subject;
-    let all = || curves.iter().flat_map(|curve| &curve.answers).filter(|(f, _)| *f > 0.0 || linear);
-    let ends =
-        all().fold([f64::INFINITY, 0.0_f64], |[low, high], (f, _)| [low.min(*f), high.max(*f)]);
-    if ends[0] >= ends[1] {
+/// Size and phase against frequency; picture `response`. None without two frequencies.
+pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
+    let Subject { bat, kind, at, to, values, peaks } = *subject;
+    let (low, high) = (values.first()?.0, values.last()?.0);
+    if low >= high {
         return None;
     }
-    let unit = match kind {
-        Kind::Receptance => "m/N",
-        Kind::Mobility => "m/(s N)",
-        Kind::Accelerance => "1/kg",
-    };
-    let [at, to] = points.map(|x| along(sheet, x));
-    let title = "Frequency response";
-    let facts = format!("{}, force at {at}, seen at {to} from the knob end", kind.name());
+    let sizes = || values.iter().map(|(_, value)| value.norm());
+    let most = sizes().filter(|size| size.is_finite()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let every = values.len().div_ceil(DRAWN);
+    let kept = || values.iter().step_by(every);
+    let points = kept().map(|(f, value)| Some([*f, value.norm()])).collect();
+    let size = Series::curve("computed", 0, points).pen(Pen::new(SERIES[0], 1.7));
+    let size = size.units("Hz", unit(kind));
+    let tops = peaks.iter().filter_map(|peak| Some(Some([peak.frequency, peak.height?])));
+    let tops = Series::curve("peaks", 1, tops.collect()).units("Hz", unit(kind));
+    let tops = Series { joined: false, mark: Some(MARKS[0]), ..tops };
+    let title = format!("{} over frequency", capital(kind.name()));
+    let [forced, watched] = [at, to].map(|x| along(sheet, x));
+    let facts = format!("force at {forced}, answer at {watched} from the knob end");
     let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [name, &facts]);
-    let series = |(k, curve): (usize, &Curve), of: fn(c64) -> f64, y: &'static str| {
-        let points = curve.answers.iter().map(|(f, answer)| Some([*f, of(*answer)])).collect();
-        Series::curve(curve.name, k, points).units("Hz", y)
-    };
-    let numbered = || curves.iter().enumerate();
-    let sizes: Vec<Series> = numbered().map(|curve| series(curve, c64::norm, unit)).collect();
-    let phases = numbered().map(|curve| series(curve, degrees, "deg"));
-    let phases: Vec<Series> = phases.map(unwrapped).collect();
-    let top = match curves.len() {
-        1 => sheet.head(),
-        _ => legend(&mut svg, &sizes.iter().collect::<Vec<_>>()) + 10.0,
-    };
-    let label = "frequency (Hz)";
-    let x = match linear {
-        true => Axis::new(label, ends),
-        false => Axis::logarithmic(label, all().map(|(f, _)| *f)),
-    };
-    let y = Axis::logarithmic(&format!("size ({unit})"), all().map(|(_, answer)| answer.norm()));
-    let upper =
-        Plane { frame: Frame::across(sheet, [top + 6.0, top + 6.0 + SIZES]), x: x.clone(), y };
-    let low = upper.frame.bottom + BETWEEN;
-    let y = Axis::new("phase (deg)", [-180.0, 180.0]);
-    let lower = Plane { frame: Frame::across(sheet, [low, low + PHASES]), x, y };
-    svg.height = lower.frame.bottom + NUMBERS + 4.0;
-    for (plane, series) in [(&upper, &sizes), (&lower, &phases)] {
-        plane.draw(&mut svg);
-        series.iter().rev().for_each(|curve| curve.draw(&mut svg, plane));
-        hover(&mut svg, plane, &series.iter().collect::<Vec<_>>());
-    }
-    lower.below(&mut svg);
-    let most =
-        all().fold(
-            (0.0, 0.0),
-            |most: (f64, f64), (f, answer)| {
-                if answer.norm() > most.1 { (*f, answer.norm()) } else { most }
-            },
-        );
-    let alt = format!(
-        "{title} of {name}: {facts}. Largest {} {unit} at {} Hz of the frequencies drawn.",
-        short(most.1),
-        short(most.0)
-    );
-    Some(Picture::new("response", title, &alt, svg))
+    head(&mut svg, &title, [bat, &facts]);
+    let named: Vec<&Series> = [&size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
+    let top = legend(&mut svg, &named) + 14.0;
+    let first = Frame::across(sheet, [top, top + DIAGRAMS[0]]);
+    let below = first.bottom + BETWEEN;
+    let second = Frame::across(sheet, [below, below + DIAGRAMS[1]]);
+    svg.height = second.bottom + NUMBERS + 4.0;
+    let x = Axis::new("frequency (Hz)", [low, high]);
+    let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
+    let y = Axis::logarithmic(&format!("{} ({})", kind.name(), unit(kind)), drawn);
+    let plane = Plane { frame: first, x: x.clone(), y };
+    plane.draw(&mut svg);
+    named.iter().for_each(|series| series.draw(&mut svg, &plane));
+    hover(&mut svg, &plane, &named);
+    let turn = Axis::new("phase (deg)", [-180.0, 180.0]);
+    let plane = Plane { frame: second, x, y: turn };
+    plane.draw(&mut svg);
+    let turns = unbroken(kept().map(|(f, value)| [*f, phase(value.re, value.im)]));
+    let turns = Series::curve("phase", 0, turns).pen(Pen::new(SERIES[0], 1.7)).units("Hz", "deg");
+    turns.draw(&mut svg, &plane);
+    hover(&mut svg, &plane, &[&turns]);
+    plane.below(&mut svg);
+    let told = peaks.iter().map(|peak| {
+        let height = peak.height.map_or("without bound".into(), short);
+        format!("mode {} at {} Hz, {height}", peak.mode, short(peak.frequency))
+    });
+    let told: Vec<String> = told.collect();
+    let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
+    let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
+    Some(Picture::new("response", &title, &alt, svg))
 }
 
-/// From −180 to 180; 0 of nothing.
-fn degrees(answer: c64) -> f64 {
-    (answer.im + 0.0).atan2(answer.re + 0.0).to_degrees()
-}
-
-/// With a gap where the phase goes on from one end at the other.
-fn unwrapped(series: Series) -> Series {
-    let mut points: Vec<Option<[f64; 2]>> = vec![];
-    for point in series.points {
-        let last = points.last().copied().flatten();
-        if let (Some([_, before]), Some([_, now])) = (last, point)
-            && (now - before).abs() > 270.0
-        {
-            points.push(None);
+/// Points with a gap where the phase turns from one end to the other.
+fn unbroken(points: impl Iterator<Item = [f64; 2]>) -> Vec<Option<[f64; 2]>> {
+    let mut all: Vec<Option<[f64; 2]>> = vec![];
+    for point in points {
+        if all.last().copied().flatten().is_some_and(|last| (last[1] - point[1]).abs() > 180.0) {
+            all.push(None);
         }
-        points.push(point);
+        all.push(Some(point));
     }
-    Series { points, ..series }
+    all
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
 }

@@ -10,6 +10,7 @@ pub mod damped;
 pub mod json;
 pub mod edits;
 pub mod text;
+pub mod frf;
 pub mod sketch;
 pub mod hit_text;
 pub mod hit_json;

@@ -1,0 +1,114 @@
+//! `ring --hit`: how the bat moves and what it bears after a hit.
+
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::bat::body::Bat;
+use crate::collision::aftermath::{Aftermath, Instant};
+use crate::collision::hit::{Effort, Model};
+use crate::collision::hitter::Hitter;
+use crate::collision::strength::breaking_swing;
+use crate::modes::solve::{Solution, solve};
+use crate::show::plot::ringing;
+use crate::show::report::aftermath::{self, AfterHit};
+use crate::show::report::text::wrapped;
+use crate::show::report::{hit_json, hit_text};
+use crate::study::ignored;
+
+use crate::cli::common::Prepared;
+use crate::cli::done::Done;
+use crate::cli::pictures;
+use crate::cli::ring_args::{Args, csv, on_the_bat, times, write_sound};
+use crate::cli::value::shown_length;
+
+/// A hit, and what comes of it.
+pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
+    /// Modes whose sum is a bat's strain to a few per cent.
+    const ENOUGH: usize = 40;
+    let x = on_the_bat(&bat, "--hit", x)?;
+    let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
+    let count = args.solve.modes_within(count, bat.profile().pieces.len());
+    if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
+        on_the_bat(&bat, "--watch", *place)?;
+    }
+    args.solve.refuse_budget("ring --hit")?;
+    let model = args.scene.model()?;
+    if model != Model::Contact {
+        let expected = "contact, the model with a force in time";
+        return Err(Error::value("--model", hit_json::model_name(model), expected));
+    }
+    let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let (scene, _) = args.scene.scene(&bat)?;
+    args.scene.warn(&args.output);
+    let solution = solve(&bat, &request)?;
+    args.solve.say_raised(&solution, &args.output);
+    let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };
+    let hitter = Hitter::new(model, &scene, &bat, &solution, effort)?;
+    let impact = hitter.strike(x);
+    let Some(force) = hitter.force(x) else {
+        let found = format!("no contact at {} ({})", shown_length(x), impact.flags.join(", "));
+        return Err(Error::value("--hit", found, "a place where ball and bat meet"));
+    };
+    let after = Aftermath::new(&bat, &solution, x, force);
+    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
+    let until = args.until.unwrap_or(3.0 * period);
+    if !(until > 0.0 && until < 1e3) {
+        return Err(Error::value("--until", format!("{until:?} s"), "above 0 and below 1000 s"));
+    }
+    let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
+    let mut report = AfterHit::new(&bat, &after, &watched, until);
+    for (load, swing) in &mut report.loads {
+        *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
+    }
+    let units = args.output.units;
+    let mut text = format!(
+        "{}{}{}",
+        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        aftermath::impact(&impact, units),
+        aftermath::text(&report, units)
+    );
+    if let Some(path) = &args.wav
+        && let Some(told) = write_sound(path, &after.sound(&solution))?
+    {
+        text += &wrapped(&format!("Sound: {told}"), 2);
+    }
+    if let Some(path) = &args.history {
+        file::write(path, aftermath::history(&after, &report).as_bytes())?;
+    }
+    if let Some(folder) = &args.plots {
+        let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();
+        let picture = ringing::AfterHit {
+            bat: bat.name(),
+            length: bat.length(),
+            after: &after,
+            watched: seen,
+            until: report.until,
+            envelope: &report.envelope,
+            damped: report.damped,
+        };
+        let pictures = picture.pictures(args.output.sheet(&bat));
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    if let Some(path) = args.csv.as_ref().filter(|path| path.as_os_str() != "-") {
+        let frames = frames_after(args, &bat, &solution, &after);
+        file::write(path, frames.as_bytes())?;
+    }
+    let code = args.solve.verdict(&solution, &args.output);
+    let document = || {
+        let ignored = ignored::in_hit(&bat, scene.wall.is_some());
+        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
+    };
+    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+}
+
+/// The bat's deflections after a hit as CSV, the instants in their order.
+fn frames_after(args: &Args, bat: &Bat, solution: &Solution, after: &Aftermath) -> String {
+    let last = f64::from(args.shape_points - 1);
+    let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
+    let places: Vec<f64> = places.collect();
+    let mut times = times(args, solution);
+    times.sort_by(f64::total_cmp);
+    let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();
+    let frames: Vec<Vec<f64>> = after.at(&times).iter().map(deflections).collect();
+    csv(&places, &times, &frames)
+}

@@ -1,0 +1,195 @@
+//! A frequency response and its peaks, as table, CSV and JSON.
+
+use std::fmt::Write;
+
+use crate::base::units::inches;
+use crate::files::schema::document::{Format, Generator};
+use crate::files::schema::frf::{Answer, FrfFile, Height, PeakLine};
+use crate::motion::frf::{Frf, Kind, Sample};
+use crate::motion::peaks::Peak;
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, numbers};
+use crate::show::report::text::wrapped;
+
+/// A response that is told.
+pub struct Told<'a> {
+    /// Deflection, velocity or acceleration.
+    pub kind: Kind,
+    /// Where the force is, and where the answer is watched (m from the knob end).
+    pub places: [f64; 2],
+    /// What answers.
+    pub frf: &'a Frf,
+    /// The answers.
+    pub samples: &'a [Sample],
+    /// The frequencies that were asked for (Hz); the others show the peaks.
+    pub asked: &'a [f64],
+    /// The peaks of the answer.
+    pub peaks: &'a [Peak],
+}
+
+/// The `sweetspot-frf/1` document.
+pub fn document(told: &Told) -> FrfFile {
+    let Told { kind, places: [at, to], frf, samples, peaks, .. } = *told;
+    let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
+    let value = |s: &Sample| s.receptance * kind.of(s.frequency);
+    let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
+    let truncation = of(&|s| s.truncation * kind.of(s.frequency).norm());
+    FrfFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        kind: kind.name(),
+        at_m: at,
+        to_m: to,
+        theory: frf.solution.theory.name(),
+        modes: frf.solution.modes.len(),
+        strains: frf.strains(),
+        static_compliance_m_per_n: frf.static_compliance(),
+        rigid_modes: frf.solution.rigid_modes,
+        frequency_hz: of(&|s| s.frequency),
+        answer: match kind {
+            Kind::Receptance => Answer::Receptance { real, imaginary, truncation },
+            Kind::Mobility => Answer::Mobility { real, imaginary, truncation },
+            Kind::Accelerance => Answer::Accelerance { real, imaginary, truncation },
+        },
+        peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
+        frequencies_within: frf.solution.worst(),
+    }
+}
+
+/// A peak as it stands in a document.
+pub fn line(kind: Kind, peak: &Peak) -> PeakLine {
+    let magnitude = peak.height;
+    PeakLine {
+        mode: peak.mode,
+        natural_frequency_hz: peak.natural,
+        frequency_hz: peak.frequency,
+        height: match kind {
+            Kind::Receptance => Height::Receptance { magnitude },
+            Kind::Mobility => Height::Mobility { magnitude },
+            Kind::Accelerance => Height::Accelerance { magnitude },
+        },
+        damping_ratio: peak.damping_ratio(),
+        half_power_hz: peak.half_power,
+    }
+}
+
+/// A row for every frequency.
+pub fn csv(kind: Kind, samples: &[Sample]) -> String {
+    let unit = kind.unit();
+    let mut table = Csv::new([
+        "frequency_hz".to_owned(),
+        format!("real_{unit}"),
+        format!("imaginary_{unit}"),
+        format!("magnitude_{unit}"),
+        "phase_deg".to_owned(),
+        format!("truncation_{unit}"),
+    ]);
+    for sample in samples {
+        let factor = kind.of(sample.frequency);
+        let value = sample.receptance * factor;
+        table.row([
+            sample.frequency.into(),
+            value.re.into(),
+            value.im.into(),
+            value.norm().into(),
+            phase(value.re, value.im).into(),
+            (sample.truncation * factor.norm()).into(),
+        ]);
+    }
+    table.text()
+}
+
+fn place(x: f64) -> String {
+    format!("{x:.4} m ({:.2} in)", inches(x))
+}
+
+/// Degrees; 0 of nothing.
+pub fn phase(re: f64, im: f64) -> f64 {
+    // A zero without a sign: on the negative axis it would turn the phase over.
+    (im + 0.0).atan2(re + 0.0).to_degrees()
+}
+
+/// The unit of an answer, for people.
+pub fn unit(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Receptance => "m/N",
+        Kind::Mobility => "m/(s N)",
+        Kind::Accelerance => "1/kg",
+    }
+}
+
+/// The answer at the asked frequencies, the peaks, and what it was made of.
+pub fn text(told: &Told) -> String {
+    let Told { kind, places: [at, to], frf, samples, asked, peaks } = *told;
+    let name = kind.name();
+    let title =
+        format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
+    let mut out = wrapped(&title, 4);
+    let columns = Columns::new([
+        numbers(16, "frequency, Hz"),
+        numbers(19, format!("size, {}", unit(kind))),
+        numbers(15, "phase, deg"),
+    ]);
+    out += &columns.heads();
+    for sample in samples.iter().filter(|sample| asked.contains(&sample.frequency)) {
+        let value = sample.receptance * kind.of(sample.frequency);
+        let phase = phase(value.re, value.im);
+        out += &columns.row([
+            format!("{:.3}", sample.frequency),
+            format!("{:.5e}", value.norm()),
+            format!("{phase:.2}"),
+        ]);
+    }
+    out += &listed(kind, peaks);
+    let between = samples.len().saturating_sub(asked.len());
+    if between > 0 {
+        let so = format!(
+            "  {between} more frequencies, at and around the natural ones, show the peaks in files \
+             and pictures"
+        );
+        out += &wrapped(&so, 2);
+    }
+    let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
+    let missing = samples.iter().map(share).fold(0.0, f64::max);
+    let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
+    let _ = writeln!(out, "  under a constant force {:.6e} m/N{bending}", frf.static_compliance());
+    let modes = frf.solution.modes.len();
+    let made = format!(
+        "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
+         is missing, and the modes' frequencies are within {:.0e}",
+        frf.strains() - modes.min(frf.strains()),
+        frf.solution.worst()
+    );
+    out += &wrapped(&made, 2);
+    out
+}
+
+/// The peaks, with the damping that their widths tell.
+fn listed(kind: Kind, peaks: &[Peak]) -> String {
+    if peaks.is_empty() {
+        return String::new();
+    }
+    let columns = Columns::new([
+        numbers(16, "peak, Hz"),
+        numbers(19, format!("size, {}", unit(kind))),
+        numbers(15, "damping, %"),
+        numbers(8, "mode"),
+    ]);
+    let mut out = columns.heads();
+    for peak in peaks {
+        let ratio = peak.damping_ratio().map(|ratio| format!("{:.3}", 100.0 * ratio));
+        out += &columns.row([
+            format!("{:.3}", peak.frequency),
+            peak.height.map_or("no bound".into(), |height| format!("{height:.5e}")),
+            ratio.unwrap_or_else(|| "-".into()),
+            peak.mode.to_string(),
+        ]);
+    }
+    if peaks.iter().any(|peak| peak.height.is_none()) {
+        out += "  no bound: nothing damps the bat; give the material a loss_factor\n";
+    }
+    if peaks.iter().any(|peak| peak.half_power.is_some()) {
+        out += "  damping by the half-power points of the peak, as a share of critical damping\n";
+    }
+    out
+}
