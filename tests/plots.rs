@@ -9,14 +9,16 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::roxmltree::Document;
 use resvg::usvg::{Options, Tree};
 use sweetspot::base::xml::escaped;
+use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::history::loop_area;
-use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::collision::hit::{Effort, Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::motion::frf::{Frf, Kind, Sample};
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::matrix::{FULL, Matrix};
 use sweetspot::show::plot::picture::Picture;
@@ -25,7 +27,10 @@ use sweetspot::show::plot::sets::{self, Hits};
 use sweetspot::show::plot::sheet::{Paper, Sheet};
 use sweetspot::show::plot::svg::Shape;
 use sweetspot::show::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
-use sweetspot::show::plot::{exit_speed, front, ledger, matrix, profile, shapes};
+use sweetspot::show::plot::{
+    exit_speed, front, ledger, matrix, profile, response, ringing, shapes,
+};
+use sweetspot::show::report::aftermath::AfterHit;
 use sweetspot::study::trade::measure::measure;
 use sweetspot::{Bat, Request, Solution, solve};
 
@@ -540,4 +545,70 @@ fn the_program_draws_into_a_folder() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("taken"));
     assert_eq!(folder.read("taken"), "x");
+}
+
+/// A response with its peaks, alone and under a measured one, damped and not, and the motion after a
+/// hit and after a blow.
+#[test]
+fn responses_and_motions_are_whole_in_every_form() {
+    let lossy = r#"{ "format": "sweetspot-bat/1", "name": "lossy", "material":
+        { "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9, "loss_factor": 0.02 },
+        "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] } }"#;
+    let lossy = Bat::from_text("lossy.json", lossy, std::path::Path::new("")).unwrap();
+    let sheets =
+        [(false, Paper::File), (true, Paper::File), (false, Paper::Page), (true, Paper::Narrow)];
+    for bat in [lossy, bat("r161")] {
+        let request = Request { modes: 5, ..Request::default() };
+        let mut frf = Frf::new(&bat, &request, 0.7, 0.1).unwrap();
+        let grid: Vec<f64> =
+            [20.0].into_iter().chain(frf.around_modes([21.0, 2999.0])).chain([3000.0]).collect();
+        let samples = frf.receptances(&grid).unwrap();
+        let peaks = frf.peaks(Kind::Mobility, &grid);
+        assert!(peaks.len() > 3);
+        let of = |s: &Sample| (s.frequency, s.receptance * Kind::Mobility.of(s.frequency));
+        let values: Vec<_> = samples.iter().map(of).collect();
+        let solution = solve(&bat, &request).unwrap();
+        let scene = Scene::default();
+        let hitter =
+            Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
+        let after = Aftermath::new(&bat, &solution, 0.6, hitter.force(0.6).unwrap());
+        let report = AfterHit::new(&bat, &after, &[0.1, 0.2, 0.5], 0.02);
+        let frames: Vec<Vec<f64>> = (0..9).map(|k| vec![0.0, 1e-4 * f64::from(k), -2e-4]).collect();
+        let times: Vec<f64> = (0..9).map(|k| 1e-3 * f64::from(k)).collect();
+        for (us, paper) in sheets {
+            let sheet = Sheet { us, paper };
+            let name = bat.name();
+            let mut all = vec![];
+            for measured in [&[][..], &values[3..]] {
+                let (kind, at, to) = (Kind::Mobility, 0.7, 0.1);
+                let (values, peaks) = (&values[..], &peaks[..]);
+                let subject =
+                    response::Subject { bat: name, kind, at, to, values, peaks, measured };
+                all.push(response::picture(sheet, &subject).unwrap());
+            }
+            let hit = ringing::AfterHit {
+                bat: name,
+                length: bat.length(),
+                after: &after,
+                watched: report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect(),
+                until: report.until,
+                envelope: &report.envelope,
+                damped: report.damped,
+            };
+            let drawn = hit.pictures(sheet);
+            let names: Vec<&str> = drawn.iter().map(|picture| picture.name.as_str()).collect();
+            assert_eq!(names, ["motion", "spectrum", "strain"]);
+            all.extend(drawn);
+            let x = [0.0, 0.4, 0.8];
+            let (x, times, frames) = (&x[..], &times[..], &frames[..]);
+            all.extend(ringing::moving(sheet, &ringing::Moving { bat: name, x, times, frames }));
+            for picture in all {
+                check(&picture, name);
+                assert_eq!(picture.drawing.width, sheet.width());
+                let document = Document::parse(&picture.svg).unwrap();
+                let metric = texts(&document).iter().any(|(words, _)| words.contains("(cm)"));
+                assert!(!(us && metric), "{name} {}", picture.name);
+            }
+        }
+    }
 }

@@ -174,6 +174,7 @@ impl Frf {
         let all = self.modes().into_iter().flat_map(|[f, ratio]| peaks::around(f, ratio));
         let mut within: Vec<f64> = all.filter(|f| (low..=high).contains(f)).collect();
         within.sort_by(f64::total_cmp);
+        within.dedup();
         within
     }
 

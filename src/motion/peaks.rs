@@ -41,16 +41,20 @@ const FARTHEST: f64 = 8.0;
 /// An undamped mode has no width; it has frequencies so near to it, and none on it.
 const SHARP: f64 = 1e-3;
 
-/// Frequencies (Hz) at and around a natural frequency with that damping ratio, unsorted.
+/// Frequencies (Hz) at and around a natural frequency with that damping ratio, unsorted, each once.
 pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
     let sharp = ratio <= 0.0;
     let width = if sharp { SHARP } else { ratio.min(1.0) };
     let far = DISTANCES.into_iter().filter(|far| !sharp || *far >= 1.0);
     let both = far.flat_map(|far| [1.0 - width * far, 1.0 + width * far]);
-    both.filter(|share| *share > 0.0).map(|share| natural * share).collect()
+    let mut all: Vec<f64> =
+        both.filter(|share| *share > 0.0).map(|share| natural * share).collect();
+    // The natural frequency is on neither side.
+    all.dedup();
+    all
 }
 
-/// The peaks of a response between the ends of a rising grid (Hz), by rising frequency. `modes` are
+/// The peaks of a response between the ends of a rising grid (Hz) without repetitions, by rising frequency. `modes` are
 /// natural frequencies and damping ratios, `size` is the response's size at a frequency.
 ///
 /// A mode whose response at this place is hidden by others has no peak, and a hump between modes,

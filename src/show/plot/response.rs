@@ -70,7 +70,8 @@ pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
     let below = first.bottom + BETWEEN;
     let second = Frame::across(sheet, [below, below + DIAGRAMS[1]]);
     svg.height = second.bottom + NUMBERS + 4.0;
-    let x = Axis::new("frequency (Hz)", [low, high]);
+    // A number at the very end would leave a narrow picture.
+    let x = Axis::new("frequency (Hz)", [low, low + 1.02 * (high - low)]);
     let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
     let y = Axis::logarithmic(&format!("{} ({})", kind.name(), unit(kind)), drawn);
     let plane = Plane { frame: first, x: x.clone(), y };
