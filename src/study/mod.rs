@@ -7,6 +7,7 @@
 //! | [`tuned`] | how stiff is the wood, by a tap |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
+//! | [`many`] | which bats does a study vary |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
@@ -16,3 +17,4 @@ pub mod tuned;
 pub mod advise;
 pub mod comparison;
 pub mod measured;
+pub mod many;
