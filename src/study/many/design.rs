@@ -87,7 +87,8 @@ impl Design {
             Some(1..=MOST_ROWS) => {}
             Some(0) => return Err(Error::value("points", 0, "one row at least")),
             _ => {
-                let found = rows.map_or("more than 1.8e19 rows".to_owned(), |n| format!("{n} rows"));
+                let found =
+                    rows.map_or("more than 1.8e19 rows".to_owned(), |n| format!("{n} rows"));
                 return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
             }
         }
@@ -160,7 +161,8 @@ fn cholesky(count: usize, correlations: &[(usize, usize, f64)]) -> Result<Vec<Ve
         let left = 1.0 - factor[i][..i].iter().map(|part| part * part).sum::<f64>();
         if left <= 1e-12 {
             let found = "correlations that contradict each other";
-            let expected = "a positive definite matrix: if a goes with b and b with c, a goes with c";
+            let expected =
+                "a positive definite matrix: if a goes with b and b with c, a goes with c";
             return Err(Error::value("correlation", found, expected));
         }
         factor[i][i] = left.sqrt();
@@ -197,7 +199,8 @@ mod tests {
     #[test]
     fn a_latin_hypercube_takes_every_part_of_every_distribution_once() {
         let design = design(Spread::LatinHypercube, &[], 100);
-        let mut parts: Vec<_> = (0..100).map(|k| (100.0 * design.row(k).values[1]) as usize).collect();
+        let mut parts: Vec<_> =
+            (0..100).map(|k| (100.0 * design.row(k).values[1]) as usize).collect();
         parts.sort_unstable();
         assert_eq!(parts, (0..100).collect::<Vec<_>>());
     }
@@ -209,9 +212,8 @@ mod tests {
         let count = 1 << 14;
         let design = design(Spread::Sobol, &[(0, 2, 0.6), (0, 1, -0.5)], count);
         let rows: Vec<Vec<f64>> = (0..count).map(|k| design.row(k).values).collect();
-        let mean = |of: &dyn Fn(&[f64]) -> f64| {
-            rows.iter().map(|row| of(row)).sum::<f64>() / count as f64
-        };
+        let mean =
+            |of: &dyn Fn(&[f64]) -> f64| rows.iter().map(|row| of(row)).sum::<f64>() / count as f64;
         let correlation = |a: usize, b: usize| {
             let [of_a, of_b] = [mean(&|row| row[a]), mean(&|row| row[b])];
             let both = mean(&|row| (row[a] - of_a) * (row[b] - of_b));
@@ -224,7 +226,9 @@ mod tests {
         let mut uniform: Vec<f64> = rows.iter().map(|row| row[1]).collect();
         uniform.sort_by(f64::total_cmp);
         let off = |(k, v): (usize, &f64)| (v - (k as f64 + 0.5) / count as f64).abs();
-        assert!(uniform.iter().enumerate().map(off).fold(0.0, f64::max) < 1e-3);
+        // Of as many that are thrown the worst is off by about 7e-3 (Kolmogorov).
+        let worst = uniform.iter().enumerate().map(off).fold(0.0, f64::max);
+        assert!(worst < 3e-3, "{worst}");
     }
 
     #[test]

@@ -223,11 +223,14 @@ mod tests {
         let count = 200_000;
         for distribution in ALL {
             distribution.check().unwrap();
-            let values = || (0..count).map(|k| distribution.quantile((k as f64 + 0.5) / count as f64));
+            let values =
+                || (0..count).map(|k| distribution.quantile((k as f64 + 0.5) / count as f64));
             let mean = values().sum::<f64>() / f64::from(count);
             let variance = values().map(|v| (v - mean).powi(2)).sum::<f64>() / f64::from(count);
             let [known, its] = match distribution {
-                Distribution::Uniform { from, to } => [0.5 * (from + to), (to - from).powi(2) / 12.0],
+                Distribution::Uniform { from, to } => {
+                    [0.5 * (from + to), (to - from).powi(2) / 12.0]
+                }
                 Distribution::Normal { mean, deviation } => [mean, deviation * deviation],
                 Distribution::Lognormal { median, deviation: s } => {
                     let square = (s * s).exp();

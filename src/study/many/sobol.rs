@@ -209,7 +209,8 @@ mod tests {
     fn means_over_points_converge_fast_and_without_bias() {
         let mean = |seed: u64, count: u64| {
             let sobol = Sobol::new(4, seed);
-            let value = |k: u64| (0..4).map(|c| 1.0 + 0.5 * (sobol.at(k, c) - 0.5)).product::<f64>();
+            let value =
+                |k: u64| (0..4).map(|c| 1.0 + 0.5 * (sobol.at(k, c) - 0.5)).product::<f64>();
             (0..count).map(value).sum::<f64>() / count as f64
         };
         let errors: Vec<f64> = (0..32).map(|seed| mean(seed, 1024) - 1.0).collect();
