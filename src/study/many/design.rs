@@ -147,7 +147,7 @@ impl Design {
 fn cholesky(count: usize, correlations: &[(usize, usize, f64)]) -> Result<Vec<Vec<f64>>> {
     let mut matrix = vec![vec![0.0; count]; count];
     for &(a, b, r) in correlations {
-        if !(r.abs() < 1.0) {
+        if r.is_nan() || r.abs() >= 1.0 {
             return Err(Error::value("correlation", r, "a number between -1 and 1"));
         }
         (matrix[a][b], matrix[b][a]) = (r, r);
