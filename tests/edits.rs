@@ -494,11 +494,34 @@ fn every_table_says_what_was_edited() {
         &["hit", "maple.json", "--at", "28 in", "-n", "3"],
         &["advise", "maple.json", "-n", "1", "--tol", "5%"],
         &["bbcor", "maple.json", "--tol", "1e-2"],
+        &["frf", "maple.json", "--at", "28 in", "-n", "2"],
         &["analyze", "maple.json"],
         &["analyze", "maple.json", "--full"],
     ] {
         let text = folder.text(&[args, &knob[..]].concat());
         assert!(text.contains("edited: knob 2 oz"), "{args:?}\n{text}");
+    }
+}
+
+#[test]
+fn every_document_says_what_was_edited() {
+    let folder = shop("edit_documents");
+    for args in [
+        &["modes", "maple.json", "-n", "1"][..],
+        &["hit", "maple.json", "--at", "28 in", "-n", "3"],
+        &["advise", "maple.json", "-n", "1", "--tol", "5%"],
+        &["bbcor", "maple.json", "--tol", "1e-2"],
+        &["ring", "maple.json", "--hit", "28 in", "-n", "3"],
+        &["ring", "maple.json", "--at", "28 in", "--impulse", "1", "-n", "2"],
+        &["frf", "maple.json", "--at", "28 in", "-n", "2"],
+        &["trade", "maple.json", "-n", "1", "--budget", "100ms"],
+    ] {
+        let with = |more: &[&str]| folder.json(&[args, more, &["--json", "-", "--quiet"]].concat());
+        let told = |file: &serde_json::Value| {
+            file["bat"].get("edits").or(file.get("edits")).map(|edits| edits[0]["knob"].clone())
+        };
+        assert_eq!(told(&with(&["--knob", "2 oz"])).unwrap(), 2.0 * OUNCE, "{args:?}");
+        assert_eq!(told(&with(&[])), None, "{args:?}");
     }
 }
 

@@ -3,6 +3,7 @@
 mod common;
 
 use common::folder::Folder;
+use sweetspot::bat::edit::{Change, Edit};
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::bat::weighed::Weighed;
 use sweetspot::collision::figures::Figures;
@@ -126,6 +127,36 @@ fn a_scale_and_a_tap_take_the_place_of_the_wood() {
     }
     let (most, _) = settled.mostly(Answer::Frequency2).unwrap();
     assert_eq!(most.input, Input::Tap);
+}
+
+/// A weight on the knob moves the answers, and not what the scale and the tap left open of the wood.
+#[test]
+fn a_bat_that_was_weighed_and_tapped_before_its_edits_is_as_well_known_after_them() {
+    let free = bat(wooden(), ASH, Weighed::default());
+    let weighed = Weighed {
+        mass: Some(free.inertia().mass),
+        first_bending: Some(modes(&free).modes[0].frequency()),
+        ..Weighed::default()
+    };
+    let before = bat(wooden(), ASH, weighed);
+    let knob = Edit { name: None, change: Change::Knob(0.05) };
+    let after = before.edited(&[knob]).unwrap();
+    let readings = Readings { diameter: 0.0, length: 0.0, ..Readings::default() };
+    let [before, after] = [&before, &after].map(|bat| spread(bat, &readings));
+    let inputs = |spread: &Spread| -> Vec<Input> {
+        spread.sources.iter().map(|source| source.input).collect()
+    };
+    assert_eq!(inputs(&before), inputs(&after));
+    assert!(after.left_out.is_empty(), "{:?}", after.left_out);
+    let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
+    // The wood weighs as much as before.
+    let mass = deviation(&after, Answer::Mass) / deviation(&before, Answer::Mass);
+    assert!((mass - 1.0).abs() < 1e-3, "{mass}");
+    for answer in [Answer::Frequency1, Answer::Frequency2, Answer::Frequency3] {
+        let share = |spread: &Spread| deviation(spread, answer) / spread.of(answer).unwrap().value;
+        let [before, after] = [share(&before), share(&after)];
+        assert!((after / before - 1.0).abs() < 0.02, "{answer:?} {before} {after}");
+    }
 }
 
 /// Numbers that are normal with deviation 1, by Box and Muller, from a generator of Knuth's.

@@ -108,7 +108,15 @@ pub fn run(args: &Args) -> Result<Done> {
     let peaks = frf.peaks(args.kind, &rising);
     drop(progress);
     let (kind, asked) = (args.kind, &grid.asked[..]);
-    let told = Told { kind, places: [at, to], frf: &frf, samples: &samples, asked, peaks: &peaks };
+    let told = Told {
+        bat: &bat,
+        kind,
+        places: [at, to],
+        frf: &frf,
+        samples: &samples,
+        asked,
+        peaks: &peaks,
+    };
     if let Some(folder) = &args.plots {
         let values = samples.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
         let mut values: Vec<_> = values.collect();

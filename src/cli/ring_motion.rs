@@ -59,6 +59,7 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         RingFile::Motion(Motion {
             format: Format::new(),
             generator: Generator::this(),
+            edits: bat.edits().to_vec(),
             modes: solution.modes.len(),
             theory: solution.theory.name(),
             rigid_motion: !args.bending_only && solution.rigid_modes > 0,

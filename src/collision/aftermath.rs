@@ -235,6 +235,11 @@ impl<'a> Aftermath<'a> {
         self.bat.layup(self.bat.profile().piece_at(x)).surface().youngs_modulus
     }
 
+    /// The bat that was hit.
+    pub fn bat(&self) -> &Bat {
+        self.bat
+    }
+
     /// Number of modes.
     pub fn count(&self) -> usize {
         self.modes.len()

@@ -220,7 +220,8 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     let layered = profile.stations.inner.iter().any(|r| *r > 0.0)
         || bat.layups().iter().any(|layup| !layup.sleeves.is_empty());
     let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
-    if !profile.pieces.iter().any(formula) && !(layered && theory.shears()) {
+    let curved = profile.pieces.iter().any(formula) || layered && theory.shears();
+    if !curved {
         return mesh;
     }
     let rule = Rule::of(bat, degree);

@@ -117,7 +117,7 @@ pub fn half_power(size: &impl Fn(f64) -> f64, peak: f64, width: f64) -> Option<[
         loop {
             let far = near + direction * step;
             let now = if far > 0.0 { size(far) } else { f64::INFINITY };
-            if !(now <= before * (1.0 + 1e-9)) {
+            if now.partial_cmp(&(before * (1.0 + 1e-9))).is_none_or(|order| order.is_gt()) {
                 return None;
             }
             if now <= half {

@@ -240,9 +240,10 @@ enum Property {
 struct Settled {
     property: Property,
     source: Source,
-    /// What was read.
-    answer: Answer,
-    /// Standard deviation of the reading, in the unit of the answer.
+    /// What was read; None of a bat that was edited since, whose answer is another one.
+    answer: Option<Answer>,
+    /// Standard deviation of the reading, in the unit of the answer; without one, of the property that
+    /// it settled, relative.
     size: f64,
 }
 
@@ -274,7 +275,11 @@ impl Spread {
             }
         }
         for (settled, factor) in settled.into_iter().zip(slopes) {
-            match factor.and_then(|factor| settle(&mut rows, &factor, settled.answer)) {
+            let by = factor.and_then(|factor| match settled.answer {
+                Some(answer) => settle(&mut rows, &factor, answer),
+                None => Some(factor),
+            });
+            match by {
                 Some(by) => {
                     let parts = by.map(|slope| Some(slope? * settled.size));
                     rows.push((settled.source, parts));
@@ -308,31 +313,32 @@ impl Spread {
     }
 }
 
-/// The readings of the whole bat: a scale sets its densities, a tap its stiffness.
+/// The readings of the whole bat: a scale sets its densities, a tap its stiffness. They were of the bat
+/// before its edits; of an edited one they settle the properties alone, a frequency going as the root of
+/// the stiffness.
 fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>) -> Vec<Settled> {
-    let weighed = analysed.bat.weighed();
+    let before = analysed.bat.unedited();
+    let edited = !analysed.bat.edits().is_empty();
+    let weighed = before.weighed();
     let whole = |input, deviation| Source { input, material: String::new(), deviation };
-    let scale = weighed.mass.map(|_| Settled {
+    let scale = weighed.mass.map(|mass| Settled {
         property: Property::Density,
         source: whole(Input::Mass, readings.mass),
-        answer: Answer::Mass,
-        size: readings.mass,
+        answer: (!edited).then_some(Answer::Mass),
+        size: if edited { readings.mass / mass } else { readings.mass },
     });
     let tap = weighed.first_bending.and_then(|note| {
-        let tap = analysed.tapped(note).map(|answer| Settled {
+        let answer = if edited { None } else { analysed.tapped(note) };
+        if answer.is_none() && !edited {
+            left_out.push("the tap, whose note is of none of the first three modes".to_owned());
+            return None;
+        }
+        Some(Settled {
             property: Property::Stiffness,
             source: whole(Input::Tap, readings.tap),
             answer,
-            size: readings.tap * note,
-        });
-        if tap.is_none() {
-            let heard = match analysed.bat.edits().is_empty() {
-                true => "the tap, whose note is of none of the first three modes",
-                false => "the tap, which was heard of the bat before its edits",
-            };
-            left_out.push(heard.to_owned());
-        }
-        tap
+            size: if edited { 2.0 * readings.tap } else { readings.tap * note },
+        })
     });
     scale.into_iter().chain(tap).collect()
 }
@@ -351,7 +357,8 @@ fn open(
     for (place, material) in materials {
         let properties = [Property::Stiffness, Property::Density];
         let unsettled = |property: &Property| {
-            !only || settled.iter().all(|settled| settled.property != *property)
+            let of = settled.iter().find(|settled| settled.property == *property);
+            of.is_none_or(|settled| !only && settled.answer.is_some())
         };
         let unsettled: Vec<Property> = properties.into_iter().filter(unsettled).collect();
         let Some(scatter) = material.scatter() else {
@@ -573,7 +580,7 @@ fn wider(radii: &mut [f64], by: f64) {
 /// was weighed. None where the stiffness was tapped, or where no scatter is known.
 pub fn of_frequencies(bat: &Bat) -> Option<f64> {
     let [(_, material)] = &materials(bat)[..] else { return None };
-    let weighed = bat.weighed();
+    let weighed = bat.unedited().weighed();
     let scatter = material.scatter().filter(|_| weighed.first_bending.is_none())?;
     let density = if weighed.mass.is_some() { 0.0 } else { scatter.density };
     Some(0.5 * scatter.youngs_modulus.hypot(density))

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
 use crate::files::schema::document::{Document, Format, Generator};
 
@@ -16,6 +17,9 @@ pub struct FrfFile {
     pub format: Format<FrfFile>,
     /// The program that wrote the file.
     pub generator: Generator,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// What is answered: deflection, velocity or acceleration.
     #[schemars(extend("enum" = ["receptance", "mobility", "accelerance"]))]
     pub kind: &'static str,

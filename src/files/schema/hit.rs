@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bat::edit::Edit;
 use crate::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
@@ -15,6 +16,9 @@ pub struct HitFile {
     pub format: Format<HitFile>,
     /// The program that wrote the file.
     pub generator: Generator,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// How the bat's bending is counted.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::Impact;
@@ -31,6 +32,9 @@ pub struct AfterHit {
     pub format: Format<RingFile>,
     /// The program that wrote the file.
     pub generator: Generator,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// Number of bending modes.
     pub modes: usize,
     /// Where the ball meets the bat (m).
@@ -166,6 +170,9 @@ pub struct Motion {
     pub format: Format<RingFile>,
     /// The program that wrote the file.
     pub generator: Generator,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
     /// Number of bending modes.
     pub modes: usize,
     /// Beam theory.

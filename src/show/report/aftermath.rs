@@ -281,6 +281,7 @@ pub fn document(
     file::RingFile::Hit(Box::new(file::AfterHit {
         format: Format::new(),
         generator: Generator::this(),
+        edits: after.bat().edits().to_vec(),
         modes: after.count(),
         at_m: after.place,
         contact_s: after.end(),

@@ -2,6 +2,7 @@
 
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
+use crate::show::report::edits;
 use crate::show::report::text::{Units, wrapped};
 use crate::show::report::trust;
 use crate::study::comparison::rows::ComparedFigure;
@@ -20,7 +21,7 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         Units::Both => Units::Si,
         one => one,
     };
-    let mut out = bats(comparison) + &hit(comparison, units);
+    let mut out = bats(comparison, one) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
     out += &match (comparison.bats.len(), differing.is_empty()) {
         (_, true) => String::new(),
@@ -47,12 +48,16 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
 }
 
 /// The bats, each in a line.
-fn bats(comparison: &Comparison) -> String {
+fn bats(comparison: &Comparison, units: Units) -> String {
     let mut out = String::from("Bats compared; A is the one the others are measured by\n");
     for (k, contender) in comparison.bats.iter().enumerate() {
         let hollow = thinnest_wall(&contender.bat).filter(|_| contender.scene.wall.is_none());
         let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
         out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
+        let edits = edits::listed(&contender.bat, units == Units::Us);
+        if !edits.is_empty() {
+            out += &wrapped(&format!("     edited: {edits}"), 5);
+        }
     }
     out
 }

@@ -3,16 +3,19 @@
 use std::fmt::Write;
 
 use crate::base::units::inches;
+use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::frf::{Answer, FrfFile, Height, PeakLine};
 use crate::motion::frf::{Frf, Kind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::wrapped;
+use crate::show::report::text::{Units, edited, wrapped};
 
 /// A response that is told.
 pub struct Told<'a> {
+    /// The bat that answers.
+    pub bat: &'a Bat,
     /// Deflection, velocity or acceleration.
     pub kind: Kind,
     /// Where the force is, and where the answer is watched (m from the knob end).
@@ -29,7 +32,7 @@ pub struct Told<'a> {
 
 /// The `sweetspot-frf/1` document.
 pub fn document(told: &Told) -> FrfFile {
-    let Told { kind, places: [at, to], frf, samples, peaks, .. } = *told;
+    let Told { bat, kind, places: [at, to], frf, samples, peaks, .. } = *told;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
     let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
@@ -37,6 +40,7 @@ pub fn document(told: &Told) -> FrfFile {
     FrfFile {
         format: Format::new(),
         generator: Generator::this(),
+        edits: bat.edits().to_vec(),
         kind: kind.name(),
         at_m: at,
         to_m: to,
@@ -120,11 +124,11 @@ pub fn unit(kind: Kind) -> &'static str {
 
 /// The answer at the asked frequencies, the peaks, and what it was made of.
 pub fn text(told: &Told) -> String {
-    let Told { kind, places: [at, to], frf, samples, asked, peaks } = *told;
+    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks } = *told;
     let name = kind.name();
     let title =
         format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
-    let mut out = wrapped(&title, 4);
+    let mut out = wrapped(&title, 4) + &edited(bat, Units::Both);
     let columns = Columns::new([
         numbers(16, "frequency, Hz"),
         numbers(19, format!("size, {}", unit(kind))),

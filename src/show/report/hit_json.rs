@@ -21,6 +21,7 @@ pub fn hit(
     file::HitFile {
         format: Format::new(),
         generator: Generator::this(),
+        edits: bat.edits().to_vec(),
         model: model_name(model).to_owned(),
         scene: scene_out(bat, scene),
         impacts: impacts.iter().map(|at| impact(bat, at)).collect(),

@@ -111,8 +111,14 @@ impl Kind {
 /// Two significant digits, the last of them also where it is 0.
 fn two_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    format!("{rounded:.*}", decimals(value))
+}
+
+/// Decimals that show two significant digits of a value.
+fn decimals(value: f64) -> usize {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
     let power = if rounded > 0.0 { rounded.log10().floor() as i32 } else { 0 };
-    format!("{rounded:.*}", (1 - power).clamp(0, 9) as usize)
+    (1 - power).clamp(0, 9) as usize
 }
 
 /// What moves an answer, in a word.
@@ -221,7 +227,10 @@ fn bat_first(spread: &Spread, units: Units) -> String {
     }
     let range = spread.of(Answer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
     let range = range.map_or(String::new(), |(value, [low, high])| {
-        format!("; f1, {value:.1} Hz here, is {low:.0} to {high:.0} Hz in two bats of three")
+        let digits = decimals(0.5 * (high - low));
+        format!(
+            "; f1, {value:.1} Hz here, is {low:.digits$} to {high:.digits$} Hz in two bats of three"
+        )
     });
     format!("The bat first: {}{range}.{left_out}", told.join(", "))
 }
