@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
-use crate::files::measured;
+use crate::files::measured::{self, Beside, places};
+use crate::files::uff::Units;
 use crate::show::report::{self, comparison, comparison_data, comparison_screen};
 use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
@@ -19,7 +20,7 @@ use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{PLACE, SPACING};
+use crate::cli::value::{PLACE, SPACING, file_unit};
 
 /// Bats side by side, or one beside its measured modes
 ///
@@ -64,6 +65,15 @@ pub struct Args {
     #[arg(long, value_name = "m", requires = "measured", allow_hyphen_values = true,
           value_parser = |s: &str| PLACE.read(s))]
     origin: Option<f64>,
+
+    /// Unit of length of a universal file that names no units (dataset 164), such as mm
+    #[arg(long, value_name = "UNIT", requires = "measured", value_parser = file_unit)]
+    unit: Option<Units>,
+
+    /// Where the nodes of a universal file without geometry are, from the knob end: "1=0 in, 2=3 in", or
+    /// a CSV file with the columns node,x_in
+    #[arg(long, value_name = "PLACES", requires = "measured")]
+    places: Option<String>,
 
     /// Number of bending modes that count in a hit [default: as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
@@ -155,7 +165,8 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         let found = format!("{} bats beside measured modes", args.bats.len());
         return Err(Error::value("compare", found, "one bat file"));
     };
-    let measured = measured::read(file)?;
+    let places = args.places.as_deref().map(places::read).transpose()?;
+    let measured = measured::read_with(file, &Beside { unit: args.unit.clone(), places })?;
     let bat = read(path, &EditArgs::default(), args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;

@@ -1,5 +1,7 @@
 //! At which frequencies `frf` answers, and with how many modes.
 
+use faer::c64;
+
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::files::uff::six_digits;
@@ -9,7 +11,7 @@ use crate::motion::frf::Frf;
 use crate::cli::value::{FREQUENCY, TOP_FREQUENCY};
 
 /// Which frequencies.
-#[derive(clap::Args)]
+#[derive(clap::Args, Clone)]
 #[command(next_help_heading = "The force")]
 pub struct GridArgs {
     /// Lowest frequency [default: a tenth of that of mode 1]
@@ -78,6 +80,14 @@ impl GridArgs {
             }
             _ => Ok(()),
         }
+    }
+
+    /// As asked, with the ends of a measurement where no others were.
+    pub fn as_measured(&self, values: &[(f64, c64)]) -> Self {
+        let (first, last) = (values.first().map(|v| v.0), values.last().map(|v| v.0));
+        let listed = !self.frequencies.is_empty();
+        let or = |asked: Option<f64>, other| if listed { asked } else { asked.or(other) };
+        Self { from_hz: or(self.from_hz, first), to_hz: or(self.to_hz, last), ..self.clone() }
     }
 
     /// The response with modes up to the highest frequency.

@@ -7,6 +7,7 @@ use crate::base::number::significant;
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::theory::Theory;
+use crate::files::uff;
 use crate::modes::solve::Solver;
 use crate::show::report::text::Units;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -15,6 +16,12 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 pub fn shown_length(length: f64) -> String {
     let inches: f64 = format!("{:.5e}", units::inches(length)).parse().unwrap_or(f64::NAN);
     format!("{length:?} m ({inches:?} in)")
+}
+
+/// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.
+pub fn file_unit(text: &str) -> std::result::Result<uff::Units, String> {
+    let metre = units::factor(text.trim(), Quantity::Length).map_err(|wrong| wrong.to_string())?;
+    Ok(uff::Units::of_length(metre, text.trim()))
 }
 
 /// What a value is for: its quantity, and the values that are plausible there.

@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 16] = [
+pub const WRITTEN: [Written; 17] = [
     (
         "modes",
         "modes",
@@ -90,6 +90,12 @@ pub const WRITTEN: [Written; 16] = [
         "frf lossy.json --at 0.3 --to 0.1 --from-hz 50 --to-hz 2000 --points 2 -n 3 --tol 1e-8",
         Numbers::Rough,
     ),
+    (
+        "frf-measured",
+        "frf",
+        "frf lossy.json --measured tap.uff --points 3 -n 3 --tol 1e-8",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -111,6 +117,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);
+    folder.write("tap.uff", include_str!("../golden/tap.uff"));
     folder
 }
 

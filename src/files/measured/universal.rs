@@ -1,4 +1,4 @@
-//! Measured modes from a universal file: nodes (15, 2411) and shapes (55).
+//! Measured modes from a universal file: nodes (15, 2411) and shapes (55, 2414).
 //!
 //! The bat's axis is the direction in which the nodes are farthest apart, and a mode's deflection is
 //! its motion in the direction normal to the axis in which it moves most: a round bat bends in any.
@@ -12,8 +12,9 @@ use faer::c64;
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::linear::dot;
-use crate::files::measured::FEWEST;
 use crate::files::measured::direction::{Vector, axis, named, normals, positive};
+use crate::files::measured::places::Places;
+use crate::files::measured::{Beside, FEWEST};
 use crate::files::uff::{self, Analysis, Dataset, NodalData, Node, Universal, six_digits};
 use crate::study::measured::data::{Measured, MeasuredMode};
 
@@ -27,8 +28,18 @@ type Motion = [c64; 3];
 /// [`Error::Read`], those of [`uff::parse`], and [`Error::Value`] for a file without shapes or without the nodes of
 /// its shapes.
 pub fn read(path: &Path) -> Result<Measured> {
+    read_with(path, &Beside::default())
+}
+
+/// As [`read`], with the units of a file that names none and the places of one without geometry.
+///
+/// # Errors
+///
+/// Those of [`read`]; [`Error::Value`] for places beside a file that has nodes.
+pub fn read_with(path: &Path, beside: &Beside) -> Result<Measured> {
     let name = path.display().to_string();
-    Ok(of(&uff::parse(&name, &file::read(path)?)?, &name)?.sorted())
+    let universal = uff::parse_in(&name, &file::read(path)?, beside.unit.as_ref())?;
+    Ok(placed(&universal, &name, beside.places.as_ref())?.sorted())
 }
 
 /// Nodes nearer than this along the axis (of the span) are one point.
@@ -40,15 +51,34 @@ const SAME: f64 = 1e-4;
 ///
 /// As [`read`].
 pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
+    placed(universal, file, None)
+}
+
+/// As [`of`], of a file without nodes whose places are given.
+fn placed(universal: &Universal, file: &str, places: Option<&Places>) -> Result<Measured> {
     let shapes = shapes(universal, file)?;
-    let nodes = nodes(universal);
+    let mut nodes = nodes(universal);
     let [moving, still] = told(&shapes);
+    let along = stillest(&shapes);
+    if places.is_some() && !nodes.is_empty() {
+        let expected = "no places beside them, or a file without";
+        return Err(Error::value(file, format!("{} nodes with places", nodes.len()), expected));
+    }
+    let given: Vec<Node> =
+        places.into_iter().flatten().map(|(k, x)| Node::new(*k, along.map(|a| a * x))).collect();
+    nodes.extend(given.iter().map(|node| (node.label, node)));
     if let Some(label) = moving.iter().find(|label| !nodes.contains_key(label)) {
-        let found = format!("node {label} in a shape and not among the nodes");
-        return Err(Error::value(file, found, "it in a dataset 15 or 2411"));
+        let (found, expected) = match places {
+            Some(_) => (format!("node {label} in a shape and not among the places"), "its place"),
+            None => (
+                format!("node {label} in a shape and not among the nodes"),
+                "it in a dataset 15 or 2411, or its place by --places",
+            ),
+        };
+        return Err(Error::value(file, found, expected));
     }
     let at: Vec<Vector> = moving.iter().map(|label| nodes[label].at).collect();
-    let axis = axis(&at);
+    let axis = if places.is_some() { along } else { axis(&at) };
     let points = points(&at, axis);
     if points.len() < FEWEST {
         let found = format!("{} moving points along the bat", points.len());
@@ -85,7 +115,22 @@ pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
     }
     assumed.extend(said(&directions, &modes));
     let along = points.iter().map(|point| point.along).collect();
-    Ok(Measured { source: file.to_owned(), modes, along, from_knob: false, assumed })
+    let from_knob = places.is_some();
+    Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed })
+}
+
+/// The axis of coordinates along which the shapes move least, the first of equal ones: that of a bat
+/// whose file does not tell where its nodes are.
+fn stillest(shapes: &[Shape]) -> Vector {
+    let values = || shapes.iter().flat_map(|shape| &shape.data.values);
+    let moved = |k: usize| -> f64 {
+        let parts = values().filter_map(|(_, values)| values.get(k));
+        // One value per node is the deflection, in no direction.
+        let parts = parts.filter(|_| shapes.iter().all(|shape| shape.data.per_node > 1));
+        parts.map(|[re, im]| re * re + im * im).sum()
+    };
+    let least = (0..3).min_by(|a, b| moved(*a).total_cmp(&moved(*b))).unwrap_or(0);
+    [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 })
 }
 
 /// What was left out of the file, and what was converted.
@@ -96,7 +141,9 @@ fn unread(universal: &Universal) -> Vec<String> {
     }
     if let Some(units) = universal.converted_from.as_ref().filter(|units| units.length != 1.0) {
         let unit = six_digits(1.0 / units.length);
-        said.push(format!("the file's unit of length is {unit} m, as its dataset 164 says"));
+        let named = universal.datasets.iter().any(|dataset| matches!(dataset, Dataset::Units(_)));
+        let so = if named { "as its dataset 164 says" } else { "as was told" };
+        said.push(format!("the file's unit of length is {unit} m, {so}"));
     }
     said
 }
@@ -213,7 +260,7 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
             0 => {
                 let unread = skipped(universal);
                 let unread = unread.map_or(String::new(), |list| format!("; {list} not read"));
-                (format!("no modes{unread}"), "shapes in datasets 55")
+                (format!("no modes{unread}"), "shapes in datasets 55 or 2414")
             }
             count => (
                 format!("{count} functions in datasets 58 and no shapes"),

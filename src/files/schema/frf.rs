@@ -45,6 +45,9 @@ pub struct FrfFile {
     pub answer: Answer,
     /// The peaks between the lowest and the highest frequency.
     pub peaks: Vec<PeakLine>,
+    /// A measured response beside it, where one was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<MeasuredAnswer>,
     /// Largest relative error of a mode's frequency.
     pub frequencies_within: f64,
 }
@@ -136,5 +139,75 @@ pub enum Height {
         /// Size of the answer (1/kg); null without bound.
         #[serde(rename = "magnitude_1_per_kg")]
         magnitude: Option<f64>,
+    },
+}
+
+/// A measured response laid over the computed one.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MeasuredAnswer {
+    /// The file it is from.
+    pub source: String,
+    /// What was assumed to read it, a sentence each.
+    pub assumed: Vec<String>,
+    /// Measured frequencies (Hz).
+    pub frequency_hz: Vec<f64>,
+    /// The measured answer at every frequency.
+    #[serde(flatten)]
+    pub answer: MeasuredValues,
+    /// Frequency response assurance criterion, |sum a conj(x)|^2/(sum |a|^2 sum |x|^2) over these
+    /// frequencies: 1 where computed a and measured x are alike but for a factor.
+    pub frac: f64,
+    /// Mean of 20 log10(computed/measured) over these frequencies (dB).
+    pub mean_level_difference_db: f64,
+    /// Mean size of that difference (dB).
+    pub mean_absolute_level_difference_db: f64,
+    /// Computed peaks and the measured ones near them.
+    pub peaks: Vec<PeakBeside>,
+}
+
+/// A computed peak and the measured one near it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PeakBeside {
+    /// The computed peak.
+    pub computed: PeakLine,
+    /// The measured one: its frequency is that of the highest value, and it has a damping ratio where
+    /// its half-power band has three steps of the measurement or more; null where there is none.
+    pub measured: Option<PeakLine>,
+    /// Computed over measured frequency, less 1.
+    pub frequency_difference: Option<f64>,
+    /// 20 log10 of the computed over the measured height (dB).
+    pub level_difference_db: Option<f64>,
+}
+
+/// The measured answer, in the unit of its kind.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeasuredValues {
+    /// Deflection per force.
+    Receptance {
+        /// Real part (m/N).
+        #[serde(rename = "real_m_per_n")]
+        real: Vec<f64>,
+        /// Imaginary part (m/N).
+        #[serde(rename = "imaginary_m_per_n")]
+        imaginary: Vec<f64>,
+    },
+    /// Velocity per force.
+    Mobility {
+        /// Real part (m/(s N)).
+        #[serde(rename = "real_m_per_s_n")]
+        real: Vec<f64>,
+        /// Imaginary part (m/(s N)).
+        #[serde(rename = "imaginary_m_per_s_n")]
+        imaginary: Vec<f64>,
+    },
+    /// Acceleration per force.
+    Accelerance {
+        /// Real part (1/kg).
+        #[serde(rename = "real_1_per_kg")]
+        real: Vec<f64>,
+        /// Imaginary part (1/kg).
+        #[serde(rename = "imaginary_1_per_kg")]
+        imaginary: Vec<f64>,
     },
 }

@@ -6,6 +6,22 @@ use crate::base::error::{Complaint, Error, Excerpt, Place, Result, shortened};
 /// Columns of a line of numbers in single precision.
 pub(super) const SINGLES: [usize; 6] = [13; 6];
 
+/// An error about a whole line of a file that was read, by its number from 1.
+pub fn at_line(
+    file: &str,
+    bytes: &[u8],
+    number: usize,
+    found: impl std::fmt::Display,
+    expected: impl Into<String>,
+) -> Error {
+    let mut lines = Lines::new(file, bytes);
+    while lines.number < number && lines.next().is_some() {}
+    match lines.peek() {
+        Some(line) => line.wrong(found, expected),
+        None => Line { file, number: lines.number, bytes: b"" }.wrong(found, expected),
+    }
+}
+
 /// What the lines of a file hold, read from the first to the last.
 pub(super) struct Lines<'a> {
     file: &'a str,

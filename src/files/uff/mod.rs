@@ -20,7 +20,7 @@
 //! | 164 | units | [`Units`] |
 //! | 15, 2411 | nodes, in six digits or in all | [`Nodes`] |
 //! | 82 | a line through nodes | [`TraceLine`] |
-//! | 55 | data at nodes: mode shapes | [`NodalData`] |
+//! | 55, 2414 | data at nodes: mode shapes; the newer form is read only | [`NodalData`] |
 //! | 58, 58b | functions at a node: frequency responses, records in time | [`Function`] |
 //!
 //! Other datasets are skipped on reading, and noted. A file whose dataset 164 names other units
@@ -45,7 +45,8 @@ mod read_function;
 mod read;
 mod write;
 
-pub use read::{parse, read};
+pub use lines::at_line;
+pub use read::{parse, parse_in, read};
 pub use stamp::Stamp;
 pub use units::Units;
 pub use write::write;
@@ -58,6 +59,8 @@ pub type Complex = [f64; 2];
 pub struct Universal {
     /// Datasets, in the order of the file.
     pub datasets: Vec<Dataset>,
+    /// The line of each dataset's number in the file, from 1.
+    pub lines: Vec<usize>,
     /// Datasets that this module does not know.
     pub skipped: Vec<Skipped>,
     /// The units the file was written in, if they were not SI.
@@ -84,7 +87,7 @@ pub enum Dataset {
     Nodes(Nodes),
     /// 82.
     TraceLine(TraceLine),
-    /// 55.
+    /// 55, or 2414 with data at nodes.
     NodalData(NodalData),
     /// 58.
     Function(Box<Function>),

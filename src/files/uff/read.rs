@@ -32,9 +32,23 @@ pub fn read(path: &Path) -> Result<Universal> {
 /// [`Error::Input`] with line and column of text in place of a number, of a dataset that
 /// ends too early, and of anything outside a dataset.
 pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
+    parse_in(file, bytes, None)
+}
+
+/// As [`parse`], of a file that names no units itself and is in these.
+///
+/// # Errors
+///
+/// Those of [`parse`]; [`Error::Input`] for a dataset 164 where units are given.
+pub fn parse_in(file: &str, bytes: &[u8], given: Option<&Units>) -> Result<Universal> {
     let mut lines = Lines::new(file, bytes);
-    let mut read = Universal { datasets: Vec::new(), skipped: Vec::new(), converted_from: None };
-    let mut units = Units::si();
+    let mut read = Universal {
+        datasets: Vec::new(),
+        lines: Vec::new(),
+        skipped: Vec::new(),
+        converted_from: given.filter(|units| !units.are_si()).cloned(),
+    };
+    let mut units = given.cloned().unwrap_or_else(Units::si);
     while let Some(fence) = lines.next() {
         if fence.is_blank() {
             continue;
@@ -45,12 +59,17 @@ pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
         let head = lines.record("the number of a dataset")?;
         let (number, binary) = numbered(head)?;
         match dataset(number, binary.as_ref(), &mut lines)? {
+            Some(Dataset::Units(_)) if given.is_some() => {
+                let expected = "no unit given beside it: the file names its own";
+                return Err(head.wrong("units in dataset 164", expected));
+            }
             Some(Dataset::Units(found)) => {
                 if !found.are_si() {
                     read.converted_from = Some(found.clone());
                 }
                 let si = if found.are_si() { found.clone() } else { Units::si() };
                 read.datasets.push(Dataset::Units(si));
+                read.lines.push(head.number);
                 units = found;
             }
             Some(mut dataset) => {
@@ -61,6 +80,7 @@ pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
                     ));
                 }
                 read.datasets.push(dataset);
+                read.lines.push(head.number);
             }
             None => read.skipped.push(Skipped { number, line: head.number }),
         }
@@ -106,6 +126,10 @@ fn dataset(number: i64, binary: Option<&Binary>, lines: &mut Lines) -> Result<Op
         151 => Dataset::Header(header(lines)),
         164 => Dataset::Units(units(lines)?),
         2411 => Dataset::Nodes(nodes_2411(lines)?),
+        2414 => match analysis_data(lines)? {
+            Some(data) => Dataset::NodalData(data),
+            None => return Ok(None),
+        },
         _ => {
             while body(lines).is_some() {}
             return Ok(None);
@@ -254,10 +278,100 @@ fn nodal_data(lines: &mut Lines) -> Result<NodalData> {
         5 => true,
         other => return Err(form.wrong(format!("data type {other}"), "2 (real) or 5 (complex)")),
     };
-    let per_node = usize::try_from(per_node).ok().filter(|n| (1..=1000).contains(n));
-    let per_node = per_node
-        .ok_or_else(|| form.wrong(format!("{} values per node", integers[5]), "1 to 1000"))?;
+    let per_node = values_per_node(form, per_node)?;
     let analysis = analysis(lines, kind)?;
+    let values = values_at_nodes(lines, (per_node, complex))?;
+    Ok(NodalData { ids, model, analysis, characteristic, quantity, complex, per_node, values })
+}
+
+/// Dataset 2414, the newer form of 55; None where its data are on elements, not at nodes.
+///
+/// # Source
+///
+/// Universal dataset 2414, "Analysis Data", of SDRC I-DEAS as the University of Cincinnati's Structural
+/// Dynamics Research Laboratory keeps it (ceas3.uc.edu/sdrluff).
+fn analysis_data(lines: &mut Lines) -> Result<Option<NodalData>> {
+    lines.record("a label of the dataset")?;
+    lines.name("the name of the dataset")?;
+    let expected = "a location of the data: 1 (at nodes), 2, 3 or 5";
+    let location = lines.record(expected)?.integer(0, 10, expected)?;
+    if location != 1 {
+        while body(lines).is_some() {}
+        return Ok(None);
+    }
+    let ids = lines.ids()?;
+    let expected = "model, analysis, characteristic, kind of result, data type, count of values";
+    let form = lines.record(expected)?;
+    let integers = form.integers(&INTEGERS[..6], expected)?;
+    let [model, kind, characteristic, quantity, data_type, per_node] = integers[..] else {
+        return Err(form.wrong(format!("{} numbers", integers.len()), expected));
+    };
+    let complex = match data_type {
+        1 | 2 | 4 => false,
+        5 | 6 => true,
+        other => return Err(form.wrong(format!("data type {other}"), "1, 2, 4, 5 or 6")),
+    };
+    let per_node = values_per_node(form, per_node)?;
+    let expected = "eight integers of the analysis";
+    let mut whole = lines.record(expected)?.integers(&INTEGERS, expected)?;
+    whole.resize(8, 0);
+    let expected = "the creation option and the number retained";
+    lines.record(expected)?.integers(&INTEGERS, expected)?;
+    let figures = |lines: &mut Lines| -> Result<Vec<f64>> {
+        let expected = "six figures of the analysis";
+        let mut values =
+            lines.record(expected)?.numbers(&SINGLES, super::number::real, expected)?;
+        values.resize(6, 0.0);
+        Ok(values)
+    };
+    let (r, s) = (figures(lines)?, figures(lines)?);
+    // Design set, iteration, solution set, boundary condition, load set, mode, time step, frequency;
+    // time, frequency, eigenvalue, modal mass, viscous, hysteretic; eigenvalue, modal A, modal B.
+    let (load_case, mode) = (whole[4], whole[5]);
+    let analysis = match kind {
+        2 => Analysis::NormalMode {
+            load_case,
+            mode,
+            frequency: r[1],
+            modal_mass: r[3],
+            viscous: r[4],
+            hysteretic: r[5],
+        },
+        3 | 7 => Analysis::ComplexMode {
+            second_order: kind == 7,
+            load_case,
+            mode,
+            eigenvalue: [s[0], s[1]],
+            modal_a: [s[2], s[3]],
+            modal_b: [s[4], s[5]],
+        },
+        5 => Analysis::FrequencyResponse { load_case, step: whole[7], frequency: r[1] },
+        _ => Analysis::Other { kind, integers: whole, reals: [r, s].concat() },
+    };
+    let values = values_at_nodes(lines, (per_node, complex))?;
+    Ok(Some(NodalData {
+        ids,
+        model,
+        analysis,
+        characteristic,
+        quantity,
+        complex,
+        per_node,
+        values,
+    }))
+}
+
+/// Numbers per node, as a form says.
+fn values_per_node(form: Line, count: i64) -> Result<usize> {
+    let per_node = usize::try_from(count).ok().filter(|n| (1..=1000).contains(n));
+    per_node.ok_or_else(|| form.wrong(format!("{count} values per node"), "1 to 1000"))
+}
+
+/// A label and its values, node by node, to the end of the dataset.
+fn values_at_nodes(
+    lines: &mut Lines,
+    (per_node, complex): (usize, bool),
+) -> Result<Vec<(i64, Vec<Complex>)>> {
     let mut values = Vec::new();
     while let Some(line) = entry(lines) {
         let label = line.integers(&INTEGERS[..1], "the label of a node")?;
@@ -269,7 +383,7 @@ fn nodal_data(lines: &mut Lines) -> Result<NodalData> {
         let pair = |part: &[f64]| -> Complex { [part[0], part.get(1).copied().unwrap_or(0.0)] };
         values.push((label, numbers.chunks(parts).map(pair).collect()));
     }
-    Ok(NodalData { ids, model, analysis, characteristic, quantity, complex, per_node, values })
+    Ok(values)
 }
 
 /// Records 7 and 8 of dataset 55.

@@ -35,6 +35,15 @@ impl Units {
         }
     }
 
+    /// A length in that many metres, with the newton, or with the pound-force for inches and feet.
+    pub fn of_length(metre: f64, description: &str) -> Self {
+        const POUND_FORCE: f64 = 4.448_221_615_260_5;
+        let us = [0.0254, 0.3048].contains(&metre);
+        let force = if us { 1.0 / POUND_FORCE } else { 1.0 };
+        let description = description.to_owned();
+        Self { code: 9, description, length: 1.0 / metre, force, ..Self::si() }
+    }
+
     /// Whether nothing need be converted.
     pub fn are_si(&self) -> bool {
         self.length == 1.0 && self.force == 1.0

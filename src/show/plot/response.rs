@@ -15,7 +15,7 @@ use crate::show::plot::theme::SERIES;
 use crate::show::report::frf::{phase, unit};
 
 /// Heights of size and phase, and between them (px).
-const DIAGRAMS: [f64; 2] = [230.0, 110.0];
+const DIAGRAMS: [f64; 2] = [230.0, 150.0];
 const BETWEEN: f64 = 18.0;
 /// What is less than that share of the largest is not drawn: an antiresonance may be 0.
 const LEAST: f64 = 1e-8;
@@ -37,34 +37,34 @@ pub struct Subject<'a> {
     pub values: &'a [(f64, c64)],
     /// Its peaks.
     pub peaks: &'a [Peak],
+    /// Measured answers to lay over it, likewise; empty without.
+    pub measured: &'a [(f64, c64)],
 }
 
 /// Size and phase against frequency; picture `response`. None without two frequencies.
 pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
-    let Subject { bat, kind, at, to, values, peaks } = *subject;
+    let Subject { bat, kind, at, to, values, peaks, measured } = *subject;
     let (low, high) = (values.first()?.0, values.last()?.0);
     if low >= high {
         return None;
     }
-    let sizes = || values.iter().map(|(_, value)| value.norm());
+    let sizes = || values.iter().chain(measured).map(|(_, value)| value.norm());
     let most = sizes().filter(|size| size.is_finite()).fold(0.0, f64::max);
     if most <= 0.0 {
         return None;
     }
-    let every = values.len().div_ceil(DRAWN);
-    let kept = || values.iter().step_by(every);
-    let points = kept().map(|(f, value)| Some([*f, value.norm()])).collect();
-    let size = Series::curve("computed", 0, points).pen(Pen::new(SERIES[0], 1.7));
-    let size = size.units("Hz", unit(kind));
+    let size = curve("computed", 0, sized(values)).units("Hz", unit(kind));
+    let other = curve("measured", 1, sized(measured)).units("Hz", unit(kind));
     let tops = peaks.iter().filter_map(|peak| Some(Some([peak.frequency, peak.height?])));
-    let tops = Series::curve("peaks", 1, tops.collect()).units("Hz", unit(kind));
+    let tops = Series::curve("peaks", 2, tops.collect()).units("Hz", unit(kind));
     let tops = Series { joined: false, mark: Some(MARKS[0]), ..tops };
     let title = format!("{} over frequency", capital(kind.name()));
     let [forced, watched] = [at, to].map(|x| along(sheet, x));
     let facts = format!("force at {forced}, answer at {watched} from the knob end");
     let mut svg = Svg::on(sheet);
     head(&mut svg, &title, [bat, &facts]);
-    let named: Vec<&Series> = [&size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
+    let named: Vec<&Series> =
+        [&other, &size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
     let top = legend(&mut svg, &named) + 14.0;
     let first = Frame::across(sheet, [top, top + DIAGRAMS[0]]);
     let below = first.bottom + BETWEEN;
@@ -80,10 +80,12 @@ pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
     let turn = Axis::new("phase (deg)", [-180.0, 180.0]);
     let plane = Plane { frame: second, x, y: turn };
     plane.draw(&mut svg);
-    let turns = unbroken(kept().map(|(f, value)| [*f, phase(value.re, value.im)]));
-    let turns = Series::curve("phase", 0, turns).pen(Pen::new(SERIES[0], 1.7)).units("Hz", "deg");
-    turns.draw(&mut svg, &plane);
-    hover(&mut svg, &plane, &[&turns]);
+    let turns = curve("phase, computed", 0, turned(values)).units("Hz", "deg");
+    let others = curve("phase, measured", 1, turned(measured)).units("Hz", "deg");
+    let named: Vec<&Series> =
+        [&others, &turns].into_iter().filter(|s| !s.points.is_empty()).collect();
+    named.iter().for_each(|series| series.draw(&mut svg, &plane));
+    hover(&mut svg, &plane, &named);
     plane.below(&mut svg);
     let told = peaks.iter().map(|peak| {
         let height = peak.height.map_or("without bound".into(), short);
@@ -93,6 +95,23 @@ pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
     let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
     let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
     Some(Picture::new("response", &title, &alt, svg))
+}
+
+fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Series {
+    Series::curve(name, k, points).pen(Pen::new(SERIES[k], 1.7 - 0.4 * k as f64))
+}
+
+/// As many of them as a picture shows.
+fn kept(values: &[(f64, c64)]) -> impl Iterator<Item = &(f64, c64)> {
+    values.iter().step_by(values.len().div_ceil(DRAWN).max(1))
+}
+
+fn sized(values: &[(f64, c64)]) -> Vec<Option<[f64; 2]>> {
+    kept(values).map(|(f, value)| Some([*f, value.norm()])).collect()
+}
+
+fn turned(values: &[(f64, c64)]) -> Vec<Option<[f64; 2]>> {
+    unbroken(kept(values).map(|(f, value)| [*f, phase(value.re, value.im)]))
 }
 
 /// Points with a gap where the phase turns from one end to the other.

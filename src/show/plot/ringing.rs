@@ -8,15 +8,16 @@ use crate::show::plot::place::{along, axes};
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, hover, legend, short};
 use crate::show::plot::sheet::{Sheet, Unit};
-use crate::show::plot::svg::{Pen, Svg};
+use crate::show::plot::svg::{MARKS, Pen, Svg};
 use crate::show::plot::theme::{FRAME, SERIES};
 
 /// Heights of a diagram of motion and of one that is alone (px), and between two.
 const MOTION: f64 = 130.0;
 const ALONE: f64 = 250.0;
 const BETWEEN: f64 = 18.0;
-/// Instants of a curve.
+/// Instants of a curve, and at most of all.
 const INSTANTS: usize = 900;
+const IN_ALL: usize = 3600;
 /// Curves in one picture: more are not told apart.
 const MOST: usize = 6;
 
@@ -58,10 +59,11 @@ impl AfterHit<'_> {
         if self.until <= 0.0 || self.watched.is_empty() {
             return None;
         }
-        let times: Vec<f64> =
-            (0..=INSTANTS).map(|k| self.until * k as f64 / INSTANTS as f64).collect();
+        let curves = self.watched.len().min(MOST) * if self.damped { 3 } else { 2 };
+        let last = INSTANTS.min(IN_ALL / curves);
+        let times: Vec<f64> = (0..=last).map(|k| self.until * k as f64 / last as f64).collect();
         let instants = self.after.at(&times);
-        let shaken = Unit { name: "m/s²", per: 1.0 };
+        let shaken = Unit { name: "km/s²", per: 1e-3 };
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
         let kinds = kinds.into_iter().chain(self.damped.then_some(("acceleration", shaken)));
         let kinds: Vec<(&str, Unit)> = kinds.collect();
@@ -131,13 +133,20 @@ impl AfterHit<'_> {
             Series::curve(&name, k, points).units("Hz", unit.name)
         };
         let curves: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();
+        // The ends of lines that lie on each other are told apart by their marks.
+        let ends = |(k, stems): (usize, &Series)| {
+            let points = stems.points.iter().skip(1).step_by(3).copied().collect();
+            Series { joined: false, mark: Some(MARKS[k % MARKS.len()]), points, ..stems.clone() }
+        };
+        let ends: Vec<Series> = curves.iter().enumerate().map(ends).collect();
         let title = "Spectrum when the ball has left";
         let facts = format!("{}; velocity of every mode", self.facts(sheet));
-        let (mut svg, frame) = alone(sheet, title, [self.bat, &facts], &curves);
+        let (mut svg, frame) = alone(sheet, title, [self.bat, &facts], &ends);
         let values = [0.0, unit.per * largest].into_iter();
         let y = Axis::around("velocity", values, ticks_up(ALONE)).counted_in(unit);
         let plane = Plane { frame, x: Axis::new("frequency (Hz)", [0.0, 1.05 * end]), y };
         drawn(&mut svg, &plane, &curves);
+        ends.iter().for_each(|ends| ends.draw(&mut svg, &plane));
         let told = lines().filter(|line| line.amplitude[1] >= 0.1 * largest).map(|line| {
             format!(
                 "{} Hz {} {}",

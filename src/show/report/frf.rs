@@ -5,12 +5,15 @@ use std::fmt::Write;
 use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
-use crate::files::schema::frf::{Answer, FrfFile, Height, PeakLine};
+use crate::files::schema::frf::{
+    Answer, FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine,
+};
 use crate::motion::frf::{Frf, Kind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::text::{Units, edited, wrapped};
+use crate::study::measured::response::{Laid, MeasuredResponse};
 
 /// A response that is told.
 pub struct Told<'a> {
@@ -28,6 +31,8 @@ pub struct Told<'a> {
     pub asked: &'a [f64],
     /// The peaks of the answer.
     pub peaks: &'a [Peak],
+    /// A measured response, laid over it.
+    pub measured: Option<(&'a MeasuredResponse, &'a Laid)>,
 }
 
 /// The `sweetspot-frf/1` document.
@@ -56,6 +61,7 @@ pub fn document(told: &Told) -> FrfFile {
             Kind::Accelerance => Answer::Accelerance { real, imaginary, truncation },
         },
         peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
+        measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
         frequencies_within: frf.solution.worst(),
     }
 }
@@ -75,6 +81,37 @@ pub fn line(kind: Kind, peak: &Peak) -> PeakLine {
         damping_ratio: peak.damping_ratio(),
         half_power_hz: peak.half_power,
     }
+}
+
+fn beside(kind: Kind, response: &MeasuredResponse, laid: &Laid) -> MeasuredAnswer {
+    let real = laid.measured.iter().map(|(_, value)| value.re).collect();
+    let imaginary = laid.measured.iter().map(|(_, value)| value.im).collect();
+    let pair = |(computed, measured): &(Peak, Option<Peak>)| PeakBeside {
+        computed: line(kind, computed),
+        measured: measured.as_ref().map(|peak| line(kind, peak)),
+        frequency_difference: measured.map(|m| computed.frequency / m.frequency - 1.0),
+        level_difference_db: measured.as_ref().and_then(|m| level(computed, m)),
+    };
+    MeasuredAnswer {
+        source: response.source.clone(),
+        assumed: response.assumed.clone(),
+        frequency_hz: laid.measured.iter().map(|(f, _)| *f).collect(),
+        answer: match kind {
+            Kind::Receptance => MeasuredValues::Receptance { real, imaginary },
+            Kind::Mobility => MeasuredValues::Mobility { real, imaginary },
+            Kind::Accelerance => MeasuredValues::Accelerance { real, imaginary },
+        },
+        frac: laid.frac,
+        mean_level_difference_db: laid.level,
+        mean_absolute_level_difference_db: laid.apart,
+        peaks: laid.peaks.iter().map(pair).collect(),
+    }
+}
+
+/// By how much a computed peak is higher than a measured one (dB).
+fn level(computed: &Peak, measured: &Peak) -> Option<f64> {
+    let level = 20.0 * (computed.height? / measured.height?).log10();
+    Some(level).filter(|level| level.is_finite())
 }
 
 /// A row for every frequency.
@@ -124,7 +161,7 @@ pub fn unit(kind: Kind) -> &'static str {
 
 /// The answer at the asked frequencies, the peaks, and what it was made of.
 pub fn text(told: &Told) -> String {
-    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks } = *told;
+    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks, measured } = *told;
     let name = kind.name();
     let title =
         format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
@@ -165,6 +202,57 @@ pub fn text(told: &Told) -> String {
         frf.solution.worst()
     );
     out += &wrapped(&made, 2);
+    if let Some((response, laid)) = measured {
+        out += &differences(response, laid);
+    }
+    out
+}
+
+/// What a measured response says of the computed one: peaks, and both as a whole.
+fn differences(response: &MeasuredResponse, laid: &Laid) -> String {
+    let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
+    let mut out = wrapped(&title, 4);
+    let columns = Columns::new([
+        numbers(6, "mode"),
+        numbers(14, "computed, Hz"),
+        numbers(14, "measured, Hz"),
+        numbers(10, "apart, %"),
+        numbers(12, "higher, dB"),
+        numbers(11, "damping, %"),
+        numbers(11, "measured"),
+    ]);
+    out += &columns.heads();
+    let percent = |peak: &Peak| match peak.damping_ratio() {
+        Some(ratio) => format!("{:.3}", 100.0 * ratio),
+        None => "-".to_owned(),
+    };
+    for (computed, measured) in &laid.peaks {
+        let none = || "-".to_owned();
+        let of = |text: &dyn Fn(&Peak) -> String| measured.as_ref().map_or_else(none, text);
+        let apart = |m: &Peak| format!("{:+.2}", 100.0 * (computed.frequency / m.frequency - 1.0));
+        let higher = |m: &Peak| level(computed, m).map_or_else(none, |db| format!("{db:+.1}"));
+        let cells = [
+            computed.mode.to_string(),
+            format!("{:.2}", computed.frequency),
+            of(&|m| format!("{:.2}", m.frequency)),
+            of(&apart),
+            of(&higher),
+            percent(computed),
+            of(&percent),
+        ];
+        out += &columns.row(cells);
+    }
+    let Laid { frac, level, apart, .. } = laid;
+    let side = if *level < 0.0 { "below" } else { "above" };
+    let whole = format!(
+        "  FRAC {frac:.3}; on average the computed response is {:.1} dB {side} the measured one, and \
+         {apart:.1} dB from it",
+        level.abs()
+    );
+    out += &wrapped(&whole, 2);
+    for assumed in &response.assumed {
+        out += &wrapped(&format!("  {assumed}"), 2);
+    }
     out
 }
 

@@ -1,0 +1,361 @@
+//! A frequency response with its peaks, alone and beside a measured one.
+
+mod common;
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use common::diagnostic::in_lines;
+use common::folder::Folder;
+use faer::c64;
+use serde_json::Value;
+use sweetspot::files::measured::{response, universal};
+use sweetspot::files::uff::{Dataset, parse, parse_in};
+use sweetspot::motion::frf::Kind;
+
+/// A dowel with a loss factor of 2 %, so that every mode has a damping ratio of 1 %.
+const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.02] },
+    "material": { "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9, "loss_factor": 0.02 } }"#;
+
+fn list(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn the_grid_has_every_natural_frequency_and_the_peaks_their_damping() {
+    let folder = Folder::new("frf-peaks");
+    folder.write("bat.json", LOSSY);
+    let ask = ["frf", "bat.json", "--at", "0.8", "--points", "3", "-n", "4", "--json", "-"];
+    let json = folder.json(&ask);
+    let modes = folder.json(&["modes", "bat.json", "-n", "4", "--tol", "1e-8", "--json", "-"]);
+    let grid = list(&json["frequency_hz"]);
+    assert!(grid.windows(2).all(|pair| pair[0] < pair[1]));
+    let [real, imaginary] = ["real_m_per_n", "imaginary_m_per_n"].map(|part| list(&json[part]));
+    let peaks = json["peaks"].as_array().unwrap();
+    assert_eq!(peaks.len(), 4);
+    for (peak, mode) in peaks.iter().zip(modes["modes"].as_array().unwrap()) {
+        let natural = mode["frequency_hz"].as_f64().unwrap();
+        assert!(grid.iter().any(|f| (f / natural - 1.0).abs() < 1e-6), "{natural}");
+        // Half of the loss factor, but for what the other modes add.
+        let ratio = peak["damping_ratio"].as_f64().unwrap();
+        assert!((ratio / 0.01 - 1.0).abs() < 0.02, "{peak}");
+        // No sample near it is higher, and the highest is within 1 %.
+        let height = peak["magnitude_m_per_n"].as_f64().unwrap();
+        let near = (0..grid.len()).filter(|k| (grid[*k] / natural - 1.0).abs() < 0.05);
+        let largest = near.map(|k| real[k].hypot(imaginary[k])).fold(0.0, f64::max);
+        assert!(largest <= height * (1.0 + 1e-9) && largest > 0.99 * height, "{peak}");
+        // A single mode at its resonance: φ²/(m ω² η).
+        let mass = mode["modal_mass_kg"].as_f64().unwrap();
+        let shape = list(&mode["shape"]["deflection"]);
+        let tip = shape[shape.len() - 1];
+        let alone = tip * tip / (mass * (TAU * natural).powi(2) * 0.02);
+        assert!((height / alone - 1.0).abs() < 0.05, "{peak}: {alone}");
+    }
+    // Undamped, the peaks have no bound, and nothing is infinite.
+    let json = folder.json(&["frf", "dowel", "--at", "0.6", "-n", "2", "--json", "-"]);
+    for peak in json["peaks"].as_array().unwrap() {
+        assert!(peak["magnitude_m_per_n"].is_null() && peak["damping_ratio"].is_null());
+    }
+    assert!(list(&json["real_m_per_n"]).iter().all(|v| v.is_finite()));
+    let text = folder.text(&["frf", "dowel", "--at", "0.6", "-n", "2"]);
+    assert!(text.contains("no bound"), "{text}");
+}
+
+#[test]
+fn a_response_written_here_and_read_back_lies_on_itself() {
+    let folder = Folder::new("frf-back");
+    folder.write("bat.json", LOSSY);
+    for kind in ["receptance", "mobility", "accelerance"] {
+        let write = ["frf", "bat.json", "--at", "0.7", "--to", "0.1", "--to-hz", "1500", "--kind"];
+        let tap = format!("{kind}.uff");
+        folder.text(&[&write[..], &[kind, "--uff", &tap]].concat());
+        let plots = format!("{kind}-plots");
+        let ask = ["frf", "bat.json", "--measured", &tap, "--json", "-", "--plots", &plots];
+        let json = folder.json(&ask);
+        assert_eq!((json["at_m"].as_f64(), json["to_m"].as_f64()), (Some(0.7), Some(0.1)));
+        assert_eq!(json["kind"], kind);
+        let measured = &json["measured"];
+        assert!((measured["frac"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{measured}");
+        for mean in ["mean_level_difference_db", "mean_absolute_level_difference_db"] {
+            assert!(measured[mean].as_f64().unwrap().abs() < 1e-6, "{measured}");
+        }
+        let peaks = measured["peaks"].as_array().unwrap();
+        assert!(peaks.len() >= 2);
+        for pair in peaks {
+            // The points of the file are an eighth of the half-width or nearer.
+            let apart = pair["frequency_difference"].as_f64().unwrap();
+            assert!(apart.abs() < 0.01 / 8.0, "{pair}");
+            assert!(pair["level_difference_db"].as_f64().unwrap().abs() < 0.1, "{pair}");
+            let [a, b] = ["computed", "measured"].map(|one| pair[one]["damping_ratio"].as_f64());
+            assert!((a.unwrap() / b.unwrap() - 1.0).abs() < 0.05, "{pair}");
+        }
+        assert!(folder.read_names(&plots).contains(&"response.svg".to_owned()));
+    }
+    // In another kind it is the same response.
+    let other = ["frf", "bat.json", "--measured", "mobility.uff", "--kind", "receptance"];
+    let text = folder.text(&other);
+    assert!(text.contains("FRAC 1.000") && text.contains("and 0.0 dB from it"), "{text}");
+}
+
+/// Dataset 58 by its description: records 1 to 5 of text, 6 FORMAT(2(I5,I10),2(1X,10A1,I10,I4)), 7
+/// FORMAT(3I10,3E13.5), 8 to 11 FORMAT(I10,3I5,2(1X,20A1)), 12 complex, even, FORMAT(6E13.5).
+fn dataset_58(answer: (i64, &str), per: i64, [to, at]: [(i64, i64); 2], values: &[c64]) -> String {
+    let mut text = "    -1\n    58\n".to_owned() + &"NONE\n".repeat(5);
+    let dof = |(node, direction): (i64, i64)| format!(" NONE      {node:>10}{direction:>4}");
+    let _ = writeln!(text, "    4         1    1         0{}{}", dof(to), dof(at));
+    let count = values.len();
+    let _ = writeln!(text, "{:>10}{count:>10}{:>10}  1.00000E+02  1.00000E+01  0.00000E+00", 5, 1);
+    for (kind, label, unit) in [
+        (18, "Frequency", "Hz"),
+        (answer.0, "Answer", answer.1),
+        (per, "Force", "N"),
+        (0, "NONE", "NONE"),
+    ] {
+        let _ = writeln!(text, "{kind:>10}    0    0    0 {label:<20} {unit:<20}");
+    }
+    for row in values.chunks(3) {
+        let cells: Vec<String> =
+            row.iter().map(|v| format!("{:>13}{:>13}", fortran(v.re), fortran(v.im))).collect();
+        text += &(cells.concat() + "\n");
+    }
+    text + "    -1\n"
+}
+
+fn fortran(value: f64) -> String {
+    sweetspot::files::uff::number::scientific(value, 5, 'E')
+}
+
+/// Dataset 2411: label, systems and colour, FORMAT(4I10), then 1P3D25.16.
+fn dataset_2411(nodes: &[(i64, [f64; 3])]) -> String {
+    let mut text = "    -1\n  2411\n".to_owned();
+    for (label, at) in nodes {
+        let _ = writeln!(text, "{label:>10}{:>10}{:>10}{:>10}", 0, 0, 0);
+        let cells =
+            at.map(|x| format!("{:>25}", sweetspot::files::uff::number::scientific(x, 16, 'D')));
+        text += &(cells.concat() + "\n");
+    }
+    text + "    -1\n"
+}
+
+fn five() -> Vec<c64> {
+    (1..=5).map(|k| c64::new(1000.0 * f64::from(k), -20.0)).collect()
+}
+
+#[test]
+fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions() {
+    let folder = Folder::new("frf-spec");
+    let path = folder.0.join("tap.uff");
+    let nodes = dataset_2411(&[(11, [0.0, 0.0, 100.0]), (12, [0.0, 0.0, 700.0])]);
+    let read = |text: &str, unit: Option<&str>| {
+        std::fs::write(&path, text).unwrap();
+        let units = unit.map(|unit| {
+            let metre = if unit == "mm" { 1e-3 } else { 0.0254 };
+            sweetspot::files::uff::Units::of_length(metre, unit)
+        });
+        response::read(&path, None, units.as_ref()).unwrap()
+    };
+    // Accelerations in mm/s² per N, the answer against y.
+    let text = nodes.clone() + &dataset_58((12, "mm/s^2"), 13, [(12, -2), (11, 2)], &five());
+    let found = read(&text, Some("mm"));
+    assert_eq!((found.kind, found.at, found.to), (Kind::Accelerance, Some(0.1), Some(0.7)));
+    assert_eq!(found.values.len(), 5);
+    let (f, first) = found.values[0];
+    assert!(f == 100.0 && (first - c64::new(-1.0, 0.02)).norm() < 1e-12, "{first}");
+    assert_eq!(found.values[4].0, 140.0);
+    // Inches go with the pound-force: 1 in/s per lbf is 0.0254/4.448… m/s per N.
+    let text = dataset_58((11, "in/s"), 13, [(12, 2), (11, 2)], &five());
+    let found = read(&text, Some("in"));
+    assert_eq!((found.kind, found.at), (Kind::Mobility, None));
+    let factor = 0.0254 / 4.448_221_615_260_5;
+    assert!((found.values[0].1.re / (1000.0 * factor) - 1.0).abs() < 1e-12);
+    // What an axis calls g is one, where no units are named.
+    let found = read(&dataset_58((12, "g"), 13, [(12, 3), (11, 3)], &five()), None);
+    assert!((found.values[0].1.re / 9806.65 - 1.0).abs() < 1e-12);
+    assert!(found.assumed.iter().any(|said| said.contains("taken in g")), "{:?}", found.assumed);
+    // A file that names its units is not to be given others.
+    let own = "    -1\n   164\n         5mm                            2\n  1.00000000000000000D+03  \
+               1.00000000000000000D+00  1.00000000000000000D+00\n  2.73149999999999980D+02\n    -1\n";
+    let text = own.to_owned() + &dataset_58((8, "mm"), 13, [(1, 2), (1, 2)], &five());
+    assert_eq!(read(&text, None).values[1].1, c64::new(2.0, -0.02));
+    let metre = sweetspot::files::uff::Units::of_length(1e-3, "mm");
+    let error = parse_in("tap.uff", text.as_bytes(), Some(&metre)).unwrap_err().to_string();
+    assert!(error.starts_with("tap.uff:2:") && error.contains("dataset 164"), "{error}");
+}
+
+#[test]
+fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
+    let folder = Folder::new("frf-wrong");
+    folder.write("bat.json", LOSSY);
+    let along = [(2, 2), (1, 2)];
+    let cases: [(String, &[&str], &[&str]); 7] = [
+        (
+            dataset_58((12, "m/s2"), 13, [(2, 2), (1, 3)], &five()),
+            &["--at", "0.7"],
+            &["tap.uff:8:", "node 1 z", "along one direction"],
+        ),
+        (dataset_58((5, "K"), 13, along, &five()), &["--at", "0.7"], &["tap.uff:11:", "kind 5"]),
+        (
+            dataset_58((12, "m/s2"), 8, along, &five()),
+            &["--at", "0.7"],
+            &["tap.uff:12:", "13 (exc"],
+        ),
+        (dataset_58((12, "m/s2"), 13, along, &five()), &[], &["no place of the force", "2411"]),
+        (
+            dataset_58((12, "m/s2"), 13, along, &five()).repeat(2),
+            &["--at", "0.7"],
+            &["2 frequency responses", "1: from node 1 y to node 2 y", "--function 1 to 2"],
+        ),
+        (
+            dataset_58((12, "m/s2"), 13, along, &five()),
+            &["--at", "0.7", "--function", "3"],
+            &["--function: found 3", "1 to 1"],
+        ),
+        ("    -1\n   164\n".to_owned(), &["--at", "0.7"], &["tap.uff:3:"]),
+    ];
+    for (text, more, told) in cases {
+        folder.write("tap.uff", &text);
+        let args = [&["frf", "bat.json", "--measured", "tap.uff"], more].concat();
+        let output = folder.run(&args);
+        let error = in_lines(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        told.iter().for_each(|words| assert!(error.contains(words), "{words}: {error}"));
+    }
+    // Which of two is asked for by its number.
+    let two = dataset_58((12, "m/s2"), 13, along, &five()).repeat(2);
+    folder.write("tap.uff", two);
+    folder.text(&["frf", "bat.json", "--measured", "tap.uff", "--function", "2", "--at", "0.7"]);
+}
+
+/// Dataset 2414 by its description, records 1 to 15, and dataset 55 of the same mode.
+#[test]
+fn the_newer_form_of_shapes_is_read_as_the_older_one() {
+    let figures = |values: &[f64]| {
+        values.iter().map(|v| format!("{:>13}", fortran(*v))).collect::<String>() + "\n"
+    };
+    let ids = "NONE\n".repeat(5);
+    let shape = |k: i64| figures(&[0.0, f64::from(k as i32) - 2.5, 0.0]);
+    let nodes: String = (1..=4).map(|k| format!("{k:>10}\n{}", shape(k))).collect();
+    let newer = format!(
+        "    -1\n  2414\n         1\nMode 3\n         1\n{ids}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n\
+         {:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n{:>10}{:>10}\n{}{}{nodes}    -1\n",
+        1,
+        2,
+        2,
+        8,
+        2,
+        3,
+        0,
+        0,
+        1,
+        0,
+        1,
+        3,
+        0,
+        0,
+        0,
+        0,
+        figures(&[0.0, 581.2, 0.0, 0.25, 0.004, 0.0]),
+        figures(&[0.0; 6]),
+    );
+    let older = format!(
+        "    -1\n    55\n{ids}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n{:>10}{:>10}{:>10}{:>10}\n{}{nodes}    -1\n",
+        1,
+        2,
+        2,
+        8,
+        2,
+        3,
+        2,
+        4,
+        1,
+        3,
+        figures(&[581.2, 0.25, 0.004, 0.0]),
+    );
+    let [newer, older] = [newer, older].map(|text| {
+        let places: Vec<(i64, [f64; 3])> =
+            (1..=4).map(|k| (k, [0.2 * f64::from(k as i32), 0.0, 0.0])).collect();
+        parse("m.uff", (dataset_2411(&places) + &text).as_bytes()).unwrap()
+    });
+    assert!(matches!(&newer.datasets[1], Dataset::NodalData(_)), "{newer:?}");
+    assert_eq!(newer.datasets, older.datasets);
+    assert_eq!(newer.lines, [2, 13]);
+    let modes = universal::of(&newer, "m.uff").unwrap().modes;
+    assert_eq!((modes.len(), modes[0].frequency), (1, 581.2));
+    assert_eq!(modes[0].damping_ratio, Some(0.004));
+    // Data on elements are not shapes, and are left out.
+    let text = "    -1\n  2414\n         1\nNONE\n         2\nNONE\n    -1\n";
+    let skipped = parse("m.uff", text.as_bytes()).unwrap().skipped;
+    assert_eq!(skipped.iter().map(|s| (s.number, s.line)).collect::<Vec<_>>(), [(2414, 2)]);
+    // A record that is missing is told with its line.
+    let text = "    -1\n  2414\n         1\nNONE\n         1\n    -1\n";
+    let error = parse("m.uff", text.as_bytes()).unwrap_err().to_string();
+    assert!(error.starts_with("m.uff:6:"), "{error}");
+}
+
+/// A file of shapes alone, its places typed or in a table, is the file with those nodes; and one
+/// without units, in those that are told, is the one in metres.
+#[test]
+fn shapes_without_geometry_or_units_are_placed_by_what_is_told() {
+    let folder = Folder::new("frf-places");
+    folder.text(&["modes", "dowel", "-n", "3", "--shape-points", "7", "--json", "m.json"]);
+    folder.text(&["convert", "m.json", "--to", "uff", "--out", "m.uff"]);
+    let whole = folder.read("m.uff");
+    let parts: Vec<&str> = whole.split("    -1\n").filter(|part| !part.is_empty()).collect();
+    let only = |numbers: &[&str]| -> String {
+        let kept =
+            parts.iter().filter(|part| numbers.contains(&part.lines().next().unwrap().trim()));
+        kept.map(|part| format!("    -1\n{part}    -1\n")).collect()
+    };
+    folder.write("bare.uff", only(&["55"]));
+    let nodes: Vec<f64> =
+        match parse("m.uff", whole.as_bytes()).unwrap().datasets.iter().find_map(|dataset| {
+            match dataset {
+                Dataset::Nodes(nodes) => Some(nodes.nodes.iter().map(|node| node.at[0]).collect()),
+                _ => None,
+            }
+        }) {
+            Some(nodes) => nodes,
+            None => panic!("no nodes"),
+        };
+    let typed: Vec<String> = (1..).zip(&nodes).map(|(k, x)| format!("{k}={x} m")).collect();
+    let rows: String = (1..).zip(&nodes).map(|(k, x)| format!("{k},{}\n", x * 1e3)).collect();
+    folder.write("places.csv", format!("node,x_mm\n{rows}"));
+    let beside = |file: &str, more: &[&str]| {
+        let ask = ["compare", "dowel", "--measured", file, "--json", "-"];
+        let mut json = folder.json(&[&ask[..], more].concat());
+        (json["pairs"].take(), json["shapes"]["mac"].take())
+    };
+    let plain = beside("m.uff", &[]);
+    let near = |(pairs, mac): (Value, Value)| {
+        assert_eq!(pairs.as_array().unwrap().len(), plain.0.as_array().unwrap().len());
+        for (a, b) in mac.as_array().unwrap().iter().zip(plain.1.as_array().unwrap()) {
+            for (a, b) in list(a).iter().zip(list(b)) {
+                assert!((a - b).abs() < 1e-5, "{a} {b}");
+            }
+        }
+    };
+    near(beside("bare.uff", &["--places", &typed.join(", ")]));
+    near(beside("bare.uff", &["--places", "places.csv"]));
+    // The same nodes in millimetres, and no word of it but by option.
+    let mut text = String::from("    -1\n    15\n");
+    for (k, x) in (1..).zip(&nodes) {
+        let at = [fortran(x * 1e3), fortran(0.0), fortran(0.0)];
+        let _ = writeln!(
+            text,
+            "{k:>10}{:>10}{:>10}{:>10}{:>13}{:>13}{:>13}",
+            0, 0, 0, at[0], at[1], at[2]
+        );
+    }
+    folder.write("mm.uff", text + "    -1\n" + &only(&["55"]));
+    near(beside("mm.uff", &["--unit", "mm"]));
+    for (more, told) in [
+        (&["--places", "1=0 in"][..], "not among the places"),
+        (&["--places", "1=0 kg"], "node 1"),
+        (&["--unit", "kg"], "kg"),
+    ] {
+        let ask = ["compare", "dowel", "--measured", "bare.uff"];
+        let output = folder.run(&[&ask[..], more].concat());
+        let error = in_lines(&output.stderr);
+        assert!(output.status.code() == Some(2) && error.contains(told), "{error}");
+    }
+}
