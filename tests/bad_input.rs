@@ -23,7 +23,7 @@ impl Folder {
         };
         let (each, summary) = diagnostics(&told);
         let again = again.map(|line| serde_json::from_str::<Value>(line).unwrap());
-        let asked = args.iter().any(|arg| *arg == "--json");
+        let asked = args.contains(&"--json");
         let lines: Vec<String> = each.iter().map(Diagnostic::one_line).collect();
         let message = lines.join("\n");
         let missing: Vec<_> = says.iter().filter(|words| !message.contains(**words)).collect();

@@ -349,11 +349,11 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
         let real = list(&document[format!("real_{unit}")]);
         let imaginary = list(&document[format!("imaginary_{unit}")]);
         assert!(values.len() == frequencies.len() || kind == "accelerance");
-        for k in 0..values.len() {
+        for (k, value) in values.iter().enumerate() {
             // In equal steps the file has no room for what shows the peaks besides.
             let at = function.abscissa.at(k);
             let j = frequencies.iter().position(|f| *f == at).unwrap();
-            for (found, truth) in [(values[k][0], real[j]), (values[k][1], imaginary[j])] {
+            for (found, truth) in [(value[0], real[j]), (value[1], imaginary[j])] {
                 assert!((found - truth).abs() <= 0.5001e-12 * truth.abs());
             }
         }

@@ -8,6 +8,7 @@
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
+//! | [`many`] | which bats does a study vary |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
@@ -18,3 +19,4 @@ pub mod spread;
 pub mod advise;
 pub mod comparison;
 pub mod measured;
+pub mod many;

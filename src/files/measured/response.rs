@@ -1,5 +1,6 @@
 //! A measured frequency response from a universal file: dataset 58, its places from the nodes.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -158,7 +159,9 @@ fn values(
         (function.abscissa.at(k), c64::new(factor * re, factor * im))
     };
     let all: Vec<(f64, c64)> = values.iter().enumerate().map(at).collect();
-    if let Some(pair) = all.windows(2).find(|pair| !(pair[0].0 < pair[1].0)) {
+    if let Some(pair) =
+        all.windows(2).find(|pair| pair[0].0.partial_cmp(&pair[1].0) != Some(Ordering::Less))
+    {
         let found = format!("{} Hz after {} Hz", pair[1].0, pair[0].0);
         return Err(wrong(7, found, "frequencies that rise"));
     }
