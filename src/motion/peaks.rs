@@ -6,6 +6,8 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use crate::base::golden;
+
 /// A peak of a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
@@ -69,7 +71,7 @@ pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<P
     let top = |k: &usize| sizes[*k] > sizes[*k - 1] && sizes[*k] >= sizes[*k + 1];
     let tops = (1..grid.len().saturating_sub(1)).filter(top);
     let bounded = tops.filter_map(|k| {
-        let frequency = highest(size, [grid[k - 1], grid[k + 1]]);
+        let frequency = golden::least(grid[k - 1], grid[k + 1], |f| -size(f));
         let mode = nearest(frequency)?;
         let height = size(frequency);
         let half_power = half_power(size, frequency, grid[k + 1] - grid[k - 1]);
@@ -93,28 +95,6 @@ pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<P
     }
     peaks.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     peaks
-}
-
-/// Where a function with one maximum between two ends is largest, by the golden section.
-fn highest(size: &impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    /// Halves of the digits of a double: a maximum is flat.
-    const WITHIN: f64 = 1e-9;
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
-    let [mut a, mut b] = inner(low, high);
-    let [mut at_a, mut at_b] = [size(a), size(b)];
-    while high - low > WITHIN * high {
-        if at_a > at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = inner(low, high)[0];
-            at_a = size(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = inner(low, high)[1];
-            at_b = size(b);
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// Where the response has fallen to half the power on both sides of a peak (Hz), looked for from steps
