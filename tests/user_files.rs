@@ -47,8 +47,43 @@ fn no_output_takes_the_place_of_an_input_or_of_another_output() {
         assert!(told.contains(kept) && told.contains("another name"), "{args:?} {told}");
         assert_eq!(folder.read(kept), before, "{args:?}");
     }
-    let twice = folder.run(&["frf", "bat.json", "--at", "0.6", "--csv", "x", "--json", "x"]);
-    assert!(twice.status.code() == Some(2) && folder.read("x").starts_with("frequency_hz"));
+}
+
+/// Which of two documents was meant to have the name is nobody's guess: neither is written.
+#[test]
+fn two_outputs_of_one_name_are_refused_before_either_is_written() {
+    let folder = Folder::new("two");
+    folder.write("bat.json", BAT);
+    folder.write("columns.csv", "x_in,diameter_in\n0,1\n20,1\n33,2.5\n");
+    let rows: [&[&str]; 11] = [
+        &["modes", "bat.json", "--csv", "x", "--json", "x"],
+        &["hit", "bat.json", "--csv", "x", "--json", "./x"],
+        &["bbcor", "bat.json", "--csv", "x", "--json", "x"],
+        &["frf", "bat.json", "--at", "0.6", "--csv", "x", "--json", "x"],
+        &["frf", "bat.json", "--at", "0.6", "--csv", "x", "--uff", "x"],
+        &["ring", "bat.json", "--hit", "0.6", "--csv", "x", "--history", "x"],
+        &["ring", "bat.json", "--hit", "0.6", "--wav", "x", "--json", "x"],
+        &["trade", "bat.json", "--csv", "x", "--json", "x"],
+        &["compare", "bat.json", "bat.json", "--csv", "x", "--json", "x"],
+        &["compare", "bat.json", "bat.json", "--csv", "x.html", "--report", "x.html"],
+        &["analyze", "bat.json", "--report", "x.html", "--json", "x.html"],
+    ];
+    for args in rows {
+        let output = folder.run(args);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?} {told}");
+        assert!(told.contains("beside --") && told.contains("another name"), "{args:?} {told}");
+        assert!(!folder.0.join("x").exists() && !folder.0.join("x.html").exists(), "{args:?}");
+    }
+    for args in [
+        ["frf", "bat.json", "--at", "0.6", "--csv", "-", "--uff", "-"],
+        ["ring", "bat.json", "--hit", "0.6", "--csv", "-", "--history", "-"],
+    ] {
+        let output = folder.run(&args);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?} {told}");
+        assert!(told.contains("one of them on standard output"), "{args:?} {told}");
+    }
 }
 
 /// What stands in a pipe or goes to a device is no file.

@@ -110,6 +110,19 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     written.map_err(failed).inspect(|()| note(path))
 }
 
+/// Whether two names lead to one file, which need not be there yet; a device takes what comes.
+pub fn is_one(first: &Path, second: &Path) -> bool {
+    let target = |path: &Path| {
+        let target = end_of_links(path).ok()?;
+        let device = Descriptor::at(&target).is_some()
+            || fs::metadata(&target).is_ok_and(|is| !is.is_file() && !is.is_dir());
+        (!device).then_some(target)
+    };
+    let Some((first, second)) = target(first).zip(target(second)) else { return false };
+    let files = Identity::of(&first).zip(Identity::of(&second));
+    files.map_or(first == second, |(first, second)| first.is(&second))
+}
+
 fn refuse_kept(path: &Path) -> Result<()> {
     let Some(this) = Identity::of(path) else { return Ok(()) };
     if locked(&KEPT).iter().flatten().any(|kept| kept.is(&this)) {

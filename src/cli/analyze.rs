@@ -24,6 +24,7 @@ use crate::show::report::{advice, aftermath, hit_json, hit_text, trust};
 use crate::study::spread::Readings;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
+use crate::cli::delivered::apart;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::pictures;
@@ -115,6 +116,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     // A report that cannot be written is told before it is computed.
     args.report.as_deref().map(page::file::expected).transpose()?;
+    apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");

@@ -84,7 +84,7 @@ Examples:
       with a livelier ball, as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.refuse_two(&args.output.json)?;
+    args.csv.beside(&args.output.json)?;
     args.solve.refuse_budget("bbcor")?;
     let bat = args.bat.read(&args.output)?;
     let protocol = protocol(args, &bat)?;

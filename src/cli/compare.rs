@@ -16,6 +16,7 @@ use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
+use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::cli::pictures;
@@ -152,6 +153,8 @@ the columns are mode,frequency_hz,damping_ratio, a line for each mode.";
 const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {
+    let json = ("--json", &args.output.json);
+    apart(&[json, ("--csv", &args.csv), ("--report", &args.report)])?;
     args.solve.refuse_budget("compare")?;
     match &args.measured {
         Some(file) => measured_beside(args, file),
@@ -193,11 +196,6 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
 }
 
 fn bats_beside(args: &Args) -> Result<Done> {
-    let standard = Some(Path::new("-"));
-    if args.csv.as_deref() == standard && args.output.json.as_deref() == standard {
-        let expected = "one of them on standard output";
-        return Err(Error::value("--csv", "- beside --json -", expected));
-    }
     let count = args.bats.len() + args.edits.len();
     if !(2..=MOST).contains(&count) {
         let found = match count {
@@ -238,14 +236,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         true => comparison::text(&compared, args.output.units),
         false => comparison_screen::screen(&compared, args.output.units),
     };
-    let text = match &args.csv {
-        Some(path) if path.as_os_str() == "-" => comparison_data::csv(&compared),
-        Some(path) => {
-            file::write(path, comparison_data::csv(&compared).as_bytes())?;
-            table
-        }
-        None => table,
-    };
+    let text = put(&args.csv, table, || Ok(comparison_data::csv(&compared)))?;
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::error::Result;
 
-use crate::cli::delivered::{one_on_stdout, put};
+use crate::cli::delivered::{apart, put};
 
 #[derive(clap::Args)]
 pub struct CsvArgs {
@@ -14,9 +14,9 @@ pub struct CsvArgs {
 }
 
 impl CsvArgs {
-    /// Refuses CSV where JSON goes to standard output already.
-    pub fn refuse_two(&self, json: &Option<PathBuf>) -> Result<()> {
-        one_on_stdout(&[("--json", json), ("--csv", &self.csv)])
+    /// Refuses CSV where the JSON goes already.
+    pub fn beside(&self, json: &Option<PathBuf>) -> Result<()> {
+        apart(&[("--json", json), ("--csv", &self.csv)])
     }
 
     /// Writes the table where it was asked for; what goes to standard output then.

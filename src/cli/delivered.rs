@@ -1,29 +1,39 @@
 //! Where results go besides the table: files, and one of them to standard output.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
 
 /// Whether a file's name stands for standard output.
-pub fn to_stdout(path: &Option<PathBuf>) -> bool {
+fn to_stdout(path: &Option<PathBuf>) -> bool {
     path.as_ref().is_some_and(|path| path.as_os_str() == "-")
 }
 
-/// Standard output is for one document: of these options, at most one names it.
+/// Every document goes to a place of its own: of these options, no two name one file, or both
+/// standard output. To be asked before anything is computed or written.
 ///
 /// # Errors
 ///
 /// [`Error::Value`] about the second.
-pub fn one_on_stdout(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
-    let mut there = named.iter().filter(|(_, path)| to_stdout(path));
-    match (there.next(), there.next()) {
-        (Some((first, _)), Some((second, _))) => {
-            let found = format!("- beside {first} -");
-            Err(Error::value(*second, found, "one of them on standard output"))
-        }
-        _ => Ok(()),
+pub fn apart(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+    let named = named.iter().filter_map(|(option, path)| Some((*option, path.as_deref()?)));
+    let named: Vec<(&str, &Path)> = named.collect();
+    for (k, (second, path)) in named.iter().enumerate() {
+        let stdout = path.as_os_str() == "-";
+        let alike = |(_, other): &&(&str, &Path)| match stdout {
+            true => other == path,
+            false => file::is_one(other, path),
+        };
+        let Some((first, other)) = named[..k].iter().find(alike) else { continue };
+        let found = format!("{} beside {first} {}", path.display(), other.display());
+        let expected = match stdout {
+            true => "one of them on standard output",
+            false => "another name for one of them",
+        };
+        return Err(Error::value(*second, found, expected));
     }
+    Ok(())
 }
 
 /// Writes a text to its file; what takes the place of `table` if that is standard output.

@@ -14,7 +14,7 @@ use crate::show::report::frf::{self as report, Told};
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
-use crate::cli::delivered::{one_on_stdout, put};
+use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
 use crate::cli::frf_grid::GridArgs;
 use crate::cli::pictures;
@@ -112,7 +112,7 @@ Examples:
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
     let files = [("--json", &args.output.json), ("--csv", &args.csv), ("--uff", &args.uff)];
-    one_on_stdout(&files)?;
+    apart(&files)?;
     let bat = args.bat.read(&args.output)?;
     let measured = args.measured.as_ref();
     let measured = measured.map(|path| response::read(path, args.function, args.unit.as_ref()));

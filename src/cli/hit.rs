@@ -124,7 +124,7 @@ impl PlaceArgs {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.refuse_two(&args.output.json)?;
+    args.csv.beside(&args.output.json)?;
     let bat = args.bat.read(&args.output)?;
     let model = args.scene.model()?;
     args.solve.refuse_budget("hit")?;

@@ -69,7 +69,7 @@ Examples:
       the best that two milliseconds give";
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.refuse_two(&args.output.json)?;
+    args.csv.beside(&args.output.json)?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve(&args.solve, &args.output)?;
     drop(progress);

@@ -42,7 +42,8 @@ pub struct Args {
           value_parser = |s: &str| RINGING_TIME.read(s))]
     pub until: Option<f64>,
 
-    /// Write force, motion and strain at the watched places to this CSV file
+    /// Write force, motion and strain at the watched places to this CSV file (- = standard output, and no
+    /// table then)
     #[arg(long, value_name = "FILE", help_heading = "Output", requires = "hit")]
     pub history: Option<PathBuf>,
 

@@ -1,7 +1,6 @@
 //! `ring --hit`: how the bat moves and what it bears after a hit.
 
 use crate::base::error::{Error, Result};
-use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant};
 use crate::collision::hit::{Effort, Model};
@@ -15,6 +14,7 @@ use crate::show::report::{hit_json, hit_text};
 use crate::study::ignored;
 
 use crate::cli::common::Prepared;
+use crate::cli::delivered::put;
 use crate::cli::done::Done;
 use crate::cli::pictures;
 use crate::cli::ring_args::{Args, csv, on_the_bat, times, write_sound};
@@ -72,9 +72,6 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     {
         text += &wrapped(&format!("Sound: {told}"), 2);
     }
-    if let Some(path) = &args.history {
-        file::write(path, aftermath::history(&after, &report).as_bytes())?;
-    }
     if let Some(folder) = &args.plots {
         let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();
         let picture = ringing::AfterHit {
@@ -89,16 +86,15 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let pictures = picture.pictures(args.output.sheet(&bat));
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
-    if let Some(path) = args.csv.as_ref().filter(|path| path.as_os_str() != "-") {
-        let frames = frames_after(args, &bat, &solution, &after);
-        file::write(path, frames.as_bytes())?;
-    }
     let code = args.solve.verdict(&solution, &args.output);
     let document = || {
         let ignored = ignored::in_hit(&bat, scene.wall.is_some());
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
-    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+    let text = args.output.deliver(text, document)?;
+    let text = put(&args.history, text, || Ok(aftermath::history(&after, &report)))?;
+    let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
+    Ok(Done::new(text, code).with(warning))
 }
 
 /// The bat's deflections after a hit as CSV, the instants in their order.

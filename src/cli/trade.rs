@@ -1,10 +1,9 @@
 //! `sweetspot trade BAT`: speed against accuracy, measured on this bat.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::base::error::{Error, Result};
-use crate::base::file;
+use crate::base::error::Result;
 use crate::files::schema;
 use crate::modes::solve::Request;
 use crate::show::plot::{front, sets};
@@ -14,6 +13,7 @@ use crate::study::trade::reference::Reference;
 use crate::study::trade::u_curve as curve;
 
 use crate::cli::common::{Prepared, examples, prepare, read};
+use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
 use crate::cli::edits::EditArgs;
 use crate::cli::progress::Progress;
@@ -89,11 +89,7 @@ const U_CURVE: u64 = 120;
 const MOST: usize = 1_000_000;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let standard = Some(Path::new("-"));
-    if args.json.as_deref() == standard && args.csv.as_deref() == standard {
-        let expected = "one of --json and --csv on standard output";
-        return Err(Error::value("--csv", "- and --json -", expected));
-    }
+    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
     let modes = usize::from(args.count);
     let theory = args.theory.0.unwrap_or_default();
     let request = Request { modes, theory, ..Request::default() };
@@ -123,18 +119,7 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.plots {
         pictures::write(folder, &pictures, args.quiet)?;
     }
-    Ok(Done::new(deliver(args, table, document, rows)?, 0).with(warning))
-}
-
-/// Writes the files; what is left for standard output.
-fn deliver(args: &Args, table: String, document: String, rows: String) -> Result<String> {
-    let mut out = style::table(&table);
-    for (path, contents) in [(&args.csv, rows), (&args.json, document)] {
-        match path {
-            Some(path) if path == Path::new("-") => out = contents,
-            Some(path) => file::write(path, contents.as_bytes())?,
-            None => {}
-        }
-    }
-    Ok(out)
+    let text = put(&args.csv, style::table(&table), || Ok(rows))?;
+    let text = put(&args.json, text, || Ok(document))?;
+    Ok(Done::new(text, 0).with(warning))
 }
