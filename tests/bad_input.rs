@@ -1574,7 +1574,10 @@ fn a_wrong_command_line_is_refused() {
         (&["trade", "bat.json", "-n", "0"], &["1..=200"]),
         (&["trade", "bat.json", "--budget", "0 s"], &["expected a time"]),
         (&["trade", "bat.json", "--units", "si"], &["unexpected argument '--units'"]),
-        (&["trade", "bat.json", "--json", "-", "--csv", "-"], &["--csv: found", "one of --json"]),
+        (
+            &["trade", "bat.json", "--json", "-", "--csv", "-"],
+            &["--csv: found", "beside --json -, expected one of them"],
+        ),
         (&["trade", "none.json"], &["cannot read none.json"]),
         (&["validate", "bat.json"], &["unexpected argument 'bat.json'"]),
         (&["validate", "--case", "r161_natan"], &["r161_natan", "did you mean r161_nathan?"]),

@@ -503,6 +503,32 @@ fn every_table_says_what_was_edited() {
     }
 }
 
+/// Inches stay inches and millimetres millimetres, whatever else the table is in.
+#[test]
+fn an_edit_is_told_in_the_units_it_was_typed_in() {
+    let folder = shop("edit_words");
+    for (option, typed) in [
+        ("--cut", "24 in to 30 in, 1 mm"),
+        ("--cut", "600 mm to 700 mm, 0.0625 in, 1 in blend"),
+        ("--cut", "61.5 mm to 702.3 mm, 0.8 mm"),
+        ("--knob", "2 oz"),
+        ("--knob", "50 g"),
+        ("--knob", "0.75 oz"),
+        ("--cup", "1 in deep, 1.5 in"),
+        ("--cup", "25 mm deep, 40 mm"),
+        ("--bore", "26.25 in to 32 in, 0.875 in"),
+        ("--sleeve", "24 in to 30 in, 1 mm, aluminium-7075"),
+        ("--shorten", "tip 0.5 in"),
+        ("--scale-diameter", "100 mm to 300 mm, 1.05"),
+    ] {
+        let said = format!("edited: {} {typed}", &option[2..]);
+        let modes = folder.text(&["modes", "maple.json", "-n", "1", option, typed]);
+        assert!(modes.contains(&said), "{said}\n{modes}");
+        let si = folder.text(&["modes", "maple.json", "-n", "1", "--units", "si", option, typed]);
+        assert!(!si.lines().any(|line| line.contains("edited") && line.contains(" in")), "{si}");
+    }
+}
+
 #[test]
 fn every_document_says_what_was_edited() {
     let folder = shop("edit_documents");

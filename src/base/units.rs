@@ -415,6 +415,12 @@ pub fn inches(length: f64) -> f64 {
     length / INCH
 }
 
+/// A length as messages say it, whichever unit it came in.
+pub(crate) fn shown_length(length: f64) -> String {
+    let inches: f64 = format!("{:.5e}", inches(length)).parse().unwrap_or(f64::NAN);
+    format!("{length:?} m ({inches:?} in)")
+}
+
 /// Kilograms to avoirdupois ounces.
 pub fn ounces(mass: f64) -> f64 {
     mass / OUNCE

@@ -2,7 +2,7 @@
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
-use crate::base::units::Quantity;
+use crate::base::units::{Quantity, shown_length};
 use crate::bat::fixtures::Held;
 use crate::bat::material::Material;
 use crate::bat::profile::SAME_PLACE;
@@ -160,7 +160,7 @@ impl Range {
             Self::OnBat => return on_the_bat(field, value, length),
             Self::Inside => (
                 value > same && value < length - same,
-                format!("a place inside the bat, 0 to {length} m"),
+                format!("a place inside the bat, 0 to {}", shown_length(length)),
             ),
             Self::Distance => (
                 value.abs() <= 10.0 * length,
@@ -259,14 +259,15 @@ pub(crate) fn stretch(path: &str, [from, to]: [f64; 2], length: f64) -> Result<(
     if to - from > SAME_PLACE * length {
         return Ok(());
     }
-    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {from} m")))
+    Err(Error::value(name("to"), shown(to, "m"), format!("a place beyond {}", shown_length(from))))
 }
 
 pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Result<()> {
     if x >= 0.0 && x <= length {
         return Ok(());
     }
-    Err(Error::value(field, shown(x, "m"), format!("a place on the bat, 0 to {length} m")))
+    let expected = format!("a place on the bat, 0 to {}", shown_length(length));
+    Err(Error::value(field, shown(x, "m"), expected))
 }
 
 /// A value without a row of zeros.

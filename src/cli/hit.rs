@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::error::{Error, Result};
-use crate::base::units::inches;
+use crate::base::units::{inches, shown_length};
 use crate::bat::body::Bat;
 use crate::collision::figures::Figures;
 use crate::collision::hitter::Hitter;
@@ -19,7 +19,7 @@ use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{PLACE, shown_length};
+use crate::cli::value::PLACE;
 
 /// How fast the ball leaves, place by place, and the sweet spot
 ///

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Error, Result};
 use crate::base::file;
+use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::modes::solve::Solution;
 use crate::motion::sound::Sound;
@@ -11,7 +12,7 @@ use crate::show::exchange::wav;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{IMPULSE, PLACE, RINGING_TIME, shown_length};
+use crate::cli::value::{IMPULSE, PLACE, RINGING_TIME};
 use crate::show::csv::{Cell, Csv};
 
 /// How the bat moves after a hit, a blow, a push or a release

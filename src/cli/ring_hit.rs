@@ -1,6 +1,7 @@
 //! `ring --hit`: how the bat moves and what it bears after a hit.
 
 use crate::base::error::{Error, Result};
+use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::collision::aftermath::{Aftermath, Instant};
 use crate::collision::hit::{Effort, Model};
@@ -18,7 +19,6 @@ use crate::cli::delivered::put;
 use crate::cli::done::Done;
 use crate::cli::pictures;
 use crate::cli::ring_args::{Args, csv, on_the_bat, times, write_sound};
-use crate::cli::value::shown_length;
 
 /// A hit, and what comes of it.
 pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {

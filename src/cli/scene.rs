@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use crate::base::error::{Error, Result};
+use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::energy_loss::EnergyLoss;
@@ -14,8 +15,7 @@ use crate::collision::pulse::Pulse;
 use crate::cli::balls::{ball, cor, is_built_in};
 use crate::cli::common::OutputArgs;
 use crate::cli::value::{
-    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, shown_length,
-    swing_speed,
+    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, swing_speed,
 };
 
 /// The swing, the pitch and the ball.

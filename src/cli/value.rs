@@ -12,12 +12,6 @@ use crate::modes::solve::Solver;
 use crate::show::report::text::Units;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-/// A length as it is said in messages, whichever unit it came in.
-pub fn shown_length(length: f64) -> String {
-    let inches: f64 = format!("{:.5e}", units::inches(length)).parse().unwrap_or(f64::NAN);
-    format!("{length:?} m ({inches:?} in)")
-}
-
 /// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.
 pub fn file_unit(text: &str) -> std::result::Result<uff::Units, String> {
     let metre = units::factor(text.trim(), Quantity::Length).map_err(|wrong| wrong.to_string())?;

@@ -135,7 +135,7 @@ impl<'a> Report<'a> {
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
         let facts = Part::Facts("facts", self.summary.facts(units, &self.analysis.spread));
-        let edits = edits::listed(&self.analysis.bat, units == Units::Us);
+        let edits = edits::listed(&self.analysis.bat, units);
         let edited = (!edits.is_empty())
             .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));
         edited.into_iter().chain([facts, Part::Picture("profile")]).collect()

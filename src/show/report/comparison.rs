@@ -108,8 +108,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name());
         out += &wrapped(&line, 5);
         if !contender.bat.edits().is_empty() {
-            let us = units == Units::Us || units == Units::Both && contender.bat.inches();
-            out += &wrapped(&format!("     edited: {}", edits::listed(&contender.bat, us)), 5);
+            out += &wrapped(&format!("     edited: {}", edits::listed(&contender.bat, units)), 5);
         }
         for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
             out += &wrapped(&format!("     left out: {effect}"), 5);

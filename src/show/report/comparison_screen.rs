@@ -54,7 +54,7 @@ fn bats(comparison: &Comparison, units: Units) -> String {
         let hollow = thinnest_wall(&contender.bat).filter(|_| contender.scene.wall.is_none());
         let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
         out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
-        let edits = edits::listed(&contender.bat, units == Units::Us);
+        let edits = edits::listed(&contender.bat, units);
         if !edits.is_empty() {
             out += &wrapped(&format!("     edited: {edits}"), 5);
         }

@@ -1,42 +1,75 @@
 //! What was changed about a bat after it was weighed, in the words of the command line.
 
 use crate::base::number::significant;
-use crate::base::units::{inches, ounces};
+use crate::base::units::{self, ounces};
 use crate::bat::body::Bat;
 use crate::bat::edit::{Change, Edit};
 use crate::bat::material::Material;
+use crate::show::report::text::Units;
 
 /// Digits that are shown of a length or a mass.
 const DIGITS: usize = 4;
 
-/// The edits of a bat, one after the other.
-pub fn listed(bat: &Bat, us: bool) -> String {
-    let edits: Vec<String> = bat.edits().iter().map(|edit| named(edit, us)).collect();
+/// The edits of a bat, one after the other; where both systems of units are shown, each in the one
+/// that it was given in.
+pub fn listed(bat: &Bat, units: Units) -> String {
+    let edits: Vec<String> =
+        bat.edits().iter().map(|edit| named(edit, units, bat.inches())).collect();
     edits.join("; ")
 }
 
-fn named(edit: &Edit, us: bool) -> String {
+fn named(edit: &Edit, units: Units, inches: bool) -> String {
     match &edit.name {
-        Some(name) => format!("{name} ({})", words(&edit.change, us)),
-        None => words(&edit.change, us),
+        Some(name) => format!("{name} ({})", words(&edit.change, units, inches)),
+        None => words(&edit.change, units, inches),
     }
 }
 
-/// A change as `compare --edit` reads it, in US units or in SI.
-pub fn words(change: &Change, us: bool) -> String {
-    let length = |x: f64| match us {
-        true => format!("{} in", significant(inches(x), DIGITS)),
+/// Whether these values are said in US units: as told, else in the system in which they are the shorter
+/// numbers, which is the one that they were typed in.
+fn in_us(units: Units, inches: bool, si: &[f64], us: &[f64]) -> bool {
+    let long = |values: &[f64]| values.iter().map(|value| digits(*value)).sum::<usize>();
+    match units {
+        Units::Si => false,
+        Units::Us => true,
+        Units::Both if long(si) == long(us) => inches,
+        Units::Both => long(us) < long(si),
+    }
+}
+
+/// How many digits a number has without the zeros at its ends.
+fn digits(value: f64) -> usize {
+    let text = format!("{value:.8e}");
+    let (mantissa, _) = text.split_once('e').unwrap_or_default();
+    mantissa.trim_end_matches('0').bytes().filter(u8::is_ascii_digit).count()
+}
+
+/// A change as `compare --edit` reads it.
+pub fn words(change: &Change, shown: Units, inches: bool) -> String {
+    let us = |lengths: &[f64]| {
+        let both: Vec<[f64; 2]> = lengths.iter().map(|x| [1e3 * x, units::inches(*x)]).collect();
+        let of = |k: usize| both.iter().map(|both| both[k]).collect::<Vec<_>>();
+        in_us(shown, inches, &of(0), &of(1))
+    };
+    let told = |x: f64, us: bool| match us {
+        true => format!("{} in", significant(units::inches(x), DIGITS)),
         false => format!("{} mm", significant(1e3 * x, DIGITS)),
     };
-    let stretch = |from: f64, to: f64| format!("{} to {}", length(from), length(to));
+    let length = |x: f64| told(x, us(&[x]));
+    let stretch = |from: f64, to: f64| {
+        let us = us(&[from, to]);
+        format!("{} to {}", told(from, us), told(to, us))
+    };
     let blend =
         |blend: Option<f64>| blend.map_or(String::new(), |b| format!(", {} blend", length(b)));
     let said = match change {
         Change::Cut(cut) => {
             format!("{}, {}{}", stretch(cut.from, cut.to), length(cut.depth), blend(cut.blend))
         }
-        Change::Knob(mass) if us => format!("{} oz", significant(ounces(*mass), DIGITS)),
-        Change::Knob(mass) => format!("{} g", significant(1e3 * mass, DIGITS)),
+        Change::Knob(mass) => match in_us(shown, inches, &[1e3 * mass], &[ounces(*mass)]) {
+            true => format!("{} oz", significant(ounces(*mass), DIGITS)),
+            false => format!("{} g", significant(1e3 * mass, DIGITS)),
+        },
         Change::Cup(cup) => format!("{} deep, {}", length(cup.depth), length(cup.diameter)),
         Change::Bore(bore) => format!("{}, {}", stretch(bore.from, bore.to), length(bore.diameter)),
         Change::Cork(cork) => {

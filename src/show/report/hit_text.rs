@@ -322,8 +322,7 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
         }
     );
     if !bat.edits().is_empty() {
-        let us = units == Units::Us || units == Units::Both && bat.inches();
-        out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, us)), 5);
+        out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, units)), 5);
     }
     if let Some(wall) = scene.wall {
         let _ = writeln!(

@@ -119,10 +119,9 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
-/// A line about the edits of a bat, in the unit of its file where both systems are shown; nothing for
-/// a bat that has none.
+/// A line about the edits of a bat; nothing for a bat that has none.
 pub fn edited(bat: &Bat, units: Units) -> String {
-    match edits::listed(bat, units == Units::Us || units == Units::Both && bat.inches()) {
+    match edits::listed(bat, units) {
         list if list.is_empty() => list,
         list => wrapped(&format!("  edited: {list}"), 4),
     }
