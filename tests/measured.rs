@@ -18,7 +18,7 @@ use sweetspot::files::measured::{table, universal};
 use sweetspot::files::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
 use sweetspot::modes::solve::Request;
 use sweetspot::show::report::measured;
-use sweetspot::show::report::text::Units;
+use sweetspot::show::report::units::Units;
 use sweetspot::study::measured::data::{Measured, MeasuredMode};
 use sweetspot::study::measured::place::{End, Told};
 use sweetspot::study::measured::study::Study;

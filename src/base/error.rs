@@ -252,7 +252,8 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
 /// The nearest of `names` to a misspelt `word`, if one is near enough to be meant.
 ///
 /// Nearness is the number of single-character edits (Levenshtein's distance), at most
-/// a third of the longer word, or two words that differ by case and separators only.
+/// a third of the longer word, or two words that differ by case and separators only; else a word of three
+/// letters or more is that part of a name, the last of those that have it.
 pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let plain = |s: &str| s.to_lowercase().replace(['_', '-', ' '], "");
     let word = plain(word);
@@ -262,6 +263,10 @@ pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
         .filter(|(d, name)| 3 * d <= word.chars().count().max(name.chars().count()))
         .min_by_key(|(d, _)| *d)
         .map(|(_, name)| name)
+        .or_else(|| {
+            let holds = |name: &&&str| word.chars().count() >= 3 && plain(name).contains(&word);
+            names.iter().rev().find(holds).copied()
+        })
 }
 
 fn edits(a: &str, b: &str) -> usize {

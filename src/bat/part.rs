@@ -2,6 +2,7 @@
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
+use crate::base::number::significant;
 use crate::base::units::{Quantity, shown_length};
 use crate::bat::fixtures::Held;
 use crate::bat::material::Material;
@@ -274,7 +275,8 @@ pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Resul
 pub(crate) fn shown(value: f64, unit: &str) -> String {
     let text = match value.abs() {
         size if !size.is_finite() => return "a value beyond the range of numbers".to_owned(),
-        0.0 | 1e-4..1e6 => format!("{value} {unit}"),
+        // A rounding of another unit is none of the value.
+        0.0 | 1e-4..1e6 => format!("{} {unit}", significant(value, 12)),
         _ => format!("{value:e} {unit}"),
     };
     text.trim_end().to_owned()

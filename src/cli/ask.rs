@@ -243,19 +243,29 @@ pub fn material(text: &str) -> Read<String> {
     })
 }
 
+/// A density in the unit that goes with the ruler's.
+pub fn shown_density(density: f64, inches: bool) -> String {
+    match inches {
+        true => {
+            let pound = units::factor("lb/in^3", Quantity::Density).unwrap_or(1.0);
+            format!("{:.4} lb/in³", density / pound)
+        }
+        false => format!("{density:.0} kg/m³"),
+    }
+}
+
 /// The list that [`material`] counts, a line each, in units that go with the ruler's.
 pub fn materials(unit: &str) -> Vec<String> {
     let line = |(k, material): (usize, &BuiltIn)| {
         let BuiltIn { name, density, youngs_modulus, .. } = material;
         let numbers = match unit {
             "in" => {
-                let of = |unit, quantity| units::factor(unit, quantity).unwrap_or(1.0);
-                let density = density / of("lb/in^3", Quantity::Density);
-                let modulus = youngs_modulus / of("psi", Quantity::Pressure);
-                format!("{density:.4} lb/in³ {:>6.2} million psi", 1e-6 * modulus)
+                let psi = units::factor("psi", Quantity::Pressure).unwrap_or(1.0);
+                format!("{:>6.2} million psi", 1e-6 * youngs_modulus / psi)
             }
-            _ => format!("{density:>6.0} kg/m³ {:>6.1} GPa", 1e-9 * youngs_modulus),
+            _ => format!("{:>6.1} GPa", 1e-9 * youngs_modulus),
         };
+        let numbers = format!("{:>12} {numbers}", shown_density(*density, unit == "in"));
         format!("  {} {name:<20} {numbers}{}", k + 1, in_words(material))
     };
     BUILT_IN.iter().enumerate().map(line).collect()

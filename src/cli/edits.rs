@@ -308,6 +308,11 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
                 "found \"{found}\", expected a stretch, such as \"24 in to 30 in\""
             ));
         };
+        // Of 24 to 30 in both are in inches.
+        let from = match (typed::split(from.trim()), typed::split(to.trim())) {
+            ((number, ""), (_, unit)) if !number.is_empty() => &format!("{number} {unit}"),
+            _ => from,
+        };
         for (field, text) in stretch.zip([from, to]) {
             set(field, PLACE.read(text)?, &mut part);
         }

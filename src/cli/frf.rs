@@ -151,8 +151,11 @@ pub fn run(args: &Args) -> Result<Done> {
         peaks: &peaks,
         measured: measured.as_ref().zip(laid.as_ref()),
     };
+    let (table, document) = (report::text(&told), report::document(&told));
     if let Some(folder) = &args.plots {
-        let values = samples.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
+        // After what is said: looking at more frequencies may add to the modes.
+        let drawn = frf.receptances(&args.grid.drawn(&rising))?;
+        let values = drawn.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
         let laid_at = laid.iter().flat_map(|laid| {
             laid.measured.iter().zip(&laid.computed).map(|((f, _), value)| (*f, *value))
         });
@@ -170,7 +173,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let picture = plot::response::picture(args.output.sheet(&bat), &subject);
         pictures::write(folder, picture.as_slice(), args.output.quiet)?;
     }
-    let text = args.output.deliver(report::text(&told), || report::document(&told))?;
+    let text = args.output.deliver(table, || document)?;
     let text = put(&args.csv, text, || Ok(report::csv(kind, &samples)))?;
     let text = put(&args.uff, text, || {
         let measured = Measured { bat: bat.name(), kind, at, to, even: grid.even };

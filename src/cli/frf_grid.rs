@@ -131,6 +131,18 @@ impl GridArgs {
         Ok(Grid { asked, all, even })
     }
 
+    /// So many that a curve through them shows every dip; those of the grid where no range was asked.
+    pub fn drawn(&self, rising: &[f64]) -> Vec<f64> {
+        const STEPS: usize = 1000;
+        let (low, high) = (rising[0], rising[rising.len() - 1]);
+        let between = (1..STEPS).map(|k| low + (high - low) * k as f64 / STEPS as f64);
+        let between = between.filter(|_| self.frequencies.is_empty());
+        let mut all: Vec<f64> = rising.iter().copied().chain(between).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+
     /// The asked frequencies; and start and step where they are even.
     fn asked(&self, frf: &Frf, in_file: bool) -> (Vec<f64>, Option<[f64; 2]>) {
         let held = |f: f64| if in_file { six_digits(f) } else { f };

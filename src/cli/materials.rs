@@ -7,7 +7,8 @@ use crate::base::file;
 use crate::bat::material::{BUILT_IN, BuiltIn};
 use crate::files::schema;
 use crate::files::schema::materials::MaterialsFile;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
+use crate::show::report::units::Units;
 
 use crate::cli::done::Done;
 use crate::cli::style;

@@ -8,8 +8,10 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::show::report::sketch::{self, Places, SketchRow};
 use crate::show::report::text;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
+use crate::show::report::units::Units;
 
+use crate::cli::ask::shown_density;
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{glyphs, printed};
 use crate::cli::dialogue::Dialogue;
@@ -80,16 +82,19 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
 /// What the mass says of the diameters, as one sentence or two.
 fn verdict(bat: &Bat, measured: &Measured) -> String {
     let (density, factor) = (bat.material().density, bat.factors()[0]);
+    let shown = |density| shown_density(density, bat.inches());
     let Some(mass) = &measured.mass else {
         return format!(
-            "Not weighed: the mass is that of {} with {density:.0} kg/m³.",
-            measured.material
+            "Not weighed: the mass is that of {} with {}.",
+            measured.material,
+            shown(density)
         );
     };
     format!(
-        "To weigh {mass} the material must have {density:.0} kg/m³; {} has {:.0}. {}",
+        "To weigh {mass} the material must have {}; {} has {}. {}",
+        shown(density),
         measured.material,
-        density / factor,
+        shown(density / factor),
         match factor {
             0.8..1.25 => "That is as wood differs.",
             _ => "That is another material, a hollow bat, or a slip: look at mass and diameters.",

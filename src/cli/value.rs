@@ -9,7 +9,7 @@ use crate::base::units::{self, Quantity};
 use crate::bat::theory::Theory;
 use crate::files::uff;
 use crate::modes::solve::Solver;
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.

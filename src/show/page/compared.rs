@@ -8,7 +8,8 @@ use crate::show::page::shown;
 use crate::show::page::table::Table;
 use crate::show::plot::compared::pictures;
 use crate::show::report::comparison::{ALONG, FIRST, Row, letter, rows, swing, words};
-use crate::show::report::text::Units;
+use crate::show::report::edits;
+use crate::show::report::units::Units;
 use crate::study::comparison::table::Comparison;
 
 /// The page of bats side by side, made by that command; `us` says which units are shown first.
@@ -55,7 +56,10 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
         Part::List(along),
     ];
     let how = vec![Part::Command(command), Part::List(scene(comparison, units))];
-    let top = vec![Part::Picture("sweet_spot"), Part::List(best), differs(first)];
+    let edited = edited(comparison, units);
+    let edited = (!edited.is_empty()).then_some(Part::List(edited));
+    let top = [Part::Picture("sweet_spot")].into_iter().chain(edited);
+    let top = top.chain([Part::List(best), differs(first)]).collect();
     use Fold::{Open, ScreenOnly};
     let (hit, bats) = (["contact", "hysteresis", "hands"], comparison.bats.len());
     vec![
@@ -72,6 +76,14 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
 
 /// The pictures of energies, one for each bat there can be.
 const LEDGERS: [&str; 6] = ["ledger_A", "ledger_B", "ledger_C", "ledger_D", "ledger_E", "ledger_F"];
+
+/// What was changed about which bat.
+fn edited(comparison: &Comparison, units: Units) -> Vec<String> {
+    let bats = comparison.bats.iter().enumerate();
+    let told = bats.map(|(k, contender)| (letter(k), edits::listed(&contender.bat, units)));
+    let edited = told.filter(|(_, edits)| !edits.is_empty());
+    edited.map(|(bat, edits)| format!("{bat} is edited: {edits}.")).collect()
+}
 
 /// How all of them are hit.
 fn scene(comparison: &Comparison, units: Units) -> Vec<String> {

@@ -18,7 +18,7 @@ use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
 use crate::show::plot::sets::of_analysis;
 use crate::show::report::edits;
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 
 /// What a report is made from.
 #[derive(Debug, Clone)]

@@ -13,7 +13,7 @@ use crate::show::page::shown::{self, NONE, length, speed};
 use crate::show::page::table::Table;
 use crate::show::report::hit_json::model_name;
 use crate::show::report::resolved::resolved;
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 
 /// A file as the user wrote it.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,7 +9,7 @@ use crate::show::page::part::{Part, Section};
 use crate::show::page::summary::Fact;
 use crate::show::page::table::Table;
 use crate::show::plot::picture::Picture;
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 
 /// The whole text; `pictures` is the folder of the pictures as seen from it.
 pub fn text(report: &Report, pictures: &str) -> String {

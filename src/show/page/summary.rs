@@ -6,8 +6,8 @@ use serde::Serialize;
 use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length};
-use crate::show::report::text::Units;
 use crate::show::report::trust::about;
+use crate::show::report::units::Units;
 use crate::study::spread::{Answer, Spread};
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.

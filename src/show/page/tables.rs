@@ -10,7 +10,7 @@ use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, bare, decimals, length, length_unit, speed};
 use crate::show::page::table::Table;
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 
 /// So many modes have their nodes listed, and so many their energies.
 const LISTED: usize = 6;

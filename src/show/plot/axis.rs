@@ -9,6 +9,8 @@ pub enum Scale {
     Linear,
     /// Equal ratios are equally long; values are above 0.
     Log,
+    /// As they are, with a tick at every quarter of a turn (deg).
+    Turn,
 }
 
 /// What an axis says, and the values at its ends; the first may be the larger.
@@ -81,10 +83,15 @@ impl Axis {
         Self { label, from: self.from / per, to: self.to / per, per, ..self }
     }
 
+    /// Half a turn to either side (deg).
+    pub fn of_a_turn(label: &str) -> Self {
+        Self { scale: Scale::Turn, ..Self::new(label, [-180.0, 180.0]) }
+    }
+
     /// How far along the axis a value is: 0 at its beginning, 1 at its end.
     pub fn share(&self, value: f64) -> f64 {
         match self.scale {
-            Scale::Linear => (value - self.from) / (self.to - self.from),
+            Scale::Linear | Scale::Turn => (value - self.from) / (self.to - self.from),
             Scale::Log => (value / self.from).ln() / (self.to / self.from).ln(),
         }
     }
@@ -100,8 +107,11 @@ impl Axis {
         let [from, to] = [self.from * self.per, self.to * self.per];
         let [low, high] = [from.min(to), from.max(to)];
         match self.scale {
-            Scale::Linear => {
-                let step = step(high - low, most);
+            Scale::Linear | Scale::Turn => {
+                let step = match self.scale {
+                    Scale::Turn => 90.0,
+                    _ => step(high - low, most),
+                };
                 let [first, last] =
                     [(low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64];
                 let tick = |k: i64| {

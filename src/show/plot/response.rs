@@ -78,7 +78,7 @@ pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
     plane.draw(&mut svg);
     named.iter().for_each(|series| series.draw(&mut svg, &plane));
     hover(&mut svg, &plane, &named);
-    let turn = Axis::new("phase (deg)", [-180.0, 180.0]);
+    let turn = Axis::of_a_turn("phase (deg)");
     let plane = Plane { frame: second, x, y: turn };
     plane.draw(&mut svg);
     let turns = curve("phase, computed", 0, turned(values)).units("Hz", "deg");

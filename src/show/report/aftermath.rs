@@ -12,7 +12,8 @@ use crate::files::schema::hit::Impact;
 use crate::files::schema::ring as file;
 use crate::show::csv::{Cell, Csv};
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
+use crate::show::report::units::Units;
 
 /// All that is told of a hit's aftermath.
 pub struct AfterHit {

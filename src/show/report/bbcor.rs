@@ -11,7 +11,8 @@ use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::hit_json::ball_out;
-use crate::show::report::text::{Units, edited, wrapped};
+use crate::show::report::text::{edited, wrapped};
+use crate::show::report::units::Units;
 use crate::study::ignored;
 
 /// Where the ball's restitution is from: the source of the default, the ball's file, or who asked.

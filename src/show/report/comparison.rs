@@ -5,7 +5,8 @@ use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::edits;
 use crate::show::report::hit_json::model_name;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
+use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
 use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use crate::study::comparison::stretches::Stretch;
@@ -59,19 +60,23 @@ fn scale(unit: Unit, us: bool) -> Scale {
     }
 }
 
+/// A difference of fewer decimals is said with all of them, a smaller one by its power of ten.
+const MOST_DECIMALS: usize = 4;
+
 impl Scale {
     fn value(&self, value: f64) -> String {
         format!("{:.*}", self.decimals, value * self.factor + 0.0)
     }
 
-    /// A difference with its sign, a power of ten where the decimals would hide it.
+    /// A difference with its sign, with more decimals where these would hide it.
     fn difference(&self, difference: Difference) -> String {
         if !difference.is_real() {
             return "none".to_owned();
         }
         let by = difference.by * self.factor;
-        let plain = format!("{by:+.*}", self.decimals);
-        if plain.bytes().any(|b| (b'1'..=b'9').contains(&b)) { plain } else { format!("{by:+.0e}") }
+        let decimals = (self.decimals..=MOST_DECIMALS).map(|decimals| format!("{by:+.decimals$}"));
+        let shows = |text: &String| text.bytes().any(|b| (b'1'..=b'9').contains(&b));
+        decimals.into_iter().find(shows).unwrap_or_else(|| format!("{by:+.0e}"))
     }
 
     /// How far it may be off.

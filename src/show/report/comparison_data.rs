@@ -5,7 +5,7 @@ use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::comparison::{letter, words};
 use crate::show::report::hit_json::{model_name, scene_out, seen_from};
-use crate::show::report::text::Units;
+use crate::show::report::units::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::stretches::Stretch;

@@ -3,8 +3,9 @@
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
 use crate::show::report::edits;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
 use crate::show::report::trust;
+use crate::show::report::units::Units;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::thinnest_wall;

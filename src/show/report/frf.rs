@@ -12,7 +12,8 @@ use crate::motion::frf::{Frf, Kind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::{Units, edited, wrapped};
+use crate::show::report::text::{edited, wrapped};
+use crate::show::report::units::Units;
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
 /// A response that is told.

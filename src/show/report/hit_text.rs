@@ -12,7 +12,8 @@ use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::report::curve;
 use crate::show::report::edits;
-use crate::show::report::text::{Units, wrapped};
+use crate::show::report::text::wrapped;
+use crate::show::report::units::Units;
 use crate::study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.

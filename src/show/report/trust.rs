@@ -9,7 +9,8 @@ use crate::files::schema::analysis as file;
 use crate::show::analysis::Analysis;
 use crate::show::report::columns::{Columns, first};
 use crate::show::report::hit_json::model_name;
-use crate::show::report::text::{Units, edited, wrapped};
+use crate::show::report::text::{edited, wrapped};
+use crate::show::report::units::Units;
 use crate::study::ignored::thinnest_wall;
 use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
 

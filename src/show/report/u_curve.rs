@@ -8,7 +8,8 @@ use crate::files::schema::u_curve as file;
 use crate::modes::solve::Solver;
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::text::{Units, edited, wrapped};
+use crate::show::report::text::{edited, wrapped};
+use crate::show::report::units::Units;
 use crate::study::trade::reference::{Choice, Reference, solver_name};
 use crate::study::trade::u_curve::{Column, End, Way, best, loss};
 
