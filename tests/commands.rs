@@ -40,6 +40,13 @@ fn furnished(name: &str) -> Folder {
         let path = entry.unwrap().path();
         fs::copy(&path, folder.0.join("meshes").join(path.file_name().unwrap())).unwrap();
     }
+    // docs/studies.md describes it.
+    folder.write(
+        "scatter.json",
+        r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 16, "tol": 1e-2,
+             "vary": { "bat.material.density": { "lognormal": [650, 0.04] } },
+             "outputs": ["f1_hz", "mass_kg", "exit_speed_max.value"] }"#,
+    );
     // docs/hit.md describes it.
     folder.write("push.csv", "t_ms,force_n\n0,0\n0.5,2000\n1,0\n");
     folder

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::documents::{WRITTEN, error, folder, page, written};
+use common::documents::{WRITTEN, error, folder, manifest, page, written};
 use jsonschema::Validator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -230,7 +230,8 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
     assert_eq!(folder.json(&["schema"]), formats::all());
     let all = validator(&formats::all());
     let documents = WRITTEN.map(|document| (document.1, written(&folder, document)));
-    let others = [("page", page(&folder)), ("error", error(&folder))];
+    let others =
+        [("page", page(&folder)), ("error", error(&folder)), ("study-manifest", manifest(&folder))];
     for (format, document) in documents.into_iter().chain(others) {
         assert_eq!(document["format"], format!("sweetspot-{format}/1"));
         assert_valid(&validator(&kind(format).schema()), &document, format);
@@ -240,23 +241,24 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
 
 #[test]
 fn every_format_is_written_and_pinned_or_read() {
-    let read = ["bat", "ball", "validation"];
+    let others = ["page", "error", "study-manifest", "bat", "ball", "study", "validation"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
-        let known =
-            written || ["page", "error"].contains(&file.name()) || read.contains(&file.name());
+        let known = written || others.contains(&file.name());
         assert!(known, "{}", file.name());
     }
 }
 
 #[test]
-fn every_case_of_known_answers_and_every_ball_of_this_project_is_valid() {
+fn every_case_of_known_answers_ball_and_study_of_this_project_is_valid() {
     let case = validator(&kind("validation").schema());
     for (name, text) in CASES {
         assert_valid(&case, &serde_json::from_str(text).unwrap(), name);
     }
     let ball = serde_json::from_str(include_str!("golden/ball-1.json")).unwrap();
     assert_valid(&validator(&kind("ball").schema()), &ball, "ball");
+    let study = serde_json::from_str(include_str!("golden/study-1.json")).unwrap();
+    assert_valid(&validator(&kind("study").schema()), &study, "study");
 }
 
 fn kind(name: &str) -> FileKind {
@@ -267,7 +269,8 @@ fn kind(name: &str) -> FileKind {
 fn outputs_may_grow_but_not_lose_a_member_change_a_type_or_be_of_another_version() {
     let all = validator(&formats::all());
     let written = WRITTEN.map(|document| (document.0, document.1));
-    for (name, format) in written.into_iter().chain([("error", "error")]) {
+    let others = ["error", "study-manifest"].map(|name| (name, name));
+    for (name, format) in written.into_iter().chain(others) {
         let path = format!("{}/tests/golden/{name}-1.json", env!("CARGO_MANIFEST_DIR"));
         let document: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
         let validator = validator(&kind(format).schema());

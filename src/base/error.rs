@@ -215,6 +215,18 @@ impl Complaint {
         Self { hint: hint.into(), ..self }
     }
 
+    /// This complaint with every name that stands `` `so` `` written as is usual where it is told.
+    pub(crate) fn naming(self, written: impl Fn(&str) -> String) -> Self {
+        let told = |text: String| {
+            let parts = text.split('`').enumerate();
+            parts
+                .map(|(k, part)| if k % 2 == 1 { written(part) } else { part.to_owned() })
+                .collect()
+        };
+        let Self { field, found, expected, hint } = self;
+        Self { field: told(field), found: told(found), expected: told(expected), hint: told(hint) }
+    }
+
     /// This complaint with a hint at the nearest of `names` to a misspelt `word`, if one is near enough.
     pub fn or_nearest(self, word: &str, names: &[&str]) -> Self {
         match nearest(word, names) {
@@ -251,9 +263,9 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
 
 /// The nearest of `names` to a misspelt `word`, if one is near enough to be meant.
 ///
-/// Nearness is the number of single-character edits (Levenshtein's distance), at most
-/// a third of the longer word, or two words that differ by case and separators only; else a word of three
-/// letters or more is that part of a name, the last of those that have it.
+/// Nearness is the number of edits of a letter (Damerau's and Levenshtein's distance), at most a third of the
+/// longer word, or two words that differ by case and separators only; else a word of three letters or more is
+/// that part of a name, the last of those that have it.
 pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let plain = |s: &str| s.to_lowercase().replace(['_', '-', ' '], "");
     let word = plain(word);
@@ -269,19 +281,23 @@ pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
         })
 }
 
+/// Letters put in, left out, changed, or swapped with the next, the fewest that make one word of the other.
 fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+    let [a, b] = [a, b].map(|word| word.chars().collect::<Vec<char>>());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let changed = rows[i][j] + usize::from(a[i] != b[j]);
+            let mut least = changed.min(row[j] + 1).min(rows[i][j + 1] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
         }
+        rows.push(row);
     }
-    row[b.len()]
+    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -293,6 +309,7 @@ mod tests {
         let keys = ["youngs_modulus", "density", "shear_modulus"];
         assert_eq!(nearest("young_modulus", &keys), Some("youngs_modulus"));
         assert_eq!(nearest("Density", &keys), Some("density"));
+        assert_eq!(nearest("picth", &["hands", "pitch"]), Some("pitch"));
         assert_eq!(nearest("youngsModulus", &keys), Some("youngs_modulus"));
         assert_eq!(nearest("colour", &keys), None);
         assert_eq!(nearest("", &keys), None);

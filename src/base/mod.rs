@@ -6,7 +6,7 @@
 //! | file | question |
 //! |---|---|
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
-//! | [`telling`], `clock`, `threads` | how far is a computation; how long does it take; on how many threads |
+//! | [`telling`], `clock`, [`threads`] | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
 //! | [`typed`], [`units`] | which numbers and units were typed; what is a number with a unit in SI |
 //! | [`number`] | how is a number written |
@@ -19,7 +19,8 @@ pub mod error;
 pub(crate) mod mistakes;
 pub mod telling;
 pub(crate) mod clock;
-pub(crate) mod threads;
+#[doc(hidden)]
+pub mod threads;
 #[doc(hidden)]
 pub mod file;
 #[doc(hidden)]

@@ -12,6 +12,19 @@ pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<
     (0..count).map(of).collect()
 }
 
+/// Does something with so many threads, as many as there are processors if none are named.
+#[cfg(feature = "show")]
+pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    #[cfg(feature = "parallel")]
+    if let Some(threads) = threads
+        && let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build()
+    {
+        return pool.install(work);
+    }
+    let _ = threads;
+    work()
+}
+
 #[cfg(feature = "parallel")]
 mod pool {
     use std::error::Error;

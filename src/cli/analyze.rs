@@ -221,7 +221,7 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
         text::model(bat, solution),
         proof(analysis),
         advice(analysis),
-        hit_text::scene(bat, &task.scene, hit_json::model_name(task.model), units),
+        hit_text::scene(bat, &task.scene, task.model.name(), units),
         hit_text::meaning(task.model),
         hit_text::impacts(bat, &few, units),
         hit_text::curve(&hits.impacts, units),

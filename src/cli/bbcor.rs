@@ -10,14 +10,14 @@ use crate::collision::sweep::Trial;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
-use crate::cli::balls::{ball, cor};
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
 use crate::cli::ring_args::on_the_bat;
-use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS};
+use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS, cor};
+use crate::files::balls::ball;
 
 /// BBCOR as laboratories measure it, computed
 ///

@@ -336,7 +336,7 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
 /// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
 /// ending is that of a built-in bat, unless there is a file of it.
 fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
-    let Named { bat, text, columns_outside } = match built_in(path)? {
+    let Named { bat, text, columns_outside } = match bundled::named(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;
             Named { bat, text: text.to_owned(), columns_outside: None }
@@ -353,21 +353,10 @@ fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, St
     Ok((bat, text))
 }
 
-/// The name and the text of the built-in bat that is meant, if the path is no file's.
-fn built_in(path: &Path) -> Result<Option<(&str, &'static str)>> {
-    let one_word = path.components().count() == 1 && path.extension().is_none();
-    let is_file = path.exists() && !path.is_dir();
-    let Some(name) = path.to_str().filter(|_| one_word && !is_file) else { return Ok(None) };
-    if let Some(text) = bundled::bat_text(name) {
-        return Ok(Some((name, text)));
-    }
-    if path.exists() {
-        return Ok(None);
-    }
-    let names = bundled::bat_names();
-    let expected = format!("a bat file, or a built-in bat: {}", names.join(", "));
-    let found = format!("{}, which is neither a file nor built in", printed(path));
-    Err(Error::Value(Complaint::new("", found, expected).or_nearest(name, &names)))
+/// An error about members of a scene, which are options here.
+pub fn as_options(error: Error) -> Error {
+    let option = |name: &str| format!("--{}", name.replace('_', "-"));
+    error.placed(|complaint| Error::Value(complaint.naming(option)))
 }
 
 /// A bat to be solved, how, and the warning to print at the end.

@@ -155,7 +155,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let units = args.output.units;
     let table = format!(
         "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
-        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        hit_text::scene(&bat, &scene, model.name(), units),
         hit_text::meaning(model),
         hit_text::impacts(&bat, &sweep.impacts, units),
         args.output.sketch(&bat, &sketch::of_hit(&bat, &figures.spot)),

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `balls`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
+//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
 //! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
 //! | `dialogue`, `ask`, `new_options`, `interview`, `*_table` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
@@ -24,7 +24,6 @@ mod common;
 mod csv_option;
 mod bat_text;
 mod pictures;
-mod balls;
 mod scene;
 mod dialogue;
 mod ask;
@@ -45,6 +44,7 @@ mod compare;
 mod frf_grid;
 mod frf;
 mod trade;
+mod study;
 mod advise;
 mod convert;
 mod validate;

@@ -34,7 +34,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let model = args.scene.model()?;
     if model != Model::Contact {
         let expected = "contact, the model with a force in time";
-        return Err(Error::value("--model", hit_json::model_name(model), expected));
+        return Err(Error::value("--model", model.name(), expected));
     }
     let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
@@ -63,7 +63,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let units = args.output.units;
     let mut text = format!(
         "{}{}{}",
-        hit_text::scene(&bat, &scene, hit_json::model_name(model), units),
+        hit_text::scene(&bat, &scene, model.name(), units),
         aftermath::impact(&impact, units),
         aftermath::text(&report, units)
     );

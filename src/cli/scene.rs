@@ -3,19 +3,17 @@
 use std::cell::OnceCell;
 use std::path::Path;
 
-use crate::base::error::{Error, Result};
-use crate::base::units::shown_length;
+use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
-use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::figures::{BarrelSpeed, SwingLaw};
-use crate::collision::hit::{Model, Scene, Wall};
-use crate::collision::pulse::Pulse;
+use crate::collision::hit::{Model, Scene};
+use crate::collision::setup::Setup;
+use crate::files::balls::{ball, is_built_in};
 
-use crate::cli::balls::{ball, cor, is_built_in};
-use crate::cli::common::OutputArgs;
+use crate::cli::common::{OutputArgs, as_options};
 use crate::cli::value::{
-    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, swing_speed,
+    CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, cor, swing_speed,
 };
 
 /// The swing, the pitch and the ball.
@@ -148,43 +146,37 @@ impl SceneArgs {
         if let Some(known) = self.read.get() {
             return Ok(known.clone());
         }
-        let ball = ball(&self.ball, self.ball_stiffness)?;
+        let ball = ball(&self.ball, self.ball_stiffness).map_err(as_options)?;
         Ok(self.read.get_or_init(|| ball).clone())
+    }
+
+    /// What these options say, whichever bat it is.
+    fn setup(&self) -> Result<Setup> {
+        let model = Model::all().into_iter().find(|model| model.name() == self.model);
+        Ok(Setup {
+            model: model.unwrap_or(Model::Contact),
+            swing_speed: self.swing_speed,
+            bat_speed: self.bat_speed,
+            bat_speed_at: self.bat_speed_at,
+            pivot: self.pivot,
+            pitch: self.pitch,
+            ball: self.ball()?,
+            cor: self.cor,
+            hands: self.hands,
+            wall_stiffness: self.wall_stiffness,
+            wall_mass: self.wall_mass,
+            reference_inertia: self.reference_inertia,
+            swing_exponent: self.swing_exponent,
+            gamma: self.gamma,
+            decay: self.decay,
+            pulse_duration: self.pulse_duration,
+            loss_share: self.loss_share,
+        })
     }
 
     /// The scene on that bat, and where its swing is from.
     pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
-        let mut ball = self.ball()?;
-        let cor = self.cor.unwrap_or(ball.cor);
-        let speeds = [self.pitch, self.swing_speed, self.bat_speed.unwrap_or_default(), self.pivot];
-        if !speeds.iter().all(|value| value.abs() < 1e6) {
-            let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
-            return Err(Error::value(
-                "--pitch, --swing-speed, --bat-speed or --pivot",
-                "a larger one",
-                expected,
-            ));
-        }
-        if self.pitch < 0.0 {
-            let expected = "0 or more: it is the speed towards the bat";
-            return Err(Error::value("--pitch", format!("{} m/s", self.pitch), expected));
-        }
-        if self.cor.is_some() {
-            ball.cor_by_speed.clear();
-        }
-        if !(0.0..=bat.length()).contains(&self.hands) {
-            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
-            return Err(Error::value("--hands", shown_length(self.hands), expected));
-        }
-        let law = self.swing_law()?;
-        let (pivot, ball_speed) = (self.pivot, self.pitch);
-        let swing = match (law, self.barrel_speed()) {
-            (Some(law), _) => law.swing(bat),
-            (None, Some(barrel)) => self.swing_of(barrel, bat)?,
-            (None, None) => self.swing_speed,
-        };
-        let (hands, wall) = (self.hands, self.wall()?);
-        Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+        self.setup()?.scene(bat).map_err(as_options)
     }
 
     /// The speed of a point of the barrel, where that was given.
@@ -192,17 +184,8 @@ impl SceneArgs {
         self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
     }
 
-    /// The swing that gives a point of this bat that speed.
-    fn swing_of(&self, barrel: BarrelSpeed, bat: &Bat) -> Result<f64> {
-        let from_tip = shown_length(barrel.from_tip);
-        if !(0.0..=bat.length()).contains(&barrel.from_tip) {
-            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
-            return Err(Error::value("--bat-speed-at", from_tip, expected));
-        }
-        barrel.swing(bat, self.pivot).ok_or_else(|| {
-            let found = format!("a point {from_tip} from the tip");
-            Error::value("--bat-speed", found, "one beyond the swing's rotation centre, --pivot")
-        })
+    pub fn model(&self) -> Result<Model> {
+        self.setup()?.model().map_err(as_options)
     }
 
     /// Warns of speeds that nobody has, most likely bare numbers in other units.
@@ -216,84 +199,6 @@ impl SceneArgs {
                 output.warn(&told);
             }
         }
-    }
-
-    fn swing_law(&self) -> Result<Option<SwingLaw>> {
-        let Some(reference) = self.reference_inertia else { return Ok(None) };
-        let exponent = self.swing_exponent.unwrap_or(0.0);
-        if !(reference > 1e-9 && reference < 1e9) {
-            let found = format!("{reference:?} kg m2");
-            return Err(Error::value("--reference-inertia", found, "a bat's inertia, above 0"));
-        }
-        if exponent > 2.0 {
-            return Err(Error::value("--swing-exponent", exponent, "0 to 2"));
-        }
-        Ok(Some(SwingLaw { exponent, reference, of_reference: self.swing_speed }))
-    }
-
-    fn wall(&self) -> Result<Option<Wall>> {
-        let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
-        if self.model != "contact" {
-            let found = format!("it with --model {}", self.model);
-            let expected = "--model contact: only there a wall gives way";
-            return Err(Error::value("--wall-stiffness", found, expected));
-        }
-        let mass = self.wall_mass.unwrap_or(0.0);
-        if !(1.0..=1e15).contains(&stiffness) {
-            let found = format!("{stiffness:?} N/m");
-            return Err(Error::value("--wall-stiffness", found, "1 to 1e15 N/m"));
-        }
-        if !(mass == 0.0 || (1e-9..1e6).contains(&mass)) {
-            let found = format!("{mass:?} kg");
-            return Err(Error::value("--wall-mass", found, "0, or 1e-9 to 1e6 kg"));
-        }
-        Ok(Some(Wall { stiffness, mass }))
-    }
-
-    pub fn model(&self) -> Result<Model> {
-        let empirical = self.gamma.is_some() || self.decay.is_some();
-        let pulsed = self.pulse_duration.is_some() || self.loss_share.is_some();
-        for (given, options, model) in [
-            (empirical, "--gamma, --decay", "energy-loss"),
-            (pulsed, "--pulse-duration, --loss-share", "pulse"),
-        ] {
-            if given && self.model != model {
-                let found = format!("them with --model {}", self.model);
-                let expected = format!("--model {model}, or neither of them");
-                return Err(Error::value(options, found, expected));
-            }
-        }
-        Ok(match self.model.as_str() {
-            "rigid" => Model::Rigid,
-            "energy-loss" => {
-                let default = EnergyLoss::default();
-                Model::EnergyLoss(EnergyLoss {
-                    gamma: self.gamma.unwrap_or(default.gamma),
-                    decay: self.decay.unwrap_or(default.decay),
-                })
-            }
-            "pulse" => Model::Pulse(self.pulse()?),
-            _ => {
-                // What the ball lacks is told before anything is solved.
-                let ball = self.ball()?;
-                Scene { ball, ..Scene::default() }.force_law(1.0)?;
-                Model::Contact
-            }
-        })
-    }
-
-    fn pulse(&self) -> Result<Pulse> {
-        let default = Pulse::default();
-        let duration = self.pulse_duration.unwrap_or(default.duration);
-        let loss_share = self.loss_share.unwrap_or(default.loss_share);
-        if !(1e-9..=1.0).contains(&duration) {
-            let expected = "a time from 1 ns to 1 s, such as \"0.75 ms\"";
-            return Err(Error::value("--pulse-duration", format!("{duration} s"), expected));
-        }
-        if loss_share > 1.0 {
-            return Err(Error::value("--loss-share", loss_share, "0 to 1"));
-        }
-        Ok(Pulse { duration, loss_share })
     }
 }
 

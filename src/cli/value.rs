@@ -7,6 +7,7 @@ use crate::base::number::significant;
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::theory::Theory;
+use crate::collision::ball::restitution;
 use crate::files::uff;
 use crate::modes::solve::Solver;
 use crate::show::report::units::Units;
@@ -132,6 +133,11 @@ pub fn swing_speed(text: &str) -> std::result::Result<f64, String> {
         (None, Ok(_)) => Err(format!("found {speed}, a speed; {answer}\"")),
         _ => SWING.read(text),
     }
+}
+
+/// A coefficient of restitution on the command line.
+pub fn cor(text: &str) -> std::result::Result<f64, String> {
+    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
 }
 
 /// A relative accuracy from the command line, as a number or in %.

@@ -14,7 +14,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
-    man, materials, modes, new, ring, scene, schema, stop, style, trade, validate,
+    man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -52,6 +52,7 @@ enum Verb {
     Ring(ring::Args),
     Frf(frf::Args),
     Trade(trade::Args),
+    Study(study::Args),
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
@@ -85,6 +86,7 @@ pub fn run() -> Result<Done> {
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
+        Verb::Study(args) => study::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),

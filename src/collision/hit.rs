@@ -23,6 +23,28 @@ pub enum Model {
     Contact,
 }
 
+impl Model {
+    /// The models, each with its usual constants.
+    pub fn all() -> [Self; 4] {
+        [
+            Self::Contact,
+            Self::Pulse(Pulse::default()),
+            Self::EnergyLoss(EnergyLoss::default()),
+            Self::Rigid,
+        ]
+    }
+
+    /// What the model is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::EnergyLoss(_) => "energy-loss",
+            Self::Pulse(_) => "pulse",
+            Self::Contact => "contact",
+        }
+    }
+}
+
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {

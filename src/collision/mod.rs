@@ -12,6 +12,7 @@
 //! | [`struck`] | how does the bat give way to a ball, anywhere |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are told, and by which names |
+//! | [`setup`] | how is a bat hit, whichever bat it is |
 //! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
@@ -40,6 +41,7 @@ pub mod strike;
 pub mod strength;
 pub mod sweet_spot;
 pub mod figures;
+pub mod setup;
 pub mod sweep;
 pub mod bbcor;
 

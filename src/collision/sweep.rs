@@ -201,7 +201,7 @@ impl Trial<'_> {
 
     /// Of a request whose tolerance is that of exit speeds: with its modes and no others if they are
     /// asked for, or if their number is nothing to the model.
-    pub(crate) fn accuracy(&self, request: &Request, asked: bool) -> Accuracy {
+    pub fn accuracy(&self, request: &Request, asked: bool) -> Accuracy {
         let Request { modes, tolerance, elements, degree, solver, theory } = *request;
         let modes = (asked || !self.touches()).then_some(modes);
         Accuracy { exit_speed: tolerance, modes, elements, degree, solver, theory }

@@ -4,6 +4,8 @@
 
 use std::path::Path;
 
+use serde_json::{Value, json};
+
 use crate::base::error::Result;
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::Quantity;
@@ -32,36 +34,69 @@ impl Ball {
     ///
     /// [`crate::Error::Read`], or [`crate::Error::Input`] with line and column, or several of them.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
-        let document = Document::read(path.as_ref())?;
-        let root = Node::root(&document)?.members()?;
-        root.check_format("sweetspot-ball/1")?;
-        let mut mistakes = Mistakes::default();
-        let root = root.only(KEYS, &mut mistakes);
-        mistakes.note(root.require("format", "\"format\": \"sweetspot-ball/1\"").map(|_| ()));
-        let needed = |key: &str, quantity| -> Result<f64> {
-            let node = root.require(key, &format!("\"{key}\" of the ball"))?;
-            positive(node, quantity)
-        };
-        let optional = |key: &str| root.get(key).map(|node| positive(node, None)).transpose();
-        let name = mistakes.note(root.string("name"));
-        let source = mistakes.note(root.string("source"));
-        let mass = mistakes.note(needed("mass", Some(Quantity::Mass)));
-        let radius = mistakes.note(needed("radius", Some(Quantity::Length)));
-        let stiffness = mistakes.note(optional("stiffness"));
-        let exponent = mistakes.note(optional("exponent"));
-        let bounce = mistakes.and(bounce(&root, exponent))?;
-        Ok(Self {
-            name: name.unwrap_or_else(|| "unnamed ball".to_owned()),
-            source: source.unwrap_or_default(),
-            mass,
-            radius,
-            stiffness,
-            exponent: if bounce.linear { Some(1.0) } else { exponent },
-            law: LawOf(power_law::law),
-            cor: bounce.cor,
-            cor_by_speed: bounce.by_speed,
-        })
+        from_document(&Document::read(path.as_ref())?)
     }
+
+    /// Reads a ball from text; `file` is what messages call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from_file`].
+    pub fn from_text(file: &str, text: &str) -> Result<Self> {
+        from_document(&Document::new(file.to_owned(), text))
+    }
+}
+
+/// A ball as a file has it.
+pub fn written(ball: &Ball) -> Value {
+    let mut file = json!({
+        "format": "sweetspot-ball/1",
+        "name": ball.name,
+        "source": ball.source,
+        "mass": ball.mass,
+        "radius": ball.radius,
+    });
+    for (key, value) in [("stiffness", ball.stiffness), ("exponent", ball.exponent)] {
+        if let Some(value) = value {
+            file[key] = value.into();
+        }
+    }
+    match ball.cor_by_speed.is_empty() {
+        true => file["cor"] = ball.cor.into(),
+        false => file["cor_by_speed"] = json!(ball.cor_by_speed),
+    }
+    file
+}
+
+fn from_document(document: &Document) -> Result<Ball> {
+    let root = Node::root(document)?.members()?;
+    root.check_format("sweetspot-ball/1")?;
+    let mut mistakes = Mistakes::default();
+    let root = root.only(KEYS, &mut mistakes);
+    mistakes.note(root.require("format", "\"format\": \"sweetspot-ball/1\"").map(|_| ()));
+    let needed = |key: &str, quantity| -> Result<f64> {
+        let node = root.require(key, &format!("\"{key}\" of the ball"))?;
+        positive(node, quantity)
+    };
+    let optional = |key: &str| root.get(key).map(|node| positive(node, None)).transpose();
+    let name = mistakes.note(root.string("name"));
+    let source = mistakes.note(root.string("source"));
+    let mass = mistakes.note(needed("mass", Some(Quantity::Mass)));
+    let radius = mistakes.note(needed("radius", Some(Quantity::Length)));
+    let stiffness = mistakes.note(optional("stiffness"));
+    let exponent = mistakes.note(optional("exponent"));
+    let bounce = mistakes.and(bounce(&root, exponent))?;
+    Ok(Ball {
+        name: name.unwrap_or_else(|| "unnamed ball".to_owned()),
+        source: source.unwrap_or_default(),
+        mass,
+        radius,
+        stiffness,
+        exponent: if bounce.linear { Some(1.0) } else { exponent },
+        law: LawOf(power_law::law),
+        cor: bounce.cor,
+        cor_by_speed: bounce.by_speed,
+    })
 }
 
 /// How a ball comes back, in one of the ways in which it may be written.
@@ -106,7 +141,7 @@ fn positive(node: &Node, quantity: Option<Quantity>) -> Result<f64> {
 }
 
 /// A coefficient of restitution in a file.
-fn e0(node: &Node) -> Result<f64> {
+pub(crate) fn e0(node: &Node) -> Result<f64> {
     restitution(node.number()?).map_err(|_| node.error(node.shown(), "0 to 1"))
 }
 

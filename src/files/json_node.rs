@@ -8,6 +8,7 @@ use std::fmt;
 use std::ops::Range;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::base::error::{Complaint, Error, Result, nearest, shortened};
@@ -173,6 +174,11 @@ impl<'a> Node<'a> {
         })
     }
 
+    /// The value as it is, whatever it is.
+    pub fn value(&self) -> Value {
+        serde_json::from_str(self.raw).unwrap_or_default()
+    }
+
     /// A pure number, such as a ratio.
     pub fn number(&self) -> Result<f64> {
         match serde_json::from_str::<f64>(self.raw) {
@@ -319,6 +325,11 @@ impl<'a> Object<'a> {
         };
         let complaint = Complaint::new("", node.shown(), format!("\"{reads}\""));
         Err(node.complain(complaint.hinted(hint)))
+    }
+
+    /// All members, in the order of the file.
+    pub fn keys(&self) -> &[(String, Node<'a>)] {
+        &self.members
     }
 
     pub fn get(&self, key: &str) -> Option<&Node<'a>> {

@@ -7,7 +7,9 @@
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
 //! | `csv_file`, `station_table` | a table; the stations of a profile |
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
-//! | [`ball_file`], [`shape_file`], [`force_file`] | a ball; an initial shape; a force in time |
+//! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
+//! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
+//! | [`study_file`], [`study_rows`] | what a study varies and asks; row k of it |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
 //! | [`measured`] | measured modes, as laboratories write them |
@@ -22,8 +24,12 @@ pub(crate) mod fixtures_file;
 pub(crate) mod edits_file;
 pub mod bat_file;
 pub mod ball_file;
+pub mod balls;
+pub mod scene_file;
 pub mod shape_file;
 pub mod force_file;
+pub mod study_file;
+pub mod study_rows;
 #[cfg(feature = "show")]
 pub mod schema;
 #[cfg(feature = "show")]

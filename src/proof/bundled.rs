@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
 
 /// The cases that travel with the program: file name and text.
@@ -186,6 +186,27 @@ pub(crate) fn text(name: &str) -> Result<&'static str> {
     found
         .map(|(_, text)| *text)
         .ok_or_else(|| Error::value("case", name, "a case that travels with the program"))
+}
+
+/// The name and the text of the built-in bat that is meant, if the path is no file's.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a name that is neither a file nor built in.
+pub fn named(path: &Path) -> Result<Option<(&str, &'static str)>> {
+    let one_word = path.components().count() == 1 && path.extension().is_none();
+    let is_file = path.exists() && !path.is_dir();
+    let Some(name) = path.to_str().filter(|_| one_word && !is_file) else { return Ok(None) };
+    if let Some(text) = bat_text(name) {
+        return Ok(Some((name, text)));
+    }
+    if path.exists() {
+        return Ok(None);
+    }
+    let names = bat_names();
+    let expected = format!("a bat file, or a built-in bat: {}", names.join(", "));
+    let found = format!("{}, which is neither a file nor built in", path.display());
+    Err(Error::Value(Complaint::new("", found, expected).or_nearest(name, &names)))
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ use crate::files::schema::measured::MeasuredFile;
 use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::RingFile;
+use crate::files::schema::study::{StudyForm, StudyManifest};
 use crate::files::schema::trade::TradeFile;
 use crate::files::schema::u_curve::UCurveFile;
 use crate::files::schema::{DRAFT, id, of};
@@ -31,9 +32,10 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
+        Self::of::<StudyForm>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
@@ -44,6 +46,7 @@ impl FileKind {
         Self::of::<RingFile>(),
         Self::of::<FrfFile>(),
         Self::of::<AdviceFile>(),
+        Self::of::<StudyManifest>(),
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),

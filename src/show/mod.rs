@@ -5,6 +5,7 @@
 //! | [`analysis`] | everything there is to say of one bat and its hits |
 //! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
 //! | [`exchange`] | files for other programs |
+//! | [`many`] | the rows of a study and the folder of them |
 //! | [`plot`] | pictures |
 //! | [`page`] | all of it on one page |
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
@@ -14,6 +15,7 @@ pub mod csv;
 pub mod analysis;
 pub mod report;
 pub mod exchange;
+pub mod many;
 pub mod plot;
 pub mod page;
 pub mod hit_figure;

@@ -118,6 +118,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);
     folder.write("tap.uff", include_str!("../golden/tap.uff"));
+    folder.write("study-1.json", include_str!("../golden/study-1.json"));
     folder
 }
 
@@ -156,4 +157,10 @@ pub fn page(folder: &Folder) -> Value {
     let page = folder.read("page.html");
     let (_, data) = page.split_once("id=\"data\">").unwrap();
     serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()
+}
+
+/// What stands beside the rows of a study, `sweetspot-study-manifest/1`.
+pub fn manifest(folder: &Folder) -> Value {
+    folder.text(&["study", "study-1.json", "--out", "study"]);
+    serde_json::from_str(&folder.read("study/manifest.json")).unwrap()
 }

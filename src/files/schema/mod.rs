@@ -29,6 +29,7 @@ pub mod advice;
 pub mod u_curve;
 pub mod trade;
 pub mod mistakes;
+pub mod study;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

@@ -74,6 +74,19 @@ fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     bytes
 }
 
+/// An archive of columns, one array each.
+///
+/// # Errors
+///
+/// What the zip file cannot hold.
+pub fn columns(columns: &[(String, Vec<f64>)]) -> Result<Vec<u8>> {
+    let mut archive = Archive::new();
+    for (name, values) in columns {
+        archive.floats(name, &[values.len()], values)?;
+    }
+    archive.finish()
+}
+
 /// The archive of a bat's modes: `x_m`, `radius_m`, `inner_radius_m` at every place; `order`,
 /// `frequency_hz`, `modal_mass_kg`, `damping_ratio` of every mode; `deflection` and
 /// `rotation_rad_per_m`, modes by places; `nodes_m_1`, `nodes_m_2`, … where each mode is at rest.

@@ -11,7 +11,6 @@ use crate::files::schema;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, length, speed};
 use crate::show::page::table::Table;
-use crate::show::report::hit_json::model_name;
 use crate::show::report::resolved::resolved;
 use crate::show::report::units::Units;
 
@@ -97,7 +96,7 @@ type Line = (&'static str, String);
 
 fn model(analysis: &Analysis) -> Vec<Line> {
     let model = analysis.task.model;
-    let mut lines = vec![("model of the collision", model_name(model).to_owned())];
+    let mut lines = vec![("model of the collision", model.name().to_owned())];
     match model {
         Model::EnergyLoss(loss) => lines.extend([
             ("size of the empirical loss, γ", shown::plain(loss.gamma)),

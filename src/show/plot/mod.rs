@@ -57,3 +57,4 @@ pub mod matrix;
 pub mod sets;
 pub mod compared;
 pub mod measured;
+pub mod many;

@@ -4,7 +4,6 @@ use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::edits;
-use crate::show::report::hit_json::model_name;
 use crate::show::report::text::wrapped;
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
@@ -131,7 +130,7 @@ pub fn hit(comparison: &Comparison, units: Units) -> String {
     let side = if *pivot < 0.0 { "inside" } else { "beyond" };
     let scene = format!(
         "Hit: model {}, swung about a point {} {side} the knob end, {} at {}",
-        model_name(comparison.terms.model),
+        comparison.terms.model.name(),
         units.inline(units.length(pivot.abs())),
         ball.name,
         units.inline(units.speed(*ball_speed)),

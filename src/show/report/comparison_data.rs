@@ -4,7 +4,7 @@ use crate::files::schema::compare as file;
 use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::comparison::{letter, words};
-use crate::show::report::hit_json::{model_name, scene_out, seen_from};
+use crate::show::report::hit_json::{scene_out, seen_from};
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
@@ -18,7 +18,7 @@ pub fn document(comparison: &Comparison, files: &[String]) -> file::CompareFile 
     file::CompareFile {
         format: Format::new(),
         generator: Generator::this(),
-        model: model_name(comparison.terms.model),
+        model: comparison.terms.model.name(),
         scene: scene(&comparison.bats[0]),
         bats: bats.map(|(k, (bat, file))| of_bat(comparison, k, bat, file)).collect(),
         exit_speed_from_tip: speeds(&comparison.from_tip, &comparison.by_tip),

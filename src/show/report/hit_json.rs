@@ -22,22 +22,12 @@ pub fn hit(
         format: Format::new(),
         generator: Generator::this(),
         edits: bat.edits().to_vec(),
-        model: model_name(model).to_owned(),
+        model: model.name().to_owned(),
         scene: scene_out(bat, scene),
         impacts: impacts.iter().map(|at| impact(bat, at)).collect(),
         sweet_spot: sweet_spot(spot),
         ignored: ignored::in_hit(bat, scene.wall.is_some()),
         figures: None,
-    }
-}
-
-/// The name that the command line and the files use.
-pub fn model_name(model: Model) -> &'static str {
-    match model {
-        Model::Rigid => "rigid",
-        Model::EnergyLoss(_) => "energy-loss",
-        Model::Pulse(_) => "pulse",
-        Model::Contact => "contact",
     }
 }
 

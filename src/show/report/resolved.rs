@@ -25,7 +25,8 @@ pub fn resolved(bat: &Bat) -> ResolvedBat {
     }
 }
 
-fn profile(profile: &Profile) -> file::Profile {
+/// A profile as it was understood, which names no other file.
+pub fn profile(profile: &Profile) -> file::Profile {
     match &profile.formulas {
         Some(formulas) => file::Profile::Pieces(pieces(formulas)),
         None => file::Profile::Columns(columns(&profile.stations)),

@@ -8,7 +8,6 @@ use crate::collision::hit::Model;
 use crate::files::schema::analysis as file;
 use crate::show::analysis::Analysis;
 use crate::show::report::columns::{Columns, first};
-use crate::show::report::hit_json::model_name;
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
 use crate::study::ignored::thinnest_wall;
@@ -44,7 +43,7 @@ fn scene(analysis: &Analysis, units: Units) -> String {
     let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
     let model = match analysis.task.model {
         Model::Contact => String::new(),
-        other => format!("; model {}", model_name(other)),
+        other => format!("; model {}", other.name()),
     };
     format!(
         "  {}; swing {}, pitch {}{model}",

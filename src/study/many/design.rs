@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::error::{Error, Result};
 use crate::study::many::distribution::{Distribution, share_below, standard_normal};
 use crate::study::many::hash::{of, shuffled};
+use crate::study::many::indices::Kind;
 use crate::study::many::sobol::{MOST_COORDINATES, Sobol, between};
 
 /// How points are spread.
@@ -103,7 +104,7 @@ impl Design {
 
     /// How many rows there are.
     pub fn rows(&self) -> u64 {
-        self.lists.iter().product::<u64>() * self.points
+        self.combinations() * self.points
     }
 
     /// Row k of them, counted from 0.
@@ -125,6 +126,35 @@ impl Design {
             distribution.quantile(share_below(score).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON))
         };
         Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
+    }
+
+    /// The first of every list, the median of every distribution.
+    pub fn middle(&self) -> Row {
+        let values = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
+        Row { picks: vec![0; self.lists.len()], values }
+    }
+
+    /// The independent numbers behind the values that are drawn, and what each of them is.
+    pub fn kinds(&self) -> Vec<Kind> {
+        let kind = |distribution: &Distribution| match distribution {
+            Distribution::Normal { .. } | Distribution::Lognormal { .. } => Kind::Score,
+            Distribution::Uniform { .. } | Distribution::Triangular { .. } => Kind::Share,
+        };
+        self.drawn.iter().map(kind).collect()
+    }
+
+    /// Those of row k; of correlated values each has what the earlier ones leave open.
+    pub fn numbers(&self, k: u64) -> Vec<f64> {
+        let number = |(c, kind): (usize, Kind)| match kind {
+            Kind::Share => self.share(k % self.points, c),
+            Kind::Score => standard_normal(self.share(k % self.points, c)),
+        };
+        self.kinds().into_iter().enumerate().map(number).collect()
+    }
+
+    /// How many combinations of the lists there are.
+    pub fn combinations(&self) -> u64 {
+        self.lists.iter().product()
     }
 
     /// A coordinate of a point in the unit cube.

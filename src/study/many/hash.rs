@@ -19,6 +19,15 @@ pub fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// A number that tells a text from others: whoever wants two texts of one number can make them.
+pub fn of_text(text: &str) -> u64 {
+    let start = mixed(text.len() as u64);
+    text.as_bytes().chunks(8).fold(start, |hash, bytes| {
+        let word = bytes.iter().fold(0, |word, byte| word << 8 | u64::from(*byte));
+        mixed(hash ^ word).wrapping_add(GOLDEN)
+    })
+}
+
 /// The number of a seed at a place with two coordinates.
 pub fn of(seed: u64, a: u64, b: u64) -> u64 {
     mixed(mixed(mixed(seed) ^ a).wrapping_add(GOLDEN) ^ b)

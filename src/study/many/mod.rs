@@ -6,8 +6,12 @@
 //! | [`sobol`] | where are points that fill a cube evenly |
 //! | [`distribution`] | which value lies below that share of all |
 //! | [`design`] | which values does row k have |
+//! | [`indices`] | which of the drawn numbers make an answer vary |
+//! | [`answers`] | what is asked of every bat, and found |
 
 pub mod hash;
 pub mod sobol;
 pub mod distribution;
+pub mod indices;
 pub mod design;
+pub mod answers;

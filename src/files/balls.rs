@@ -1,7 +1,7 @@
 //! Which ball is meant: one that is known by its name, or one of a file?
 
 use crate::base::error::{Complaint, Error, Result, nearest};
-use crate::collision::ball::{Ball, restitution};
+use crate::collision::ball::Ball;
 
 /// A ball's name and what makes it.
 type NamedBall = (&'static str, fn() -> Ball);
@@ -19,6 +19,10 @@ pub fn is_built_in(name: &str) -> bool {
 }
 
 /// A ball by its name or its file, as a linear spring if a stiffness (N/m) is given.
+///
+/// # Errors
+///
+/// As [`Ball::from_file`] and [`Ball::linear`], and [`Error::Value`] for a misspelt name.
 pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
     let ball = match BALLS.iter().find(|(known, _)| *known == name) {
         Some((_, built_in)) => built_in(),
@@ -37,7 +41,7 @@ fn unknown_ball(name: &str, error: Error) -> Error {
         Error::Read { source, .. } if nearest(name, &known).is_some() => {
             let found = format!("{name}, which cannot be read ({source})");
             let complaint = Complaint::new(
-                "--ball",
+                "`ball`",
                 found,
                 "baseball, humid-baseball, softball or a ball file",
             );
@@ -45,9 +49,4 @@ fn unknown_ball(name: &str, error: Error) -> Error {
         }
         other => other,
     }
-}
-
-/// A coefficient of restitution on the command line.
-pub fn cor(text: &str) -> std::result::Result<f64, String> {
-    text.parse::<f64>().ok().and_then(|e| restitution(e + 0.0).ok()).ok_or("expected 0 to 1".into())
 }

@@ -1,0 +1,267 @@
+//! The part of the Python package that is written in Rust.
+//!
+//! What goes in and out are texts: bat files, scenes and the documents that the command line writes. The
+//! package around it makes NumPy arrays of them.
+
+use std::path::{Path, PathBuf};
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use sweetspot::base::threads;
+use sweetspot::beam::assembly::Pencil;
+use sweetspot::collision::Hitter;
+use sweetspot::collision::figures::Figures;
+use sweetspot::collision::sweep::{Trial, sweep};
+use sweetspot::files::balls::ball;
+use sweetspot::files::scene_file;
+use sweetspot::files::schema;
+use sweetspot::files::schema::hit::HitFile;
+use sweetspot::proof::bundled;
+use sweetspot::show::exchange::npz;
+use sweetspot::show::many::folder::{StudyFolder, part};
+use sweetspot::show::many::source::Study as Source;
+use sweetspot::show::plot::picture::Picture;
+use sweetspot::show::plot::sets::{Hits, of_modes};
+use sweetspot::show::plot::sheet::Sheet;
+use sweetspot::show::report::json::{self, ShapePoints};
+use sweetspot::show::report::{hit_json, mistakes};
+use sweetspot::study::theory_choice::theory;
+use sweetspot::study::tuned::tuned;
+use sweetspot::{Error, Request, Solution, Theory, solve};
+
+/// The package's exception about an error, with its `sweetspot-error/1` document.
+fn raised(py: Python<'_>, error: &Error) -> PyErr {
+    let document = schema::text(&mistakes::document(error));
+    let made = py
+        .import("sweetspot._errors")
+        .and_then(|module| module.getattr("SweetspotError"))
+        .and_then(|class| class.call1((error.to_string(), document)));
+    made.map_or_else(|failed| failed, PyErr::from_value)
+}
+
+/// What `work` gives, without the interpreter's lock, or the exception about its error.
+fn free<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> sweetspot::Result<T> + Send,
+) -> PyResult<T> {
+    py.detach(work).map_err(|error| raised(py, &error))
+}
+
+/// A bat.
+#[pyclass(frozen, module = "sweetspot._core")]
+struct Bat(sweetspot::Bat);
+
+/// How modes are asked for.
+struct Asked {
+    modes: usize,
+    tolerance: f64,
+    theory: Option<Theory>,
+}
+
+impl Asked {
+    fn new(modes: usize, tolerance: f64, name: Option<&str>) -> sweetspot::Result<Self> {
+        if modes > 1000 {
+            return Err(Error::value("n", modes, "1000 modes at most"));
+        }
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            return Err(Error::value("tol", tolerance, "a number between 0 and 1, such as 1e-6"));
+        }
+        let theory = name.map(|name| {
+            let known = Theory::ALL.into_iter().find(|theory| theory.name() == name);
+            let names = Theory::ALL.map(Theory::name).join(", ");
+            known.ok_or_else(|| Error::value("theory", format!("\"{name}\""), names))
+        });
+        Ok(Self { modes, tolerance, theory: theory.transpose()? })
+    }
+
+    /// The bat as it is tuned to its tap, and what is asked of it.
+    fn prepared(&self, bat: &sweetspot::Bat) -> sweetspot::Result<(sweetspot::Bat, Request)> {
+        let mut request =
+            Request { modes: self.modes, tolerance: self.tolerance, ..Request::default() };
+        request.theory = match self.theory {
+            Some(theory) => theory,
+            None => theory(bat, &request)?.theory,
+        };
+        let bat = tuned(bat.clone(), request.theory, self.tolerance)?;
+        Ok((bat, request))
+    }
+
+    fn solved(&self, bat: &sweetspot::Bat) -> sweetspot::Result<(sweetspot::Bat, Solution)> {
+        let (bat, request) = self.prepared(bat)?;
+        let solution = solve(&bat, &request)?;
+        Ok((bat, solution))
+    }
+}
+
+/// Pictures as their names and SVG texts.
+fn named(pictures: Vec<Picture>) -> Vec<(String, String)> {
+    pictures.into_iter().map(|picture| (picture.name, picture.svg)).collect()
+}
+
+#[pymethods]
+impl Bat {
+    #[new]
+    fn new(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
+        free(py, || sweetspot::Bat::from_text(name, text, &folder)).map(Self)
+    }
+
+    /// Name, length (m), mass (kg), balance point (m), inertia about a point (kg m²), warnings.
+    fn summary(&self, pivot: f64) -> (String, f64, f64, f64, f64, Vec<String>) {
+        let (bat, inertia) = (&self.0, self.0.inertia());
+        let warnings = bat.warnings().iter().map(ToString::to_string).collect();
+        let name = bat.name().to_owned();
+        (name, bat.length(), inertia.mass, inertia.balance_point, inertia.about(pivot), warnings)
+    }
+
+    /// The `sweetspot-modes/1` document, and pictures.
+    fn modes(
+        &self,
+        py: Python<'_>,
+        n: usize,
+        tol: f64,
+        theory: Option<&str>,
+        points: usize,
+    ) -> PyResult<(String, Vec<(String, String)>)> {
+        free(py, || {
+            let (bat, solution) = Asked::new(n, tol, theory)?.solved(&self.0)?;
+            let document = json::modes(&bat, &solution, ShapePoints::Even(points), true);
+            let pictures = of_modes(Sheet::of(&bat), &bat, &solution, None);
+            Ok((schema::text(&document), named(pictures)))
+        })
+    }
+
+    /// The `sweetspot-hit/1` document, and pictures. `scene` is a JSON object, `ball` a built-in name or a
+    /// file, `places` are in m.
+    fn hit(
+        &self,
+        py: Python<'_>,
+        scene: &str,
+        ball_name: &str,
+        places: Option<Vec<f64>>,
+        tol: f64,
+        theory: Option<&str>,
+    ) -> PyResult<(String, Vec<(String, String)>)> {
+        free(py, || {
+            let asked = Asked::new(Request::default().modes, tol, theory)?;
+            let setup = scene_file::from_text(scene, ball(ball_name, None)?)?;
+            let model = setup.model()?;
+            let (bat, request) = asked.prepared(&self.0)?;
+            let (scene, law) = setup.scene(&bat)?;
+            let length = bat.length();
+            let places = places.unwrap_or_else(|| {
+                (0..=100).map(|k| (0.5 + 0.005 * f64::from(k)).min(1.0) * length).collect()
+            });
+            if let Some(off) = places.iter().find(|x| !(0.0..=length).contains(*x)) {
+                let expected = format!("places on the bat, 0 to {length} m");
+                return Err(Error::value("at", format!("{off} m"), expected));
+            }
+            let trial = Trial { model, scene: &scene };
+            let accuracy = trial.accuracy(&request, false);
+            let hits = sweep(&bat, model, &scene, &accuracy, &places)?;
+            let hitter = Hitter::new(model, &scene, &bat, &hits.solution, hits.effort)?;
+            let figures = Figures::new(&bat, &hitter, law)?;
+            let document = HitFile {
+                figures: Some(hit_json::figures(&figures)),
+                ..hit_json::hit(&bat, model, &scene, &hits.impacts, &figures.spot)
+            };
+            let seen = Hits { bat: &bat, model, scene: &scene, sweep: &hits, spot: &figures.spot };
+            let pictures = seen.pictures(Sheet::of(&bat), None)?;
+            Ok((schema::text(&document), named(pictures)))
+        })
+    }
+
+    /// K and M of the solved mesh as the bytes of a NumPy archive.
+    fn matrices(
+        &self,
+        py: Python<'_>,
+        n: usize,
+        tol: f64,
+        theory: Option<&str>,
+    ) -> PyResult<Py<PyBytes>> {
+        let bytes = free(py, || {
+            let (bat, solution) = Asked::new(n, tol, theory)?.solved(&self.0)?;
+            if !bat.fixtures().none_moving() {
+                let found = "a bat with attachments, joints or supports";
+                let expected = "a bare bat: K and M are those of its body";
+                return Err(Error::value("matrices", found, expected));
+            }
+            let pencil = Pencil::of(&bat, &solution.mesh, solution.degree, solution.theory);
+            let failed = |source| Error::Write { path: "bat.npz".into(), source };
+            npz::matrices(&pencil, &solution).map_err(failed)
+        })?;
+        Ok(PyBytes::new(py, &bytes).unbind())
+    }
+}
+
+/// The text of a bat file that is built in.
+#[pyfunction]
+fn built_in(py: Python<'_>, name: &str) -> PyResult<Option<&'static str>> {
+    let found = bundled::named(Path::new(name)).map_err(|error| raised(py, &error))?;
+    Ok(found.map(|(_, text)| text))
+}
+
+/// The names of the bats that are built in.
+#[pyfunction]
+fn built_in_names() -> Vec<&'static str> {
+    bundled::bat_names()
+}
+
+/// A study: its rows are functions of their numbers.
+#[pyclass(frozen, module = "sweetspot._core")]
+struct Study(Source);
+
+#[pymethods]
+impl Study {
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        free(py, || Source::read(&path)).map(Self)
+    }
+
+    /// A study from its text, its files sought in a folder.
+    #[staticmethod]
+    fn of(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
+        free(py, || Source::of(name, text, &folder)).map(Self)
+    }
+
+    /// Names and units of the columns.
+    fn columns(&self) -> Vec<(String, String)> {
+        self.0.rows.columns().into_iter().map(|[name, unit]| (name, unit)).collect()
+    }
+
+    /// The study as one text that needs no file.
+    fn alone(&self) -> String {
+        self.0.alone()
+    }
+
+    /// A study that was sent here.
+    #[staticmethod]
+    fn arrived(py: Python<'_>, text: &str) -> PyResult<Self> {
+        free(py, || Source::arrived(text)).map(Self)
+    }
+
+    /// How many rows and parts there are.
+    fn size(&self) -> (u64, u64) {
+        (self.0.rows.count(), StudyFolder::parts_of(&self.0))
+    }
+
+    /// A part as the bytes of a CSV file, on so many threads, all if none are named.
+    fn part(&self, py: Python<'_>, k: u64, jobs: Option<usize>) -> PyResult<Py<PyBytes>> {
+        let text = free(py, || Ok(threads::with(jobs, || part(&self.0, k, &|_| ()))))?;
+        Ok(PyBytes::new(py, text.as_bytes()).unbind())
+    }
+
+    /// Opens the folder of the study, or refuses one of another.
+    fn open(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
+        free(py, || StudyFolder::open(&out, &self.0).map(|_| ()))
+    }
+}
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Bat>()?;
+    module.add_class::<Study>()?;
+    module.add_function(wrap_pyfunction!(built_in, module)?)?;
+    module.add_function(wrap_pyfunction!(built_in_names, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,26 @@
+"""What a baseball bat does when it meets a ball.
+
+>>> import sweetspot as ss
+>>> bat = ss.Bat.from_file("r161")
+>>> bat.modes(3).frequency_hz.round()
+array([ 175.,  581., 1187.])
+
+Numbers are in SI; texts carry their unit: ``bat.hit(bat_speed="72 mph")``.
+"""
+
+from ._bat import Bat, built_in_bats
+from ._errors import SweetspotError
+from ._results import Hit, Modes
+from ._study import Study, StudyResult, run_study
+
+__all__ = [
+    "Bat",
+    "Hit",
+    "Modes",
+    "Study",
+    "StudyResult",
+    "SweetspotError",
+    "built_in_bats",
+    "run_study",
+]
+__version__ = "0.1.0"

@@ -1,0 +1,223 @@
+"""A bat: read from a file, or from arrays."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._errors import SweetspotError
+from ._results import Hit, Modes
+
+Quantity = float | str
+"""A number in SI, or a text with its unit, such as ``"28 in"``."""
+
+
+def _plain(value: Any) -> Any:
+    """What JSON can hold."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, Mapping):
+        return {str(key): _plain(member) for key, member in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    return value
+
+
+class Bat:
+    """A bat of a profile and a material. Places count from the knob end.
+
+    Parameters
+    ----------
+    x : places of the stations, rising, in ``unit``.
+    diameter : outer diameters there, in ``unit``; or ``radius``.
+    material : name of a built-in material, or a dictionary with ``density`` (kg/m³), ``youngs_modulus`` (Pa)
+        and, if known, ``shear_modulus`` (Pa), as in a bat file.
+    inner_diameter : diameters of the bore, in ``unit``; solid without.
+    unit : unit of the lengths, such as ``"m"``, ``"mm"`` or ``"in"``.
+    mass : mass on a scale (kg, or a text with its unit); the density follows from it.
+    interpolation : ``"pchip"`` or ``"linear"``.
+    members : further members of a bat file, such as ``attachments=[{"x": "0 in", "mass": "1 oz"}]``.
+
+    Raises
+    ------
+    SweetspotError
+        If it cannot be a bat, with every mistake.
+    """
+
+    def __init__(
+        self,
+        x: Sequence[float] | np.ndarray,
+        diameter: Sequence[float] | np.ndarray | None = None,
+        *,
+        material: str | Mapping[str, Any],
+        radius: Sequence[float] | np.ndarray | None = None,
+        inner_diameter: Sequence[float] | np.ndarray | None = None,
+        unit: str = "m",
+        mass: Quantity | None = None,
+        name: str = "unnamed bat",
+        interpolation: str = "pchip",
+        **members: Any,
+    ) -> None:
+        profile = {
+            "interpolation": interpolation,
+            "unit": unit,
+            "x": x,
+            "diameter": diameter,
+            "radius": radius,
+            "inner_diameter": inner_diameter,
+        }
+        profile = {key: value for key, value in profile.items() if value is not None}
+        document = {"format": "sweetspot-bat/1", "name": name, "material": material, "profile": profile}
+        if mass is not None:
+            document["weighed"] = {"mass": mass}
+        self._take("Bat", json.dumps(_plain({**document, **members})), Path())
+
+    def _take(self, called: str, text: str, folder: Path) -> None:
+        self._core = _core.Bat(called, text, folder)
+        self._called, self._text, self._folder = called, text, folder
+
+    @classmethod
+    def _of(cls, called: str, text: str, folder: Path) -> Bat:
+        bat = cls.__new__(cls)
+        bat._take(called, text, folder)
+        return bat
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> Bat:
+        """The bat of a bat file, or a built-in one by its name, such as ``"r161"``."""
+        path = Path(path)
+        if not path.is_file() and (text := _core.built_in(str(path))) is not None:
+            return cls._of(str(path), text, Path())
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise SweetspotError(f"cannot read {path}: {error}") from error
+        return cls._of(str(path), text, path.parent)
+
+    @classmethod
+    def from_document(cls, document: Mapping[str, Any], folder: str | Path = "") -> Bat:
+        """The bat of the members of a bat file; a table of stations is sought in ``folder``."""
+        return cls._of("Bat", json.dumps(_plain(document)), Path(folder))
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The members of its bat file."""
+        return json.loads(self._text.removeprefix("\ufeff"))
+
+    def edit(self, *edits: Mapping[str, Any]) -> Bat:
+        """This bat after changes, in their order, as a bat file writes them.
+
+        ``bat.edit({"cut": {"from": "24 in", "to": "30 in", "depth": "1 mm"}}, {"knob": "1 oz"})``
+        """
+        document = self.document
+        document["edits"] = [*document.get("edits", []), *edits]
+        return Bat.from_document(document, self._folder)
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self._summary()[0]
+
+    @property
+    def length_m(self) -> float:
+        """Length (m)."""
+        return self._summary()[1]
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass (kg)."""
+        return self._summary()[2]
+
+    @property
+    def balance_point_m(self) -> float:
+        """Balance point (m from the knob end)."""
+        return self._summary()[3]
+
+    def inertia_kg_m2(self, pivot: float = 0.1524) -> float:
+        """Moment of inertia (kg m²) about a place (m from the knob end); without one 6 in, the swing weight."""
+        return self._summary(pivot)[4]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is unusual about its file."""
+        return self._summary()[5]
+
+    def _summary(self, pivot: float = 0.1524) -> tuple[str, float, float, float, float, list[str]]:
+        return self._core.summary(pivot)
+
+    def modes(
+        self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None, points: int = 101
+    ) -> Modes:
+        """The first ``n`` bending modes, each frequency within ``tol`` (relative).
+
+        Without a ``theory`` ("euler-bernoulli", "rayleigh", "timoshenko") the simplest that is accurate enough
+        on this bat is taken. Shapes are told at so many even ``points``.
+        """
+        document, pictures = self._core.modes(n, tol, theory, points)
+        return Modes(json.loads(document), dict(pictures))
+
+    def hit(
+        self,
+        at: Sequence[float] | np.ndarray | float | None = None,
+        tol: float = 1e-4,
+        *,
+        ball: str | Path = "baseball",
+        theory: str | None = None,
+        **scene: Quantity,
+    ) -> Hit:
+        """Hits at places ``at`` (m; without, 101 from the middle to the tip), exit speeds within ``tol`` of the
+        closing speed.
+
+        ``scene`` says how, with the names of the options of ``sweetspot hit``: ``bat_speed="72 mph"``,
+        ``swing_speed``, ``pitch``, ``pivot``, ``hands``, ``cor``, ``model`` and so on; numbers are in SI.
+        """
+        places = None if at is None else [float(x) for x in np.atleast_1d(np.asarray(at, dtype=float))]
+        document, pictures = self._core.hit(json.dumps(_plain(scene)), str(ball), places, tol, theory)
+        return Hit(json.loads(document), dict(pictures))
+
+    def matrices(self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None) -> dict[str, np.ndarray]:
+        """Arrays of the finite elements that the first ``n`` modes were found with.
+
+        ``K`` and ``M`` are the dense stiffness (N/m, N, N m) and mass (kg, kg m, kg m²) matrices; the others are
+        those of the archive that ``sweetspot modes --matrices`` writes.
+        """
+        import io
+
+        with np.load(io.BytesIO(self._core.matrices(n, tol, theory))) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+        for name in ("K", "M"):
+            parts = {key: arrays[f"{name}_{key}"] for key in ("data", "indices", "indptr", "shape")}
+            arrays[name] = _dense(**parts)
+        return arrays
+
+    def __repr__(self) -> str:
+        return f"<Bat {self.name!r}, {self.length_m:.4f} m, {self.mass_kg:.4f} kg>"
+
+    def _repr_html_(self) -> str:
+        picture = dict(self._core.modes(0, 1e-2, None, 0)[1]).get("profile", "")
+        return f"<p>{self!r}</p>".replace("<Bat", "&lt;Bat").replace("kg>", "kg&gt;") + picture
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Bat._of, (self._called, self._text, self._folder)
+
+
+def _dense(
+    data: np.ndarray, indices: np.ndarray, indptr: np.ndarray, shape: np.ndarray
+) -> np.ndarray:
+    """A matrix that is stored by compressed rows."""
+    matrix = np.zeros(tuple(int(n) for n in shape))
+    rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
+    matrix[rows, indices] = data
+    return matrix
+
+
+def built_in_bats() -> list[str]:
+    """The names of the bats that are built in."""
+    return _core.built_in_names()

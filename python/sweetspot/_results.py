@@ -1,0 +1,187 @@
+"""What came of a bat: modes and hits, as arrays and as pictures."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+
+def _array(values: Any) -> np.ndarray:
+    """Numbers as an array, NaN where there is none."""
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def _table(columns: dict[str, np.ndarray], digits: dict[str, int]) -> str:
+    """A table for a notebook."""
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
+    rows = zip(*columns.values())
+    cell = lambda name, value: f"<td>{value:.{digits.get(name, 4)}f}</td>"
+    body = "".join(
+        "<tr>" + "".join(cell(name, value) for name, value in zip(columns, row)) + "</tr>" for row in rows
+    )
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Something with columns and pictures, which a notebook shows."""
+
+    document: dict[str, Any]
+    """The document that the command line writes, as dictionaries and lists."""
+    pictures: dict[str, str] = field(repr=False)
+    """Pictures by their names, each an SVG text."""
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The numbers as a table: arrays of one length by their names, which end in their units."""
+        raise NotImplementedError
+
+    def to_pandas(self) -> Any:
+        """The columns as a pandas DataFrame (needs pandas)."""
+        import pandas
+
+        return pandas.DataFrame(self.columns())
+
+    def to_arrow(self) -> Any:
+        """The columns as an Arrow table (needs pyarrow)."""
+        import pyarrow
+
+        return pyarrow.table(self.columns())
+
+
+@dataclass(frozen=True, repr=False)
+class Modes(Shown):
+    """Bending modes of a bat, the lowest first. Places count from the knob end."""
+
+    @property
+    def frequency_hz(self) -> np.ndarray:
+        """Frequencies (Hz), shape (n,)."""
+        return _array(mode["frequency_hz"] for mode in self._modes)
+
+    @property
+    def frequency_error_hz(self) -> np.ndarray:
+        """How far each frequency may be off (Hz), shape (n,)."""
+        errors = (mode["error"] for mode in self._modes)
+        relative = _array(error["discretization"] + error["round_off"] for error in errors)
+        return relative * self.frequency_hz
+
+    @property
+    def modal_mass_kg(self) -> np.ndarray:
+        """Modal masses (kg) of shapes whose largest deflection is 1, shape (n,)."""
+        return _array(mode["modal_mass_kg"] for mode in self._modes)
+
+    @property
+    def nodes_m(self) -> list[np.ndarray]:
+        """The places (m) where each mode stands still, one array a mode."""
+        return [_array(mode["nodes_m"]) for mode in self._modes]
+
+    @property
+    def nodes_error_m(self) -> np.ndarray:
+        """How far a node of each mode may be off (m), shape (n,)."""
+        return _array(mode["error"]["nodes_m"] for mode in self._modes)
+
+    @property
+    def x_m(self) -> np.ndarray:
+        """Places of the shapes (m), shape (points,)."""
+        return _array(self._modes[0]["shape"]["x_m"] if self._modes else [])
+
+    @property
+    def shapes(self) -> np.ndarray:
+        """Deflections along the bat, the largest of each mode 1, shape (n, points)."""
+        return np.array([mode["shape"]["deflection"] for mode in self._modes], dtype=float)
+
+    @property
+    def met(self) -> bool:
+        """Whether every frequency is as accurate as was asked."""
+        return bool(self.document["model"]["tolerance_met"])
+
+    @property
+    def theory(self) -> str:
+        """The beam theory that was taken."""
+        return str(self.document["model"]["theory"])
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """One row a mode: order, frequency and its error (Hz), modal mass (kg)."""
+        return {
+            "mode": np.arange(1, len(self._modes) + 1),
+            "frequency_hz": self.frequency_hz,
+            "frequency_error_hz": self.frequency_error_hz,
+            "modal_mass_kg": self.modal_mass_kg,
+        }
+
+    def __repr__(self) -> str:
+        first = ", ".join(f"{f:.1f}" for f in self.frequency_hz[:3])
+        more = ", …" if len(self._modes) > 3 else ""
+        return f"<Modes of {self.document['bat']['name']!r}: {first}{more} Hz>"
+
+    @property
+    def _modes(self) -> list[dict[str, Any]]:
+        return self.document["modes"]
+
+    def _repr_html_(self) -> str:
+        digits = {"mode": 0, "frequency_error_hz": 6}
+        return self.pictures.get("shapes", "") + _table(self.columns(), digits)
+
+
+@dataclass(frozen=True, repr=False)
+class Hit(Shown):
+    """Hits along a bat. Places count from the knob end."""
+
+    @property
+    def x_m(self) -> np.ndarray:
+        """Places that were hit (m), shape (places,)."""
+        return _array(hit["x_m"] for hit in self._hits)
+
+    @property
+    def exit_speed_m_s(self) -> np.ndarray:
+        """Speed of the ball after the hit (m/s), NaN where they do not meet, shape (places,)."""
+        return _array(hit["exit_speed_m_s"] for hit in self._hits)
+
+    @property
+    def exit_speed_error_m_s(self) -> np.ndarray:
+        """How far each exit speed may be off (m/s), shape (places,)."""
+        closing = [hit["bat_speed_m_s"] for hit in self._hits]
+        closing = np.array(closing, dtype=float) + self.document["scene"]["ball_speed_m_s"]
+        return closing * _array((hit.get("error") or {}).get("exit_speed") for hit in self._hits)
+
+    @property
+    def vibration_j(self) -> np.ndarray:
+        """Energy that stays in the bat's vibration (J), shape (places,)."""
+        return _array((hit.get("energy_j") or {}).get("vibration") for hit in self._hits)
+
+    @property
+    def best_m(self) -> float:
+        """Where the fastest ball is hit (m)."""
+        return self._best["x_m"]
+
+    @property
+    def best_speed_m_s(self) -> float:
+        """Speed of the fastest ball (m/s)."""
+        return self._best["value"]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """One row a place: place (m), exit speed and its error (m/s), energy in vibration (J)."""
+        return {
+            "x_m": self.x_m,
+            "exit_speed_m_s": self.exit_speed_m_s,
+            "exit_speed_error_m_s": self.exit_speed_error_m_s,
+            "vibration_j": self.vibration_j,
+        }
+
+    def __repr__(self) -> str:
+        return f"<Hit at {len(self._hits)} places: {self.best_speed_m_s:.2f} m/s at best, at {self.best_m:.4f} m>"
+
+    @property
+    def _hits(self) -> list[dict[str, Any]]:
+        return self.document["impacts"]
+
+    @property
+    def _best(self) -> dict[str, float]:
+        best = self.document["sweet_spot"]["exit_speed_max"]
+        return best or {"x_m": float("nan"), "value": float("nan")}
+
+    def _repr_html_(self) -> str:
+        told = f"<p>Fastest ball {self.best_speed_m_s:.2f} m/s, {self.best_m:.4f} m from the knob end.</p>"
+        return told + self.pictures.get("exit_speed", "")

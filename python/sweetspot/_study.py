@@ -1,0 +1,198 @@
+"""Many bats: rows of a study, each a function of the study and its number."""
+
+from __future__ import annotations
+
+import csv
+import functools
+import io
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._bat import _plain
+from ._errors import SweetspotError
+
+
+class Study:
+    """A study that can be run: a file, or the members of one.
+
+    ``spec`` is the path of a study file or a dictionary with its members; files that it names are sought in its
+    folder, or in ``folder``.
+    """
+
+    def __init__(self, spec: str | Path | Mapping[str, Any], folder: str | Path = "") -> None:
+        if isinstance(spec, Mapping):
+            text = json.dumps(_plain({"format": "sweetspot-study/1", **spec}))
+            self._core = _core.Study.of("study", text, Path(folder))
+        else:
+            self._core = _core.Study(Path(spec))
+        self.rows, self.parts = self._core.size()
+
+    @property
+    def columns(self) -> list[tuple[str, str]]:
+        """Name and unit of every column."""
+        return self._core.columns()
+
+    def part(self, k: int, jobs: int | None = None) -> bytes:
+        """Part k as a CSV file, made on so many threads (all processors without)."""
+        return self._core.part(k, jobs)
+
+    def open(self, out: str | Path) -> None:
+        """Makes the folder of the study with its manifest, or raises if it is another study's."""
+        self._core.open(Path(out))
+
+    def shipped(self) -> str:
+        """The study with everything it needs, to be sent to another machine."""
+        return self._core.alone()
+
+
+@functools.lru_cache(maxsize=4)
+def _arrived(shipped: str) -> _core.Study:
+    """The study on this machine."""
+    return _core.Study.arrived(shipped)
+
+
+def make(shipped: str, k: int) -> bytes:
+    """Part k of a study that was sent here, on one thread."""
+    return bytes(_arrived(shipped).part(k, 1))
+
+
+def keep(out: Path, k: int, part: bytes, parquet: bool = False) -> None:
+    """Writes a part beside its place and renames it: it is there whole, or not."""
+    path = part_path(out, k, parquet)
+    beside, written = tempfile.mkstemp(dir=out, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(beside, "wb") as file:
+            if parquet:
+                from pyarrow import parquet as pq
+
+                pq.write_table(StudyResult(part).to_arrow(), file)
+            else:
+                file.write(part)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(written, 0o666 & ~_umask())
+        os.replace(written, path)
+    except BaseException:
+        os.unlink(written)
+        raise
+
+
+def part_path(out: Path, k: int, parquet: bool = False) -> Path:
+    """Where part k is kept."""
+    return out / f"part-{k:06}.{'parquet' if parquet else 'csv'}"
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+class StudyResult:
+    """Rows of a study: inputs, answers with their errors, ``met`` and ``error``.
+
+    ``result["f1_hz"]`` is a column as an array: numbers, NaN where there is no answer; texts for ``error``.
+    """
+
+    def __init__(self, text: bytes) -> None:
+        rows = list(csv.reader(io.StringIO(text.decode("utf-8"))))
+        self.names, cells = rows[0], rows[1:]
+        by_column = list(zip(*cells)) if cells else [() for _ in self.names]
+        self._columns = {name: _column(name, column) for name, column in zip(self.names, by_column)}
+
+    def __len__(self) -> int:
+        return len(self._columns["row"])
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._columns:
+            raise KeyError(f"{name!r}; there are {', '.join(self.names)}")
+        return self._columns[name]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """All columns by their names."""
+        return dict(self._columns)
+
+    def to_pandas(self) -> Any:
+        """The rows as a pandas DataFrame (needs pandas)."""
+        import pandas
+
+        return pandas.DataFrame(self._columns)
+
+    def to_arrow(self) -> Any:
+        """The rows as an Arrow table (needs pyarrow)."""
+        import pyarrow
+
+        return pyarrow.table({name: pyarrow.array(column) for name, column in self._columns.items()})
+
+    def __repr__(self) -> str:
+        return f"<StudyResult of {len(self)} bats, {int(self['met'].sum())} as accurate as asked>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        head = "".join(f"<th>{text}</th>" for text in ("", "5 %", "half", "95 %"))
+        rows = ""
+        for name, column in self._columns.items():
+            known = column[np.isfinite(column)] if column.dtype == float else []
+            if name != "row" and not name.endswith("_error") and len(known):
+                cells = "".join(f"<td>{q:.6g}</td>" for q in np.percentile(known, [5, 50, 95]))
+                rows += f"<tr><th>{escape(name)}</th>{cells}</tr>"
+        told = escape(repr(self))
+        return f"<p>{told}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def _column(name: str, cells: tuple[str, ...]) -> np.ndarray:
+    if name == "met":
+        return np.array([cell == "true" for cell in cells], dtype=bool)
+    if name == "row":
+        return np.array([int(cell) for cell in cells], dtype=np.int64)
+    if name != "error":
+        try:
+            return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
+        except ValueError:
+            pass
+    return np.array(cells, dtype=object)
+
+
+def run_study(
+    spec: str | Path | Mapping[str, Any],
+    *,
+    folder: str | Path = "",
+    out: str | Path | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> StudyResult:
+    """Runs a study on this machine and gives its rows.
+
+    ``spec`` is the path of a study file or a dictionary with its members (its files are sought in ``folder``).
+    With ``out`` the parts are kept in that folder, and parts that are there are not made again. ``jobs`` is a
+    number of threads. ``progress`` is told how many parts of how many are done.
+    """
+    study = Study(spec, folder)
+    if out is not None:
+        out = Path(out)
+        study.open(out)
+    parts = []
+    for k in range(study.parts):
+        path = None if out is None else part_path(out, k)
+        if path is not None and path.exists():
+            parts.append(path.read_bytes())
+        else:
+            parts.append(study.part(k, jobs))
+            if path is not None:
+                keep(path.parent, k, parts[-1])
+        if progress is not None:
+            progress(k + 1, study.parts)
+    # The head stands in every part.
+    rows = [part if k == 0 else part.split(b"\n", 1)[1] for k, part in enumerate(parts)]
+    return StudyResult(b"".join(rows))
+
+
+__all__ = ["Study", "StudyResult", "SweetspotError", "run_study"]

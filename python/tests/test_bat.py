@@ -1,0 +1,134 @@
+"""Bats, modes and hits: closed forms, an outside eigensolver, and the errors that are told."""
+
+import json
+import math
+import pickle
+import threading
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+import sweetspot as ss
+
+ALUMINIUM = {"density": 2700.0, "youngs_modulus": 70e9}
+
+
+def dowel(**more):
+    return ss.Bat([0.0, 0.8], [0.04, 0.04], material=ALUMINIUM, name="dowel", **more)
+
+
+def test_a_dowel_has_the_frequencies_of_the_closed_form():
+    """beta L = 4.730040744862704, ... of a free beam; L. Meirovitch, Analytical Methods in Vibrations."""
+    modes = dowel().modes(3, 1e-10, theory="euler-bernoulli")
+    beta = np.array([4.730040744862704, 7.853204624095838, 10.995607838001671])
+    known = (beta / 0.8) ** 2 * math.sqrt(70e9 * 0.02**2 / 4 / 2700.0) / (2 * math.pi)
+    assert np.all(np.abs(modes.frequency_hz - known) <= modes.frequency_error_hz + 1e-12 * known)
+    assert modes.met and modes.theory == "euler-bernoulli"
+    # The first mode stands still at 0.2241575 L from each end.
+    assert np.allclose(modes.nodes_m[0], [0.2241575 * 0.8, 0.7758425 * 0.8], atol=1e-6)
+    # Of a shape with largest deflection 1, at the ends, the modal mass is a quarter of the mass.
+    assert np.allclose(modes.modal_mass_kg, 0.25 * dowel().mass_kg)
+    assert modes.shapes.shape == (3, 101) and np.allclose(np.abs(modes.shapes).max(axis=1), 1.0)
+
+
+def test_scipy_finds_the_same_frequencies_of_the_same_matrices():
+    bat = ss.Bat.from_file("r161")
+    modes, arrays = bat.modes(4, 1e-8), bat.matrices(4, 1e-8)
+    values = scipy.linalg.eigh(arrays["K"], arrays["M"], eigvals_only=True)[2:6]
+    found = np.sqrt(values) / (2 * math.pi)
+    assert np.allclose(found, modes.frequency_hz, rtol=1e-7)
+
+
+def test_a_bat_of_arrays_is_that_of_its_file():
+    r161 = ss.Bat.from_file("r161")
+    document = r161.document
+    profile = document["profile"]
+    again = ss.Bat(
+        np.array(profile["x"]),
+        np.array(profile["diameter"]),
+        material=document["material"],
+        unit=profile["unit"],
+        interpolation=profile["interpolation"],
+    )
+    assert np.array_equal(again.modes(5).frequency_hz, r161.modes(5).frequency_hz)
+    assert pickle.loads(pickle.dumps(r161)).mass_kg == r161.mass_kg
+
+
+def test_a_hit_obeys_its_scene_and_the_table_goes_to_pandas_and_arrow():
+    bat = ss.Bat.from_file("r161")
+    hit = bat.hit([0.6, 0.7, 0.8], bat_speed="72 mph", pitch="83 mph")
+    fast = bat.hit([0.6, 0.7, 0.8], bat_speed="80 mph", pitch="83 mph")
+    assert np.all(fast.exit_speed_m_s > hit.exit_speed_m_s)
+    assert np.all(hit.exit_speed_error_m_s < 1e-4 * 90)
+    assert 0.6 < hit.best_m < 0.8 and hit.best_speed_m_s >= hit.exit_speed_m_s.max() - 1e-3
+    assert list(hit.to_pandas()["x_m"]) == [0.6, 0.7, 0.8]
+    assert hit.to_arrow().num_rows == 3
+    # A bat that does not bend keeps no vibration.
+    rigid = bat.hit(0.7, model="rigid")
+    assert rigid.exit_speed_m_s[0] > 0 and not rigid.vibration_j[0] > 0
+
+
+def test_edits_change_the_bat_in_their_order():
+    bat = dowel()
+    lighter = bat.edit({"cut": {"from": "0.3 m", "to": "0.5 m", "depth": "1 mm"}})
+    # 1 mm off the diameter, smooth at both ends, is a little less than that ring.
+    ring = math.pi * (0.02**2 - 0.0195**2) * 0.2 * 2700.0
+    assert 0.7 * ring < bat.mass_kg - lighter.mass_kg < ring
+    heavier = lighter.edit({"knob": "50 g"})
+    assert math.isclose(heavier.mass_kg - lighter.mass_kg, 0.05, rel_tol=1e-9)
+
+
+def test_notebooks_show_bats_modes_and_hits():
+    bat = ss.Bat.from_file("r161")
+    for shown in (bat, bat.modes(3), bat.hit([0.6, 0.7])):
+        html = shown._repr_html_()
+        assert "<svg" in html and "nan" not in html.lower()
+
+
+def test_mistakes_are_exceptions_with_file_line_and_field(tmp_path):
+    path = tmp_path / "wrong.json"
+    text = json.dumps(dowel().document, indent=1).replace("[\n   0.04", '[\n   "4 oz"')
+    path.write_text(text)
+    with pytest.raises(ss.SweetspotError) as caught:
+        ss.Bat.from_file(path)
+    error = caught.value
+    assert error.file == str(path) and error.line and error.field == "profile.diameter[0]"
+    assert "oz" in error.mistakes[0]["found"]
+    assert pickle.loads(pickle.dumps(error)).mistakes == error.mistakes
+    for call, says in [
+        (lambda: ss.Bat.from_file("r162"), "did you mean r161"),
+        (lambda: ss.Bat.from_file(tmp_path / "none.json"), "none.json"),
+        (lambda: ss.Bat([0, 1], [0.05, 0.05], material="oka"), "material"),
+        (lambda: ss.Bat([0, 1], [0.05, math.nan], material=ALUMINIUM), "found NaN"),
+        (lambda: dowel().modes(2, tol=0), "between 0 and 1"),
+        (lambda: dowel().modes(5000), "1000 modes"),
+        (lambda: dowel().modes(2, theory="euler"), "euler-bernoulli"),
+        (lambda: dowel().hit(2.0), "places on the bat"),
+        (lambda: dowel().hit(0.6, picth=40), "did you mean pitch"),
+        (lambda: dowel().hit(0.6, pitch="9 lb"), "pitch"),
+        (lambda: dowel().hit(0.6, hands=5.0), "hands"),
+        (lambda: dowel().hit(0.6, ball="basebal"), "baseball"),
+        (lambda: dowel().edit({"ct": {}}), "cut"),
+    ]:
+        with pytest.raises(ss.SweetspotError) as caught:
+            call()
+        assert says in str(caught.value), str(caught.value)
+
+
+def test_other_threads_run_while_a_bat_is_solved():
+    bat = ss.Bat.from_file("r161")
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(None)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    before = len(ticks)
+    bat._core.modes(200, 1e-6, None, 101)
+    during = len(ticks) - before
+    stop.set()
+    thread.join()
+    assert during > 10

@@ -1,0 +1,164 @@
+"""Studies: rows are what they say, and the same whoever makes them."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import sweetspot as ss
+from sweetspot._study import Study, make
+
+SCATTER = {
+    "bat": "r161",
+    "vary": {
+        "bat.material.density": {"lognormal": [650, 0.04]},
+        "bat.material.youngs_modulus": {"lognormal": ["18 GPa", 0.1]},
+    },
+    "points": 64,
+    "seed": 1,
+    "outputs": ["f1_hz", "mass_kg"],
+}
+
+
+def test_rows_follow_the_distributions_and_the_physics():
+    result = ss.run_study(SCATTER)
+    assert len(result) == 64 and result["met"].all() and not any(result["error"])
+    density, mass = result["bat.material.density"], result["mass_kg"]
+    assert np.allclose(mass / density, mass[0] / density[0], rtol=1e-12)
+    # A median of 650 and a deviation of 4 %, of 64 points of Sobol's.
+    assert abs(np.median(density) / 650 - 1) < 0.01
+    assert abs(np.log(density).std() - 0.04) < 0.004
+    frame = result.to_pandas()
+    assert list(frame.columns) == result.names and result.to_arrow().num_rows == 64
+    assert "<table" in result._repr_html_()
+
+
+def test_a_part_sent_to_another_machine_is_the_same(tmp_path):
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep" / "stations.txt").write_text("x_in,diameter_in\n0,1\n10,1.1\n30,2.5\n33,2.4\n")
+    bat = {
+        "format": "sweetspot-bat/1",
+        "name": "of a table",
+        "material": {"density": 650, "youngs_modulus": "15 GPa"},
+        "profile": {"csv": "stations.txt"},
+    }
+    ball = {"format": "sweetspot-ball/1", "name": "b", "mass": "145 g", "radius": "36.6 mm", "stiffness": 65e6,
+            "exponent": 1.8, "cor": 0.5}
+    (tmp_path / "deep" / "bat.json").write_text(json.dumps(bat))
+    (tmp_path / "ball.json").write_text(json.dumps(ball))
+    spec = {**SCATTER, "bat": "deep/bat.json", "ball": "ball.json", "points": 10,
+            "outputs": ["f1_hz", "exit_speed_m_s@0.7"]}
+    study = Study(spec, tmp_path)
+    shipped = study.shipped()
+    assert make(shipped, 0) == bytes(study.part(0)) == bytes(study.part(0, 1))
+
+
+def run(study, out, *more):
+    command = [sys.executable, "-m", "sweetspot.study", str(study), "--out", str(out), "--quiet", *more]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def parts(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.fixture
+def scatter(tmp_path):
+    path = tmp_path / "scatter.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **SCATTER, "points": 20000}))
+    return path
+
+
+def test_the_folder_of_processes_is_that_of_threads(tmp_path, scatter):
+    assert run(scatter, tmp_path / "a").returncode == 0
+    ss.run_study(scatter, out=tmp_path / "b", jobs=1)
+    assert parts(tmp_path / "a") == parts(tmp_path / "b")
+    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(5))]
+    # A lost part is made again, the others are left alone.
+    (tmp_path / "a" / "part-000002.csv").unlink()
+    kept = (tmp_path / "a" / "part-000001.csv").stat().st_mtime_ns
+    assert run(scatter, tmp_path / "a").returncode == 0
+    assert parts(tmp_path / "a") == parts(tmp_path / "b")
+    assert (tmp_path / "a" / "part-000001.csv").stat().st_mtime_ns == kept
+
+
+def workers_of(name):
+    """Processes whose command has that in it."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                command = file.read().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if name in command:
+            found.append(int(pid))
+    return found
+
+
+@pytest.mark.parametrize("engine, worker", [("ray", "ray::make"), ("dask", "spawn_main")])
+def test_a_cluster_that_loses_a_worker_makes_the_same_folder(tmp_path, scatter, engine, worker):
+    pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
+    assert run(scatter, tmp_path / "alone").returncode == 0
+    out = tmp_path / engine
+    command = [sys.executable, "-m", "sweetspot.study", str(scatter), "--out", str(out)]
+    command += ["--engine", engine, "--workers", "2", "--quiet"]
+    before = set(workers_of(worker))
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    until, killed = time.monotonic() + 120, None
+    while killed is None and running.poll() is None and time.monotonic() < until:
+        time.sleep(0.02)
+        # With one part there, workers have begun others.
+        if not list(out.glob("part-*")):
+            continue
+        for pid in sorted(set(workers_of(worker)) - before):
+            try:
+                os.kill(pid, signal.SIGKILL)
+                killed = pid
+                break
+            except ProcessLookupError:
+                pass
+    said = running.communicate(timeout=300)[1]
+    assert running.returncode == 0, said
+    assert killed is not None, "no worker was seen"
+    assert parts(out) == parts(tmp_path / "alone")
+
+
+def test_what_is_wrong_is_one_message(tmp_path, scatter):
+    wrong = tmp_path / "wrong.json"
+    wrong.write_text(scatter.read_text().replace("density", "densty"))
+    said = run(wrong, tmp_path / "w")
+    assert said.returncode == 2 and "density" in said.stderr and not (tmp_path / "w").exists()
+    assert run(scatter, tmp_path / "a").returncode == 0
+    other = tmp_path / "other.json"
+    other.write_text(scatter.read_text().replace('"seed": 1', '"seed": 2'))
+    before = parts(tmp_path / "a")
+    said = run(other, tmp_path / "a")
+    assert said.returncode == 2 and "differs in" in said.stderr
+    assert parts(tmp_path / "a") == before
+    said = run(scatter, tmp_path / "b", "--engine", "spark")
+    assert said.returncode == 2 and "spark" in said.stderr
+    said = run(scatter, tmp_path / "b", "--workers", "0")
+    assert said.returncode == 2 and "1 or more" in said.stderr
+    assert len(said.stderr.strip().splitlines()) <= 6
+    with pytest.raises(ss.SweetspotError, match="rows at most"):
+        ss.run_study({**SCATTER, "points": 10**12})
+    with pytest.raises(KeyError, match="f1_hz"):
+        ss.run_study({**SCATTER, "points": 1})["f2_hz"]
+
+
+def test_parquet_has_the_same_rows(tmp_path, scatter):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    assert run(scatter, tmp_path / "p", "--parquet").returncode == 0
+    result = ss.run_study(scatter, out=tmp_path / "c")
+    tables = [parquet.read_table(path) for path in sorted((tmp_path / "p").glob("*.parquet"))]
+    f1 = np.concatenate([table["f1_hz"].to_numpy() for table in tables])
+    assert np.array_equal(f1, result["f1_hz"]) and math.isfinite(f1.sum())

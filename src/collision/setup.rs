@@ -1,0 +1,236 @@
+//! How is a bat hit, whichever bat it is?
+//!
+//! A [`Setup`] is what somebody says of swing, pitch, ball and wall; [`Setup::scene`] makes it the
+//! [`Scene`] of one bat. Its members have the same names in files, in a study's paths and, with `-` for `_`,
+//! as options of the command line; messages write them `` `so` ``.
+
+use crate::base::error::{Error, Result};
+use crate::base::units::shown_length;
+use crate::bat::body::Bat;
+use crate::collision::ball::Ball;
+use crate::collision::energy_loss::EnergyLoss;
+use crate::collision::figures::{BarrelSpeed, SwingLaw};
+use crate::collision::hit::{Model, Scene, Wall};
+use crate::collision::pulse::Pulse;
+
+/// Swing, pitch, ball and wall, before the bat is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    /// Collision model, with its own constants where none are given below.
+    pub model: Model,
+    /// Angular speed of the swing (rad/s).
+    pub swing_speed: f64,
+    /// Speed of a point of the barrel (m/s), in place of the angular speed.
+    pub bat_speed: Option<f64>,
+    /// Distance of that point from the tip (m).
+    pub bat_speed_at: f64,
+    /// Rotation centre of the swing beyond the knob end (m), negative inside the handle.
+    pub pivot: f64,
+    /// Speed of the ball towards the bat (m/s).
+    pub pitch: f64,
+    /// What is hit.
+    pub ball: Ball,
+    /// Coefficient of restitution, in place of the ball's own.
+    pub cor: Option<f64>,
+    /// Where the hands feel the hit (m from the knob end).
+    pub hands: f64,
+    /// Stiffness of a hollow barrel's wall under the ball (N/m).
+    pub wall_stiffness: Option<f64>,
+    /// Mass of that wall's own vibration (kg).
+    pub wall_mass: Option<f64>,
+    /// Moment of inertia about the standard pivot (kg m²) of the bat that the angular speed is of.
+    pub reference_inertia: Option<f64>,
+    /// How swings slow down with that moment of inertia.
+    pub swing_exponent: Option<f64>,
+    /// γ of the empirical loss.
+    pub gamma: Option<f64>,
+    /// Its decay p.
+    pub decay: Option<f64>,
+    /// Duration of the pulse (s).
+    pub pulse_duration: Option<f64>,
+    /// κ of the pulse.
+    pub loss_share: Option<f64>,
+}
+
+impl Default for Setup {
+    /// That of [`Scene::default`], a ball and modes in contact.
+    fn default() -> Self {
+        let scene = Scene::default();
+        Self {
+            model: Model::Contact,
+            swing_speed: scene.swing,
+            bat_speed: None,
+            bat_speed_at: BarrelSpeed::BROADCAST,
+            pivot: scene.pivot,
+            pitch: scene.ball_speed,
+            ball: scene.ball,
+            cor: None,
+            hands: scene.hands,
+            wall_stiffness: None,
+            wall_mass: None,
+            reference_inertia: None,
+            swing_exponent: None,
+            gamma: None,
+            decay: None,
+            pulse_duration: None,
+            loss_share: None,
+        }
+    }
+}
+
+impl Setup {
+    /// The members that have a name, as files and paths write them; the ball has its own.
+    pub const MEMBERS: [&'static str; 17] = [
+        "model",
+        "swing_speed",
+        "bat_speed",
+        "bat_speed_at",
+        "pivot",
+        "pitch",
+        "ball_stiffness",
+        "cor",
+        "hands",
+        "wall_stiffness",
+        "wall_mass",
+        "reference_inertia",
+        "swing_exponent",
+        "gamma",
+        "decay",
+        "pulse_duration",
+        "loss_share",
+    ];
+
+    /// The scene on that bat, and where its swing is from.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about a member that cannot be, or not on this bat.
+    pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
+        let mut ball = self.ball.clone();
+        let cor = self.cor.unwrap_or(ball.cor);
+        let speeds = [self.pitch, self.swing_speed, self.bat_speed.unwrap_or_default(), self.pivot];
+        if !speeds.iter().all(|value| value.abs() < 1e6) {
+            let expected = "values below 1e6 m/s, 1e6 rad/s and 1e6 m";
+            let named = "`pitch`, `swing_speed`, `bat_speed` or `pivot`";
+            return Err(Error::value(named, "a larger one", expected));
+        }
+        if self.pitch < 0.0 {
+            let expected = "0 or more: it is the speed towards the bat";
+            return Err(Error::value("`pitch`", format!("{} m/s", self.pitch), expected));
+        }
+        if self.cor.is_some() {
+            ball.cor_by_speed.clear();
+        }
+        if !(0.0..=bat.length()).contains(&self.hands) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("`hands`", shown_length(self.hands), expected));
+        }
+        let law = self.swing_law()?;
+        let (pivot, ball_speed) = (self.pivot, self.pitch);
+        let swing = match (law, self.barrel_speed()) {
+            (Some(law), _) => law.swing(bat),
+            (None, Some(barrel)) => self.swing_of(barrel, bat)?,
+            (None, None) => self.swing_speed,
+        };
+        let (hands, wall) = (self.hands, self.wall()?);
+        Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+    }
+
+    /// The speed of a point of the barrel, where that was given.
+    pub fn barrel_speed(&self) -> Option<BarrelSpeed> {
+        self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
+    }
+
+    /// The swing that gives a point of this bat that speed.
+    fn swing_of(&self, barrel: BarrelSpeed, bat: &Bat) -> Result<f64> {
+        let from_tip = shown_length(barrel.from_tip);
+        if !(0.0..=bat.length()).contains(&barrel.from_tip) {
+            let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("`bat_speed_at`", from_tip, expected));
+        }
+        barrel.swing(bat, self.pivot).ok_or_else(|| {
+            let found = format!("a point {from_tip} from the tip");
+            Error::value("`bat_speed`", found, "one beyond the swing's rotation centre, `pivot`")
+        })
+    }
+
+    fn swing_law(&self) -> Result<Option<SwingLaw>> {
+        let Some(reference) = self.reference_inertia else { return Ok(None) };
+        let exponent = self.swing_exponent.unwrap_or(0.0);
+        if !(reference > 1e-9 && reference < 1e9) {
+            let found = format!("{reference:?} kg m2");
+            return Err(Error::value("`reference_inertia`", found, "a bat's inertia, above 0"));
+        }
+        if exponent > 2.0 {
+            return Err(Error::value("`swing_exponent`", exponent, "0 to 2"));
+        }
+        Ok(Some(SwingLaw { exponent, reference, of_reference: self.swing_speed }))
+    }
+
+    fn wall(&self) -> Result<Option<Wall>> {
+        let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
+        if self.model != Model::Contact {
+            let found = format!("it with `model` {}", self.model.name());
+            let expected = "`model` contact: only there a wall gives way";
+            return Err(Error::value("`wall_stiffness`", found, expected));
+        }
+        let mass = self.wall_mass.unwrap_or(0.0);
+        if !(1.0..=1e15).contains(&stiffness) {
+            let found = format!("{stiffness:?} N/m");
+            return Err(Error::value("`wall_stiffness`", found, "1 to 1e15 N/m"));
+        }
+        if !(mass == 0.0 || (1e-9..1e6).contains(&mass)) {
+            let found = format!("{mass:?} kg");
+            return Err(Error::value("`wall_mass`", found, "0, or 1e-9 to 1e6 kg"));
+        }
+        Ok(Some(Wall { stiffness, mass }))
+    }
+
+    /// The model with the constants that were given.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about a constant of another model, or one that cannot be, or a ball of which no force
+    /// law is known.
+    pub fn model(&self) -> Result<Model> {
+        let empirical = self.gamma.is_some() || self.decay.is_some();
+        let pulsed = self.pulse_duration.is_some() || self.loss_share.is_some();
+        let model = self.model.name();
+        for (given, members, needed) in [
+            (empirical, "`gamma`, `decay`", "energy-loss"),
+            (pulsed, "`pulse_duration`, `loss_share`", "pulse"),
+        ] {
+            if given && model != needed {
+                let found = format!("them with `model` {model}");
+                let expected = format!("`model` {needed}, or neither of them");
+                return Err(Error::value(members, found, expected));
+            }
+        }
+        Ok(match self.model {
+            Model::Rigid => Model::Rigid,
+            Model::EnergyLoss(default) => Model::EnergyLoss(EnergyLoss {
+                gamma: self.gamma.unwrap_or(default.gamma),
+                decay: self.decay.unwrap_or(default.decay),
+            }),
+            Model::Pulse(default) => Model::Pulse(self.pulse(default)?),
+            Model::Contact => {
+                // What the ball lacks is told before anything is solved.
+                Scene { ball: self.ball.clone(), ..Scene::default() }.force_law(1.0)?;
+                Model::Contact
+            }
+        })
+    }
+
+    fn pulse(&self, default: Pulse) -> Result<Pulse> {
+        let duration = self.pulse_duration.unwrap_or(default.duration);
+        let loss_share = self.loss_share.unwrap_or(default.loss_share);
+        if !(1e-9..=1.0).contains(&duration) {
+            let expected = "a time from 1 ns to 1 s, such as \"0.75 ms\"";
+            return Err(Error::value("`pulse_duration`", format!("{duration} s"), expected));
+        }
+        if loss_share > 1.0 {
+            return Err(Error::value("`loss_share`", loss_share, "0 to 1"));
+        }
+        Ok(Pulse { duration, loss_share })
+    }
+}

@@ -1,0 +1,246 @@
+//! Which bat and which hit is row k of a study, and what came of them?
+//!
+//! [`Rows::answers`] is a function of the study, its bats, its ball and k alone. Of several bats each has every
+//! row of the design, one bat after the other.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::number::shortest;
+use crate::bat::body::Bat;
+use crate::collision::ball::Ball;
+use crate::collision::setup::Setup;
+use crate::files::ball_file::written;
+use crate::files::scene_file;
+use crate::files::study_file::{StudyFile, Subject, Varied, put};
+use crate::study::many::answers::{Found, Trial};
+use crate::study::many::design::{MOST_ROWS, Row};
+
+/// A bat as a file has it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct BatText {
+    /// What tables call it.
+    pub name: String,
+    /// What the file says, which names no other file; or why it is no bat.
+    pub text: std::result::Result<String, String>,
+}
+
+/// A study with the documents that it varies.
+pub struct Rows {
+    /// The study.
+    pub study: StudyFile,
+    bats: Vec<Varying>,
+    ball: Base<Ball>,
+    setup: Base<Setup>,
+}
+
+/// A bat that is varied.
+struct Varying {
+    name: String,
+    /// Its document, or why it is no bat.
+    document: std::result::Result<Value, String>,
+}
+
+/// What a row's own is made of: a document, or the thing itself where no row differs in it.
+enum Base<T> {
+    Varied(Value),
+    Same(T),
+}
+
+impl Rows {
+    /// Looks whether what varies of a bat and a ball can be varied.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where a path leads nowhere or the middle of what varies is no bat that can be hit, of
+    /// several bats with none of them; for more rows than [`MOST_ROWS`].
+    pub fn new(study: StudyFile, bats: Vec<BatText>, ball: Ball) -> Result<Self> {
+        let varying = |BatText { name, text }: BatText| {
+            let document = text.and_then(|text| {
+                let text = text.trim_start_matches('\u{feff}');
+                serde_json::from_str(text).map_err(|error| error.to_string())
+            });
+            Varying { name, document }
+        };
+        let bats = bats.into_iter().map(varying).collect();
+        let varies = |subject| study.varied.iter().any(|varied| varied.subject == subject);
+        let (varied_ball, varied_scene) = (varies(Subject::Ball), varies(Subject::Scene));
+        let setup = match varied_scene || varied_ball {
+            true => Base::Varied(Value::Object(study.scene.clone())),
+            false => Base::Same(scene_file::of(&study.scene, ball.clone())?),
+        };
+        let ball = if varied_ball { Base::Varied(written(&ball)) } else { Base::Same(ball) };
+        let rows = Self { study, bats, ball, setup };
+        if rows.bats.len() as u64 > MOST_ROWS / rows.study.design.rows() {
+            let found =
+                format!("{} bats, each with {} rows", rows.bats.len(), rows.study.design.rows());
+            return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
+        }
+        let middle = rows.study.design.middle();
+        let mut wrong = None;
+        for bat in rows.bats.iter().filter(|bat| bat.document.is_ok()) {
+            match rows.bat(bat, &middle).and_then(|bat| rows.trial(&middle, &bat)) {
+                Ok(_) => return Ok(rows),
+                Err(error) => wrong = wrong.or(Some(in_the_middle(&error))),
+            }
+        }
+        let unread =
+            |bat: &Varying| Some(Error::value("bat", bat.document.as_ref().err()?, "a bat file"));
+        let none = || Error::value("bat", "none", "one bat at least");
+        Err(wrong.or_else(|| rows.bats.iter().find_map(unread)).unwrap_or_else(none))
+    }
+
+    /// How many rows there are.
+    pub fn count(&self) -> u64 {
+        self.bats.len() as u64 * self.study.design.rows()
+    }
+
+    /// Whether there are several bats.
+    pub fn several(&self) -> bool {
+        self.bats.len() > 1
+    }
+
+    /// What came of row k, in the order of what is asked.
+    ///
+    /// # Errors
+    ///
+    /// Why there is no answer.
+    pub fn answers(&self, k: u64) -> Result<Found> {
+        let (bat, row) = self.row(k);
+        self.bat(bat, &row).and_then(|bat| self.study.asked.of(bat, |bat| self.trial(&row, bat)))
+    }
+
+    fn row(&self, k: u64) -> (&Varying, Row) {
+        let each = self.study.design.rows();
+        (&self.bats[(k / each) as usize], self.study.design.row(k % each))
+    }
+
+    /// The names of the columns of a table of rows, each with its unit.
+    pub fn columns(&self) -> Vec<[String; 2]> {
+        let column = |name: String, unit: &str| [name, unit.to_owned()];
+        let inputs = self.study.varied.iter().map(|v| column(v.path.clone(), v.unit()));
+        let answers = self.study.asked.answers.iter().flat_map(|answer| {
+            let name = answer.name();
+            let error = format!("{name}_error");
+            [column(name, answer.unit()), column(error, answer.unit())]
+        });
+        let first = ["row", "bat"].into_iter().take(1 + usize::from(self.several()));
+        let first = first.map(|name| column(name.to_owned(), ""));
+        let last = ["met", "error"].map(|name| column(name.to_owned(), ""));
+        first.chain(inputs).chain(answers).chain(last).collect()
+    }
+
+    /// Which of the columns are numbers in every row, or whether something is so.
+    pub fn numbers(&self) -> Vec<usize> {
+        let before = 1 + usize::from(self.several());
+        let varied = &self.study.varied;
+        let inputs = varied.iter().enumerate().filter(|(_, varied)| varied.is_number());
+        let inputs = inputs.map(|(k, _)| before + k);
+        let answers = before + varied.len();
+        let last = answers + 2 * self.study.asked.answers.len();
+        std::iter::once(0).chain(inputs).chain(answers..=last).collect()
+    }
+
+    /// The cells of row k: its number, of several bats its name, its inputs, answers with their errors, whether they are as accurate as
+    /// asked, and why there are none.
+    pub fn cells(&self, k: u64) -> Vec<String> {
+        let (bat, row) = self.row(k);
+        let answers = self.study.asked.answers.len();
+        let mut cells = vec![k.to_string()];
+        cells.extend(self.several().then(|| bat.name.clone()));
+        cells.extend(self.study.varied.iter().map(|varied| varied.cell(&row)));
+        let (met, why) = match self.answers(k) {
+            Ok(found) => {
+                let of =
+                    |value: f64| if value.is_finite() { shortest(value) } else { String::new() };
+                cells.extend(found.figures.iter().flat_map(|figure| {
+                    let both = figure.map(|figure| [figure.value, figure.error].map(of));
+                    both.unwrap_or_default()
+                }));
+                let missing = found.figures.iter().any(Option::is_none);
+                let why = match (found.met, missing) {
+                    (_, true) => "the bat has no such answer",
+                    (false, _) => "less accurate than asked",
+                    (true, false) => "",
+                };
+                (found.met && !missing, why.to_owned())
+            }
+            Err(error) => {
+                cells.extend(vec![String::new(); 2 * answers]);
+                (false, bat.document.as_ref().err().cloned().unwrap_or_else(|| reason(&error)))
+            }
+        };
+        cells.extend([met.to_string(), why]);
+        cells
+    }
+
+    /// A document with what varies of it in a row.
+    fn document(&self, subject: Subject, base: &Value, row: &Row) -> Result<Value> {
+        let mut document = base.clone();
+        for varied in self.varied(subject) {
+            put(&mut document, varied.inside(), varied.value(row)).map_err(|found| {
+                let expected = "a path that is in the document";
+                Error::value(varied.path.clone(), found, expected)
+            })?;
+        }
+        Ok(document)
+    }
+
+    fn varied(&self, subject: Subject) -> impl Iterator<Item = &Varied> {
+        self.study.varied.iter().filter(move |varied| varied.subject == subject)
+    }
+
+    fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
+        let document = bat.document.as_ref();
+        let document = document.map_err(|why| Error::value("bat", why, "a bat file"))?;
+        let text = self.document(Subject::Bat, document, row)?.to_string();
+        Bat::from_text(&bat.name, &text, Path::new(""))
+    }
+
+    fn ball(&self, row: &Row) -> Result<Ball> {
+        match &self.ball {
+            Base::Same(ball) => Ok(ball.clone()),
+            Base::Varied(base) => {
+                Ball::from_text("ball", &self.document(Subject::Ball, base, row)?.to_string())
+            }
+        }
+    }
+
+    fn setup(&self, row: &Row) -> Result<Setup> {
+        match &self.setup {
+            Base::Same(setup) => Ok(setup.clone()),
+            Base::Varied(base) => {
+                let members = self.document(Subject::Scene, base, row)?;
+                let none = Map::new();
+                scene_file::of(members.as_object().unwrap_or(&none), self.ball(row)?)
+            }
+        }
+    }
+
+    fn trial(&self, row: &Row, bat: &Bat) -> Result<Trial> {
+        let setup = self.setup(row)?;
+        let model = setup.model()?;
+        Ok(Trial { scene: setup.scene(bat)?.0, model, barrel: setup.barrel_speed() })
+    }
+}
+
+fn in_the_middle(error: &Error) -> Error {
+    let complaint = Complaint::new("vary", format!("in its middle {}", reason(error)), "a bat");
+    let hint = "the first value of every list and the median of everything that is drawn must be a bat \
+                that can be hit";
+    Error::Value(complaint.hinted(hint))
+}
+
+/// Why there is no answer, without the place in a text that nobody wrote.
+pub fn reason(error: &Error) -> String {
+    match error {
+        Error::Value(complaint) | Error::Input { complaint, .. } => {
+            complaint.clone().naming(str::to_owned).to_string()
+        }
+        Error::Several { shown, .. } => shown.first().map(reason).unwrap_or_default(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,182 @@
+//! Which files is a study made from?
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::bat::body::Bat;
+use crate::collision::ball::Ball;
+use crate::files::ball_file::written;
+use crate::files::balls::{ball, is_built_in};
+use crate::files::document::Document;
+use crate::files::study_file::StudyFile;
+use crate::files::study_rows::{BatText, Rows, reason};
+use crate::proof::bundled;
+use crate::show::report::resolved;
+
+/// A file that a study was made from.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// Its name, as the study has it.
+    pub name: String,
+    /// What it says.
+    pub text: String,
+}
+
+/// A study, and every file that was read for it, the study first.
+pub struct Study {
+    /// Its rows.
+    pub rows: Rows,
+    /// The files.
+    pub sources: Vec<Source>,
+    parcel: Parcel,
+}
+
+/// A study as a text that needs no file, to be sent to another machine.
+#[derive(Clone, Serialize, Deserialize)]
+struct Parcel {
+    study: String,
+    bats: Vec<BatText>,
+    /// The ball, if it is of a file.
+    ball: Option<String>,
+}
+
+impl Study {
+    /// Reads a study, its bats and its ball: files from the study's folder, or what is built in.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with one of the files, or as [`Rows::new`].
+    pub fn read(path: &Path) -> Result<Self> {
+        let Document { file, text, .. } = Document::read(path)?;
+        Self::of(&file, &text, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// A study from its text; `name` is what messages call it, its files are sought in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn of(name: &str, text: &str, folder: &Path) -> Result<Self> {
+        let study = StudyFile::from_text(name, text)?;
+        let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
+        let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
+        let bats = bats(folder, &study.bats, &mut sources)?;
+        let name = study.ball.as_deref().unwrap_or("baseball");
+        let (ball, own_ball) = match is_built_in(name) {
+            true => (ball(name, None)?, None),
+            false => {
+                let ball = ball(&folder.join(name).display().to_string(), None)?;
+                let text = written(&ball).to_string();
+                sources.push(Source { name: name.to_owned(), text: text.clone() });
+                (ball, Some(text))
+            }
+        };
+        let parcel = Parcel { study: text.to_owned(), bats: bats.clone(), ball: own_ball };
+        Ok(Self { rows: Rows::new(study, bats, ball)?, sources, parcel })
+    }
+
+    /// The study as one text that needs no file: [`Self::arrived`] reads it on another machine.
+    pub fn alone(&self) -> String {
+        json!(self.parcel).to_string()
+    }
+
+    /// A study that was sent here.
+    ///
+    /// # Errors
+    ///
+    /// Where the text is not one of [`Self::alone`] of this version.
+    pub fn arrived(text: &str) -> Result<Self> {
+        let parcel: Parcel = serde_json::from_str(text)
+            .map_err(|error| Error::value("study", error, "one sent by this version"))?;
+        let study = StudyFile::from_text("study", &parcel.study)?;
+        let ball = match &parcel.ball {
+            Some(text) => Ball::from_text("ball", text)?,
+            None => ball(study.ball.as_deref().unwrap_or("baseball"), None)?,
+        };
+        let rows = Rows::new(study, parcel.bats.clone(), ball)?;
+        Ok(Self { rows, sources: vec![], parcel })
+    }
+}
+
+/// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
+/// that is no bat stays with the reason.
+fn bats(folder: &Path, names: &[String], sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
+    let mut all: Vec<(String, PathBuf)> = vec![];
+    for name in names {
+        let path = folder.join(name);
+        // A folder that is called like a built-in bat is what was made of it.
+        let built_in = || bundled::named(Path::new(name)).is_ok_and(|found| found.is_some());
+        match path.is_dir() && !built_in() {
+            false => all.push((name.clone(), path)),
+            true => all.extend(files_of(name, &path)?),
+        }
+    }
+    let alone = all.len() == 1;
+    let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let stems: Vec<String> = all.iter().map(|(_, path)| stem(path)).collect();
+    let mut found = vec![];
+    for ((name, path), own) in all.iter().zip(&stems) {
+        let called = match stems.iter().filter(|other| *other == own).count() {
+            1 => own,
+            _ => name,
+        };
+        let text = match bat(name, path, sources) {
+            Ok(text) => Ok(text),
+            Err(error @ (Error::Input { .. } | Error::Several { .. } | Error::Value(_)))
+                if !alone =>
+            {
+                Err(reason(&error))
+            }
+            Err(error) => return Err(error),
+        };
+        found.push(BatText { name: called.clone(), text });
+    }
+    Ok(found)
+}
+
+/// The bat files of a folder, by rising name.
+fn files_of(name: &str, path: &Path) -> Result<Vec<(String, PathBuf)>> {
+    let failed = |source| Error::Read { path: path.to_owned(), source };
+    let entries = std::fs::read_dir(path).map_err(failed)?;
+    let mut files = vec![];
+    for entry in entries {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|extension| extension == "json") && path.is_file() {
+            let own = path.file_name().unwrap_or_default().to_string_lossy();
+            files.push((format!("{}/{own}", name.trim_end_matches('/')), path));
+        }
+    }
+    if files.is_empty() {
+        let found = format!("the folder {} without a .json file", path.display());
+        return Err(Error::value("bat", found, "a folder of bat files"));
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// The text of a bat, which needs no other file: stations of a table are put into the bat itself.
+fn bat(name: &str, path: &Path, sources: &mut Vec<Source>) -> Result<String> {
+    let mut read = |name: &str, text: &str| {
+        sources.push(Source { name: name.to_owned(), text: text.to_owned() });
+    };
+    if !path.is_file()
+        && let Some((own, text)) = bundled::named(Path::new(name))?
+    {
+        read(own, text);
+        return Ok(text.to_owned());
+    }
+    let Document { file, text, .. } = Document::read(path)?;
+    read(name, &text);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let bat = Bat::from_text(&file, &text, folder)?;
+    let mut document: Value = serde_json::from_str(&text).unwrap_or_default();
+    let Some(table) = document["profile"]["csv"].as_str() else { return Ok(text) };
+    let bytes = file::read(&folder.join(table))?;
+    read(table, &String::from_utf8_lossy(&bytes));
+    document["profile"] = json!(resolved::profile(bat.unedited().profile()));
+    Ok(document.to_string())
+}

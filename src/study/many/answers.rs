@@ -1,0 +1,258 @@
+//! Which answers does a study ask of each bat, and what are they?
+//!
+//! Every answer has one name, that of the member in the other documents of the program, with its unit at the
+//! end.
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::collision::figures::BarrelSpeed;
+use crate::collision::hit::{Model, Scene};
+use crate::modes::solve::{Request, Solution, solve};
+use crate::study::comparison::contender::{Contender, Figure, Terms};
+use crate::study::theory_choice::theory;
+use crate::study::tuned::tuned;
+
+/// Something that is asked of a bat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Answer {
+    /// Mass of the bat (kg).
+    Mass,
+    /// Balance point from the knob end (m).
+    BalancePoint,
+    /// Moment of inertia about the point 6 in from the knob end (kg m²).
+    Inertia,
+    /// Centre of percussion of a swing about that point, from the knob end (m).
+    CenterOfPercussion,
+    /// Frequency of a bending mode, counted from 1 (Hz).
+    Frequency(usize),
+    /// The node of a bending mode that is nearest to the tip, from the knob end (m).
+    Node(usize),
+    /// Speed of the fastest ball (m/s).
+    ExitSpeed,
+    /// Where the fastest ball is hit, from the knob end (m).
+    ExitSpeedPlace,
+    /// Where the zone within 1 % of the fastest ball begins or, if true, ends (m).
+    Zone(bool),
+    /// The least energy that stays in vibration (J).
+    Vibration,
+    /// Where the least energy stays in vibration (m).
+    VibrationPlace,
+    /// The largest BBCOR of the outer half of the free bat.
+    Bbcor,
+    /// Exit speed of a ball that is hit there, from the knob end (m, m/s).
+    ExitSpeedAt(f64),
+}
+
+/// Names of the answers that have no number in them.
+const NAMED: [(&str, Answer); 12] = [
+    ("mass_kg", Answer::Mass),
+    ("balance_point_m", Answer::BalancePoint),
+    ("inertia_pivot_kg_m2", Answer::Inertia),
+    ("center_of_percussion_m", Answer::CenterOfPercussion),
+    ("exit_speed_max.value", Answer::ExitSpeed),
+    ("exit_speed_max.x_m", Answer::ExitSpeedPlace),
+    ("zone_m[0]", Answer::Zone(false)),
+    ("zone_m[1]", Answer::Zone(true)),
+    ("vibration_min.value", Answer::Vibration),
+    ("vibration_min.x_m", Answer::VibrationPlace),
+    ("bbcor_max", Answer::Bbcor),
+    ("f1_hz", Answer::Frequency(1)),
+];
+/// More modes than this are no question of many bats.
+const MOST_MODES: usize = 40;
+const SPEED_AT: &str = "exit_speed_m_s@";
+
+impl Answer {
+    /// The answer of that name.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] with the nearest name there is.
+    pub fn named(name: &str) -> Result<Self> {
+        let order = |text: &str| text.parse().ok().filter(|k| (1..=MOST_MODES).contains(k));
+        let between = |start: &str, end: &str| {
+            let inner = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
+            inner.and_then(order)
+        };
+        let known = NAMED.iter().find(|(known, _)| *known == name).map(|(_, answer)| *answer);
+        let at = || {
+            let place: f64 = name.strip_prefix(SPEED_AT)?.parse().ok()?;
+            (place.is_finite() && place >= 0.0).then_some(Self::ExitSpeedAt(place))
+        };
+        let found = known
+            .or_else(|| between("f", "_hz").map(Self::Frequency))
+            .or_else(|| between("node_mode_", "_m").map(Self::Node))
+            .or_else(at);
+        found.ok_or_else(|| {
+            let names: Vec<&str> = NAMED.iter().map(|(name, _)| *name).collect();
+            let expected = format!(
+                "{}, f2_hz to f{MOST_MODES}_hz, node_mode_1_m to node_mode_{MOST_MODES}_m, or \
+                 {SPEED_AT}0.70 for a place in m",
+                names.join(", ")
+            );
+            let complaint = Complaint::new("outputs", format!("\"{name}\""), expected);
+            Error::Value(complaint.or_nearest(name, &names))
+        })
+    }
+
+    /// What it is called.
+    pub fn name(self) -> String {
+        let named = NAMED.iter().find(|(_, answer)| *answer == self);
+        match (named, self) {
+            (Some((name, _)), _) => (*name).to_owned(),
+            (None, Self::Node(order)) => format!("node_mode_{order}_m"),
+            (None, Self::ExitSpeedAt(x)) => format!("{SPEED_AT}{x}"),
+            (None, Self::Frequency(order)) => format!("f{order}_hz"),
+            (None, _) => unreachable!("every other answer is in the list of names"),
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::Inertia => "kg m²",
+            Self::Frequency(_) => "Hz",
+            Self::ExitSpeed | Self::ExitSpeedAt(_) => "m/s",
+            Self::Vibration => "J",
+            Self::Bbcor => "",
+            Self::BalancePoint
+            | Self::CenterOfPercussion
+            | Self::Node(_)
+            | Self::ExitSpeedPlace
+            | Self::Zone(_)
+            | Self::VibrationPlace => "m",
+        }
+    }
+
+    /// Whether a ball must be hit for it.
+    fn of_a_hit(self) -> bool {
+        matches!(
+            self,
+            Self::ExitSpeed
+                | Self::ExitSpeedPlace
+                | Self::Zone(_)
+                | Self::Vibration
+                | Self::VibrationPlace
+                | Self::Bbcor
+                | Self::ExitSpeedAt(_)
+        )
+    }
+
+    /// How many modes it needs.
+    fn modes(self) -> usize {
+        match self {
+            Self::Frequency(order) | Self::Node(order) => order,
+            _ => 0,
+        }
+    }
+}
+
+/// What is asked of every bat.
+#[derive(Debug, Clone)]
+pub struct Asked {
+    /// The answers, in the order of the columns.
+    pub answers: Vec<Answer>,
+    /// Accuracy of frequencies, relative, and of exit speeds, relative to the closing speed.
+    pub tolerance: f64,
+}
+
+/// How a bat is hit.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How a hit is computed.
+    pub model: Model,
+    /// Speed of a point of the barrel that the swing is from, if one was given.
+    pub barrel: Option<BarrelSpeed>,
+}
+
+/// What came of a bat.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// Values with their errors in the order asked; None where the bat has no such answer.
+    pub figures: Vec<Option<Figure>>,
+    /// Whether all of them are as accurate as asked.
+    pub met: bool,
+}
+
+impl Asked {
+    /// Everything asked of one bat; `trial` is told the bat as it is tuned to its tap.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`solve`], of a hit, and of the trial.
+    pub fn of(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Found> {
+        let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let hit = self.answers.iter().any(|answer| answer.of_a_hit());
+        let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
+        let full = Request { modes: modes.max(Request::default().modes), ..request };
+        let theory = theory(&bat, if hit { &full } else { &request })?.theory;
+        let bat = tuned(bat, theory, self.tolerance)?;
+        let solution = solve(&bat, &Request { theory, ..request })?;
+        let found = |answer: &Answer| figure(*answer, &bat, &solution);
+        let figures = self.answers.iter().map(found).collect();
+        let found = Found { figures, met: solution.worst() <= self.tolerance };
+        match hit {
+            true => self.with_hits(found, bat.clone(), trial(&bat)?, &Request { theory, ..full }),
+            false => Ok(found),
+        }
+    }
+
+    /// What was found, and the answers that need a ball.
+    fn with_hits(&self, found: Found, bat: Bat, trial: Trial, request: &Request) -> Result<Found> {
+        /// Where a barrel is hit if no places are asked for, as shares of the length.
+        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+        let Trial { scene, model, barrel } = trial;
+        let at = |answer: &Answer| match answer {
+            Answer::ExitSpeedAt(x) => Some(*x),
+            _ => None,
+        };
+        let mut places: Vec<f64> = self.answers.iter().filter_map(at).collect();
+        if let Some(off) = places.iter().find(|x| **x > bat.length()) {
+            let expected = format!("a place on the bat, 0 to {} m", bat.length());
+            return Err(Error::value("outputs", format!("{SPEED_AT}{off}"), expected));
+        }
+        places.extend(ALONG.map(|share| share * bat.length()));
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let terms = Terms { model, exactly: false, every: 0.0, barrel };
+        let hit = Contender::new(bat, (scene, None), request, &terms, &places)?;
+        let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
+            Answer::ExitSpeed => hit.best_speed,
+            Answer::ExitSpeedPlace => hit.best_place,
+            Answer::Zone(end) => hit.zone.map(|zone| zone[usize::from(end)]),
+            Answer::Vibration => hit.least_vibration,
+            Answer::VibrationPlace => hit.least_place,
+            Answer::Bbcor => hit.bbcor[0],
+            Answer::ExitSpeedAt(x) => hit.speed(x),
+            _ => known,
+        };
+        let figures = self.answers.iter().zip(found.figures).map(of).collect();
+        Ok(Found { figures, met: found.met && hit.sweep.met })
+    }
+}
+
+/// An answer that needs no hit.
+fn figure(answer: Answer, bat: &Bat, solution: &Solution) -> Option<Figure> {
+    let mode = |order: usize| solution.modes.get(order - 1);
+    match answer {
+        Answer::Mass => Some(Figure::exact(bat.inertia().mass)),
+        Answer::BalancePoint => Some(Figure::exact(bat.inertia().balance_point)),
+        Answer::Inertia => Some(Figure::exact(bat.inertia().about(STANDARD_PIVOT))),
+        Answer::CenterOfPercussion => {
+            bat.inertia().center_of_percussion(STANDARD_PIVOT).map(Figure::exact)
+        }
+        Answer::Frequency(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(mode.frequency(), mode.error.total() * mode.frequency()))
+        }
+        Answer::Node(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(*mode.nodes.last()?, mode.error.nodes))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,368 @@
+//! Many bats: every row is right by itself, whoever makes it, and nothing that was made is lost.
+
+mod common;
+
+use std::path::Path;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::Duration;
+
+use common::folder::Folder;
+
+const DOWEL: &str = r#"{
+  "format": "sweetspot-bat/1",
+  "name": "dowel",
+  "material": { "density": 700, "youngs_modulus": "14 GPa" },
+  "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] }
+}
+"#;
+
+/// A folder with that bat and a study of it.
+fn study(name: &str, text: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("dowel.json", DOWEL);
+    folder.write("study.json", text);
+    folder
+}
+
+/// The table of a part: its head, and rows by column.
+fn table(folder: &Folder, part: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = folder.read(part);
+    let mut lines = text.lines().map(|line| {
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(line.as_bytes());
+        let record = reader.records().next().unwrap().unwrap();
+        record.iter().map(str::to_owned).collect::<Vec<String>>()
+    });
+    (lines.next().unwrap(), lines.collect())
+}
+
+fn column(table: &(Vec<String>, Vec<Vec<String>>), name: &str) -> Vec<f64> {
+    let k = table.0.iter().position(|head| head == name).unwrap_or_else(|| panic!("{name}"));
+    table.1.iter().map(|row| row[k].parse().unwrap()).collect()
+}
+
+const SCATTER: &str = r#"{
+  "format": "sweetspot-study/1",
+  "bat": "dowel.json",
+  "vary": {
+    "bat.material.density": { "lognormal": [650, 0.04] },
+    "bat.profile.diameter[1]": { "values": ["1.7 in", "43.18 mm"] },
+    "bat.material.youngs_modulus": { "normal": ["14 GPa", "0.5 GPa"] }
+  },
+  "points": 50,
+  "seed": 3,
+  "outputs": ["mass_kg", "f1_hz", "f2_hz", "balance_point_m", "node_mode_1_m"],
+  "tol": 1e-9
+}
+"#;
+
+/// A free uniform beam without shear: `f ∝ √(E/ρ)`, `m = ρ π r² L`; both ways of writing one diameter are the
+/// same bat.
+#[test]
+fn every_row_is_the_bat_that_it_says() {
+    let folder = study("study-rows", SCATTER);
+    let said = folder.text(&["study", "study.json", "--out", "out"]);
+    assert!(said.starts_with("100 bats, 100 of them as accurate as asked\n"), "{said}");
+    let table = table(&folder, "out/part-000000.csv");
+    let [rho, e] =
+        ["bat.material.density", "bat.material.youngs_modulus"].map(|n| column(&table, n));
+    let [mass, f1, f2] = ["mass_kg", "f1_hz", "f2_hz"].map(|name| column(&table, name));
+    let [balance, node] = ["balance_point_m", "node_mode_1_m"].map(|name| column(&table, name));
+    let (r, length) = (0.85 * 0.0254_f64, 33.0 * 0.0254);
+    let near = |a: f64, b: f64, within: f64| assert!((a - b).abs() <= within * b.abs(), "{a} {b}");
+    for k in 0..100 {
+        near(mass[k], rho[k] * std::f64::consts::PI * r * r * length, 1e-12);
+        // Rotary inertia does not depend on E and ρ apart from their ratio.
+        let root = (1e9 * e[k] / rho[k]).sqrt() / (1e9 * e[0] / rho[0]).sqrt();
+        near(f1[k], f1[0] * root, 1e-8);
+        near(f2[k], f2[0] * root, 1e-8);
+        near(balance[k], 0.5 * length, 1e-12);
+        near(node[k], node[0], 1e-6);
+        assert_eq!(table.1[k][0], k.to_string());
+    }
+    for k in 0..50 {
+        near(rho[k + 50], rho[k], 0.0);
+        near(f1[k + 50], f1[k], 1e-12);
+    }
+    assert!(rho.iter().any(|rho| *rho < 620.0) && rho.iter().any(|rho| *rho > 680.0));
+}
+
+/// A place that is asked for is hit as `hit` does, with the scene of the study.
+#[test]
+fn a_hit_is_the_one_that_hit_computes() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": "r161", "tol": 1e-4,
+      "scene": { "swing_speed": "50 rad/s" },
+      "vary": { "scene.pitch": { "values": ["80 mph", "90 mph"] },
+                "ball.cor": { "grid": [0.45, 0.5, 2] } },
+      "outputs": ["exit_speed_m_s@0.65", "exit_speed_max.value", "exit_speed_max.x_m", "f1_hz"] }"#;
+    let folder = study("study-hits", text);
+    folder.text(&["study", "study.json", "--out", "out"]);
+    let table = table(&folder, "out/part-000000.csv");
+    let speeds = column(&table, "exit_speed_m_s@0.65");
+    let errors = column(&table, "exit_speed_m_s@0.65_error");
+    let best = column(&table, "exit_speed_max.value");
+    for (k, (pitch, cor)) in
+        [("80 mph", "0.45"), ("80 mph", "0.5"), ("90 mph", "0.45"), ("90 mph", "0.5")]
+            .into_iter()
+            .enumerate()
+    {
+        let hit = folder.json(&[
+            "hit",
+            "r161",
+            "--at",
+            "0.65",
+            "--swing-speed",
+            "50",
+            "--pitch",
+            pitch,
+            "--cor",
+            cor,
+            "--tol",
+            "1e-5",
+            "--json",
+            "-",
+        ]);
+        let known = hit["impacts"][0]["exit_speed_m_s"].as_f64().unwrap();
+        assert!((speeds[k] - known).abs() <= 3.0 * errors[k] + 1e-4, "{} {known}", speeds[k]);
+        assert!(best[k] >= speeds[k]);
+    }
+    // A livelier ball leaves faster.
+    assert!(best[1] > best[0] && best[3] > best[2] && best[2] > best[0]);
+}
+
+#[test]
+fn a_bat_that_cannot_exist_is_a_row_with_its_reason() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json",
+      "vary": { "bat.material.density": { "values": [700, -5, 650, "2 lb"] } },
+      "outputs": ["mass_kg", "f1_hz"] }"#;
+    let folder = study("study-impossible", text);
+    let said = folder.text(&["study", "study.json", "--out", "out"]);
+    assert!(said.starts_with("4 bats, 2 of them as accurate as asked\n"), "{said}");
+    let (_, rows) = table(&folder, "out/part-000000.csv");
+    assert_eq!(rows.len(), 4);
+    for (k, why) in [(1, "density: found -5"), (3, "found unit \"lb\"")] {
+        assert!(rows[k][2..6].iter().all(String::is_empty) && rows[k][6] == "false", "{rows:?}");
+        assert!(rows[k][7].contains(why), "{rows:?}");
+        assert!(said.contains(&rows[k][7][..20]), "{said}");
+    }
+    assert!(rows[0][6] == "true" && rows[2][7].is_empty());
+}
+
+/// A list of bats and a folder of them: each bat has every row, one that is no bat its reason.
+#[test]
+fn several_bats_are_rows_with_their_names() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": ["r161", "market", "dowel.json"],
+      "vary": { "bat.material.density": { "values": [600, 700] } },
+      "outputs": ["mass_kg", "f1_hz"] }"#;
+    let folder = study("study-several", text);
+    std::fs::create_dir(folder.0.join("market")).unwrap();
+    folder.write("market/b.json", DOWEL.replace("1.7, 1.7", "1.5, 1.5"));
+    folder.write("market/a.json", DOWEL.replace("\"x\": [0, 33]", "\"x\": [0, -33]"));
+    folder.write("market/c.json", "no bat at all");
+    folder.write("market/notes.txt", "not looked at");
+    let said = folder.text(&["study", "study.json", "--out", "out"]);
+    assert!(said.starts_with("10 bats, 6 of them as accurate as asked\n"), "{said}");
+    let table = table(&folder, "out/part-000000.csv");
+    assert_eq!(table.0[..3], ["row", "bat", "bat.material.density"]);
+    let names: Vec<&str> = table.1.iter().map(|row| row[1].as_str()).collect();
+    assert_eq!(names, ["r161", "r161", "a", "a", "b", "b", "c", "c", "dowel", "dowel"]);
+    let last = table.0.len() - 1;
+    for (k, row) in table.1.iter().enumerate() {
+        assert_eq!(row[0], k.to_string());
+        assert_eq!(row[last].is_empty(), ![2, 3, 6, 7].contains(&k), "{row:?}");
+    }
+    assert!(
+        table.1[2][last].contains("x[1]") && table.1[6][last].starts_with("found o"),
+        "{table:?}"
+    );
+    let mass = |k: usize| table.1[k][3].parse::<f64>().unwrap();
+    assert!((mass(5) / mass(9) - (1.5_f64 / 1.7).powi(2)).abs() < 1e-12);
+    // Without anything that varies each is a row as it is.
+    folder.write(
+        "study.json",
+        r#"{ "format": "sweetspot-study/1", "bat": "market", "outputs": ["mass_kg"] }"#,
+    );
+    let said = folder.text(&["study", "study.json", "--out", "as-is"]);
+    assert!(said.starts_with("3 bats, 1 of them"), "{said}");
+    for (bats, says) in [
+        ("\"nowhere\"", "nowhere"),
+        ("[\"r161\", \"nowhere.json\"]", "nowhere.json"),
+        ("[]", "an empty list"),
+        ("[\"market/a.json\", \"market/c.json\"]", "x[1]"),
+        ("\"market/c.json\"", "market/c.json:1"),
+        ("\"empty\"", "without a .json file"),
+    ] {
+        std::fs::create_dir_all(folder.0.join("empty")).unwrap();
+        folder.write("wrong.json", text.replace("[\"r161\", \"market\", \"dowel.json\"]", bats));
+        let output = folder.run(&["study", "wrong.json", "--out", "wrong"]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains(says), "{bats}: {told}");
+        assert!(!folder.0.join("wrong").exists());
+    }
+}
+
+/// Of `m = ρ π r² L` with independent lognormal ρ and r² the logarithm is a sum of both, so that with small
+/// deviations the shares are those of the squares: r counts twice.
+#[test]
+fn what_makes_answers_vary_is_said_and_drawn() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json",
+      "vary": { "bat.material.density": { "lognormal": [650, 0.02] },
+                "bat.material.youngs_modulus": { "lognormal": ["14 GPa", 0.02] },
+                "bat.profile.diameter[0]": { "values": ["1.7 in"] } },
+      "points": 1024, "outputs": ["mass_kg", "f1_hz"], "tol": 1e-6 }"#;
+    let folder = study("study-shares", text);
+    let said = folder.text(&[
+        "study",
+        "study.json",
+        "--out",
+        "out",
+        "--summary",
+        "--plots",
+        "plots",
+        "--scatter",
+        "mass_kg",
+        "f1_hz",
+        "--npz",
+    ]);
+    let share = |answer: &str, varied: &str| -> f64 {
+        let of = said.split(&format!("What makes {answer} vary")).nth(1).unwrap();
+        let line =
+            of.lines().find(|line| line.starts_with(varied)).unwrap_or_else(|| panic!("{said}"));
+        line[varied.len()..].split_whitespace().next().unwrap().parse().unwrap()
+    };
+    assert!((share("mass_kg", "bat.material.density") - 1.0).abs() < 1e-3, "{said}");
+    for varied in ["bat.material.density", "bat.material.youngs_modulus"] {
+        assert!((share("f1_hz", varied) - 0.5).abs() < 0.01, "{said}");
+    }
+    for name in ["histogram_mass_kg", "histogram_f1_hz", "tornado_f1_hz", "scatter_mass_kg_f1_hz"] {
+        assert!(folder.read(&format!("plots/{name}.svg")).starts_with("<svg"), "{name}");
+    }
+    let archive = std::fs::read(folder.0.join("out/part-000000.npz")).unwrap();
+    assert!(archive.starts_with(b"PK"));
+    // Rows that are there are not made again, and a column that is not is named.
+    let output = folder.run(&[
+        "study",
+        "study.json",
+        "--out",
+        "out",
+        "--plots",
+        "p",
+        "--scatter",
+        "mass_kg",
+        "f2_hz",
+    ]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && told.contains("did you mean f1_hz?"), "{told}");
+    folder.write("study.json", SCATTER);
+    let said = folder.text(&["study", "study.json", "--out", "lists", "--summary"]);
+    assert!(said.contains("here bats or lists differ too"), "{said}");
+}
+
+/// Started again, on more threads or fewer, stopped at any moment: the folder is the same.
+#[test]
+fn a_folder_is_the_same_however_it_was_made() {
+    let text = SCATTER.replace("\"points\": 50", "\"points\": 5000").replace("1e-9", "1e-2");
+    let folder = study("study-killed", &text);
+    folder.text(&["study", "study.json", "--out", "whole", "--jobs", "1"]);
+    let names = folder.read_names("whole");
+    assert_eq!(names, ["manifest.json", "part-000000.csv", "part-000001.csv", "part-000002.csv"]);
+    std::fs::create_dir(folder.0.join("killed")).unwrap();
+    for round in 0..50 {
+        let mut child = folder
+            .command(&["study", "study.json", "--out", "killed", "--jobs", "2"])
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        // Moments that look random, up to the time that the whole takes.
+        sleep(Duration::from_millis(7919 * round % 241));
+        let _ = child.kill();
+        child.wait().unwrap();
+        let there = folder.read_names("killed");
+        for name in there.iter().filter(|name| !name.starts_with('.')) {
+            let [whole, part] = ["whole", "killed"].map(|f| folder.read(&format!("{f}/{name}")));
+            assert!(whole == part, "{name} after {round}");
+        }
+        if names.iter().all(|name| there.contains(name)) {
+            let lost = format!("killed/{}", names[1 + round as usize % 3]);
+            std::fs::remove_file(folder.0.join(lost)).unwrap();
+        }
+    }
+    let said = folder.text(&["study", "study.json", "--out", "killed"]);
+    assert_eq!(said, folder.text(&["study", "study.json", "--out", "whole"]));
+    for name in &names {
+        let [whole, part] = ["whole", "killed"].map(|f| folder.read(&format!("{f}/{name}")));
+        assert!(whole == part, "{name}");
+    }
+    std::fs::remove_file(folder.0.join("killed/part-000001.csv")).unwrap();
+    folder.text(&["study", "study.json", "--out", "killed"]);
+    let part = "part-000001.csv";
+    assert!(folder.read(&format!("whole/{part}")) == folder.read(&format!("killed/{part}")));
+}
+
+#[test]
+fn a_folder_of_another_study_is_refused_with_what_changed() {
+    let folder = study("study-other", SCATTER);
+    folder.text(&["study", "study.json", "--out", "out"]);
+    let before = folder.read("out/part-000000.csv");
+    folder.write("dowel.json", DOWEL.replace("\"x\": [0, 33]", "\"x\": [0, 34]"));
+    let told = refused(&folder, "study.json");
+    assert!(told.contains("differs in dowel.json") && told.contains("new folder"), "{told}");
+    folder.write("dowel.json", DOWEL);
+    folder.write("study.json", SCATTER.replace("\"points\": 50", "\"points\": 51"));
+    let told = refused(&folder, "study.json");
+    assert!(told.contains("study.json") && told.contains("the rows"), "{told}");
+    assert_eq!(folder.read("out/part-000000.csv"), before);
+    std::fs::remove_file(folder.0.join("out/manifest.json")).unwrap();
+    let told = refused(&folder, "study.json");
+    assert!(told.contains("parts of a study that is not known"), "{told}");
+}
+
+/// What the program says of a study that it refuses.
+fn refused(folder: &Folder, name: &str) -> String {
+    let output = folder.run(&["study", name, "--out", "out"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(output.stdout.is_empty(), "{told}");
+    told
+}
+
+#[test]
+fn a_wrong_study_is_refused_with_its_place() {
+    let folder = study("study-wrong", SCATTER);
+    let density = "\"bat.material.density\": { \"lognormal\": [650, 0.04] }";
+    let outputs = "\"mass_kg\", \"f1_hz\", \"f2_hz\", \"balance_point_m\", \"node_mode_1_m\"";
+    for (from, to, says) in [
+        (density, "\"bat.material.densty\": { \"uniform\": [600, 700] }", "did you mean density?"),
+        (density, "\"bat.profil.x[1]\": { \"uniform\": [600, 700] }", "no object at \"profil\""),
+        (density, "\"bat.profile.x[9]\": { \"uniform\": [600, 700] }", "2 items, none of number 9"),
+        (density, "\"bta.material.density\": { \"uniform\": [1, 2] }", "begins with bat., ball."),
+        (density, "\"scene.pich\": { \"uniform\": [1, 2] }", "did you mean pitch?"),
+        (density, "\"bat.material.density\": { \"uniform\": [700, 600] }", "a number above 700"),
+        (density, "\"bat.material.density\": { \"normal\": [700, 0] }", "a finite number above 0"),
+        (density, "\"bat.material.density\": { \"normal\": [700] }", "[mean, standard deviation]"),
+        (density, "\"bat.material.density\": { \"normal\": [\"1 kg/m^3\", 2] }", "as the first"),
+        (density, "\"bat.material.density\": { \"norml\": [700, 5] }", "did you mean normal?"),
+        (density, "\"bat.material.density\": { \"values\": [] }", "one value at least"),
+        (density, "\"bat.material.density\": { \"values\": [-1] }", "in its middle"),
+        (outputs, "\"f1_herz\"", "did you mean f1_hz?"),
+        (outputs, "\"f1_hz\", \"f1_hz\"", "every output once"),
+        (outputs, "", "an empty list"),
+        ("\"points\": 50", "\"points\": 1e12", "rows at most"),
+        ("\"points\": 50", "\"points\": 0", "one row at least"),
+        ("\"points\": 50", "\"points\": 1.5", "a whole number"),
+        ("\"points\": 50", "\"design\": \"sobl\"", "did you mean sobol?"),
+        (
+            "\"points\": 50",
+            "\"correlations\": [[\"bat.material.density\", \"bat.material.youngs_modulus\", 2]]",
+            "between -1 and 1",
+        ),
+        ("\"points\": 50", "\"scene\": { \"pitch\": \"9 lb\" }", "pitch"),
+        ("dowel.json", "dowl.json", "dowl.json"),
+    ] {
+        assert!(SCATTER.contains(from), "{from}");
+        folder.write("wrong.json", SCATTER.replace(from, to));
+        let told = refused(&folder, "wrong.json");
+        assert!(told.contains(says), "{to}: {told}");
+        assert!(!Path::new(&folder.0).join("out").exists(), "{to}");
+    }
+}
