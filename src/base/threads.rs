@@ -1,6 +1,6 @@
 //! How is work shared among the processors?
 //!
-//! [`map`] asks rayon's pool, and does everything itself where no thread may be started or there is no
+//! `map` asks rayon's pool, and does everything itself where no thread may be started or there is no
 //! pool.
 
 /// What `of` makes of 0, 1, … below `count`, in that order.

@@ -85,7 +85,7 @@ pub(crate) fn read(node: &Node, ball: Ball) -> Result<Setup> {
 ///
 /// # Errors
 ///
-/// As [`read`], of a file called "scene".
+/// As `read`, of a file called "scene".
 pub fn of(members: &Map<String, Value>, ball: Ball) -> Result<Setup> {
     from_text(&Value::Object(members.clone()).to_string(), ball)
 }

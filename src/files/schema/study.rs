@@ -34,7 +34,7 @@ pub struct StudyForm {
     /// How the bat is hit: the options of sweetspot hit, such as swing_speed, by their names.
     pub scene: Option<BTreeMap<String, Said>>,
     /// What varies, by its path: bat., ball. or scene. and the path in that document, such as
-    /// bat.profile.diameter[12]. Lists are gone through in every combination; what is drawn shares one set of
+    /// bat.material.density. Lists are gone through in every combination; what is drawn shares one set of
     /// points. Without it each bat as it is.
     #[schemars(extend("minProperties" = 1))]
     pub vary: Option<BTreeMap<String, Way>>,
