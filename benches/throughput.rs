@@ -1,23 +1,29 @@
-//! How many bats a second: 10,000 random tapered bats, 6 modes with shapes.
+//! How many bats a second: random variations of a real bat by every theory, with a weight on the knob,
+//! a scan of it, hits; and random tapered bats.
 //!
-//! `cargo bench --bench throughput` prints the table; the two ways take turns, so that both meet
+//! `cargo bench --bench throughput` prints the tables; the two ways take turns, so that both meet
 //! the same machine, and every time is the best of the turns.
 
 use std::hint::black_box;
 use std::time::Instant;
 
+use sweetspot::base::threads::with;
+use sweetspot::bat::fixtures::{Attachment, Fixtures};
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::collision::sweep::{Accuracy, sweep};
+use sweetspot::collision::{Model, Scene};
 use sweetspot::modes::batch::{Way, all, each};
-use sweetspot::{Bat, Request};
+use sweetspot::proof::bundled::bundled_bat;
+use sweetspot::{Bat, Request, Theory};
 
 const BATS: usize = 10_000;
 const TURNS: usize = 7;
 
-/// Cones of ash: handle 9 to 16 mm, barrel 25 to 36 mm in radius, 0.74 to 0.90 m long.
-fn random_bats() -> Vec<Bat> {
+/// Even numbers between two.
+fn uniform() -> impl FnMut(f64, f64) -> f64 {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut uniform = move |from: f64, to: f64| {
+    move |from: f64, to: f64| {
         // Steele, Lea and Flood's SplitMix64.
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = state;
@@ -25,7 +31,40 @@ fn random_bats() -> Vec<Bat> {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         let unit = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64;
         from + (to - from) * unit
+    }
+}
+
+/// The R161's profile on so many stations, each bat of its own wood and length; with a weight on the knob
+/// if one is asked for (kg).
+fn variations(count: usize, stations: usize, weight: f64) -> Vec<Bat> {
+    let r161 = bundled_bat("meshes/r161.json").expect("a bundled bat");
+    let mut uniform = uniform();
+    let own = r161.profile().stations.clone();
+    let bat = |_| {
+        let stretched = uniform(0.97, 1.03);
+        let mut profile = own.clone();
+        if stations > 0 {
+            // As a scanner writes it: to a hundredth of a millimetre.
+            let places = (0..stations).map(|k| k as f64 / (stations - 1) as f64);
+            profile.x = places.map(|s| s * r161.length()).collect();
+            let radius = |x: &f64| (r161.profile().at(*x).outer * 1e5).round() / 1e5;
+            profile.outer = profile.x.iter().map(radius).collect();
+            profile.inner = vec![0.0; stations];
+        }
+        profile.x.iter_mut().for_each(|x| *x *= stretched);
+        let mut material = Material::new(uniform(600.0, 720.0), uniform(11e9, 16e9)).unwrap();
+        material.shear_modulus = Some(uniform(0.7e9, 1.2e9));
+        let knob = Attachment { x: 0.0, mass: weight, ..Attachment::default() };
+        let attachments = if weight > 0.0 { vec![knob] } else { vec![] };
+        let fixtures = Fixtures { attachments, ..Fixtures::default() };
+        Bat::builder(Profile::new(profile).unwrap(), material).fixtures(fixtures).build().unwrap()
     };
+    (0..count).map(bat).collect()
+}
+
+/// Cones of ash: handle 9 to 16 mm, barrel 25 to 36 mm in radius, 0.74 to 0.90 m long.
+fn random_bats() -> Vec<Bat> {
+    let mut uniform = uniform();
     let bat = |_| {
         let stations = Stations {
             x: vec![0.0, uniform(0.74, 0.90)],
@@ -52,7 +91,66 @@ fn frequencies(bats: &[Bat], request: &Request, way: Way) -> Vec<f64> {
     all
 }
 
+/// Bats a second, ten modes within 1e-4, one core.
+fn of_modes() {
+    println!(
+        "{:<40} {:>12} {:>12}",
+        "10 modes within 1e-4, bats a second", "one by one", "side by side"
+    );
+    let rate = |name: &str, bats: &[Bat], theory: Theory| {
+        let request = Request { modes: 10, tolerance: 1e-4, theory, ..Request::default() };
+        let mut best = [f64::INFINITY; 2];
+        for _ in 0..TURNS {
+            for (best, way) in best.iter_mut().zip([Way::OneByOne, Way::SideBySide]) {
+                let seen = |_: usize, f: sweetspot::Result<sweetspot::modes::batch::Found>| {
+                    black_box(f.unwrap().shapes[0]);
+                };
+                *best = best.min(time(|| each(bats, &request, way, seen)));
+            }
+        }
+        let [one, side] = best.map(|seconds| (bats.len() as f64 / seconds).round());
+        println!("{name:<40} {one:>12} {side:>12}");
+    };
+    let plain = variations(1000, 0, 0.0);
+    for theory in Theory::ALL {
+        rate(&format!("R161, {}", theory.name()), &plain, theory);
+    }
+    let weighted = variations(1000, 0, 0.03);
+    for theory in Theory::ALL {
+        rate(&format!("  30 g on the knob, {}", theory.name()), &weighted, theory);
+    }
+    let scanned = variations(200, 1000, 0.0);
+    for theory in Theory::ALL {
+        rate(&format!("  scanned at 1000 places, {}", theory.name()), &scanned, theory);
+    }
+}
+
+/// Bats a second hit at eleven places within 1e-4, with errors and ledger, one core.
+fn of_hits() {
+    println!("{:<40} {:>12}", "hits at 11 places, bats a second", "one by one");
+    let bats = variations(100, 0, 0.0);
+    let scene = Scene::default();
+    for theory in Theory::ALL {
+        let accuracy = Accuracy { theory, ..Accuracy::default() };
+        let mut best = f64::INFINITY;
+        for _ in 0..3 {
+            best = best.min(time(|| {
+                for bat in &bats {
+                    let along = |k: usize| bat.length() * (0.6 + 0.035 * k as f64);
+                    let places: Vec<f64> = (0..11).map(along).collect();
+                    let hits = sweep(bat, Model::Contact, &scene, &accuracy, &places).unwrap();
+                    assert!(hits.met);
+                    black_box(hits);
+                }
+            }));
+        }
+        println!("{:<40} {:>12}", theory.name(), (bats.len() as f64 / best).round());
+    }
+}
+
 fn main() {
+    of_modes();
+    with(Some(1), of_hits);
     let bats = random_bats();
     let planned = Request { modes: 6, tolerance: 1e-4, ..Request::default() };
     let fixed = Request { elements: Some(40), degree: Some(3), ..planned };

@@ -171,16 +171,23 @@ fn forms(bat: &Bat, found: &Answer, modes: [usize; 2]) -> [f64; 2] {
     let terms = found.degree + 1;
     let elements = found.nodes.len() - 1;
     let (mut mass, mut stiffness) = (0.0, 0.0);
-    for e in 0..elements {
+    // Between stations, which may lie inside elements.
+    let mut places = [found.nodes.clone(), bat.profile().borders()].concat();
+    places.sort_by(f64::total_cmp);
+    for part in places.windows(2).filter(|part| part[1] - part[0] > 1e-12) {
+        let middle = 0.5 * (part[0] + part[1]);
+        let e = (found.nodes.partition_point(|x| *x <= middle) - 1).min(elements - 1);
         let (start, h) = (found.nodes[e], found.nodes[e + 1] - found.nodes[e]);
         for [xi, weight] in &points {
-            let p = legendre(terms, *xi);
+            let x = part[0] + 0.5 * (part[1] - part[0]) * (1.0 + xi);
+            let xi = 2.0 * (x - start) / h - 1.0;
+            let p = legendre(terms, xi);
             let of = |mode: usize, derivative: usize| -> f64 {
                 let own = &found.shapes[(mode * elements + e) * terms..][..terms];
                 own.iter().zip(&p).map(|(c, p)| c * p[derivative]).sum()
             };
-            let worth = bat.worth_at(start + 0.5 * h * (1.0 + xi));
-            let share = 0.5 * h * weight;
+            let worth = bat.worth_at(x);
+            let share = 0.5 * (part[1] - part[0]) * weight;
             mass += share * worth.mass * of(modes[0], 0) * of(modes[1], 0);
             let bend = |mode| of(mode, 2) * (2.0 / h).powi(2);
             stiffness += share * worth.bending * bend(modes[0]) * bend(modes[1]);

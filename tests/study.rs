@@ -366,3 +366,23 @@ fn a_wrong_study_is_refused_with_its_place() {
         assert!(!Path::new(&folder.0).join("out").exists(), "{to}");
     }
 }
+
+/// A disk that is full in the middle of a part: one message, nothing half written, and with room again the
+/// folder is the undisturbed one.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_no_half_part() {
+    let folder = study("study-full", SCATTER);
+    let program = env!("CARGO_BIN_EXE_sweetspot");
+    let script = format!("trap '' XFSZ; ulimit -f 4; exec {program} study study.json --out out");
+    let mut shell = std::process::Command::new("sh");
+    let full = shell.args(["-c", &script]).current_dir(&folder.0).output().unwrap();
+    let said = String::from_utf8_lossy(&full.stderr);
+    assert!(matches!(full.status.code(), Some(2 | 3)) && said.contains("cannot write"), "{said}");
+    assert_eq!(folder.read_names("out"), ["manifest.json"]);
+    for out in ["out", "whole"] {
+        assert!(folder.run(&["study", "study.json", "--out", out]).status.success());
+    }
+    assert_eq!(folder.read_names("out"), folder.read_names("whole"));
+    assert_eq!(folder.read("out/part-000000.csv"), folder.read("whole/part-000000.csv"));
+}

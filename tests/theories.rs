@@ -181,7 +181,7 @@ fn points_miss_the_shear_of_a_tapered_tube_and_nothing_else() {
         );
         let bat = Bat::from_text("tube.json", &text, "".as_ref()).unwrap();
         let mesh = sweetspot::beam::mesh::Mesh::along(&bat, elements);
-        let rule = sweetspot::beam::rule::Rule::of(&bat, 3);
+        let rule = sweetspot::beam::rule::Rule::of(&bat, false, 3);
         let of = |e| sweetspot::beam::sections::missed(&bat, e, rule, theory);
         mesh.elements.iter().map(of).fold(0.0, f64::max)
     };

@@ -56,6 +56,8 @@ def dask(shipped: str, parts: list[int], workers: int, address: str | None) -> I
 
     own = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
     with Client(**own) if address is None else Client(address) as client:
+        # One that cannot read what it is to do would die without a word.
+        client.run(eval, "__import__('sweetspot').__name__")
         # A worker that dies is no fault of the part it was at.
         tasks = {client.submit(make, shipped, k, pure=False, retries=10): k for k in parts}
         for done in as_completed(tasks):

@@ -130,6 +130,44 @@ def test_a_cluster_that_loses_a_worker_makes_the_same_folder(tmp_path, scatter, 
     assert parts(out) == parts(tmp_path / "alone")
 
 
+def test_a_worker_without_the_wheel_is_named(tmp_path, scatter):
+    pytest.importorskip("distributed")
+    (tmp_path / "hidden" / "sweetspot").mkdir(parents=True)
+    missing = "raise ModuleNotFoundError(\"No module named 'sweetspot'\", name='sweetspot')\n"
+    (tmp_path / "hidden" / "sweetspot" / "__init__.py").write_text(missing)
+    known = tmp_path / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+    running = [subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(known)], stderr=subprocess.DEVNULL)]
+    try:
+        command = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(known), "--no-nanny"]
+        env = {**os.environ, "PYTHONPATH": str(tmp_path / "hidden")}
+        running.append(subprocess.Popen([*command, "--no-dashboard"], env=env, stderr=subprocess.PIPE, text=True))
+        for line in running[1].stderr:
+            if "Starting established connection" in line:
+                break
+        address = json.loads(known.read_text())["address"]
+        said = run(scatter, tmp_path / "w", "--engine", "dask", "--address", address)
+        assert said.returncode == 3 and "a worker has no package sweetspot" in said.stderr
+        assert len(said.stderr.strip().splitlines()) == 1
+    finally:
+        [process.kill() for process in running]
+
+
+def test_a_full_disk_leaves_whole_parts_alone(tmp_path, scatter):
+    import resource
+
+    def small():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))
+
+    command = [sys.executable, "-m", "sweetspot.study", str(scatter), "--out", str(tmp_path / "full"), "--quiet"]
+    said = subprocess.run(command, capture_output=True, text=True, preexec_fn=small)
+    assert said.returncode == 3 and "cannot write to" in said.stderr
+    assert [path.name for path in (tmp_path / "full").iterdir()] == ["manifest.json"]
+    assert run(scatter, tmp_path / "full").returncode == 0
+    assert run(scatter, tmp_path / "whole").returncode == 0
+    assert parts(tmp_path / "full") == parts(tmp_path / "whole")
+
+
 def test_what_is_wrong_is_one_message(tmp_path, scatter):
     wrong = tmp_path / "wrong.json"
     wrong.write_text(scatter.read_text().replace("density", "densty"))

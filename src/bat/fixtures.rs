@@ -149,6 +149,11 @@ impl Fixtures {
             && !self.holding()
     }
 
+    /// Whether the bat moves as one that has masses on it at most, none of them on a spring.
+    pub fn only_masses(&self) -> bool {
+        self.absorbers.is_empty() && self.joints.is_empty() && !self.holding()
+    }
+
     /// Whether anything holds the bat in place: a support, a spring to ground, a hand.
     pub fn holding(&self) -> bool {
         let spring = |a: &Attachment| a.stiffness > 0.0 || a.rotational_stiffness > 0.0;

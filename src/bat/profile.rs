@@ -312,7 +312,9 @@ impl Radii {
 }
 
 impl Cubics {
-    fn at(&self, s: f64) -> Section {
+    /// The section at `s` in [0, 1] along the piece.
+    #[inline]
+    pub fn at(&self, s: f64) -> Section {
         Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
     }
 

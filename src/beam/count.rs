@@ -17,6 +17,7 @@
 use std::ops::{Index, IndexMut};
 
 use crate::base::linear::{determinant, solve_two};
+use crate::base::real::Real;
 use crate::beam::element::MOST_WIDTH;
 use crate::beam::fixed::unit;
 use crate::beam::placed::Placed;
@@ -25,33 +26,41 @@ use crate::beam::walk::{Run, What};
 
 /// A symmetric form in unknowns of which the last two are deflection and rotation.
 #[derive(Debug, Clone, Default)]
-struct Form {
+struct Form<R> {
     size: usize,
     /// Row after row; what is above the diagonal may be out of date while unknowns are eliminated.
-    values: Vec<f64>,
+    values: Vec<R>,
     /// The column of a pivot.
-    column: Vec<f64>,
+    column: Vec<R>,
 }
 
-impl Index<(usize, usize)> for Form {
-    type Output = f64;
+impl<R> Index<(usize, usize)> for Form<R> {
+    type Output = R;
 
-    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+    #[inline(always)]
+    fn index(&self, (i, j): (usize, usize)) -> &R {
         &self.values[i * self.size + j]
     }
 }
 
-impl IndexMut<(usize, usize)> for Form {
-    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+impl<R> IndexMut<(usize, usize)> for Form<R> {
+    #[inline(always)]
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut R {
         &mut self.values[i * self.size + j]
     }
 }
 
-/// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a
-/// pivot was too small to tell.
+/// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a pivot was
+/// too small to tell.
 pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
+    slower_each(view, omega).filter(|count| *count >= 0.0).map(|count| count as usize)
+}
+
+/// As [`slower`], of the bat in every lane.
+#[inline(always)]
+pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
     let tau = omega * omega / view.energy_unit;
-    let mut count = 0;
+    let mut count = R::default();
     let [knob, tip] = [0, 1].map(|side| inwards(view, side, tau, &mut count));
     let (mut knob, tip) = (knob?, tip?);
     // Outwards on the knob side a rotation has the other sign.
@@ -61,13 +70,14 @@ pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
         knob[(last, i)] = -knob[(last, i)];
     }
     let mut whole = knob.beside(tip);
-    count += whole.eliminate(0)? as isize;
-    let reactions = view.fixed.map_or(0, |fixed| fixed.placed.contacts.len()) as isize;
-    usize::try_from(count - reactions).ok()
+    count += whole.eliminate(0)?;
+    let reactions = view.fixed.map_or(0, |fixed| fixed.placed.contacts.len());
+    Some(count - R::splat(reactions as f64))
 }
 
 /// The form of one side at the root; adds its negative pivots.
-fn inwards(view: &View<f64>, side: usize, tau: f64, count: &mut isize) -> Option<Form> {
+#[inline(always)]
+fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Option<Form<R>> {
     let (mut form, mut next) = (Form::new(2), Form::default());
     for Run { cells, stop } in view.runs(side).rev() {
         if let (Some(fixed), Some(what)) = (view.fixed, stop) {
@@ -76,13 +86,13 @@ fn inwards(view: &View<f64>, side: usize, tau: f64, count: &mut isize) -> Option
         for k in cells.rev() {
             form.behind(view, k, tau, &mut next);
             std::mem::swap(&mut form, &mut next);
-            *count += form.eliminate(2)? as isize;
+            *count += form.eliminate(2)?;
         }
     }
     Some(form)
 }
 
-impl Form {
+impl<R: Real> Form<R> {
     fn new(size: usize) -> Self {
         let mut form = Self::default();
         form.clear(size);
@@ -93,7 +103,7 @@ impl Form {
     fn clear(&mut self, size: usize) {
         self.size = size;
         self.values.clear();
-        self.values.resize(size * size, 0.0);
+        self.values.resize(size * size, R::default());
     }
 
     /// One unknown more, the first.
@@ -108,16 +118,17 @@ impl Form {
     }
 
     /// Adds `value (a·u)²`.
-    fn add_square(&mut self, value: f64, a: &[(usize, f64)]) {
+    fn add_square(&mut self, value: R, a: &[(usize, R)]) {
         for (i, p) in a {
             for (j, q) in a {
-                self[(*i, *j)] += value * p * q;
+                self[(*i, *j)] += value * *p * *q;
             }
         }
     }
 
     /// Adds what stands at this border.
-    fn meet(&mut self, placed: &Placed<f64>, what: What, tau: f64) {
+    fn meet(&mut self, placed: &Placed<R>, what: What, tau: R) {
+        let one = R::splat(1.0);
         match what {
             What::PointMass(k) => {
                 let point = &placed.points[k];
@@ -125,13 +136,13 @@ impl Form {
                     self.extend();
                 }
                 let last = self.size - 1;
-                let mut moved = vec![(last - 1, 1.0), (last, point.offset)];
+                let mut moved = vec![(last - 1, one), (last, point.offset)];
                 if let Some(spring) = point.spring {
                     moved.push((0, spring.softness));
-                    self[(0, 0)] += 1.0;
+                    self[(0, 0)] += one;
                 }
                 self.add_square(-tau * point.mass, &moved);
-                self.add_square(-tau * point.inertia, &[(last, 1.0)]);
+                self.add_square(-tau * point.inertia, &[(last, one)]);
             }
             What::Joint(k) => {
                 let softness = placed.joints[k].softness;
@@ -143,7 +154,8 @@ impl Form {
                     self[(0, j)] += turned;
                     self[(j, 0)] += turned;
                 }
-                self[(0, 0)] += 1.0 + softness * softness * self[(last, last)];
+                let both = softness * softness * self[(last, last)];
+                self[(0, 0)] += one + both;
             }
             What::Contact(k) => {
                 let contact = &placed.contacts[k];
@@ -152,21 +164,24 @@ impl Form {
                 let held = if contact.turning { last } else { last - 1 };
                 self[(0, held)] += contact.sign;
                 self[(held, 0)] += contact.sign;
-                self[(0, 0)] -= contact.spring.map_or(0.0, |s| s.softness.powi(2));
+                let soft = contact.spring.map_or(R::default(), |s| s.softness);
+                self[(0, 0)] -= soft * soft;
             }
         }
     }
 
     /// The form at the inner end of a cell, its strains and what was left not yet eliminated: the
     /// strains, then the unknowns of this form, then deflection and rotation. Below the diagonal.
-    fn behind(&self, view: &View<f64>, k: usize, tau: f64, form: &mut Self) {
+    #[inline(always)]
+    fn behind(&self, view: &View<R>, k: usize, tau: R, form: &mut Self) {
+        let (zero, one) = (R::default(), R::splat(1.0));
         let cell = view.cells.at(k);
         let (strains, carried) = (view.strains, self.size - 2);
         let width = strains + 2;
         let placed = view.fixed.iter().map(|fixed| &fixed.placed);
         let beds = placed.filter_map(|placed| Some(&placed.contacts[placed.bed(k, view.terms)?]));
         let beds = beds.flatten().filter_map(|contact| Some(contact.spring?.softness));
-        let beds: Vec<f64> = beds.collect();
+        let beds: Vec<R> = beds.collect();
         let size = strains + carried + beds.len() + 2;
         let place = |i: usize| if i < strains { i } else { size - width + i };
         form.clear(size);
@@ -175,16 +190,16 @@ impl Form {
                 form[(place(i), place(j))] = -tau * cell.mass[i * width + j];
             }
         }
-        (0..strains).for_each(|i| form[(i, i)] += 1.0);
+        (0..strains).for_each(|i| form[(i, i)] += one);
         // Deflection and rotation at the outer end.
-        let mut outer = [[0.0; 2]; MOST_WIDTH];
+        let mut outer = [[zero; 2]; MOST_WIDTH];
         for i in 0..strains {
             outer[i] = [cell.lift[i], cell.turn[i]];
         }
-        (outer[strains], outer[strains + 1]) = ([1.0, 0.0], [cell.length, 1.0]);
+        (outer[strains], outer[strains + 1]) = ([one, zero], [cell.length, one]);
         let ends = [carried, carried + 1];
         for i in 0..width {
-            let row: [f64; 2] = std::array::from_fn(|e| {
+            let row: [R; 2] = std::array::from_fn(|e| {
                 outer[i][0] * self[(ends[0], ends[e])] + outer[i][1] * self[(ends[1], ends[e])]
             });
             for j in 0..=i {
@@ -235,21 +250,31 @@ impl Form {
     }
 
     /// Eliminates all unknowns but the last `kept` and returns how many pivots were negative.
-    fn eliminate(&mut self, kept: usize) -> Option<usize> {
+    #[inline(always)]
+    fn eliminate(&mut self, kept: usize) -> Option<R> {
         // A pivot in its turn that is not small beside what it couples it to is good enough; the
-        // kept unknowns have a unit of their own.
+        // kept unknowns have a unit of their own. Side by side there is no other turn: a small pivot
+        // costs digits, of which a count asks for few.
         const SMALL: f64 = 0.1;
-        let (mut negative, mut first) = (0, 0);
+        const SMALL_TOGETHER: f64 = 1e-7;
+        let small = R::splat(if R::LANES == 1 { SMALL } else { SMALL_TOGETHER });
+        let (mut negative, mut first) = (R::default(), 0);
         let (size, end) = (self.size, self.size - kept);
+        let [one, half] = [1.0, 0.5].map(R::splat);
         while first < end {
-            let largest = (first..end).fold(0.0, |m: f64, i| m.max(self[(i, first)].abs()));
-            if self[(first, first)].abs() <= SMALL * largest {
+            let least = R::splat(f64::MIN_POSITIVE);
+            let largest = (first..end).fold(least, |m: R, i| m.max(self[(i, first)].abs()));
+            if !(small * largest).within(self[(first, first)].abs()) {
+                if R::LANES > 1 {
+                    return None;
+                }
                 self.mirror(first);
                 let (i, j) = self.pivot(first, end)?;
                 self.exchange(first, i);
                 if i != j {
                     self.exchange(first + 1, j);
-                    negative += self.eliminate_two(first)?;
+                    self.eliminate_two(first)?;
+                    negative += one;
                     first += 2;
                     continue;
                 }
@@ -257,11 +282,12 @@ impl Form {
             let Self { values, column, .. } = self;
             column.clear();
             column.extend((first..size).map(|i| values[i * size + first]));
-            negative += usize::from(column[0] < 0.0);
+            negative += half - half.copysign(column[0]);
+            let scale = one / column[0];
             for (i, value) in column.iter().enumerate().skip(1) {
-                let part = value / column[0];
+                let part = *value * scale;
                 let row = &mut values[(first + i) * size + first..][..=i];
-                row[1..].iter_mut().zip(&column[1..]).for_each(|(v, c)| *v -= part * c);
+                row[1..].iter_mut().zip(&column[1..]).for_each(|(v, c)| *v -= part * *c);
             }
             first += 1;
         }
@@ -281,7 +307,7 @@ impl Form {
         // Bunch and Parlett's bound.
         const ALPHA: f64 = 0.640_388_203_202_208;
         let all = (first..end).flat_map(|i| (first..=i).map(move |j| (i, j)));
-        let size = |place: &(usize, usize)| self[*place].abs();
+        let size = |place: &(usize, usize)| self[*place].abs().lane(0);
         let on = all.clone().filter(|(i, j)| i == j).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let off = all.filter(|(i, j)| i != j).max_by(|a, b| size(a).total_cmp(&size(b)));
         match off {
@@ -301,9 +327,11 @@ impl Form {
         }
     }
 
-    /// Eliminates two unknowns together: one pivot of each sign.
-    fn eliminate_two(&mut self, first: usize) -> Option<usize> {
-        let row = |i: usize| self.values[i * self.size..][..self.size].to_vec();
+    /// Eliminates two unknowns of one bat together: one pivot of each sign.
+    fn eliminate_two(&mut self, first: usize) -> Option<()> {
+        let row = |i: usize| -> Vec<f64> {
+            self.values[i * self.size..][..self.size].iter().map(|v| v.lane(0)).collect()
+        };
         let [a, b] = [row(first), row(first + 1)];
         let pivot = [[a[first], a[first + 1]], [a[first + 1], b[first + 1]]];
         if determinant(pivot) >= 0.0 {
@@ -312,10 +340,10 @@ impl Form {
         for i in first + 2..self.size {
             let [of_a, of_b] = solve_two(pivot, [a[i], b[i]]);
             for j in first + 2..self.size {
-                self[(i, j)] -= of_a * a[j] + of_b * b[j];
+                self[(i, j)] -= R::splat(of_a * a[j] + of_b * b[j]);
             }
         }
-        Some(1)
+        Some(())
     }
 }
 
@@ -323,24 +351,24 @@ impl Form {
 mod tests {
     use super::*;
 
-    fn form(rows: &[&[f64]]) -> Form {
+    fn form(rows: &[&[f64]]) -> Form<f64> {
         Form { size: rows.len(), values: rows.concat(), column: vec![] }
     }
 
     #[test]
     fn negative_pivots_are_negative_eigenvalues_whatever_the_order() {
         // Eigenvalues 3 and −1; ±1; 1, 1, −2 (all ones off the diagonal: 2, −1, −1).
-        assert_eq!(form(&[&[1.0, 2.0], &[2.0, 1.0]]).eliminate(0), Some(1));
-        assert_eq!(form(&[&[0.0, 1.0], &[1.0, 0.0]]).eliminate(0), Some(1));
+        assert_eq!(form(&[&[1.0, 2.0], &[2.0, 1.0]]).eliminate(0), Some(1.0));
+        assert_eq!(form(&[&[0.0, 1.0], &[1.0, 0.0]]).eliminate(0), Some(1.0));
         let ones: &[&[f64]] = &[&[0.0, 1.0, 1.0], &[1.0, 0.0, 1.0], &[1.0, 1.0, 0.0]];
-        assert_eq!(form(ones).eliminate(0), Some(2));
+        assert_eq!(form(ones).eliminate(0), Some(2.0));
         assert_eq!(form(&[&[0.0]]).eliminate(0), None);
     }
 
     #[test]
     fn what_is_kept_is_the_schur_complement() {
         let mut three = form(&[&[2.0, 1.0, 0.0], &[1.0, 3.0, 1.0], &[0.0, 1.0, -4.0]]);
-        assert_eq!(three.eliminate(1), Some(0));
+        assert_eq!(three.eliminate(1), Some(0.0));
         // −4 − 1/(3 − ½).
         assert!((three[(0, 0)] + 4.4).abs() < 1e-15);
     }

@@ -17,6 +17,10 @@
 //! that a mesh cannot hold. So `η/2` is the relative error of the frequency, from the answer itself
 //! and no second mesh, thin ends included.
 //!
+//! On an element over stations EI, ρA and 1/EI are each a polynomial that has the true one's moments, and
+//! the square is `EI w″² − 2 w″ M + M²/EI`: what the polynomials do not follow at the stations is in the
+//! last term, and is counted.
+//!
 //! # Source
 //!
 //! W. Prager, J. L. Synge, Quart. Appl. Math. 5 (1947) 241 for the comparison of a compatible with
@@ -135,15 +139,17 @@ impl<R: Real> Motion<R> {
         }
         rule.values(&room.strains[..view.terms - 2], &mut room.values);
         let stiffness = &view.bending_stiffness[samples.clone()];
+        let softness = view.softness[0].get(samples.clone());
         let changes = &mut self.changes[samples];
         for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
             let mut bending = m + v * R::splat(1.0 - point.s) + room.twice[j] * square;
             if turns {
                 bending += room.once[j] * h;
             }
-            let defect = room.values[j] * *stiffness - lambda * bending;
-            changes[j] = defect * (S::splat(1.0) / *stiffness);
-            energy += defect * changes[j] * (S::splat(point.weight) * h);
+            let soft = softness.map(|softness| softness[j]);
+            let [change, square] = difference(room.values[j], lambda * bending, *stiffness, soft);
+            changes[j] = change;
+            energy += square * (S::splat(point.weight) * h);
         }
         carried.moment.add(gained);
         carried.shear.add(force * h);
@@ -188,14 +194,35 @@ impl<R: Real> Motion<R> {
         let (rule, h, samples) = (view.rule, at.cell.length, at.samples.clone());
         rule.values(&room.strains[view.terms - 2..view.strains], &mut room.values);
         let stiffness = &view.shear_stiffness[samples.clone()];
+        let softness = view.softness[1].get(samples.clone());
         let slips = &mut self.slips[samples];
         let mut energy = R::default();
         for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
-            let across = shear + room.once[j] * h;
-            let defect = room.values[j] * *stiffness - lambda * across;
-            slips[j] = defect * (S::splat(1.0) / *stiffness);
-            energy += defect * slips[j] * (S::splat(point.weight) * h);
+            let across = lambda * (shear + room.once[j] * h);
+            let soft = softness.map(|softness| softness[j]);
+            let [slip, square] = difference(room.values[j], across, *stiffness, soft);
+            slips[j] = slip;
+            energy += square * (S::splat(point.weight) * h);
         }
         energy
     }
+}
+
+/// A strain less that of a stress, and the square of that in the stiffness; 1/stiffness is a number of
+/// its own where the points stand for polynomials over stations.
+#[inline(always)]
+fn difference<S: Real, R: Over<S>>(
+    strain: R,
+    stress: R,
+    stiffness: S,
+    softness: Option<S>,
+) -> [R; 2] {
+    let defect = strain * stiffness - stress;
+    let soft = softness.unwrap_or(S::splat(1.0) / stiffness);
+    let change = match softness {
+        Some(softness) => strain - stress * softness,
+        None => defect * soft,
+    };
+    let beyond = softness.map(|softness| strain * stress * (stiffness * softness - S::splat(1.0)));
+    [change, defect * change + beyond.unwrap_or_default()]
 }

@@ -32,9 +32,9 @@ pub struct Fixed<S> {
 }
 
 impl<S: Real> Fixed<S> {
-    /// Everything that the bat's fixtures say, on that mesh.
-    pub fn new(bare: &Bare<S>, bat: &Bat, mesh: &Mesh) -> Self {
-        let placed = Placed::new(bare, bat, mesh);
+    /// Everything that the bats' fixtures say, as [`Placed::new`].
+    pub fn new(bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) -> Self {
+        let placed = Placed::new(bare, bats, mesh);
         let root = bare.cells.at(bare.split).arm;
         if placed.contacts.is_empty() {
             return Self { placed, root, ..Self::nothing() };

@@ -14,7 +14,7 @@ pub fn elements<const N: usize, const W: usize>(
     mesh: &Mesh,
     theory: Theory,
 ) -> Vec<Element<f64, N, W>> {
-    let rule = Rule::of(bat, N - 1);
+    let rule = Rule::of(bat, mesh.over_stations(), N - 1);
     let mut lists = [const { Vec::new() }; 4];
     let element = |e: &mesh::Element| {
         lists.iter_mut().for_each(Vec::clear);

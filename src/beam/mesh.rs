@@ -1,22 +1,88 @@
-//! Where are the elements: stretches of the bat, none across a station or a step.
+//! Where are the elements: stretches of the bat, none across a step or the end of a region.
+//!
+//! An element lies in one piece of the profile, or it reaches over stations ([`Element::parts`]).
 
 use serde::Serialize;
 
 use crate::bat::body::Bat;
 
-/// One element: a part of one piece of the profile.
+/// One element: a stretch of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Element {
-    /// Index of the piece of the profile it lies in.
+    /// Index of the piece of the profile it begins in.
     pub piece: usize,
-    /// Where in the piece it begins, in [0, 1].
+    /// Index of the piece it ends in.
+    pub last: usize,
+    /// Where in its first piece it begins, in [0, 1).
     pub from: f64,
-    /// Where in the piece it ends, in [0, 1].
+    /// Where in its last piece it ends, in (0, 1].
     pub to: f64,
     /// Position of its left end from the knob end (m).
     pub start: f64,
     /// Length h (m).
     pub length: f64,
+}
+
+/// A part of an element between two stations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Index of the piece of the profile it lies in.
+    pub piece: usize,
+    /// Where in the piece it begins and ends, in [0, 1].
+    pub of_piece: [f64; 2],
+    /// Where in the element it begins and ends, in [0, 1].
+    pub of_element: [f64; 2],
+}
+
+impl Element {
+    /// From one place to another, each a piece and where in it, in [0, 1].
+    fn between(bat: &Bat, [from, to]: [(usize, f64); 2]) -> Self {
+        let (piece, from) = if from.1 < 1.0 { from } else { (from.0 + 1, 0.0) };
+        let (last, to) = if to.1 > 0.0 { to } else { (to.0 - 1, 1.0) };
+        let mut element = Self { piece, last, from, to, start: 0.0, length: 0.0 };
+        element.place(bat);
+        element
+    }
+
+    /// Takes position and length from the bat's pieces.
+    fn place(&mut self, bat: &Bat) {
+        let [first, last] = [self.piece, self.last].map(|piece| &bat.profile().pieces[piece]);
+        self.start = first.start + first.length * self.from;
+        self.length = match self.piece == self.last {
+            true => first.length * (self.to - self.from),
+            false => last.start + last.length * self.to - self.start,
+        };
+    }
+
+    /// Whether there are stations inside.
+    #[inline(always)]
+    pub fn over_stations(&self) -> bool {
+        self.last > self.piece
+    }
+
+    /// Its parts between stations, knob first; one if there are none.
+    pub fn parts<'a>(&'a self, bat: &'a Bat) -> impl Iterator<Item = Part> + 'a {
+        let mut end = 0.0;
+        (self.piece..=self.last).map(move |k| {
+            let piece = &bat.profile().pieces[k];
+            let from = if k == self.piece { self.from } else { 0.0 };
+            let to = if k == self.last { self.to } else { 1.0 };
+            let begin = end;
+            end = match k == self.last {
+                true => 1.0,
+                false => (piece.start + piece.length - self.start) / self.length,
+            };
+            Part { piece: k, of_piece: [from, to], of_element: [begin, end] }
+        })
+    }
+
+    /// The piece at a place in [0, 1] of the element, and where in it.
+    fn at(&self, bat: &Bat, s: f64) -> (usize, f64) {
+        let part = self.parts(bat).find(|part| s <= part.of_element[1]);
+        let Part { piece, of_piece: [from, to], of_element: [begin, end] } =
+            part.expect("the last part ends at 1");
+        (piece, from + (to - from) * (s - begin) / (end - begin))
+    }
 }
 
 /// The elements of a bat from knob to tip.
@@ -41,6 +107,7 @@ impl Mesh {
             let at = |j: usize| j as f64 / count as f64;
             elements.extend((0..count).map(|j| Element {
                 piece: k,
+                last: k,
                 from: at(j),
                 to: at(j + 1),
                 start: piece.start + piece.length * at(j),
@@ -50,36 +117,35 @@ impl Mesh {
         Self { elements }
     }
 
-    /// A mesh with borders where `write` puts them on each piece, `s` rising from 0 to 1.
-    pub fn with_borders(bat: &Bat, mut write: impl FnMut(usize, &mut Vec<f64>)) -> Self {
-        let (mut elements, mut borders) = (Vec::with_capacity(bat.profile().pieces.len()), vec![]);
-        for (k, piece) in bat.profile().pieces.iter().enumerate() {
-            borders.clear();
-            write(k, &mut borders);
-            elements.extend(borders.windows(2).map(|s| Element {
-                piece: k,
-                from: s[0],
-                to: s[1],
-                start: piece.start + piece.length * s[0],
-                length: piece.length * (s[1] - s[0]),
-            }));
-        }
-        Self { elements }
+    /// A mesh with borders at these places, each a piece and where in it, from 0 to 1 along the bat.
+    /// The end of a piece and the beginning of the next are one place.
+    pub fn between(bat: &Bat, borders: &[(usize, f64)]) -> Self {
+        let elements = borders.windows(2).map(|pair| Element::between(bat, [pair[0], pair[1]]));
+        Self { elements: elements.collect() }
     }
 
     /// A finer mesh: this one with element `k` cut into `parts(k)` equal parts.
-    pub fn refined(&self, parts: impl Fn(usize) -> usize) -> Self {
+    pub fn refined(&self, bat: &Bat, parts: impl Fn(usize) -> usize) -> Self {
         let mut elements = Vec::with_capacity(self.len());
         for (k, e) in self.elements.iter().enumerate() {
             let parts = parts(k);
             let share = |j: usize| j as f64 / parts as f64;
+            if e.over_stations() && parts > 1 {
+                let at = |j: usize| match j {
+                    0 => (e.piece, e.from),
+                    j if j == parts => (e.last, e.to),
+                    j => e.at(bat, share(j)),
+                };
+                elements.extend((0..parts).map(|j| Element::between(bat, [at(j), at(j + 1)])));
+                continue;
+            }
             let at = |j: usize| e.from + (e.to - e.from) * share(j);
             elements.extend((0..parts).map(|j| Element {
-                piece: e.piece,
                 from: at(j),
                 to: if j + 1 == parts { e.to } else { at(j + 1) },
                 start: e.start + e.length * share(j),
                 length: e.length / parts as f64,
+                ..*e
             }));
         }
         Self { elements }
@@ -87,15 +153,13 @@ impl Mesh {
 
     /// Becomes the pattern's mesh on another bat of as many pieces, in the memory that it has.
     pub fn fit(&mut self, bat: &Bat, pattern: &Self) {
-        self.elements.clear();
-        for e in &pattern.elements {
-            let piece = &bat.profile().pieces[e.piece];
-            self.elements.push(Element {
-                start: piece.start + piece.length * e.from,
-                length: piece.length * (e.to - e.from),
-                ..*e
-            });
-        }
+        self.elements.clone_from(&pattern.elements);
+        self.elements.iter_mut().for_each(|e| e.place(bat));
+    }
+
+    /// Whether an element has stations inside.
+    pub fn over_stations(&self) -> bool {
+        self.elements.iter().any(Element::over_stations)
     }
 
     /// Middle and length of every element (m).

@@ -51,7 +51,7 @@ pub struct Motion<R> {
     /// `A q`, then `q − ω² A q`; nothing where the eigenvalue is known.
     pub image: Vec<R>,
     /// Inertia of the point masses and reactions of the contacts.
-    pub(super) forces: Vec<[R; 2]>,
+    pub(crate) forces: Vec<[R; 2]>,
     pub(super) reactions: Vec<R>,
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::base::real::Real;
 use crate::bat::body::Bat;
-use crate::bat::fixtures::Held;
+use crate::bat::fixtures::{Attachment, Fixtures, Held};
 use crate::beam::attached::{At, Contact, PointMass, Spring};
 use crate::beam::mesh::Mesh;
 use crate::beam::sweep::Bare;
@@ -30,13 +30,15 @@ pub struct Placed<S> {
 }
 
 impl<S: Real> Placed<S> {
-    /// Everything that the bat's fixtures say, on that mesh.
-    pub fn new(bare: &Bare<S>, bat: &Bat, mesh: &Mesh) -> Self {
+    /// Everything that the bats' fixtures say, one in each lane, on meshes of one pattern: of several bats
+    /// masses alone, as many on each and at the same nodes.
+    pub fn new(bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) -> Self {
+        let bat = bats[0];
         let clamped = bat.fixtures().supports.iter().filter(|s| s.kind == Held::Clamped);
         let clamps = clamped.map(|support| support.x).collect();
         let mut placed = Self { clamps, ..Self::default() };
         placed.add_joints(bare, bat, mesh);
-        placed.add_points(bare, bat, mesh);
+        placed.add_points(bare, bats, mesh);
         placed.add_holds(bare, bat, mesh);
         placed.add_grip(bare, bat, mesh);
         // Outwards; at one place the knob's part comes first from the knob and last from the tip.
@@ -86,22 +88,33 @@ impl<S: Real> Placed<S> {
         }
     }
 
-    fn add_points(&mut self, bare: &Bare<S>, bat: &Bat, mesh: &Mesh) {
-        let number = S::splat;
-        let masses = bat.fixtures().attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
-        let fixed = masses.map(|a| (a.x, [a.mass, a.offset, a.rotary_inertia], None));
-        let hung = bat.fixtures().absorbers.iter();
-        let hung = hung.map(|a| (a.x, [a.mass, 0.0, 0.0], Some(a.stiffness)));
-        for (x, [mass, offset, inertia], stiffness) in fixed.chain(hung) {
+    fn add_points(&mut self, bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) {
+        let masses = |bat: &Bat| -> Vec<(Attachment, Option<f64>)> {
+            let Fixtures { attachments, absorbers, .. } = bat.fixtures();
+            let fixed = attachments.iter().filter(|a| a.mass + a.rotary_inertia > 0.0);
+            let hung = absorbers.iter().map(|a| {
+                let own = Attachment { x: a.x, mass: a.mass, ..Attachment::default() };
+                (own, Some(a.stiffness))
+            });
+            fixed.map(|a| (*a, None)).chain(hung).collect()
+        };
+        let of_bats: Vec<_> = bats.iter().map(|bat| masses(bat)).collect();
+        for (k, (first, stiffness)) in of_bats[0].iter().enumerate() {
+            let number = |of: fn(&Attachment) -> f64| {
+                let mut number = S::default();
+                let lanes = of_bats.iter().enumerate();
+                lanes.for_each(|(lane, masses)| number.set_lane(lane, of(&masses[k].0)));
+                number
+            };
             let what = What::PointMass(self.points.len());
-            let side = self.stop(bare.split, node_at(bat, mesh, x), what);
+            let side = self.stop(bare.split, node_at(bats[0], mesh, first.x), what);
             let spring = stiffness.map(|stiffness| self.spring(bare, stiffness));
-            let outwards = if side == 1 { 1.0 } else { -1.0 };
+            let outwards = S::splat(if side == 1 { 1.0 } else { -1.0 });
             self.points.push(PointMass {
-                arm: number(outwards) * (number(x) - bare.balance),
-                mass: number(mass),
-                offset: number(outwards * offset),
-                inertia: number(inertia),
+                arm: outwards * (number(|a| a.x) - bare.balance),
+                mass: number(|a| a.mass),
+                offset: outwards * number(|a| a.offset),
+                inertia: number(|a| a.rotary_inertia),
                 spring,
             });
         }

@@ -29,6 +29,9 @@ pub struct Rule {
     once_from_right: Vec<f64>,
     /// Weights that give the last two coefficients of the Legendre series through the points.
     last: [Vec<f64>; 2],
+    /// `(2k + 1) P_k` at the points, polynomial by polynomial, up to twice the degree: of a rule for
+    /// elements over stations.
+    from_moments: Vec<f64>,
 }
 
 /// Points whose numbers are computed together; the tables are filled up to a multiple.
@@ -47,8 +50,8 @@ pub struct GaussPoint {
     pub bernstein: [f64; 4],
 }
 
-/// Kinds of profile: constant, linear and cubic radii, and formulas.
-const KINDS: usize = 4;
+/// Kinds of profile: constant, linear and cubic radii, formulas, and what lies on both sides of stations.
+const KINDS: usize = 5;
 /// Points for a formula beyond the degree of the deflection.
 const FOR_FORMULAS: usize = 16;
 
@@ -59,18 +62,49 @@ impl Rule {
     /// `2d + p`: so many points and one more hold it exactly, and then the mass too. The stiffness
     /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly. Formulas
     /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
-    pub fn of(bat: &Bat, degree: usize) -> &'static Self {
+    ///
+    /// On elements `over` stations a section is a polynomial of degree 2p that has its moments with all
+    /// polynomials up to that degree ([`crate::beam::sections::over`]), and so gives the exact
+    /// `∫EI P_{p−2}²` and `∫ρA P_p²`: the points hold products of degree 4p.
+    pub fn of(bat: &Bat, over: bool, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
         let mut pieces = bat.profile().pieces.iter();
         let radii = pieces.try_fold(0, |most: usize, piece| match &piece.radii {
             Radii::Cubic(cubics) => Some(most.max(cubics.degree)),
             Radii::Formula(_) => None,
         });
-        let kind = radii.map_or(KINDS - 1, |radii| radii.min(2));
+        let kind = if over { KINDS - 1 } else { radii.map_or(KINDS - 2, |radii| radii.min(2)) };
         RULES[KINDS * degree + kind].get_or_init(|| match radii {
+            _ if over => Self::over_stations(degree),
             Some(radii) => Self::new(degree + 1, (2 * radii + degree + 1).max(degree + 3)),
             None => Self::new(degree + 1, degree + FOR_FORMULAS),
         })
+    }
+
+    /// A rule for elements of that degree over stations.
+    fn over_stations(degree: usize) -> Self {
+        let moments = 2 * degree + 1;
+        let mut rule = Self::new(degree + 1, moments.max(degree + 7));
+        let (stride, mut table) = (rule.stride(), vec![0.0; moments * rule.stride()]);
+        for (j, point) in rule.points.iter().enumerate() {
+            for (k, p) in legendre(moments, 2.0 * point.s - 1.0).iter().take(moments).enumerate() {
+                table[k * stride + j] = (2 * k + 1) as f64 * p;
+            }
+        }
+        rule.from_moments = table;
+        rule
+    }
+
+    /// Number of moments that a section on an element over stations is known by; 0 of another rule.
+    #[inline(always)]
+    pub fn moments_of_sections(&self) -> usize {
+        self.from_moments.len() / self.stride()
+    }
+
+    /// The values at the points of the polynomial with the moments `∫₀¹ f P_k ds`.
+    #[inline(always)]
+    pub fn with_moments(&self, moments: &[f64], values: &mut [f64; MOST_POINTS]) {
+        self.combine(&self.from_moments, moments, values);
     }
 
     /// `count` points for `terms` Legendre polynomials.
@@ -128,6 +162,7 @@ impl Rule {
             once_from_left,
             once_from_right,
             last,
+            from_moments: vec![],
         }
     }
 

@@ -1,10 +1,15 @@
 //! What are the sections at the points of an element, and how much of them do the points miss?
 
+use std::sync::LazyLock;
+
+use crate::base::lanes::{Lanes, WIDTH};
+use crate::base::quadrature::gauss;
+use crate::base::real::Real;
 use crate::bat::body::Bat;
-use crate::bat::layup::Worth;
-use crate::bat::profile::{Radii, Section};
+use crate::bat::layup::{Layup, Worth};
+use crate::bat::profile::{Cubics, Radii, Section};
 use crate::bat::theory::Theory;
-use crate::beam::mesh::{Element, Mesh};
+use crate::beam::mesh::{Element, Mesh, Part};
 use crate::beam::rule::{MOST_POINTS, Rule};
 
 /// The sections at the points of the rule on one element.
@@ -27,6 +32,118 @@ fn sections(bat: &Bat, e: &Element, rule: &Rule, mut at: impl FnMut(usize, Secti
     }
 }
 
+/// Numbers of the sections on an element over stations, as the polynomials of degree 2p that have their
+/// moments: values at the points of the rule.
+///
+/// The moments are integrals from station to station, where the radii are cubics.
+#[inline(always)]
+pub fn over<const Q: usize>(
+    bat: &Bat,
+    e: &Element,
+    rule: &Rule,
+    of: impl Fn(&Layup, Section) -> [f64; Q],
+) -> [[f64; MOST_POINTS]; Q] {
+    let mut moments = Moments::<Q>::new(rule.moments_of_sections());
+    for Part { piece, of_piece: [from, to], of_element: [begin, end] } in e.parts(bat) {
+        let piece = &bat.profile().pieces[piece];
+        let (layup, share) = (bat.layup(piece), end - begin);
+        let Radii::Cubic(cubics) = &piece.radii else { continue };
+        let cubics = cubics.part(from, to);
+        for &(t, weight) in &POINTS[points(&cubics, moments.count, [begin, end])] {
+            let values = of(layup, cubics.at(t)).map(|value| value * weight * share);
+            moments.add(2.0 * (begin + share * t) - 1.0, values);
+        }
+    }
+    moments.flush();
+    let mut values = [[0.0; MOST_POINTS]; Q];
+    for (values, sums) in values.iter_mut().zip(&moments.sums) {
+        let own = sums.map(|sum| (0..WIDTH).map(|lane| sum.lane(lane)).sum::<f64>());
+        rule.with_moments(&own[..moments.count], values);
+    }
+    values
+}
+
+/// Gauss's rules on [0, 1], by their number of points.
+static POINTS: LazyLock<Vec<Vec<(f64, f64)>>> =
+    LazyLock::new(|| (0..=MOST_POINTS).map(|n| gauss(n.max(1))).collect());
+
+/// How many points hold a part of an element whose sections are multiplied by so many Legendre polynomials.
+///
+/// n points integrate `e^{zt}` on [0, 1] to `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with `ξ = cos
+/// θ`, a section whose radius goes from r₀ to r₁ nearly `e^{4t ln r₁/r₀}`; and n points are exact for the
+/// degree 2n − 1.
+fn points(cubics: &Cubics, count: usize, [begin, end]: [f64; 2]) -> usize {
+    /// The z of 2, 3, … points for 1e-12.
+    const REACH: [f64; 19] = [
+        0.005, 0.081, 0.344, 0.863, 1.651, 2.688, 3.947, 5.398, 7.014, 8.772, 10.65, 12.634,
+        14.707, 16.859, 19.079, 21.36, 23.693, 26.073, 28.494,
+    ];
+    let (share, middle) = (end - begin, begin + end - 1.0);
+    let turned = 2.0 * share / (1.0 - middle * middle).max(share).sqrt();
+    let change = |from: f64, to: f64| (to - from).abs() / from.min(to);
+    let [outer, inner] = [&cubics.outer, &cubics.inner];
+    let wall = if inner[0] > 0.0 { change(outer[0] - inner[0], outer[3] - inner[3]) } else { 0.0 };
+    let z = count as f64 * turned + 4.0 * change(outer[0], outer[3]).max(wall);
+    let enough = 2 + REACH.iter().position(|reach| z <= *reach).unwrap_or(REACH.len());
+    enough.min(count / 2 + 7)
+}
+
+/// Sums `Σ f P_k` over points, as many at a time as a vector holds.
+struct Moments<const Q: usize> {
+    count: usize,
+    sums: [[Lanes; MOST_POINTS]; Q],
+    /// Points that are not in the sums yet, and how many.
+    xi: Lanes,
+    values: [Lanes; Q],
+    waiting: usize,
+}
+
+impl<const Q: usize> Moments<Q> {
+    #[inline(always)]
+    fn new(count: usize) -> Self {
+        let zero = Lanes::default();
+        Self { count, sums: [[zero; MOST_POINTS]; Q], xi: zero, values: [zero; Q], waiting: 0 }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, xi: f64, values: [f64; Q]) {
+        self.xi.set_lane(self.waiting, xi);
+        for (lanes, value) in self.values.iter_mut().zip(values) {
+            lanes.set_lane(self.waiting, value);
+        }
+        self.waiting += 1;
+        if self.waiting == WIDTH {
+            self.flush();
+        }
+    }
+
+    /// Adds what waits.
+    #[inline(always)]
+    fn flush(&mut self) {
+        let (mut before, mut now) = (Lanes::default(), Lanes::splat(1.0));
+        for (k, [next, last]) in RECURRENCE.iter().enumerate().take(self.count) {
+            for (sums, value) in self.sums.iter_mut().zip(&self.values) {
+                sums[k] += *value * now;
+            }
+            let after = Lanes::splat(*next) * self.xi * now - Lanes::splat(*last) * before;
+            (before, now) = (now, after);
+        }
+        self.values = [Lanes::default(); Q];
+        self.waiting = 0;
+    }
+}
+
+/// `(2k + 1)/(k + 1)` and `k/(k + 1)`: `P_{k+1} = (2k + 1)/(k + 1) ξ P_k − k/(k + 1) P_{k−1}`.
+const RECURRENCE: [[f64; 2]; MOST_POINTS] = {
+    let mut factors = [[0.0; 2]; MOST_POINTS];
+    let mut k = 0;
+    while k < MOST_POINTS {
+        factors[k] = [(2 * k + 1) as f64 / (k + 1) as f64, k as f64 / (k + 1) as f64];
+        k += 1;
+    }
+    factors
+};
+
 /// EI (N m²) and ρA (kg/m) at the points of the rule on one element.
 #[inline(always)]
 pub fn bending_and_mass(
@@ -39,8 +156,39 @@ pub fn bending_and_mass(
     sections(bat, e, rule, |i, section| take(i, layup.bending_and_mass(section)));
 }
 
+/// Numbers of the sections at the points of a rule for elements over stations, of which this may be one.
+#[inline(always)]
+pub fn sampled<const Q: usize>(
+    bat: &Bat,
+    e: &Element,
+    rule: &Rule,
+    of: impl Fn(&Layup, Section) -> [f64; Q],
+) -> [[f64; MOST_POINTS]; Q] {
+    if e.over_stations() {
+        return over(bat, e, rule, of);
+    }
+    let layup = bat.layup(&bat.profile().pieces[e.piece]);
+    let mut values = [[0.0; MOST_POINTS]; Q];
+    sections(bat, e, rule, |i, section| {
+        for (values, value) in values.iter_mut().zip(of(layup, section)) {
+            values[i] = value;
+        }
+    });
+    values
+}
+
 /// All that the sections are worth there.
 pub fn worths(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, Worth)) {
+    if e.over_stations() {
+        let [bending, mass, turning, shear] = over(bat, e, rule, |layup, section| {
+            let Worth { bending, mass, turning, shear } = layup.worth(section);
+            [bending, mass, turning, shear]
+        });
+        return (0..rule.count()).for_each(|i| {
+            let [bending, mass, turning, shear] = [bending[i], mass[i], turning[i], shear[i]];
+            take(i, Worth { bending, mass, turning, shear });
+        });
+    }
     let layup = bat.layup(&bat.profile().pieces[e.piece]);
     sections(bat, e, rule, |i, section| take(i, layup.worth(section)));
 }
@@ -48,6 +196,10 @@ pub fn worths(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, W
 /// The sections' loss factors in bending and in shear there.
 pub fn losses(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, [f64; 2])) {
     let layup = bat.layup(&bat.profile().pieces[e.piece]);
+    if e.over_stations() {
+        let at = |s: f64| bat.profile().at(e.start + s * e.length);
+        return (0..rule.count()).for_each(|i| take(i, layup.loss(at(rule.points[i].s))));
+    }
     sections(bat, e, rule, |i, section| take(i, layup.loss(section)));
 }
 
@@ -60,13 +212,15 @@ const SHORT: f64 = 1e-8;
 /// is mere round-off.
 ///
 /// Stations are polynomials that the rule holds exactly, but for the κGA of a bore or a sleeve that tapers: the
-/// last terms of its Legendre series through the points count. Of formulas it is what bounds from
+/// last terms of its Legendre series through the points count. Over stations all numbers are integrals,
+/// and nothing is missed. Of formulas it is what bounds from
 /// the parse tree leave of EI, ρA and κGA, and on an element so short that nothing on it matters its variation times
 /// its share of the bat.
 pub fn missed(bat: &Bat, e: &Element, rule: &Rule, theory: Theory) -> f64 {
     let piece = &bat.profile().pieces[e.piece];
     let layup = bat.layup(piece);
     let missed = match &piece.radii {
+        Radii::Cubic(_) if e.over_stations() => 0.0,
         Radii::Cubic(cubics) if cubics.degree == 0 => 0.0,
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] && layup.sleeves.is_empty() => 0.0,
         Radii::Cubic(_) if theory.shears() => shear_tail(bat, e, rule),
@@ -110,7 +264,7 @@ fn shear_tail(bat: &Bat, e: &Element, rule: &Rule) -> f64 {
 /// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
 /// two radii, and what evaluating a formula costs.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
-    let of = |e: &Element| match &bat.profile().pieces[e.piece].radii {
+    let of = |e: &Element, piece: usize| match &bat.profile().pieces[piece].radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,
         Radii::Cubic(cubics) => {
             let walls = cubics.outer.iter().zip(&cubics.inner);
@@ -122,5 +276,6 @@ pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
             curves.bounds(e.from, e.to).map_or(0.0, |bounds| bounds.round_off().min(1.0))
         }
     };
-    mesh.elements.iter().map(of).fold(0.0, f64::max)
+    let all = mesh.elements.iter().flat_map(|e| (e.piece..=e.last).map(move |piece| of(e, piece)));
+    all.fold(0.0, f64::max)
 }

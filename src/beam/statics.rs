@@ -27,12 +27,13 @@ use crate::base::lanes::widest;
 use crate::base::quadrature::RunningSum;
 use crate::base::real::Real;
 use crate::bat::body::Bat;
+use crate::bat::layup::Worth;
 use crate::bat::theory::Theory;
 use crate::beam::element::{Element, Samples};
 use crate::beam::fixed::Fixed;
 use crate::beam::mesh::Mesh;
-use crate::beam::rule::Rule;
-use crate::beam::sections;
+use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::beam::sections::{self, sampled};
 use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
 
 /// Sums over more elements than this carry their rounding errors along; up to here they round to at most
@@ -62,6 +63,9 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub turning_per_length: Vec<R>,
     /// κGA (N) at the same points, of a theory with shear.
     pub shear_stiffness: Vec<R>,
+    /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, where elements reach over stations: there
+    /// each number is a polynomial of its own.
+    pub softness: [Vec<R>; 2],
     /// Mass (kg), summed from the elements and what is attached.
     pub mass: R,
     /// The theory's inertia about the balance point (kg m²), summed likewise.
@@ -73,7 +77,7 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub energy_unit: R,
     /// Length of the bat (m).
     pub length: R,
-    /// What is on the bat and what holds it, if anything; then there is one lane only.
+    /// What is on the bats and what holds them, if anything; several bats have masses on them at most.
     pub fixed: Option<Box<Fixed<R>>>,
 }
 
@@ -83,7 +87,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         debug_assert!(theory.shears() == (W > N));
         let zero = R::default();
         Self {
-            rule: Rule::of(bat, N - 1),
+            rule: Rule::of(bat, false, N - 1),
             theory,
             cells: vec![],
             split: 0,
@@ -91,6 +95,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             mass_per_length: vec![],
             turning_per_length: vec![],
             shear_stiffness: vec![],
+            softness: [vec![], vec![]],
             mass: zero,
             inertia: zero,
             balance: zero,
@@ -106,15 +111,30 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     #[inline(always)]
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
-        self.rule = Rule::of(bats[0], N - 1);
+        let over = meshes[0].over_stations();
+        self.rule = Rule::of(bats[0], over, N - 1);
         let (points, count) = (self.rule.count(), meshes[0].len());
         let zero = R::default();
+        for (softness, shear) in self.softness.iter_mut().zip([false, true]) {
+            softness.clear();
+            let of_all = over && (!shear || self.theory.shears());
+            softness.resize(if of_all { count * points } else { 0 }, zero);
+        }
         self.bending_stiffness.clear();
         self.bending_stiffness.resize(count * points, zero);
         self.mass_per_length.clear();
         self.mass_per_length.resize(count * points, zero);
         if self.theory.turns() {
-            self.sample_the_rest(bats, meshes);
+            self.turning_per_length.clear();
+            self.turning_per_length.resize(count * points, zero);
+            self.shear_stiffness.clear();
+            let shear = if self.theory.shears() { count * points } else { 0 };
+            self.shear_stiffness.resize(shear, zero);
+        }
+        match over {
+            true => self.sample_over_stations(bats, meshes),
+            false if self.theory.turns() => self.sample_the_rest(bats, meshes),
+            false => {}
         }
         let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
         let (mut greatest, mut stiffest) = (zero, 0.0);
@@ -122,12 +142,15 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         for k in 0..count {
             let range = k * points..(k + 1) * points;
             let bending = &mut self.bending_stiffness[range.clone()];
-            let line = &mut self.mass_per_length[range];
+            let line = &mut self.mass_per_length[range.clone()];
             let (mut length, mut start) = (zero, zero);
             for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
                 let e = &mesh.elements[k];
                 length.set_lane(lane, e.length);
                 start.set_lane(lane, e.start);
+                if over {
+                    continue;
+                }
                 sections::bending_and_mass(bat, e, self.rule, |i, [stiffness, mass]| {
                     bending[i].set_lane(lane, stiffness);
                     line[i].set_lane(lane, mass);
@@ -142,10 +165,12 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             stiffest = f64::max(stiffest, stiffness.lane(0) / length.lane(0));
             at = start + length;
         }
-        for [attached, x, _] in bats[0].fixtures().masses() {
-            mass.add(R::splat(attached));
-            first.add(R::splat(attached * x));
-        }
+        let [on, moment] = each(bats, |bat| {
+            let masses = bat.fixtures().masses();
+            masses.fold([0.0; 2], |[on, moment], [mass, x, _]| [on + mass, moment + mass * x])
+        });
+        mass.add(on);
+        first.add(moment);
         self.length = at;
         self.mass = mass.value();
         self.balance = first.value() / self.mass;
@@ -157,20 +182,57 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.fill(meshes);
         self.fixed = None;
         if !bats[0].fixtures().none_moving() {
-            self.attach(bats[0]);
-            debug_assert!(R::LANES == 1);
-            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats[0], meshes[0])));
+            self.attach(bats);
+            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats, meshes[0])));
+        }
+    }
+
+    /// Everything at the points of elements that reach over stations, or some of which do.
+    #[inline(always)]
+    fn sample_over_stations(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
+        let (points, theory) = (self.rule.count(), self.theory);
+        for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
+            for (k, e) in mesh.elements.iter().enumerate() {
+                let [soft, slip] = &mut self.softness;
+                let all = [
+                    &mut self.bending_stiffness,
+                    &mut self.mass_per_length,
+                    soft,
+                    &mut self.turning_per_length,
+                    &mut self.shear_stiffness,
+                    slip,
+                ];
+                let keep = |sampled: &[[f64; MOST_POINTS]]| {
+                    for (values, own) in all.into_iter().zip(sampled) {
+                        for (value, own) in values[k * points..(k + 1) * points].iter_mut().zip(own)
+                        {
+                            value.set_lane(lane, *own);
+                        }
+                    }
+                };
+                match theory {
+                    Theory::EulerBernoulli => {
+                        keep(&sampled(bat, e, self.rule, |layup, section| {
+                            let [bending, mass] = layup.bending_and_mass(section);
+                            [bending, mass, 1.0 / bending]
+                        }))
+                    }
+                    Theory::Rayleigh => keep(&sampled(bat, e, self.rule, |layup, section| {
+                        let [bending, mass] = layup.bending_and_mass(section);
+                        [bending, mass, 1.0 / bending, layup.turning(section)]
+                    })),
+                    Theory::Timoshenko => keep(&sampled(bat, e, self.rule, |layup, section| {
+                        let Worth { bending, mass, turning, shear } = layup.worth(section);
+                        [bending, mass, 1.0 / bending, turning, shear, 1.0 / shear]
+                    })),
+                }
+            }
         }
     }
 
     /// ρI and κGA at the points, as far as the theory asks for them.
     fn sample_the_rest(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
-        let (points, count) = (self.rule.count(), meshes[0].len());
-        let shears = self.theory.shears();
-        self.turning_per_length.clear();
-        self.turning_per_length.resize(count * points, R::default());
-        self.shear_stiffness.clear();
-        self.shear_stiffness.resize(if shears { count * points } else { 0 }, R::default());
+        let (points, shears) = (self.rule.count(), self.theory.shears());
         for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
             for (k, e) in mesh.elements.iter().enumerate() {
                 sections::worths(bat, e, self.rule, |i, worth| {
@@ -206,11 +268,14 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         let count = meshes[0].len();
         self.cells.resize(count, Cell::default());
         // The knob side's sections come outwards too: last element first, points reversed.
+        let [bending_softness, shear_softness] = &mut self.softness;
         for samples in [
             &mut self.bending_stiffness,
             &mut self.mass_per_length,
             &mut self.turning_per_length,
             &mut self.shear_stiffness,
+            bending_softness,
+            shear_softness,
         ] {
             let knob_side = (self.split * points).min(samples.len());
             samples[..knob_side].reverse();
@@ -251,11 +316,15 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     }
 
     /// Adds what is attached to the inertia.
-    fn attach(&mut self, bat: &Bat) {
-        for [mass, x, own] in bat.fixtures().masses() {
-            let arm = R::splat(x) - self.balance;
-            self.inertia += R::splat(mass) * arm * arm + R::splat(own);
-        }
+    fn attach(&mut self, bats: &[&Bat]) {
+        let balance = self.balance;
+        let mut lanes = 0..R::LANES;
+        let [attached] = each(bats, |bat| {
+            let at = lanes.next().map_or(0.0, |lane| balance.lane(lane));
+            let about = |[mass, x, own]: [f64; 3]| mass * (x - at) * (x - at) + own;
+            [bat.fixtures().masses().map(about).sum()]
+        });
+        self.inertia += attached;
     }
 
     /// Number of strains.
@@ -342,6 +411,16 @@ impl<R: Real, const W: usize> Body<'_, R, W> {
             turn: (tip_moment - knob_moment) / self.inertia,
         }
     }
+}
+
+/// Numbers of every bat, each in its lane.
+fn each<R: Real, const Q: usize>(bats: &[&Bat], mut of: impl FnMut(&Bat) -> [f64; Q]) -> [R; Q] {
+    let mut numbers = [R::default(); Q];
+    for (lane, bat) in bats.iter().enumerate() {
+        let own = of(bat);
+        numbers.iter_mut().zip(own).for_each(|(number, own)| number.set_lane(lane, own));
+    }
+    numbers
 }
 
 /// The greatest power of two that is not above a positive number.

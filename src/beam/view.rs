@@ -29,6 +29,8 @@ pub struct View<'a, S> {
     pub turning_per_length: &'a [S],
     /// κGA (N) likewise; empty without shear.
     pub shear_stiffness: &'a [S],
+    /// 1/EI (1/(N m²)) and 1/κGA (1/N) likewise; empty where no element reaches over stations.
+    pub softness: [&'a [S]; 2],
     /// Length of the bat (m).
     pub length: S,
     /// What is on the bat and what holds it, if anything.
@@ -81,16 +83,16 @@ impl<'a, S: Real> View<'a, S> {
         Located { number, cell: self.cells.at(number), strains, terms, samples }
     }
 
-    /// What is on the bat, and where; then motions are looked at one by one.
+    /// What is on the bat, and where; of motions side by side in the lanes of `R` nothing.
     #[inline(always)]
     pub fn placed<R: Real>(&self) -> Option<&'a Placed<S>> {
         self.fixed_for::<R>().map(|fixed| &fixed.placed)
     }
 
-    /// What is on the bat and what holds it; then motions are looked at one by one.
+    /// What is on the bat and what holds it; of motions side by side in the lanes of `R` nothing.
     #[inline(always)]
     pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {
-        if R::LANES == 1 { self.fixed } else { None }
+        if R::LANES == S::LANES { self.fixed } else { None }
     }
 }
 
@@ -135,6 +137,7 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
             mass_per_length: &self.mass_per_length,
             turning_per_length: &self.turning_per_length,
             shear_stiffness: &self.shear_stiffness,
+            softness: [&self.softness[0], &self.softness[1]],
             length: self.length,
             fixed: self.fixed.as_deref(),
         }

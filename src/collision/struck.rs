@@ -53,7 +53,7 @@ impl<'a> Struck<'a> {
     pub fn flexibility(&self, x: f64) -> [f64; 2] {
         let row = self.flexible.row(x);
         let unit = self.flexible.energy_unit;
-        let kink = self.flexible.unresolved(x, |x| self.bat.worth_at(x));
+        let kink = self.flexible.unresolved(x, self.bat);
         [dot(&row, &row) / unit + kink, dot(&row, &self.flexible.inertia(&row)) / unit]
     }
 

@@ -5,21 +5,25 @@
 //!
 //! All share the plan of the first and its number of Lanczos steps, so that a bat's answer does not
 //! depend on the others (one by one to the last bit, side by side to 1e-12). A bat of other
-//! proportions, of a formula, with anything on it, of another theory, or whose answer misses the
-//! tolerance or a node by its own account is planned and solved on its own; so are all where the
-//! first is such a bat. Once warm nothing is allocated for the others.
+//! proportions, of a formula, with anything but masses on it, or whose answer misses the tolerance or a
+//! mode by its own account is planned and solved on its own; so are all where the first is such a bat.
+//! Once warm next to nothing is allocated for the others.
+
+use pulp::{Simd, WithSimd};
 
 use crate::base::error::{Error, Result};
-use crate::base::lanes::{Lanes, WIDTH};
+use crate::base::lanes::{Lanes, WIDTH, widest};
 use crate::base::real::{Over, Real};
 use crate::base::threads;
 use crate::bat::body::Bat;
-use crate::bat::profile::{Piece, Radii};
+use crate::bat::profile::{Piece, Radii, SAME_PLACE};
 use crate::bat::theory::Theory;
 use crate::beam::changes::Depth;
+use crate::beam::count::slower_each;
 use crate::beam::degree::{OfDegree, of_degree};
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::Rule;
+use crate::beam::view::View;
 use crate::modes::certificate::{is_twin, round_off, share};
 use crate::modes::eigenpairs::Eigenpairs;
 use crate::modes::mode::Mode;
@@ -87,8 +91,8 @@ fn shown_to(bats: &[Bat], request: &Request, way: Way, visit: Visit) {
     let degrees = degree.map_or(COMPILED.to_vec(), |degree| vec![degree]);
     let first = bats.first().filter(|first| {
         request.check(WIDTH).is_ok()
-            && request.theory == Theory::EulerBernoulli
             && plain(first)
+            && (!request.theory.shears() || bats.iter().all(Bat::knows_shear))
             && COMPILED.contains(&degrees[0])
     });
     let Some(first) = first else { return all_alone(bats, request, visit) };
@@ -113,9 +117,9 @@ impl OfDegree for Alike<'_> {
 
     fn with<const N: usize, const W: usize>(self) {
         let Self { bats, request, way, plan, visit } = self;
-        // Side by side for a few degrees, without shear: each takes long to compile.
-        if const { N == W && is_compiled(N - 1) } {
-            with_degree::<N>(bats, request, way, plan, visit);
+        // Side by side for a few degrees: each takes long to compile.
+        if const { is_compiled(N - 1) } {
+            with_degree::<N, W>(bats, request, way, plan, visit);
         } else {
             all_alone(bats, request, visit);
         }
@@ -126,10 +130,10 @@ fn all_alone(bats: &[Bat], request: &Request, visit: Visit) {
     bats.iter().enumerate().for_each(|(k, bat)| solved_alone(k, bat, request, visit));
 }
 
-/// Whether a bat is made of stations, with nothing on it and nothing that holds it.
+/// Whether a bat is made of stations, with masses on it at most and nothing that holds it.
 fn plain(bat: &Bat) -> bool {
     let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
-    bat.fixtures().none_moving() && !bat.profile().pieces.iter().any(formula)
+    bat.fixtures().only_masses() && !bat.profile().pieces.iter().any(formula)
 }
 
 /// Solves every bat on all cores, each share of 256 bats planned by its own first one.
@@ -172,21 +176,21 @@ pub fn all<T: Send>(
 
 type Visit<'a> = &'a mut dyn FnMut(usize, Result<Found<'_>>);
 
-fn with_degree<const N: usize>(
+fn with_degree<const N: usize, const W: usize>(
     bats: &[Bat],
     request: &Request,
     way: Way,
     plan: Plan,
     visit: Visit,
 ) {
-    let mut alone = Worker::<f64, N>::new(&bats[0], plan.clone(), 0);
+    let mut alone = Worker::<f64, N, W>::new(&bats[0], request.theory, plan.clone(), 0);
     if alone.solve(&[&bats[0]], request).is_err() {
         // The first bat tells how many Lanczos steps there are to be; without it each is on its
         // own.
         return all_alone(bats, request, visit);
     }
     alone.steps = alone.pairs.lanczos.steps;
-    let mut together = Worker::<Lanes, N>::new(&bats[0], plan, alone.steps);
+    let mut together = Worker::<Lanes, N, W>::new(&bats[0], request.theory, plan, alone.steps);
     let lanes = if way == Way::SideBySide { WIDTH } else { 1 };
     for (group, group_bats) in bats.chunks(lanes).enumerate() {
         let first = lanes * group;
@@ -207,16 +211,29 @@ fn with_degree<const N: usize>(
     }
 }
 
-/// Whether a bat can share the plan of another: as many pieces, sampled at as many points, and of
-/// like proportions, so that the same elements serve both.
+/// Whether a bat can share the plan of another: as many pieces, sampled at as many points, of like
+/// proportions, and with masses at the same borders, so that the same elements serve both.
 fn same_pattern(a: &Bat, b: &Bat) -> bool {
     const ALIKE: f64 = 2.5;
     let widest = |bat: &Bat| bat.profile().stations.outer.iter().fold(0.0_f64, |m, r| m.max(*r));
     let (widest_a, widest_b) = (widest(a), widest(b));
     let pieces = a.profile().pieces.iter().zip(&b.profile().pieces);
+    // Where what is on a bat is, by the piece that begins there, and which of it has a mass.
+    let masses = |bat: &Bat| -> Vec<bool> {
+        bat.fixtures().attachments.iter().map(|a| a.mass + a.rotary_inertia > 0.0).collect()
+    };
+    let border = |bat: &Bat, x: f64| {
+        let same = SAME_PLACE * bat.length();
+        bat.profile().pieces.partition_point(|piece| piece.start < x - same)
+    };
+    let borders = |bat: &Bat| -> Vec<usize> {
+        bat.fixtures().borders().into_iter().map(|x| border(bat, x)).collect()
+    };
     a.profile().pieces.len() == b.profile().pieces.len()
         && plain(a) == plain(b)
-        && std::ptr::eq(Rule::of(a, 3), Rule::of(b, 3))
+        && masses(a) == masses(b)
+        && borders(a) == borders(b)
+        && std::ptr::eq(Rule::of(a, false, 3), Rule::of(b, false, 3))
         && pieces.flat_map(|(a, b)| [0.0, 1.0].map(|s| (a.at(s).outer, b.at(s).outer))).all(
             |(of_a, of_b)| {
                 let (of_a, of_b) = (of_a * widest_b, of_b * widest_a);
@@ -226,12 +243,12 @@ fn same_pattern(a: &Bat, b: &Bat) -> bool {
 }
 
 /// The memory of one way through the bats.
-struct Worker<R, const N: usize> {
+struct Worker<R, const N: usize, const W: usize> {
     plan: Plan,
     /// Lanczos steps for every bat, so that a bat's answer does not depend on its neighbours; 0 for
     /// as many as it takes.
     steps: usize,
-    pairs: Eigenpairs<R, N, N>,
+    pairs: Eigenpairs<R, N, W>,
     meshes: Vec<Mesh>,
     /// Lane after lane, what [`Found`] shows.
     omegas: Vec<f64>,
@@ -242,14 +259,14 @@ struct Worker<R, const N: usize> {
     counted: Vec<bool>,
 }
 
-impl<R: Real, const N: usize> Worker<R, N>
+impl<R: Real, const N: usize, const W: usize> Worker<R, N, W>
 where
     Lanes: Over<R>,
 {
-    fn new(bat: &Bat, plan: Plan, steps: usize) -> Self {
+    fn new(bat: &Bat, theory: Theory, plan: Plan, steps: usize) -> Self {
         Self {
             steps,
-            pairs: Eigenpairs::new(bat, Theory::EulerBernoulli),
+            pairs: Eigenpairs::new(bat, theory),
             meshes: vec![Mesh::default(); R::LANES],
             plan,
             omegas: vec![],
@@ -308,7 +325,7 @@ where
             self.pairs.assemble(bats, &meshes);
         }
         if self.pairs.statics.dimension() < modes {
-            let (least, found) = (modes.div_ceil(N - 2), self.plan.mesh.len());
+            let (least, found) = (modes.div_ceil(W - 2), self.plan.mesh.len());
             return Err(Error::TooFewElements { wanted: modes, least, found });
         }
         // On an asked mesh both ways are to agree to 1e-12, whatever the tolerance.
@@ -319,12 +336,35 @@ where
             steps => self.pairs.solve_in(modes, steps)?,
         }
         let depth = if request.elements.is_some() { Depth::Shape } else { Depth::Defect };
-        for first in (0..modes).step_by(Eigenpairs::<R, N, N>::TOGETHER) {
+        for first in (0..modes).step_by(Eigenpairs::<R, N, W>::TOGETHER) {
             self.pairs.look(first, depth);
             self.keep(first, modes, depth);
         }
         self.add_residuals(modes);
+        self.count(modes);
         Ok(())
+    }
+
+    /// Whether every bat has as many motions slower than its last mode as it has modes: of a bare bat whose
+    /// sections do not turn the nodes tell, of others those between the last mode and the next.
+    fn count(&mut self, modes: usize) {
+        let Self { pairs, omegas, counted, .. } = self;
+        let statics = &pairs.statics;
+        if modes == 0 || statics.fixed.is_none() && !statics.theory.turns() {
+            return;
+        }
+        let mut between = R::default();
+        for (bat, counted) in counted.iter_mut().enumerate() {
+            let (last, unit) = (omegas[(bat + 1) * modes - 1], statics.energy_unit.lane(bat));
+            let next = pairs.lanczos.beyond.map(|value| (unit / value.lane(bat)).sqrt());
+            *counted &= next.is_some();
+            between.set_lane(bat, (last * next.unwrap_or(last)).sqrt());
+        }
+        let found = widest(Count { view: statics.view(), omega: between });
+        for (bat, counted) in counted.iter_mut().enumerate() {
+            let slower = found.map(|count| count.lane(bat));
+            *counted &= slower == Some((modes + 2) as f64);
+        }
     }
 
     /// What the iteration left, `½ residual²/gap`, and what near twins share, as
@@ -360,8 +400,10 @@ where
         motions.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
         let scale = Lanes::splat(1.0).copysign(motions.ends[1][0]) / largest;
         let mass = motions.kinetic * scale * scale;
+        // Else [`Self::count`] tells whether a mode is missing.
+        let by_nodes = statics.fixed.is_none() && !statics.theory.turns();
         let crossings = motions.crossings(statics.split);
-        let elements = statics.cells.len();
+        let (elements, over) = (statics.cells.len(), !statics.softness[0].is_empty());
         for lane in 0..WIDTH.min(R::LANES * (modes - first)) {
             let (k, bat) = (first + lane / R::LANES, lane % R::LANES);
             let place = bat * modes + k;
@@ -370,10 +412,10 @@ where
             self.modal_masses[place] = mass.lane(lane);
             let ratio = omega / self.omegas[bat * modes];
             // An eigenvalue of the compliance is known to ε of the greatest one.
-            let round_off = round_off(ratio, elements) + 0.5 * f64::EPSILON * ratio * ratio;
-            let defect = if depth == Depth::Shape { 0.0 } else { motions.defect.lane(lane) };
+            let round_off = round_off(ratio, elements, over) + 0.5 * f64::EPSILON * ratio * ratio;
+            let defect = if depth == Depth::Shape { 0.0 } else { motions.defect.lane(lane).abs() };
             self.errors[place] = round_off + 0.5 * defect;
-            self.counted[bat] &= crossings.lane(lane) == (k + 2) as f64;
+            self.counted[bat] &= !by_nodes || crossings.lane(lane) == (k + 2) as f64;
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
             let (knob, tip) = motions.shape.split_at(N * statics.split);
             let scale = scale.lane(lane);
@@ -389,6 +431,21 @@ where
                 to.iter_mut().zip(from).for_each(|(to, w)| *to = scale * w.lane(lane));
             }
         }
+    }
+}
+
+/// How many motions are slower than a frequency, of the bats in the lanes.
+struct Count<'a, R> {
+    view: View<'a, R>,
+    omega: R,
+}
+
+impl<R: Real> WithSimd for Count<'_, R> {
+    type Output = Option<R>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Option<R> {
+        slower_each(&self.view, self.omega)
     }
 }
 

@@ -12,7 +12,6 @@ use crate::base::error::Result;
 use crate::base::linear::dot;
 use crate::base::quadrature::{gauss, legendre};
 use crate::bat::body::Bat;
-use crate::bat::layup::Worth;
 use crate::beam::attached::Spring;
 use crate::beam::changes::Depth;
 use crate::beam::degree::Elements;
@@ -199,7 +198,7 @@ impl Flexible {
     /// With `f = (ξ − x)₊` and `P` the polynomials of the curvature, `∫f²/EI dξ` less the same of
     /// its projection, over the element; and likewise `∫1/κGA dξ` of the step. Moments beyond
     /// those of the kink are smooth, and the mesh has them.
-    pub fn unresolved(&self, x: f64, worth: impl Fn(f64) -> Worth) -> f64 {
+    pub fn unresolved(&self, x: f64, bat: &Bat) -> f64 {
         static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss(10));
         let elements = &self.mesh.elements;
         let k = elements.partition_point(|e| e.start <= x).max(1) - 1;
@@ -212,21 +211,31 @@ impl Flexible {
         let (block, strains) = (view.terms - 2, view.strains);
         let mut loads = [0.0; MOST_STRAINS];
         let mut whole = 0.0;
-        for &(s, weight) in RULE.iter() {
-            let s = at + (1.0 - at) * s;
-            let share = weight * (1.0 - at) * e.length;
-            let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
-            let (here, arm) = (worth(place), (s - at) * e.length);
-            whole += share * arm * arm / here.bending;
-            let polynomials = legendre(block, 2.0 * s - 1.0);
-            for (j, p) in polynomials[..block].iter().enumerate() {
-                loads[j] += share * arm * p;
-                if strains > block {
-                    loads[block + j] += share * p;
+        // Smooth from the place to the next station, and from station to station.
+        let mut borders = e.parts(bat).map(|part| part.of_element[1]).collect::<Vec<_>>();
+        borders.insert(0, 0.0);
+        if knob_side {
+            borders.reverse();
+            borders.iter_mut().for_each(|s| *s = 1.0 - *s);
+        }
+        let part = |pair: &[f64]| [pair[0].max(at), pair[1]];
+        for [from, to] in borders.windows(2).map(part).filter(|[from, to]| from < to) {
+            for &(s, weight) in RULE.iter() {
+                let s = from + (to - from) * s;
+                let share = weight * (to - from) * e.length;
+                let place = e.start + e.length * if knob_side { 1.0 - s } else { s };
+                let (here, arm) = (bat.worth_at(place), (s - at) * e.length);
+                whole += share * arm * arm / here.bending;
+                let polynomials = legendre(block, 2.0 * s - 1.0);
+                for (j, p) in polynomials[..block].iter().enumerate() {
+                    loads[j] += share * arm * p;
+                    if strains > block {
+                        loads[block + j] += share * p;
+                    }
                 }
-            }
-            if strains > block {
-                whole += share / here.shear;
+                if strains > block {
+                    whole += share / here.shear;
+                }
             }
         }
         let mut scaled = [0.0; MOST_STRAINS];

@@ -247,7 +247,7 @@ impl Together {
         for _ in 0..MOST_REFINEMENTS {
             (mesh, degree) = match degree + 2 <= *DEGREES.end() {
                 true => (mesh, degree + 2),
-                false => (mesh.refined(|_| 2), degree),
+                false => (mesh.refined(bat, |_| 2), degree),
             };
             let elements = Elements { mesh: &mesh, degree, theory };
             let mut finer = Reduced::new(bat, elements, of_materials.len())?;

@@ -169,10 +169,14 @@ where
         for k in 0..Self::TOGETHER {
             let own = &vectors[(first + k).min(last) * dimension..][..dimension];
             let taken = match value {
-                Some(_) => statics.rigid(own, loads),
-                None => statics.apply(own, image, loads),
+                Some(_) if statics.fixed.is_none() => statics.rigid(own, loads),
+                _ => statics.apply(own, image, loads),
             };
             let lanes = k * R::LANES..(k + 1) * R::LANES;
+            motions.forces.resize(loads.points.len(), [Lanes::default(); 2]);
+            for (force, load) in motions.forces.iter_mut().zip(&loads.points) {
+                side_by_side(load, force, lanes.clone());
+            }
             side_by_side(&[taken.push], std::slice::from_mut(&mut rigid.push), lanes.clone());
             side_by_side(&[taken.turn], std::slice::from_mut(&mut rigid.turn), lanes.clone());
             side_by_side(own, strains, lanes.clone());

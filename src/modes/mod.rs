@@ -5,7 +5,7 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`survey`], [`plan`] | how does the wave number go along the bat; which elements does a tolerance need |
+//! | [`survey`], [`stations`], [`plan`] | how does the wave number go along the bat; what does reaching over a station cost; which elements does a tolerance need |
 //! | `memory` | how much memory does a solve take |
 //! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
 //! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
@@ -38,6 +38,8 @@ pub mod damping;
 pub mod certificate;
 #[doc(hidden)]
 pub mod survey;
+#[doc(hidden)]
+pub mod stations;
 pub mod plan;
 pub(crate) mod memory;
 pub mod request;

@@ -109,7 +109,7 @@ impl Mode {
         let ends = track.ends.iter().map(|end| (end[0], end[1]));
         let worst = pairs.chain(ends).map(|pair| off(pair, change)).fold(0.0, f64::max);
         let error = ModeError {
-            discretization: 0.5 * motion.defect.lane(lane),
+            discretization: 0.5 * motion.defect.lane(lane).abs(),
             round_off: 0.0,
             residual: motion.residual.lane(lane),
             nodes: node_error,

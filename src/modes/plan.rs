@@ -25,6 +25,9 @@
 //! may have as much of both as lies on an ellipse. Bores are not looked at: the outer radius stands
 //! for the section, and the check after the solve for the rest.
 //!
+//! Elements end at stations, or, where that is cheaper, they reach over them; [`crate::modes::stations`]
+//! tells what that costs.
+//!
 //! # Source
 //!
 //! Rayleigh's expansion of a plane wave and the leading term of `j_l`: Abramowitz and Stegun,
@@ -32,6 +35,7 @@
 //! from the binomial series and the leading coefficient of `P_m`.
 
 use std::fmt;
+use std::ops::Range;
 use std::time::Duration;
 
 use serde::Serialize;
@@ -42,7 +46,8 @@ use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::beam::rule::{DEGREES, Rule};
 use crate::beam::sections::missed;
-use crate::modes::survey::{Sample, Survey};
+use crate::modes::stations::Stations;
+use crate::modes::survey::{MANY, Sample, Survey};
 
 /// A mesh and the degree of its elements.
 #[derive(Debug, Clone, Default)]
@@ -127,6 +132,16 @@ const AIM: f64 = 0.4;
 const FINEST: f64 = 1e-16;
 /// The share of the wanted error that sections may lose.
 const MISSED: f64 = 1e-3;
+/// Elements reach over stations for errors down to this: below, a kink at a station costs more than a
+/// border there.
+const OVER: f64 = 1e-9;
+/// What kinks leave may be this many times what the formula says.
+const SURE: f64 = 3.0;
+/// Elements that reach over stations are fewer than this share of the pieces: about as long as these they
+/// would miss what a cubic does between stations.
+const FEWER: f64 = 0.8;
+/// What sampling a piece costs that elements reach over, in the unit of [`cost`].
+const SAMPLING: f64 = 0.5;
 /// Halvings of an element for a formula.
 const MOST_HALVINGS: usize = 12;
 
@@ -152,28 +167,43 @@ impl Plan {
         let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
         let survey = Survey::of(bat, wanted.theory, phase);
         let wave = survey.root_omega;
-        let mut best: Option<(f64, usize, Reach)> = None;
+        let stations = (tolerance >= OVER).then(|| Stations::of(bat, &survey)).flatten();
+        let mut best: Option<(f64, Layout)> = None;
         let mut range: Option<[usize; 2]> = None;
         for degree in degrees {
             range = Some([range.map_or(degree, |[from, _]| from), degree]);
-            let mut reach = Reach::of(degree, AIM * tolerance.max(FINEST), wave);
-            let mut count = reach.elements(&survey);
+            let mut layout = Layout::of(degree, AIM * tolerance.max(FINEST), wave, &survey);
             // A plan that would be too large is made as large as it may be: rounding up adds to it.
-            while (degree - 1) * count > most_unknowns && count > bat.profile().pieces.len() {
-                reach.scale(1.01 * ((degree - 1) * count) as f64 / most_unknowns as f64);
-                count = reach.elements(&survey);
+            while (degree - 1) * layout.count > most_unknowns
+                && layout.count > bat.profile().pieces.len()
+            {
+                layout.scale(1.01 * ((degree - 1) * layout.count) as f64 / most_unknowns as f64);
+                layout.count = layout.elements(&survey);
             }
-            let cost = cost(degree) * count.max(modes.div_ceil(degree - 1)) as f64;
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, degree, reach));
+            let (pieces, least) = (bat.profile().pieces.len(), modes.div_ceil(degree - 1));
+            let dearer = |best: &Option<(f64, Layout)>, layout: &Layout| {
+                best.as_ref().is_some_and(|(cost, _)| layout.cost(pieces, least) >= *cost)
+            };
+            let over = stations.as_ref().map(|stations| (layout.over(&survey, stations), stations));
+            if !dearer(&best, &layout) {
+                best = Some((layout.cost(pieces, least), layout));
+            }
+            // What kinks make of it costs a look of its own.
+            if let Some((mut over, stations)) = over.filter(|(over, _)| !dearer(&best, over)) {
+                over.shorten(bat, &survey, stations);
+                let fewer = (over.count as f64) < FEWER * pieces as f64;
+                if fewer && !dearer(&best, &over) {
+                    best = Some((over.cost(pieces, least), over));
+                }
             }
         }
-        let ((_, degree, reach), degrees) = best.zip(range).expect("there is a degree");
-        let borders = |k: usize, borders: &mut Vec<f64>| reach.borders(survey.piece(k), borders);
-        let mut mesh = resolved(bat, Mesh::with_borders(bat, borders), degree, wanted);
+        let ((_, layout), degrees) = best.zip(range).expect("there is a degree");
+        let degree = layout.degree;
+        let borders = layout.borders(&survey, stations.as_ref());
+        let mut mesh = resolved(bat, Mesh::between(bat, &borders), degree, wanted);
         // Too few unknowns for so many modes: shorter elements.
         while (degree - 1) * mesh.len() < modes {
-            mesh = mesh.refined(|_| 2);
+            mesh = mesh.refined(bat, |_| 2);
         }
         Self { mesh, degree, reason: Reason::Cheapest { degrees, tolerance } }
     }
@@ -191,7 +221,7 @@ impl Plan {
     /// The plan after a solve that missed, from every element's `defects` (twice the relative error
     /// of a frequency): one degree more where little is missing and `free` to choose, else every
     /// element cut into as many parts as its own part of the error asks for.
-    pub fn refined(&self, defects: &[f64], tolerance: f64, free: bool) -> Self {
+    pub fn refined(&self, bat: &Bat, defects: &[f64], tolerance: f64, free: bool) -> Self {
         // A degree more takes about two digits off the error, and costs a fifth of the time:
         // `examples/tuning/plans.rs` prints both, the error 20 to 130 times smaller.
         const LITTLE: f64 = 100.0;
@@ -201,13 +231,16 @@ impl Plan {
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
-        let order = 2.0 * (self.degree - 1) as f64;
+        // A kink inside an element leaves the fifth power of its length at best.
+        let over = self.mesh.over_stations();
+        let order = if over { 4.0 } else { 2.0 * (self.degree - 1) as f64 };
         let parts = |k: usize| {
             let excess = 0.5 * defects[k] / share;
             if excess <= 1.0 { 1 } else { (excess.powf(1.0 / order).ceil() as usize).clamp(2, 4) }
         };
         let worst = (0..self.mesh.len()).max_by(|&a, &b| defects[a].total_cmp(&defects[b]));
-        let mesh = self.mesh.refined(|k| if Some(k) == worst { parts(k).max(2) } else { parts(k) });
+        let mesh =
+            self.mesh.refined(bat, |k| if Some(k) == worst { parts(k).max(2) } else { parts(k) });
         Self { mesh, degree: self.degree, reason: Reason::Refined { tolerance } }
     }
 }
@@ -224,7 +257,7 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     if !curved {
         return mesh;
     }
-    let rule = Rule::of(bat, degree);
+    let rule = Rule::of(bat, mesh.over_stations(), degree);
     for _ in 0..MOST_HALVINGS {
         let unresolved: Vec<bool> = mesh
             .elements
@@ -234,24 +267,78 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
         if !unresolved.contains(&true) {
             break;
         }
-        mesh = mesh.refined(|k| 1 + usize::from(unresolved[k]));
+        mesh = mesh.refined(bat, |k| 1 + usize::from(unresolved[k]));
     }
     mesh
 }
 
-/// How far an element of one degree reaches within a tolerance: the share of it that a unit of
+/// How far elements of one degree reach within a tolerance: the share of one that a unit of
 /// `∫(ρA/EI)^¼ dx`, or of taper, uses up.
-struct Reach {
+struct Layout {
+    degree: usize,
     phase: f64,
     taper: f64,
+    /// Number of elements.
+    count: usize,
+    /// Number of elements of each stretch, where they reach over stations.
+    over: Option<Vec<usize>>,
+    /// The wanted error.
+    tolerance: f64,
+    /// Whether there are many pieces.
+    many: bool,
 }
 
-impl Reach {
-    fn of(degree: usize, tolerance: f64, wave: f64) -> Self {
-        Self {
-            phase: 0.5 * wave / of_waves(degree, tolerance),
-            taper: 1.0 / of_tapers(degree, tolerance),
+impl Layout {
+    /// Elements that end at stations.
+    fn of(degree: usize, tolerance: f64, wave: f64, survey: &Survey) -> Self {
+        let phase = 0.5 * wave / of_waves(degree, tolerance);
+        let taper = 1.0 / of_tapers(degree, tolerance);
+        let many = survey.pieces().count() > MANY;
+        let mut layout = Self { degree, phase, taper, count: 0, over: None, tolerance, many };
+        layout.count = layout.elements(survey);
+        layout
+    }
+
+    /// Elements that reach over stations, no longer than these.
+    fn over(&self, survey: &Survey, stations: &Stations) -> Self {
+        let mut over = Self { over: Some(vec![]), ..*self };
+        over.divided(survey, stations, 1.0);
+        over
+    }
+
+    /// So many elements on each stretch, so many times as short as waves and tapers ask for.
+    fn divided(&mut self, survey: &Survey, stations: &Stations, shorter: f64) {
+        let counts = stations.stretches.iter().map(|stretch| {
+            let length: f64 = stretch.clone().map(|k| self.length(survey.piece(k))).sum();
+            // Too many for this to be worth it are as good as more of them.
+            whole((shorter * length).min(1e6))
+        });
+        let counts: Vec<usize> = counts.collect();
+        self.count = counts.iter().sum();
+        self.over = Some(counts);
+    }
+
+    /// Makes elements over stations so short that kinks, too, leave no more than the tolerance.
+    fn shorten(&mut self, bat: &Bat, survey: &Survey, stations: &Stations) {
+        let pieces = &bat.profile().pieces;
+        let of = |k: usize| self.length(survey.piece(k)) / pieces[k].length;
+        let per_length: Vec<f64> = (0..pieces.len()).map(of).collect();
+        let mut shorter = 1.0;
+        for _ in 0..3 {
+            let missed = stations.missed(bat, self.degree, |k| shorter * per_length[k]);
+            if SURE * missed <= self.tolerance {
+                break;
+            }
+            let order = f64::from(stations.order());
+            shorter *= (SURE * missed / self.tolerance).powf(1.0 / order);
         }
+        self.divided(survey, stations, shorter);
+    }
+
+    /// What a solve costs beside others.
+    fn cost(&self, pieces: usize, least: usize) -> f64 {
+        let sampling = if self.over.is_some() { SAMPLING * pieces as f64 } else { 0.0 };
+        cost(self.degree) * self.count.max(least) as f64 + sampling
     }
 
     fn scale(&mut self, by: f64) {
@@ -261,36 +348,68 @@ impl Reach {
 
     /// The share that lies between two samples.
     fn share(&self, a: &Sample, b: &Sample) -> f64 {
-        let (phase, taper) = (self.phase * (b.phase - a.phase), self.taper * (b.taper - a.taper));
+        let taper = if self.over.is_some() { b.smooth - a.smooth } else { b.taper - a.taper };
+        let (phase, taper) = (self.phase * (b.phase - a.phase), self.taper * taper);
         (phase * phase + taper * taper).sqrt()
     }
 
-    /// A piece in elements.
+    /// A piece in elements; of many pieces nearly so.
     fn length(&self, piece: &[Sample]) -> f64 {
+        match (self.many, piece) {
+            (true, [first, .., last]) => self.share(first, last),
+            _ => self.exactly(piece),
+        }
+    }
+
+    /// A piece in elements.
+    fn exactly(&self, piece: &[Sample]) -> f64 {
         piece.windows(2).map(|w| self.share(&w[0], &w[1])).sum()
     }
 
-    /// How many elements the bat takes.
+    /// How many elements the bat takes that end at stations.
     fn elements(&self, survey: &Survey) -> usize {
         survey.pieces().map(|piece| whole(self.length(piece))).sum()
     }
 
-    /// Adds the borders of the elements of a piece, 0 to 1: equal shares between them.
-    fn borders(&self, piece: &[Sample], borders: &mut Vec<f64>) {
-        let length = self.length(piece);
-        let count = whole(length);
-        let step = length / count as f64;
-        borders.push(0.0);
-        let mut sum = 0.0;
-        for w in piece.windows(2) {
-            let here = self.share(&w[0], &w[1]);
-            while borders.len() < count && sum + here >= step * borders.len() as f64 {
-                let part = (step * borders.len() as f64 - sum) / here;
-                borders.push(w[0].s + part * (w[1].s - w[0].s));
+    /// The borders of the elements: equal shares between them on every stretch, or on every piece.
+    fn borders(&self, survey: &Survey, stations: Option<&Stations>) -> Vec<(usize, f64)> {
+        let mut borders = vec![(0, 0.0)];
+        match (&self.over, stations) {
+            (Some(counts), Some(stations)) => {
+                for (stretch, count) in stations.stretches.iter().zip(counts) {
+                    self.divide(survey, stretch.clone(), Some(*count), &mut borders);
+                }
             }
-            sum += here;
+            _ => (0..survey.pieces().count())
+                .for_each(|k| self.divide(survey, k..k + 1, None, &mut borders)),
         }
-        borders.push(1.0);
+        borders
+    }
+
+    /// Adds the borders on these pieces, but for the first.
+    fn divide(
+        &self,
+        survey: &Survey,
+        pieces: Range<usize>,
+        count: Option<usize>,
+        borders: &mut Vec<(usize, f64)>,
+    ) {
+        let length: f64 = pieces.clone().map(|k| self.exactly(survey.piece(k))).sum();
+        let count = count.unwrap_or(whole(length));
+        let step = length / count as f64;
+        let (mut sum, mut next) = (0.0, 1);
+        for k in pieces.clone() {
+            for w in survey.piece(k).windows(2) {
+                let here = self.share(&w[0], &w[1]);
+                while next < count && sum + here >= step * next as f64 {
+                    let part = (step * next as f64 - sum) / here;
+                    borders.push((k, w[0].s + part * (w[1].s - w[0].s)));
+                    next += 1;
+                }
+                sum += here;
+            }
+        }
+        borders.push((pieces.end - 1, 1.0));
     }
 }
 

@@ -78,7 +78,7 @@ impl Request {
 
     /// The memory (GB) that a plan for the bat takes.
     pub fn memory(&self, bat: &Bat, plan: &Plan) -> f64 {
-        let points = Rule::of(bat, plan.degree).count();
+        let points = Rule::of(bat, plan.mesh.over_stations(), plan.degree).count();
         self.work(plan.mesh.len(), plan.degree, points).gigabytes()
     }
 

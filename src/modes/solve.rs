@@ -112,7 +112,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
         let next = (!done).then(|| {
             let plan =
                 Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
-            plan.refined(&defects, request.tolerance, request.degree.is_none())
+            plan.refined(bat, &defects, request.tolerance, request.degree.is_none())
         });
         if solution.met || best.is_none() || gain < 1.0 {
             best = Some(solution);

@@ -8,6 +8,8 @@ use crate::bat::theory::Theory;
 
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
+/// Of so many pieces each is short beside what changes on a bat.
+pub(super) const MANY: usize = 8;
 /// A radius below this share of the widest counts as that: a point is no infinite taper.
 const THIN: f64 = 1e-3;
 
@@ -21,6 +23,9 @@ pub struct Sample {
     pub phase: f64,
     /// The taper from there, for a straight side `∫|d ln r|`.
     pub taper: f64,
+    /// The same without what a curve between two stations has of its own, its third derivative: for
+    /// elements that reach over stations.
+    pub smooth: f64,
 }
 
 /// The pieces of a profile, sampled from end to end.
@@ -70,7 +75,7 @@ impl Survey {
         let mut ends = Vec::with_capacity(pieces.len());
         let mut ratios = Vec::new();
         for piece in pieces {
-            take(bat, piece, THIN * widest, &mut samples);
+            take(bat, piece, THIN * widest, pieces.len(), &mut samples);
             ends.push(samples.len());
             if theory.turns() {
                 let first = ratios.len();
@@ -152,11 +157,13 @@ struct Place {
     /// The taper for a unit of `s`, where stations tell: `max_j |c_j r_j/r|^{1/j}` with the radius
     /// `Σ r_j (Δs)^j` around the place and c = 1, 0.5, 0.3. For a straight side it is
     /// `|d ln r/ds|`, and a cubic counts as the cone whose series falls as slowly.
-    taper: Option<f64>,
+    ///
+    /// Beside it the same without the third part.
+    taper: Option<[f64; 2]>,
 }
 
-/// Samples along a piece, denser where the radius changes; a radius below `thin` counts as that.
-fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
+/// Samples along a piece of so many, denser where the radius changes; a radius below `thin` counts as that.
+fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sample>) {
     let at = |s: f64| {
         let section = piece.at(s);
         let radius = section.outer.max(thin);
@@ -170,18 +177,20 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
         Place { s, radius, wave: ratio.sqrt().sqrt(), taper }
     };
     samples.push(Sample::default());
-    let pieces = match &piece.radii {
+    let parts = match &piece.radii {
         Radii::Cubic(cubics) if cubics.degree == 0 => {
-            samples.push(Sample { s: 1.0, phase: piece.length * at(0.0).wave, taper: 0.0 });
+            let phase = piece.length * at(0.0).wave;
+            samples.push(Sample { s: 1.0, phase, ..Sample::default() });
             return;
         }
         Radii::Cubic(cubics) if cubics.degree == 1 => 1,
+        Radii::Cubic(_) if pieces > MANY => 2,
         Radii::Cubic(_) => 4,
         Radii::Formula(_) => 32,
     };
     let mut left = at(0.0);
-    for k in 1..=pieces {
-        let right = at(f64::from(k) / f64::from(pieces));
+    for k in 1..=parts {
+        let right = at(f64::from(k) / f64::from(parts));
         between(&at, piece.length, [left, right], samples, 40);
         left = right;
     }
@@ -192,7 +201,7 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, samples: &mut Vec<Sample>) {
 /// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the
 /// first is `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The
 /// factors lie between these.
-fn taper(cubics: &Cubics, s: f64, radius: f64) -> f64 {
+fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
     let b = &cubics.outer;
     let first = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
     let second = [first[1] - first[0], first[2] - first[1]];
@@ -202,7 +211,11 @@ fn taper(cubics: &Cubics, s: f64, radius: f64) -> f64 {
     let r2 = 3.0 * (second[0] * t + second[1] * s);
     let [r1, r2, r3] = [r1, r2, third].map(|r| (r / radius).abs());
     // A straight side's higher parts are round-off.
-    if cubics.degree == 1 { r1 } else { r1.max((0.5 * r2).sqrt()).max((0.3 * r3).cbrt()) }
+    if cubics.degree == 1 {
+        return [r1; 2];
+    }
+    let smooth = r1.max((0.5 * r2).sqrt());
+    [smooth.max((0.3 * r3).cbrt()), smooth]
 }
 
 fn between(
@@ -222,9 +235,14 @@ fn between(
     let last = samples[samples.len() - 1];
     let step = right.s - left.s;
     let phase = 0.5 * (left.wave + right.wave) * length * step;
-    let taper = match (left.taper, right.taper) {
-        (Some(from), Some(to)) => 0.5 * (from + to) * step,
-        _ => 2.0 * (right.radius - left.radius).abs() / (right.radius + left.radius),
+    let [taper, smooth] = match (left.taper, right.taper) {
+        (Some(from), Some(to)) => [0, 1].map(|k| 0.5 * (from[k] + to[k]) * step),
+        _ => [2.0 * (right.radius - left.radius).abs() / (right.radius + left.radius); 2],
     };
-    samples.push(Sample { s: right.s, phase: last.phase + phase, taper: last.taper + taper });
+    samples.push(Sample {
+        s: right.s,
+        phase: last.phase + phase,
+        taper: last.taper + taper,
+        smooth: last.smooth + smooth,
+    });
 }

@@ -137,7 +137,7 @@ impl Task<'_> {
             found,
             missed: plan.mesh.elements.iter().map(missed).fold(0.0, f64::max),
             rounding: sections::round_off(bat, &plan.mesh),
-            elements: plan.mesh.len(),
+            elements: (plan.mesh.len(), plan.mesh.over_stations()),
             factored: request.solver != Solver::Statics,
         }
     }
@@ -183,7 +183,8 @@ struct Account<'a> {
     /// What the points miss of the sections, and the sections' own round-off.
     missed: f64,
     rounding: f64,
-    elements: usize,
+    /// How many elements there are, and whether they reach over stations.
+    elements: (usize, bool),
     /// Whether the solver factored `K`.
     factored: bool,
 }
