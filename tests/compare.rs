@@ -11,6 +11,7 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::pulse::Pulse;
+use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::modes::solve::Request;
 use sweetspot::study::comparison::contender::Terms;
 use sweetspot::study::comparison::rows::{ComparedFigure, Unit};
@@ -23,7 +24,7 @@ fn compare(bats: &[Bat], tolerance: f64) -> Comparison {
 }
 
 fn compare_by(model: Model, bats: &[Bat], tolerance: f64) -> Comparison {
-    let terms = Terms { model, exactly: false, every: INCH, barrel: None };
+    let terms = Terms { model, exactly: false, every: INCH, look: FINE, barrel: None };
     let request = Request { tolerance, theory: Theory::Rayleigh, ..Request::default() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
@@ -134,7 +135,8 @@ fn one_batter_swings_the_heavier_bat_slower() {
         law: Some(law),
         request: Request::default(),
     };
-    let terms = Terms { model: Model::Contact, exactly: false, every: INCH, barrel: None };
+    let terms =
+        Terms { model: Model::Contact, exactly: false, every: INCH, look: FINE, barrel: None };
     let both = Comparison::new(vec![entry(&light), entry(&heavy)], terms).unwrap();
     let energy = |k: usize| {
         let value = |key: &str| row(&both, key).values[k].unwrap().value;

@@ -8,6 +8,7 @@ use common::pictures::{check, number, scale, texts, ticks};
 use resvg::usvg::roxmltree::Document;
 use sweetspot::bat::profile::Interpolation;
 use sweetspot::collision::hit::{Impact, Model, Scene};
+use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::files::measured;
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::picture::Picture;
@@ -32,7 +33,7 @@ fn even(length: f64) -> Bat {
 fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
     let request = Request { modes: 6, ..Request::default() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
-    let terms = Terms { model, exactly: false, every: 0.0254, barrel: None };
+    let terms = Terms { model, exactly: false, every: 0.0254, look: FINE, barrel: None };
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
 }
 

@@ -22,7 +22,8 @@ fn main() -> Result<()> {
             let columns = [0, MODES - 1].map(|k| {
                 let exact = reference.modes[k].omega;
                 let error = (found.modes[k].omega / exact - 1.0).abs();
-                let stated = round_off(found.modes[k].omega / found.modes[0].omega, elements);
+                let stated =
+                    round_off(found.modes[k].omega / found.modes[0].omega, elements, false);
                 format!("{:7.1} {:7.1}", error / f64::EPSILON, stated / f64::EPSILON)
             });
             println!("{name:10} {elements:8} {}   {}", columns[0], columns[1]);

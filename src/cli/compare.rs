@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
+use crate::collision::sweet_spot::FINE;
 use crate::files::measured::{self, Beside, places};
 use crate::files::uff::Units;
 use crate::show::report::{self, comparison, comparison_data, comparison_screen};
@@ -228,6 +229,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         model,
         exactly: args.count.is_some(),
         every: args.every,
+        look: FINE,
         barrel: args.scene.barrel_speed(),
     };
     let compared = Comparison::new(entries, terms)?;

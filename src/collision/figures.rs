@@ -9,7 +9,7 @@ use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
-use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
+use crate::collision::sweet_spot::{FEW, Looked, Peak, SweetSpot};
 
 /// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
 /// (I_ref/I)^n`, I about the standard pivot.
@@ -103,9 +103,6 @@ impl Figures {
     ///
     /// As [`Hitter::new`].
     pub fn new(bat: &Bat, hitter: &Hitter, law: Option<SwingLaw>) -> Result<Self> {
-        /// Steps along the outer half where a scene differs in one thing, and how exactly places are
-        /// located there: to some 10 µm, as what is told is how many tenths of a millimetre they move.
-        const FEW: (usize, f64) = (32, 2e-5);
         let outer = [0.5 * bat.length(), bat.length()];
         let Hitter { scene, solution, effort, .. } = *hitter;
         let find = |scene: &Scene| -> Result<SweetSpot> {

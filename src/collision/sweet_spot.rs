@@ -40,10 +40,11 @@ pub struct SweetSpot {
     pub inch_off: Option<[Option<f64>; 2]>,
 }
 
-/// Points of the first look along the outer half.
-const GRID: usize = 128;
-/// A place is located to this share of the stretch.
-const WIDTH: f64 = 1e-6;
+/// Steps of a first look along the outer half, and the share of it to which a place is located then.
+pub const FINE: (usize, f64) = (128, 1e-6);
+/// Where best places are known to be near others, or many bats are asked: to some 10 µm, as what is told is
+/// how many tenths of a millimetre places move.
+pub const FEW: (usize, f64) = (32, 2e-5);
 const INCH: f64 = 0.0254;
 
 impl SweetSpot {
@@ -121,7 +122,7 @@ pub struct Looked<'a> {
 impl<'a> Looked<'a> {
     /// Looks along that stretch (m).
     pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
-        Self::by(ends, (GRID, WIDTH), hitter)
+        Self::by(ends, FINE, hitter)
     }
 
     /// Looks along it in so many steps, and locates places to that share of it: fewer steps do where the

@@ -33,7 +33,7 @@ use crate::collision::figures::SwingLaw;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweep::Sweep;
-use crate::collision::sweet_spot::{Looked, SweetSpot};
+use crate::collision::sweet_spot::{FEW, Looked, SweetSpot};
 use crate::modes::solve::{Request, Solution, solve};
 
 /// How exactly a bat was measured, as standard deviations.
@@ -208,9 +208,6 @@ const LENGTH_STEP: f64 = 1e-3;
 /// Relative accuracy of the modes of the bats that differ: a small part of what 0.1 mm do to a frequency,
 /// some thousandths.
 const TOLERANCE: f64 = 1e-6;
-/// Steps of the look along the outer half, and how exactly places are located there: as in
-/// [`crate::collision::figures`], where scenes differ in one thing.
-const FEW: (usize, f64) = (32, 2e-5);
 const ANSWERS: usize = Answer::ALL.len();
 
 /// The answers of one bat, or what a source makes of them, in the order of [`Answer::ALL`]; None where

@@ -50,7 +50,7 @@ impl Figure {
 const EXACT: f64 = 1e-13;
 /// Where a place is sought exit speeds are as accurate as this, relative to the closing speed.
 const SOUGHT: f64 = 1e-6;
-/// A place is located to this share of the bat.
+/// A place is located to this share of the bat at best.
 const LOCATED: f64 = 1e-6;
 
 /// How the bats are hit: the same for all of them.
@@ -62,6 +62,8 @@ pub struct Terms {
     pub exactly: bool,
     /// Distance of the places that are compared (m).
     pub every: f64,
+    /// Steps of the look for the best places, and the share of the outer half to which they are located.
+    pub look: (usize, f64),
     /// Speed that a point of every bat's barrel has; None where the swings are alike or by a law.
     pub barrel: Option<BarrelSpeed>,
 }
@@ -133,9 +135,10 @@ impl Contender {
         let accuracy = trial.accuracy(request, terms.exactly);
         let sweep = sweep(&bat, terms.model, &scene, &accuracy, places)?;
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
-        let spot = SweetSpot::find(&hitter);
-        let sought = Sought { length: bat.length(), scene: &scene, hitter: &hitter };
-        let looked = Looked::new([0.5 * bat.length(), bat.length()], &hitter);
+        let looked = Looked::by([0.5 * bat.length(), bat.length()], terms.look, &hitter);
+        let spot = SweetSpot::within(&looked);
+        let located = LOCATED.max(0.5 * terms.look.1);
+        let sought = Sought { length: bat.length(), located, scene: &scene, hitter: &hitter };
         let largest = |k: usize| match hitter.modes_used() {
             // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
             0 => None,
@@ -198,6 +201,8 @@ impl Contender {
 /// What is found by search, with its errors.
 struct Sought<'a> {
     length: f64,
+    /// The share of the bat to which a place is located.
+    located: f64,
     scene: &'a Scene,
     hitter: &'a Hitter<'a>,
 }
@@ -251,7 +256,7 @@ impl Sought<'_> {
         let half_wave = self.length / (self.hitter.modes_used() + 1) as f64;
         let reach = self.reach(peak, 2.0 * error, value);
         let near = curvature.filter(|bend| *bend > 0.0).map(|bend| 3.0 * error / half_wave / bend);
-        near.map_or(reach, |near| near.min(reach)) + LOCATED * self.length
+        near.map_or(reach, |near| near.min(reach)) + self.located * self.length
     }
 
     /// How far from a greatest value it is less by `by` at most, on the side where that is farther.
@@ -261,14 +266,14 @@ impl Sought<'_> {
             |x: f64| self.hitter.glance(x).and_then(|g| value(&g)).is_some_and(|v| v >= floor);
         let side = |end: f64| {
             // From the peak outwards, twice as far each time; a far maximum is another one.
-            let mut far = LOCATED * self.length * (end - peak.x).signum();
+            let mut far = self.located * self.length * (end - peak.x).signum();
             while far.abs() < (end - peak.x).abs() && enough(peak.x + far) {
                 far *= 2.0;
             }
             far.abs().min((end - peak.x).abs())
         };
         let ends = [0.5 * self.length, self.length];
-        ends.map(side).into_iter().fold(LOCATED * self.length, f64::max)
+        ends.map(side).into_iter().fold(self.located * self.length, f64::max)
     }
 
     /// An end of the zone: the speed is known to twice the error, and so is where it falls so low.
@@ -283,7 +288,7 @@ impl Sought<'_> {
             Some(slope) if slope > 0.0 => 2.0 * error / slope,
             _ => (peak.x - x).abs(),
         };
-        Figure::new(x, off.min((peak.x - x).abs()) + LOCATED * self.length)
+        Figure::new(x, off.min((peak.x - x).abs()) + self.located * self.length)
     }
 
     fn bbcor(&self, peak: Peak, which: usize) -> Figure {

@@ -7,6 +7,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
+use crate::collision::sweet_spot::FEW;
 use crate::modes::solve::{Request, Solution, solve};
 use crate::study::comparison::contender::{Contender, Figure, Terms};
 use crate::study::theory_choice::theory;
@@ -218,7 +219,7 @@ impl Asked {
         places.extend(ALONG.map(|share| share * bat.length()));
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let terms = Terms { model, exactly: false, every: 0.0, barrel };
+        let terms = Terms { model, exactly: false, every: 0.0, look: FEW, barrel };
         let hit = Contender::new(bat, (scene, None), request, &terms, &places)?;
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
             Answer::ExitSpeed => hit.best_speed,
