@@ -3,9 +3,10 @@
 mod common;
 
 use common::{cone, dowel};
+use sweetspot::bat::fixtures::Attachment;
 use sweetspot::modes::batch::{Found, Way, all, each};
 use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::{Bat, Mode, Request, Result, solve};
+use sweetspot::{Bat, Mode, Request, Result, Theory, solve};
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
 
@@ -103,6 +104,62 @@ fn side_by_side_and_one_by_one_agree() {
             assert_near(&one.omegas, &other.omegas, 1e-12);
             for (a, b) in one.shapes.iter().zip(&other.shapes) {
                 assert!((a - b).abs() < 1e-9, "{a} {b}");
+            }
+        }
+    }
+}
+
+/// Real bats, every one of its own wood, length and weight on the knob, if there is one.
+fn varied(count: usize, weight: f64) -> Vec<Bat> {
+    let r161 = bundled_bat("meshes/r161.json").unwrap();
+    let bat = |k: usize| {
+        let share = |step: usize| (k * step % 17) as f64 / 17.0;
+        let bat = r161.with(|parts| {
+            parts.material.density *= 0.9 + 0.2 * share(3);
+            parts.material.youngs_modulus *= 0.8 + 0.4 * share(5);
+            let knob = Attachment { mass: weight * (1.0 + share(7)), ..Attachment::default() };
+            parts.fixtures.attachments.extend((weight > 0.0).then_some(knob));
+        });
+        bat.unwrap()
+    };
+    (0..count).map(bat).collect()
+}
+
+/// By every theory, bare and weighted, in elements over stations and between them: both ways agree, a bat is
+/// not another beside other bats, and all are what they are alone.
+#[test]
+fn real_bats_are_the_same_by_every_theory_whoever_is_beside_them() {
+    for theory in Theory::ALL {
+        for (weight, tolerance) in [(0.0, 1e-4), (0.02, 1e-4), (0.02, 1e-7), (0.0, 1e-9)] {
+            let bats = varied(17, weight);
+            let request = Request { modes: 6, tolerance, theory, ..Request::default() };
+            let alone = found(&bats, &request, Way::OneByOne);
+            let together = found(&bats, &request, Way::SideBySide);
+            for (k, (one, other)) in alone.iter().zip(&together).enumerate() {
+                assert_eq!(
+                    one.nodes.len(),
+                    other.nodes.len(),
+                    "{theory:?} {weight} {tolerance} bat {k}"
+                );
+                assert_near(&one.omegas, &other.omegas, 1e-12);
+                assert_near(&one.masses, &other.masses, 1e-9);
+            }
+            // The first bat plans for all; the others change their neighbours.
+            let mut turned = bats.clone();
+            turned[1..].reverse();
+            let mut again = found(&turned, &request, Way::SideBySide);
+            again[1..].reverse();
+            for (one, other) in together.iter().zip(&again) {
+                assert_near(&one.omegas, &other.omegas, 1e-12);
+            }
+            for (bat, found) in bats.iter().zip(&together).step_by(5) {
+                let exact = solve(bat, &Request { tolerance: 1e-11, ..request }).unwrap();
+                for (k, mode) in exact.modes.iter().enumerate() {
+                    let (off, stated) =
+                        ((found.omegas[k] / mode.omega - 1.0).abs(), found.errors[k]);
+                    assert!(off <= 3.0 * (stated + mode.error.total()), "{off:e} {stated:e}");
+                    assert!(stated <= tolerance);
+                }
             }
         }
     }

@@ -75,7 +75,7 @@ impl<R: Real> Motion<R> {
     where
         R: Over<S>,
     {
-        let contacts = view.placed::<R>().map_or(0, |placed| placed.contacts.len());
+        let contacts = view.placed().map_or(0, |placed| placed.contacts.len());
         let mut held = vec![R::default(); contacts];
         self.point_changes.resize(self.points.len(), [R::default(); 2]);
         let mut total = [R::default(); 2];
@@ -105,12 +105,12 @@ impl<R: Real> Motion<R> {
             for k in cells {
                 let at = view.at(k);
                 self.integrate_cell(view, &at, &mut way);
-                if let Some(bed) = view.bed::<R>(k) {
+                if let Some(bed) = view.bed(k) {
                     view.rule.coefficients(&self.changes[at.samples], &mut held[bed]);
                 }
                 self.ends[side][1] = way.w;
             }
-            let Some(placed) = view.placed::<R>() else { continue };
+            let Some(placed) = view.placed() else { continue };
             match stop {
                 Some(What::Joint(k)) => {
                     let joint = &placed.joints[k];
@@ -182,7 +182,7 @@ impl<R: Real> Motion<R> {
         R: Over<S>,
     {
         let (mass, inertia) = (R::of(view.mass), R::of(view.inertia));
-        let Some(fixed) = view.fixed_for::<R>() else {
+        let Some(fixed) = view.fixed else {
             return Rigid { push: total[0] / mass, turn: total[1] / inertia };
         };
         for (held, contact) in held.iter_mut().zip(&fixed.placed.contacts) {
@@ -223,7 +223,7 @@ impl<R: Real> Motion<R> {
                 self.ends[side][1] -= rigid.deflection(cell.arm + cell.length);
             }
         }
-        let Some(placed) = view.placed::<R>() else { return };
+        let Some(placed) = view.placed() else { return };
         for stop in &placed.stops[side] {
             let What::PointMass(k) = stop.what else { continue };
             let point = &placed.points[k];

@@ -56,7 +56,7 @@ pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
     slower_each(view, omega).filter(|count| *count >= 0.0).map(|count| count as usize)
 }
 
-/// As [`slower`], of the bat in every lane.
+/// As [`slower`], of the bat in every lane; of several bats NaN where a pivot was too small to tell.
 #[inline(always)]
 pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
     let tau = omega * omega / view.energy_unit;
@@ -265,18 +265,24 @@ impl<R: Real> Form<R> {
             let least = R::splat(f64::MIN_POSITIVE);
             let largest = (first..end).fold(least, |m: R, i| m.max(self[(i, first)].abs()));
             if !(small * largest).within(self[(first, first)].abs()) {
-                if R::LANES > 1 {
-                    return None;
+                if R::LANES == 1 {
+                    self.mirror(first);
+                    let (i, j) = self.pivot(first, end)?;
+                    self.exchange(first, i);
+                    if i != j {
+                        self.exchange(first + 1, j);
+                        self.eliminate_two(first)?;
+                        negative += one;
+                        first += 2;
+                        continue;
+                    }
                 }
-                self.mirror(first);
-                let (i, j) = self.pivot(first, end)?;
-                self.exchange(first, i);
-                if i != j {
-                    self.exchange(first + 1, j);
-                    self.eliminate_two(first)?;
-                    negative += one;
-                    first += 2;
-                    continue;
+                // Of a bat beside others nothing is known then, and of these as much as before.
+                for lane in 0..R::LANES {
+                    let least = (small * largest).lane(lane);
+                    if R::LANES > 1 && self[(first, first)].lane(lane).abs() < least {
+                        negative.set_lane(lane, f64::NAN);
+                    }
                 }
             }
             let Self { values, column, .. } = self;

@@ -89,7 +89,7 @@ impl<R: Real> Motion<R> {
         let [once, twice, values] = [[zero; MOST_POINTS]; 3];
         let mut room = OneCell { strains: [zero; MOST_STRAINS], once, twice, values };
         for Run { cells, stop } in view.runs(side).rev() {
-            if let (Some(placed), Some(stop)) = (view.placed::<R>(), stop) {
+            if let (Some(placed), Some(stop)) = (view.placed(), stop) {
                 let [force, couple] = match stop {
                     What::PointMass(k) => self.forces[k],
                     What::Contact(k) => placed.contacts[k].on_the_bat(self.reactions[k]),
@@ -166,7 +166,7 @@ impl<R: Real> Motion<R> {
     ) where
         R: Over<S>,
     {
-        let Some(bed) = view.bed::<R>(at.number) else { return };
+        let Some(bed) = view.bed(at.number) else { return };
         // Its reactions t are those of the line load `Σ (2k + 1) t_k P_k / h`.
         let mut load = [R::default(); MOST_TERMS];
         for (term, (load, t)) in load.iter_mut().zip(&self.reactions[bed]).enumerate() {

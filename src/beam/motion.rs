@@ -163,7 +163,7 @@ impl<R: Real> Motion<R> {
                 w.add(theta.value() * cell.length + inner(q, cell.lift));
                 theta.add(inner(q, cell.turn));
             }
-            let Some(placed) = view.placed::<R>() else { continue };
+            let Some(placed) = view.placed() else { continue };
             match stop {
                 Some(What::Joint(k)) => {
                     theta.add(q[placed.joints[k].place] * placed.joints[k].softness);

@@ -71,8 +71,8 @@ impl<'a, S: Real> View<'a, S> {
 
     /// The contacts of the bed under a cell.
     #[inline(always)]
-    pub fn bed<R: Real>(&self, cell: usize) -> Option<Range<usize>> {
-        self.placed::<R>()?.bed(cell, self.terms)
+    pub fn bed(&self, cell: usize) -> Option<Range<usize>> {
+        self.placed()?.bed(cell, self.terms)
     }
 
     /// The cell of that number, and where its numbers are.
@@ -83,16 +83,10 @@ impl<'a, S: Real> View<'a, S> {
         Located { number, cell: self.cells.at(number), strains, terms, samples }
     }
 
-    /// What is on the bat, and where; of motions side by side in the lanes of `R` nothing.
+    /// What is on the bat, and where.
     #[inline(always)]
-    pub fn placed<R: Real>(&self) -> Option<&'a Placed<S>> {
-        self.fixed_for::<R>().map(|fixed| &fixed.placed)
-    }
-
-    /// What is on the bat and what holds it; of motions side by side in the lanes of `R` nothing.
-    #[inline(always)]
-    pub fn fixed_for<R: Real>(&self) -> Option<&'a Fixed<S>> {
-        if R::LANES == S::LANES { self.fixed } else { None }
+    pub fn placed(&self) -> Option<&'a Placed<S>> {
+        self.fixed.map(|fixed| &fixed.placed)
     }
 }
 

@@ -23,7 +23,7 @@ pub struct Sample {
     pub phase: f64,
     /// The taper from there, for a straight side `∫|d ln r|`.
     pub taper: f64,
-    /// The same without what a curve between two stations has of its own, its third derivative: for
+    /// [`Self::taper`] without what a curve between two stations has of its own, its third derivative: for
     /// elements that reach over stations.
     pub smooth: f64,
 }

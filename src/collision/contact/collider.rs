@@ -58,7 +58,7 @@ impl Collider {
         }
     }
 
-    /// The same modes with other lengths of the steps.
+    /// A collider of these modes with other lengths of the steps.
     pub fn tuned(self, tuning: Tuning) -> Self {
         Self { tuning, ..self }
     }
