@@ -65,8 +65,8 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     Ok(Choice { theory, warning })
 }
 
-/// So many modes may show that every effect is needed.
-const FEW: usize = 20;
+/// So many modes may show that every effect is needed: of a wooden bat at 1e-4 they do.
+const FEW: usize = 3;
 /// An estimate of the first order decides only where it is that many times the tolerance, or as
 /// many times below it.
 const FAR: f64 = 2.0;

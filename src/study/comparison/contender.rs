@@ -179,10 +179,7 @@ impl Contender {
 
     /// The exit speed there (m/s).
     pub fn speed(&self, x: f64) -> Option<Figure> {
-        let impact = self.at(x)?;
-        let outcome = impact.outcome.as_ref()?;
-        let closing = impact.bat_speed + self.scene.ball_speed;
-        Some(Figure::new(outcome.exit_speed, outcome.error * closing))
+        exit_speed(self.at(x)?, &self.scene)
     }
 
     /// Frequency of a mode (Hz), counted from 1.
@@ -196,6 +193,13 @@ impl Contender {
         let mode = self.sweep.solution.modes.get(order - 1)?;
         Some(Figure::new(*mode.nodes.get(node - 1)?, mode.error.nodes))
     }
+}
+
+/// The exit speed of an impact (m/s); None where ball and bat do not meet.
+pub fn exit_speed(impact: &Impact, scene: &Scene) -> Option<Figure> {
+    let outcome = impact.outcome.as_ref()?;
+    let closing = impact.bat_speed + scene.ball_speed;
+    Some(Figure::new(outcome.exit_speed, outcome.error * closing))
 }
 
 /// What is found by search, with its errors.

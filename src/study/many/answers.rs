@@ -7,9 +7,10 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
+use crate::collision::sweep::{self as hit, Sweep, sweep};
 use crate::collision::sweet_spot::FEW;
 use crate::modes::solve::{Request, Solution, solve};
-use crate::study::comparison::contender::{Contender, Figure, Terms};
+use crate::study::comparison::contender::{Contender, Figure, Terms, exit_speed};
 use crate::study::theory_choice::theory;
 use crate::study::tuned::tuned;
 
@@ -127,8 +128,8 @@ impl Answer {
         }
     }
 
-    /// Whether a ball must be hit for it.
-    fn of_a_hit(self) -> bool {
+    /// Whether the barrel must be searched for it.
+    fn is_searched(self) -> bool {
         matches!(
             self,
             Self::ExitSpeed
@@ -137,8 +138,12 @@ impl Answer {
                 | Self::Vibration
                 | Self::VibrationPlace
                 | Self::Bbcor
-                | Self::ExitSpeedAt(_)
         )
+    }
+
+    /// Whether a ball must be hit for it.
+    fn of_a_hit(self) -> bool {
+        self.is_searched() || matches!(self, Self::ExitSpeedAt(_))
     }
 
     /// How many modes it needs.
@@ -192,21 +197,61 @@ impl Asked {
         let full = Request { modes: modes.max(Request::default().modes), ..request };
         let theory = theory(&bat, if hit { &full } else { &request })?.theory;
         let bat = tuned(bat, theory, self.tolerance)?;
-        let solution = solve(&bat, &Request { theory, ..request })?;
-        let found = |answer: &Answer| figure(*answer, &bat, &solution);
-        let figures = self.answers.iter().map(found).collect();
-        let found = Found { figures, met: solution.worst() <= self.tolerance };
-        match hit {
-            true => self.with_hits(found, bat.clone(), trial(&bat)?, &Request { theory, ..full }),
-            false => Ok(found),
+        if hit {
+            let trial = trial(&bat)?;
+            return self.with_hits(&bat, &trial, &Request { theory, ..full });
         }
+        self.of_modes(&bat, &solve(&bat, &Request { theory, ..request })?)
     }
 
-    /// What was found, and the answers that need a ball.
-    fn with_hits(&self, found: Found, bat: Bat, trial: Trial, request: &Request) -> Result<Found> {
-        /// Where a barrel is hit if no places are asked for, as shares of the length.
-        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+    /// The answers of a bat that is not hit.
+    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
+        let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
+        Ok(Found { figures, met: solution.worst() <= self.tolerance })
+    }
+
+    /// The answers of a bat that is hit: the modes' from those of the hit where these are enough. The barrel is
+    /// searched for its best places only where one of them is asked for.
+    fn with_hits(&self, bat: &Bat, trial: &Trial, request: &Request) -> Result<Found> {
         let Trial { scene, model, barrel } = trial;
+        let places = self.places(bat)?;
+        let terms = Terms { model: *model, exactly: false, every: 0.0, look: FEW, barrel: *barrel };
+        if self.answers.iter().any(|answer| answer.is_searched()) {
+            let hit = Contender::new(bat.clone(), (scene.clone(), None), request, &terms, &places)?;
+            return self.of_hits(bat, scene, request, (&hit.sweep, Some(&hit)));
+        }
+        let accuracy = hit::Trial { model: *model, scene }.accuracy(request, terms.exactly);
+        let sweep = sweep(bat, *model, scene, &accuracy, &places)?;
+        self.of_hits(bat, scene, request, (&sweep, None))
+    }
+
+    /// The answers from the hits, and from what was found by search if anything was sought.
+    fn of_hits(
+        &self,
+        bat: &Bat,
+        scene: &Scene,
+        request: &Request,
+        (sweep, hit): (&Sweep, Option<&Contender>),
+    ) -> Result<Found> {
+        let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let found = match sweep.solution.modes.len() >= asked {
+            true => self.of_modes(bat, &sweep.solution)?,
+            false => self.of_modes(bat, &solve(bat, &Request { modes: asked, ..*request })?)?,
+        };
+        let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
+        let of = |(answer, known): (&Answer, Option<Figure>)| match (*answer, hit) {
+            (Answer::ExitSpeedAt(x), _) => exit_speed(at(x)?, scene),
+            (answer, Some(hit)) if answer.is_searched() => best(answer, hit),
+            _ => known,
+        };
+        let figures = self.answers.iter().zip(found.figures).map(of).collect();
+        Ok(Found { figures, met: found.met && sweep.met })
+    }
+
+    /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
+    fn places(&self, bat: &Bat) -> Result<Vec<f64>> {
+        /// Where a barrel is hit that is searched, as shares of the length.
+        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
         let at = |answer: &Answer| match answer {
             Answer::ExitSpeedAt(x) => Some(*x),
             _ => None,
@@ -216,23 +261,25 @@ impl Asked {
             let expected = format!("a place on the bat, 0 to {} m", bat.length());
             return Err(Error::value("outputs", format!("{SPEED_AT}{off}"), expected));
         }
-        places.extend(ALONG.map(|share| share * bat.length()));
+        if self.answers.iter().any(|answer| answer.is_searched()) {
+            places.extend(ALONG.map(|share| share * bat.length()));
+        }
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let terms = Terms { model, exactly: false, every: 0.0, look: FEW, barrel };
-        let hit = Contender::new(bat, (scene, None), request, &terms, &places)?;
-        let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
-            Answer::ExitSpeed => hit.best_speed,
-            Answer::ExitSpeedPlace => hit.best_place,
-            Answer::Zone(end) => hit.zone.map(|zone| zone[usize::from(end)]),
-            Answer::Vibration => hit.least_vibration,
-            Answer::VibrationPlace => hit.least_place,
-            Answer::Bbcor => hit.bbcor[0],
-            Answer::ExitSpeedAt(x) => hit.speed(x),
-            _ => known,
-        };
-        let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        Ok(Found { figures, met: found.met && hit.sweep.met })
+        Ok(places)
+    }
+}
+
+/// An answer for which the barrel is searched.
+fn best(answer: Answer, hit: &Contender) -> Option<Figure> {
+    match answer {
+        Answer::ExitSpeed => hit.best_speed,
+        Answer::ExitSpeedPlace => hit.best_place,
+        Answer::Zone(end) => hit.zone.map(|zone| zone[usize::from(end)]),
+        Answer::Vibration => hit.least_vibration,
+        Answer::VibrationPlace => hit.least_place,
+        Answer::Bbcor => hit.bbcor[0],
+        _ => None,
     }
 }
 
