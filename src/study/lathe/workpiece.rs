@@ -14,9 +14,9 @@ use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Trial, sweep};
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
-use crate::study::lathe::gauges::{Along, Gauge, Rivals, Seen};
+use crate::study::lathe::gauges::{CLOSELY, Gauge, OuterHalf, ROUGHLY, Rivals, Seen};
 use crate::study::lathe::same_plan::SamePlan;
-use crate::study::lathe::samples::{BodySlope, Samples};
+use crate::study::lathe::samples::{BodySlope, SectionSlopes};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
 
 /// How the bat is hit for answers about a hit.
@@ -69,6 +69,9 @@ pub struct Slopes {
     /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
     /// is none.
     pub same_swing: Vec<Option<Figure>>,
+    /// The derivatives of the frequencies by differences too, as a check of the formula; None for other answers
+    /// and without [`Care::TwoSteps`].
+    pub checked: Vec<Option<f64>>,
     /// Derivative of the moment of inertia about the standard pivot (kg m²).
     pub inertia: f64,
     /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
@@ -106,7 +109,7 @@ pub struct Workpiece {
     bat: Bat,
     plan: SamePlan,
     solution: Solution,
-    samples: Samples,
+    samples: SectionSlopes,
     hit: Option<Hit>,
     answers: Vec<Answer>,
     values: Vec<Option<Figure>>,
@@ -164,7 +167,7 @@ impl Workpiece {
         }
         let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
         met &= solution.worst() <= request.tolerance;
-        let samples = Samples::new(&bat, &solution);
+        let samples = SectionSlopes::new(&bat, &solution);
         let mut piece = Self {
             values: answers.iter().map(|answer| figure(*answer, &bat, &solution)).collect(),
             gauges: vec![None; answers.len()],
@@ -188,7 +191,7 @@ impl Workpiece {
         let Some(hit) = &self.hit else { return Ok(()) };
         let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
         let length = self.bat.length();
-        let mut along = Along::new(&hitter, length);
+        let mut along = OuterHalf::new(&hitter, length, CLOSELY);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
@@ -231,7 +234,7 @@ impl Workpiece {
     }
 
     /// Its sections at the points of a quadrature.
-    pub fn samples(&self) -> &Samples {
+    pub fn samples(&self) -> &SectionSlopes {
         &self.samples
     }
 
@@ -265,7 +268,7 @@ impl Workpiece {
             let care = if step == 0 { care } else { Care::OneStep };
             self.difference(look, steps[step], &now, care)
         });
-        let all: Vec<Difference> = all.into_iter().collect::<Result<_>>()?;
+        let all: Vec<Quotient> = all.into_iter().collect::<Result<_>>()?;
         let of_change = |k: usize| &all[k * steps.len()..(k + 1) * steps.len()];
         // Where two numbers of modes agree by luck, what they do elsewhere tells more.
         let usual = |answer: usize| {
@@ -277,7 +280,7 @@ impl Workpiece {
         Ok(changes.iter().enumerate().map(one).collect())
     }
 
-    fn one(&self, change: &DiameterChange, found: &[Difference], usual: &[f64]) -> Slopes {
+    fn one(&self, change: &DiameterChange, found: &[Quotient], usual: &[f64]) -> Slopes {
         let radius = |x: f64| [0.5 * change.at(x), 0.0];
         let body = self.samples.body(STANDARD_PIVOT, radius);
         let of = |(k, answer): (usize, &Answer)| match (Method::of(*answer), answer) {
@@ -290,7 +293,14 @@ impl Workpiece {
             _ => joined(found, k, usual[k]),
         };
         let swing = self.hit.as_ref().map_or(0.0, |hit| hit.scene.swing);
+        // Two steps as one of the fourth order.
+        let check = |(k, answer): (usize, &Answer)| {
+            let Answer::Frequency(_) = answer else { return None };
+            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_modes[0][k]);
+            Some((4.0 * half? - whole?) / 3.0).filter(|_| found.iter().all(|d| d.central))
+        };
         Slopes {
+            checked: self.answers.iter().enumerate().map(check).collect(),
             same_swing: self.answers.iter().enumerate().map(of).collect(),
             inertia: body.inertia,
             by_swing: self.by_swing.clone(),
@@ -305,12 +315,12 @@ impl Workpiece {
         share: f64,
         now: &Raw,
         care: Care,
-    ) -> Result<Difference> {
+    ) -> Result<Quotient> {
         let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
         let largest = all.fold(0.0, |largest: f64, by| largest.max(by.abs()));
         if largest == 0.0 {
             let by_modes = [0; 3].map(|_| vec![Some(0.0); self.answers.len()]);
-            return Ok(Difference { central: true, by_modes });
+            return Ok(Quotient { central: true, by_modes });
         }
         let step = share * STEP / largest;
         let thick = self.raw(&self.bat.turned(&change.scaled(step))?, care)?;
@@ -324,7 +334,7 @@ impl Workpiece {
             thick.iter().zip(thin).map(slope).collect()
         };
         let by_modes = [0, 1, 2].map(|k| slopes((&thick.by_modes[k], &thin.by_modes[k])));
-        Ok(Difference { central, by_modes })
+        Ok(Quotient { central, by_modes })
     }
 
     /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
@@ -343,6 +353,7 @@ impl Workpiece {
                 is.nodes.last().copied()
             }
             Answer::ModalMass(order) => Some(solution.modes.get(order - 1)?.modal_mass),
+            Answer::Frequency(order) => Some(solution.modes.get(order - 1)?.frequency()),
             _ => read,
         };
         let all = |read: Vec<Option<f64>>| self.answers.iter().zip(read).map(of).collect();
@@ -407,7 +418,7 @@ impl Workpiece {
             let swing = hit.scene.swing * ratio.powf(*exponent);
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
-            let mut along = Along::new(&hitter, bat.length());
+            let mut along = OuterHalf::new(&hitter, bat.length(), ROUGHLY);
             let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
                 true => along.gauge(*answer).1,
                 false => *known,
@@ -437,14 +448,14 @@ struct Raw {
 }
 
 /// A quotient of differences, answer by answer.
-struct Difference {
+struct Quotient {
     /// Whether it is about the bat as it is; else to one side.
     central: bool,
     /// With all modes, without the last two, without the last quarter of them.
     by_modes: [Vec<Option<f64>>; 3],
 }
 
-impl Difference {
+impl Quotient {
     /// The most that the last two modes, or the last quarter of them, do to an answer's slope.
     fn left_out(&self, k: usize) -> f64 {
         let [whole, fewer @ ..] = [0, 1, 2].map(|count| self.by_modes[count][k]);
@@ -455,7 +466,7 @@ impl Difference {
 
 /// The derivative from differences by one step or two. Its error is that of the step, and what modes that are
 /// left out do to it, or `usual`ly to such an answer.
-fn joined(differences: &[Difference], k: usize, usual: f64) -> Option<Figure> {
+fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
     let [first, rest @ ..] = differences else { return None };
     let whole = first.by_modes[0][k]?;
     let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
