@@ -11,6 +11,7 @@ use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
 use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
+use crate::files::schema::lathe::LatheFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
 use crate::files::schema::mistakes::ErrorFile;
@@ -32,7 +33,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
@@ -41,6 +42,7 @@ impl FileKind {
         Self::of::<HitFile>(),
         Self::of::<AnalysisFile>(),
         Self::of::<BbcorFile>(),
+        Self::of::<LatheFile>(),
         Self::of::<CompareFile>(),
         Self::of::<MeasuredFile>(),
         Self::of::<RingFile>(),

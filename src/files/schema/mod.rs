@@ -30,6 +30,7 @@ pub mod u_curve;
 pub mod trade;
 pub mod mistakes;
 pub mod study;
+pub mod lathe;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
