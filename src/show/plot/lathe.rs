@@ -22,7 +22,7 @@ use crate::study::many::answers::Answer;
 const BAT: f64 = 34.0;
 const WORDS: f64 = 19.0;
 /// Evenly spaced sections of an outline.
-const OUTLINE: usize = 48;
+const OUTLINE: usize = 40;
 /// Bands that say their change where a pointer is.
 const MOST_TOLD: usize = 70;
 /// Opacity of the largest change of a strip.
@@ -75,7 +75,10 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
             let Some(change) = change else { continue };
             let share = if most > 0.0 { change.abs() / most } else { 0.0 };
             let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
-            lying.filled(&mut svg, bat, band.ends, (ink, rounded(FULL * share), parts));
+            let opacity = rounded(FULL * share);
+            if opacity > 0.0 {
+                lying.filled(&mut svg, bat, band.ends, (ink, opacity, parts));
+            }
             let middle = plane.across(0.5 * (band.ends[0] + band.ends[1]));
             told.push(([middle, axis], strip.of(sheet, band, *change)));
         }
