@@ -428,6 +428,29 @@ fn a_pointed_bat_has_a_map() {
     assert!(piece.cut(&DiameterChange::band([0.82, 0.84], -MM), &[0.0]).is_err());
 }
 
+/// Under a sleeve nothing is turned off, hands on a pin feel nothing, and neither stops the map of the rest.
+#[test]
+fn what_cannot_be_turned_or_felt_has_no_value() {
+    let folder = Folder::new("lathe-sleeve");
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    let text = include_str!("../meshes/r161.json").trim_end();
+    let pinned = r#", "supports": [ { "x": "6 in", "type": "pinned" } ] }"#;
+    folder.write("pinned.json", format!("{}{pinned}", text.strip_suffix('}').unwrap()));
+    let sleeve = "24 in to 30 in, 1 mm, aluminium-7075";
+    let args = ["lathe", "r161.json", "--bands", "8 in", "--tol", "1e-3", "--json", "-"];
+    let document = folder.json(&[&args[..], &["--sleeve", sleeve]].concat());
+    let bands = document["bands"].as_array().unwrap();
+    let bare: Vec<bool> = bands.iter().map(|band| band["change"].is_object()).collect();
+    assert_eq!(bare, [true, true, true, false]);
+    assert!(bands[3]["reason"].as_str().unwrap().contains("sleeve"));
+    let mut args = args;
+    args[1] = "pinned.json";
+    let document = folder.json(&args);
+    let change = &document["bands"][0]["change"];
+    assert!(change["hands_acceleration_min.value"].is_null());
+    assert!(change["exit_speed_max.value"].is_number() && change["f1_hz"].is_number());
+}
+
 /// What is asked that cannot be is said, with exit code 2 and nothing written.
 #[test]
 fn mistakes_are_told_and_nothing_is_written() {
@@ -440,6 +463,7 @@ fn mistakes_are_told_and_nothing_is_written() {
         (vec!["--bands", "50 cm to 40 cm"], "expected a rising one"),
         (vec!["--bands", "0 in"], "a width from 1 mm to the bat's length"),
         (vec!["--bands", "1 in to 5 in", "--bands", "4 in to 6 in"], "bands that do not overlap"),
+        (vec!["--bands", "1 in", "--bands", "4 in to 6 in"], "one width, or stretches alone"),
         (vec!["--depth", "0 mm"], "a depth above 0 and up to 20 mm"),
         (vec!["--depth", "-1 mm"], "a depth above 0 and up to 20 mm"),
         (vec!["--at", "90 cm"], "a place on the bat"),
