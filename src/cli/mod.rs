@@ -1,6 +1,5 @@
-//! What did the user type?
-//!
-//! One file a verb; no physics. A verb parses its options, calls the library and returns `Done`.
+//! What did the user type? One file a verb; no physics. A verb parses its options, calls the library and
+//! returns `Done`.
 //!
 //! | file | question |
 //! |---|---|

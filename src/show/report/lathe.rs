@@ -100,12 +100,13 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
     };
     // Every cut lowers the swing weight.
     let most = 0.01 * map.piece.bat().inertia().about(STANDARD_PIVOT);
+    let (far, by) = if shown.us() { ("1/16 in", 0.0254 / 16.0) } else { ("1 mm", MM) };
     let wishes = [
-        (Answer::Frequency(1), 1.0, "raise f1 by 1 Hz"),
-        (Answer::ExitSpeedPlace, MM, "move the sweet spot 1 mm outward"),
-        (Answer::ExitSpeedPlace, -MM, "move the sweet spot 1 mm inward"),
+        (Answer::Frequency(1), 1.0, "raise f1 by 1 Hz".to_owned()),
+        (Answer::ExitSpeedPlace, by, format!("move the sweet spot {far} outward")),
+        (Answer::ExitSpeedPlace, -by, format!("move the sweet spot {far} inward")),
     ];
-    let one = |(answer, by, what): &(Answer, f64, &str)| {
+    let one = |(answer, by, what): &(Answer, f64, String)| {
         map.terms.answers.contains(answer).then_some(())?;
         let kept = "keep the swing weight within 1 %";
         Some(match least_wood(map, (*answer, *by), most) {
@@ -152,6 +153,7 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> file::LatheFile 
     let output = |(answer, value): (&Answer, &Option<Figure>)| file::Output {
         name: answer.name(),
         value: value.map(|value| value.value),
+        error: value.map(|value| value.error).filter(|error| *error > 0.0),
         method: Method::of(*answer).name().to_owned(),
     };
     file::LatheFile {

@@ -84,7 +84,8 @@ impl Slopes {
     /// The derivatives for a batter who swings another bat at `Ω (I₀/I)^n`: n = 0 is the same swing, n = ½ the
     /// same energy of rotation.
     pub fn by_law(&self, exponent: f64) -> Vec<Option<Figure>> {
-        if exponent == 0.0 {
+        // A bat at rest stays at rest.
+        if exponent == 0.0 || self.gain == 0.0 {
             return self.same_swing.clone();
         }
         let of = |(slope, by_swing): (&Option<Figure>, &Option<f64>)| {
