@@ -20,3 +20,5 @@ pub mod advise;
 pub mod comparison;
 pub mod measured;
 pub mod many;
+#[cfg(feature = "aim")]
+pub mod aim;
