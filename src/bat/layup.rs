@@ -67,7 +67,7 @@ impl Layup {
 
     /// The section without the sleeves.
     #[inline(always)]
-    fn wall(&self, section: Section) -> Section {
+    pub(super) fn wall(&self, section: Section) -> Section {
         if self.sleeves.is_empty() {
             return section;
         }
@@ -77,7 +77,7 @@ impl Layup {
     }
 
     /// The sleeves around that wall, from the inside out, as sections of their own.
-    fn rings(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
+    pub(super) fn rings(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
         self.sleeves.iter().scan(wall.outer, |inner, (material, thickness)| {
             let ring = Section { outer: *inner + thickness, inner: *inner };
             *inner = ring.outer;
@@ -227,7 +227,7 @@ fn shear(material: &Material, area: f64, hole: f64) -> f64 {
 }
 
 /// How empty a tube is of what bears shear: 1 with nothing inside, 0 with something as stiff as itself.
-fn unfilled(tube: &Material, inside: Option<&Material>) -> f64 {
+pub(super) fn unfilled(tube: &Material, inside: Option<&Material>) -> f64 {
     match (inside.and_then(|inside| inside.shear_modulus), tube.shear_modulus) {
         (Some(inside), Some(tube)) => (1.0 - inside / tube).max(0.0),
         _ => 1.0,

@@ -75,6 +75,18 @@ impl Material {
         })
     }
 
+    /// How [`Self::kappa`] changes with `hole`: 0 where the material has its own, else of Cowper's, with `a =
+    /// 7 + 6ν`, `b = 20 + 12ν` and `h` the hole, `dκ/dh = −6 (1 + ν) b (1 − h²) / [a (1 + h)² + b h]²`.
+    pub fn kappa_slope(&self, hole: f64) -> f64 {
+        if self.shear_coefficient.is_some() {
+            return 0.0;
+        }
+        let nu = self.poisson_ratio.unwrap_or(0.3);
+        let (a, b) = (7.0 + 6.0 * nu, 20.0 + 12.0 * nu);
+        let below = a * (1.0 + hole).powi(2) + b * hole;
+        -6.0 * (1.0 + nu) * b * (1.0 - hole * hole) / (below * below)
+    }
+
     /// The largest |κ| where `r²` and `r_i²` are in these boxes; `None` where it has a pole there.
     pub(crate) fn kappa_around(&self, outer: Rectangle, inner: Rectangle) -> Option<f64> {
         if let Some(kappa) = self.shear_coefficient {

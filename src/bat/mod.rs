@@ -9,11 +9,11 @@
 //! | `pchip` | how does the radius go between stations |
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
-//! | [`layup`] | what is the section worth: stiffness and mass per length |
+//! | [`layup`], `slopes` | what is the section worth: stiffness and mass per length; and how do they change with its radii |
 //! | `rework` | the radii where wood is turned off, drilled out or sawn off |
 //! | [`fixtures`], [`weighed`], [`edit`] | masses, springs, supports, grips, joints; what a scale and a tap said; what is changed after that |
 //! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; can they be there |
-//! | [`body`], `edited` | the whole bat; a bat after its edits |
+//! | [`body`], `edited`, [`turned`] | the whole bat; a bat after its edits; one whose diameter is changed by a curve |
 
 pub mod material;
 pub mod theory;
@@ -28,6 +28,7 @@ pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
 pub(crate) mod rework;
 pub mod layup;
+pub(crate) mod slopes;
 pub mod fixtures;
 pub mod weighed;
 pub mod edit;
@@ -36,3 +37,4 @@ mod members;
 pub(crate) mod fixtures_check;
 pub mod body;
 mod edited;
+pub mod turned;

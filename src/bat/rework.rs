@@ -56,20 +56,20 @@ impl Profile {
     /// With `v` from 0 to 1 along the run-in, the depth goes as `3v² − 2v³`: the surface has no corner.
     /// What remains is a cubic where the surface was one.
     pub(crate) fn turned_down(&mut self, on: Blended, depth: f64) -> Result<()> {
-        self.reshape(on, |piece, weight| {
-            let off = weight.map(|w| 0.5 * depth * w);
-            match &mut piece.radii {
-                Radii::Cubic(cubics) => {
-                    cubics.outer.iter_mut().zip(off).for_each(|(r, off)| *r -= off);
-                    cubics.degree = if flat(&weight) { cubics.degree } else { 3 };
-                }
-                Radii::Formula(curves) => {
-                    let off = polynomial(&off, curves);
-                    curves.outer = formula(format!("({})-{off}", curves.outer.text()))?;
-                }
+        self.reshape(on, |piece, weight| grown(piece, weight.map(|w| -0.5 * depth * w)))
+    }
+
+    /// Moves the surface out by `by` (m), in Bernstein form over each piece; None leaves a piece as it is.
+    pub(crate) fn moved(&mut self, by: impl Fn(&Piece) -> Option<[f64; 4]>) -> Result<()> {
+        let length = self.length();
+        for piece in &mut self.pieces {
+            if let Some(by) = by(piece) {
+                grown(piece, by)?;
+                check_wall(piece)?;
             }
-            Ok(())
-        })
+        }
+        self.survey(length);
+        Ok(())
     }
 
     /// Multiplies the outer radius of a stretch by a factor, which comes in and goes out as the depth of
@@ -235,6 +235,21 @@ impl Profile {
         self.stations = told;
         self.formulas = None;
     }
+}
+
+/// Moves the surface of a piece out by so much (m), in Bernstein form.
+fn grown(piece: &mut Piece, by: [f64; 4]) -> Result<()> {
+    match &mut piece.radii {
+        Radii::Cubic(cubics) => {
+            cubics.outer.iter_mut().zip(by).for_each(|(r, by)| *r += by);
+            cubics.degree = if flat(&by) { cubics.degree } else { 3 };
+        }
+        Radii::Formula(curves) => {
+            let by = polynomial(&by, curves);
+            curves.outer = formula(format!("({})+{by}", curves.outer.text()))?;
+        }
+    }
+    Ok(())
 }
 
 fn flat(b: &[f64; 4]) -> bool {

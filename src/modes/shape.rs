@@ -106,6 +106,18 @@ impl Shape {
         }
     }
 
+    /// What a section feels at ξ in [−1, 1] of element `k`, for a largest deflection of 1: deflection w,
+    /// rotation θ (1/m), curvature θ′ (1/m²) and shear strain w′ − θ (1/m).
+    pub(crate) fn strains(&self, k: usize, xi: f64) -> [f64; 4] {
+        let scale = 2.0 / self.stretches[k].1;
+        let [w, slope, bend] = self.derivatives(k, xi);
+        if self.turns.is_empty() {
+            return [w, slope * scale, bend * scale * scale, 0.0];
+        }
+        let [turn, bend, _] = self.series(&self.turns, k, xi);
+        [w, turn, bend * scale, slope * scale - turn]
+    }
+
     /// `Σ part · shape` of shapes on one mesh.
     pub fn sum(parts: &[(f64, &Self)]) -> Self {
         let mut sum = parts[0].1.clone();
@@ -134,7 +146,7 @@ impl Shape {
     }
 
     /// Element and its coordinate ξ in [−1, 1] at `x`.
-    pub(super) fn locate(&self, x: f64) -> (usize, f64) {
+    pub(crate) fn locate(&self, x: f64) -> (usize, f64) {
         let k = self.stretches.partition_point(|(middle, length)| middle + 0.5 * length <= x);
         let k = k.min(self.stretches.len() - 1);
         let (middle, length) = self.stretches[k];

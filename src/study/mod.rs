@@ -9,6 +9,7 @@
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
 //! | [`many`] | which bats does a study vary |
+//! | [`lathe`] | where does a cut do what |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
@@ -20,5 +21,6 @@ pub mod advise;
 pub mod comparison;
 pub mod measured;
 pub mod many;
+pub mod lathe;
 #[cfg(feature = "aim")]
 pub mod aim;

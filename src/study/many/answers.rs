@@ -7,6 +7,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
+use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::FEW;
 use crate::modes::solve::{Request, Solution, solve};
 use crate::study::comparison::contender::{Contender, Figure, Terms};
@@ -43,10 +44,22 @@ pub enum Answer {
     Bbcor,
     /// Exit speed of a ball that is hit there, from the knob end (m, m/s).
     ExitSpeedAt(f64),
+    /// Modal mass of a bending mode, counted from 1 (kg).
+    ModalMass(usize),
+    /// Energy that a hit there leaves in vibration (m, J).
+    VibrationAt(f64),
+    /// The least velocity that the hands feel (m/s).
+    HandsVelocity,
+    /// The least acceleration that the hands feel (m/s²).
+    HandsAcceleration,
+    /// Velocity that the hands feel of a hit there (m, m/s).
+    HandsVelocityAt(f64),
+    /// Acceleration that the hands feel of a hit there (m, m/s²).
+    HandsAccelerationAt(f64),
 }
 
 /// Names of the answers that have no number in them.
-const NAMED: [(&str, Answer); 12] = [
+const NAMED: [(&str, Answer); 14] = [
     ("mass_kg", Answer::Mass),
     ("balance_point_m", Answer::BalancePoint),
     ("inertia_pivot_kg_m2", Answer::Inertia),
@@ -58,11 +71,20 @@ const NAMED: [(&str, Answer); 12] = [
     ("vibration_min.value", Answer::Vibration),
     ("vibration_min.x_m", Answer::VibrationPlace),
     ("bbcor_max", Answer::Bbcor),
+    ("hands_velocity_min.value", Answer::HandsVelocity),
+    ("hands_acceleration_min.value", Answer::HandsAcceleration),
     ("f1_hz", Answer::Frequency(1)),
 ];
 /// More modes than this are no question of many bats.
 const MOST_MODES: usize = 40;
 const SPEED_AT: &str = "exit_speed_m_s@";
+/// What is asked of a hit at a place, each with the beginning of its name.
+const AT: [(&str, fn(f64) -> Answer); 4] = [
+    (SPEED_AT, Answer::ExitSpeedAt),
+    ("vibration_j@", Answer::VibrationAt),
+    ("hands_velocity_m_s@", Answer::HandsVelocityAt),
+    ("hands_acceleration_m_s2@", Answer::HandsAccelerationAt),
+];
 
 impl Answer {
     /// The answer of that name.
@@ -78,19 +100,23 @@ impl Answer {
         };
         let known = NAMED.iter().find(|(known, _)| *known == name).map(|(_, answer)| *answer);
         let at = || {
-            let place: f64 = name.strip_prefix(SPEED_AT)?.parse().ok()?;
-            (place.is_finite() && place >= 0.0).then_some(Self::ExitSpeedAt(place))
+            let of = |(start, of): &(&str, fn(f64) -> Self)| Some((name.strip_prefix(start)?, *of));
+            let (place, of) = AT.iter().find_map(of)?;
+            let place: f64 = place.parse().ok()?;
+            (place.is_finite() && place >= 0.0).then(|| of(place))
         };
         let found = known
             .or_else(|| between("f", "_hz").map(Self::Frequency))
             .or_else(|| between("node_mode_", "_m").map(Self::Node))
+            .or_else(|| between("modal_mass_mode_", "_kg").map(Self::ModalMass))
             .or_else(at);
         found.ok_or_else(|| {
             let names: Vec<&str> = NAMED.iter().map(|(name, _)| *name).collect();
             let expected = format!(
-                "{}, f2_hz to f{MOST_MODES}_hz, node_mode_1_m to node_mode_{MOST_MODES}_m, or \
-                 {SPEED_AT}0.70 for a place in m",
-                names.join(", ")
+                "{}, f2_hz to f{MOST_MODES}_hz, node_mode_1_m to node_mode_{MOST_MODES}_m, \
+                 modal_mass_mode_1_kg to modal_mass_mode_{MOST_MODES}_kg, or {}0.70 for a place in m",
+                names.join(", "),
+                AT.map(|(start, _)| start).join("0.70, ")
             );
             let complaint = Complaint::new("outputs", format!("\"{name}\""), expected);
             Error::Value(complaint.or_nearest(name, &names))
@@ -103,20 +129,40 @@ impl Answer {
         match (named, self) {
             (Some((name, _)), _) => (*name).to_owned(),
             (None, Self::Node(order)) => format!("node_mode_{order}_m"),
-            (None, Self::ExitSpeedAt(x)) => format!("{SPEED_AT}{x}"),
+            (None, Self::ModalMass(order)) => format!("modal_mass_mode_{order}_kg"),
             (None, Self::Frequency(order)) => format!("f{order}_hz"),
-            (None, _) => unreachable!("every other answer is in the list of names"),
+            (None, _) => {
+                let of = |(start, of): (&'static str, fn(f64) -> Self)| {
+                    self.place().filter(|x| of(*x) == self).map(|x| format!("{start}{x}"))
+                };
+                AT.into_iter().find_map(of).expect("every other answer is in the lists of names")
+            }
+        }
+    }
+
+    /// The place (m from the knob end) of a hit that it is asked of.
+    pub fn place(self) -> Option<f64> {
+        match self {
+            Self::ExitSpeedAt(x)
+            | Self::VibrationAt(x)
+            | Self::HandsVelocityAt(x)
+            | Self::HandsAccelerationAt(x) => Some(x),
+            _ => None,
         }
     }
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Mass => "kg",
+            Self::Mass | Self::ModalMass(_) => "kg",
             Self::Inertia => "kg m²",
             Self::Frequency(_) => "Hz",
-            Self::ExitSpeed | Self::ExitSpeedAt(_) => "m/s",
-            Self::Vibration => "J",
+            Self::ExitSpeed
+            | Self::ExitSpeedAt(_)
+            | Self::HandsVelocity
+            | Self::HandsVelocityAt(_) => "m/s",
+            Self::HandsAcceleration | Self::HandsAccelerationAt(_) => "m/s²",
+            Self::Vibration | Self::VibrationAt(_) => "J",
             Self::Bbcor => "",
             Self::BalancePoint
             | Self::CenterOfPercussion
@@ -128,23 +174,35 @@ impl Answer {
     }
 
     /// Whether a ball must be hit for it.
-    fn of_a_hit(self) -> bool {
+    pub fn of_a_hit(self) -> bool {
+        self.place().is_some()
+            || self.of_the_hands()
+            || matches!(
+                self,
+                Self::ExitSpeed
+                    | Self::ExitSpeedPlace
+                    | Self::Zone(_)
+                    | Self::Vibration
+                    | Self::VibrationPlace
+                    | Self::Bbcor
+            )
+    }
+
+    /// Whether it is what the hands feel.
+    fn of_the_hands(self) -> bool {
         matches!(
             self,
-            Self::ExitSpeed
-                | Self::ExitSpeedPlace
-                | Self::Zone(_)
-                | Self::Vibration
-                | Self::VibrationPlace
-                | Self::Bbcor
-                | Self::ExitSpeedAt(_)
+            Self::HandsVelocity
+                | Self::HandsAcceleration
+                | Self::HandsVelocityAt(_)
+                | Self::HandsAccelerationAt(_)
         )
     }
 
     /// How many modes it needs.
-    fn modes(self) -> usize {
+    pub fn modes(self) -> usize {
         match self {
-            Self::Frequency(order) | Self::Node(order) => order,
+            Self::Frequency(order) | Self::Node(order) | Self::ModalMass(order) => order,
             _ => 0,
         }
     }
@@ -207,20 +265,17 @@ impl Asked {
         /// Where a barrel is hit if no places are asked for, as shares of the length.
         const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
         let Trial { scene, model, barrel } = trial;
-        let at = |answer: &Answer| match answer {
-            Answer::ExitSpeedAt(x) => Some(*x),
-            _ => None,
-        };
-        let mut places: Vec<f64> = self.answers.iter().filter_map(at).collect();
-        if let Some(off) = places.iter().find(|x| **x > bat.length()) {
-            let expected = format!("a place on the bat, 0 to {} m", bat.length());
-            return Err(Error::value("outputs", format!("{SPEED_AT}{off}"), expected));
-        }
+        on_the_bat(&self.answers, &bat)?;
+        let mut places: Vec<f64> = self.answers.iter().filter_map(|a| a.place()).collect();
         places.extend(ALONG.map(|share| share * bat.length()));
         places.sort_by(f64::total_cmp);
         places.dedup();
         let terms = Terms { model, exactly: false, every: 0.0, look: FEW, barrel };
         let hit = Contender::new(bat, (scene, None), request, &terms, &places)?;
+        let hands = match self.answers.iter().any(|answer| answer.of_the_hands()) {
+            true => Some(Hands::of(&hit, model)?),
+            false => None,
+        };
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
             Answer::ExitSpeed => hit.best_speed,
             Answer::ExitSpeedPlace => hit.best_place,
@@ -229,6 +284,8 @@ impl Asked {
             Answer::VibrationPlace => hit.least_place,
             Answer::Bbcor => hit.bbcor[0],
             Answer::ExitSpeedAt(x) => hit.speed(x),
+            Answer::VibrationAt(x) => vibration(&hit, x),
+            _ if answer.of_the_hands() => hands.as_ref().and_then(|hands| hands.felt(*answer)),
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
@@ -236,8 +293,72 @@ impl Asked {
     }
 }
 
+/// Whether every place that is asked for is on the bat.
+///
+/// # Errors
+///
+/// [`Error::Value`] about the first that is not.
+pub fn on_the_bat(answers: &[Answer], bat: &Bat) -> Result<()> {
+    let beyond = |answer: &&Answer| answer.place().is_some_and(|x| x > bat.length());
+    let Some(off) = answers.iter().find(beyond) else { return Ok(()) };
+    let expected = format!("a place on the bat, 0 to {} m", bat.length());
+    Err(Error::value("outputs", off.name(), expected))
+}
+
+/// Energy that a hit at `x` leaves in vibration (J): what the error of the impulse moves between the
+/// energies is its error.
+fn vibration(hit: &Contender, x: f64) -> Option<Figure> {
+    let impact = hit.at(x)?;
+    let outcome = impact.outcome.as_ref()?;
+    let closing = impact.bat_speed + hit.scene.ball_speed;
+    let moved = hit.scene.ball.mass * outcome.error * closing * closing;
+    (!outcome.energy.vibration_by_mode.is_empty())
+        .then(|| Figure::new(outcome.energy.vibration(), moved))
+}
+
+/// What the hands feel of the hits on a bat, by its modes and by three in four of them: the difference is the
+/// error.
+struct Hands {
+    /// Places of the least velocity and the least acceleration (m).
+    least: [Option<f64>; 2],
+    /// Places (m) and what the hands feel there: velocity and acceleration.
+    felt: Vec<(f64, [Figure; 2])>,
+}
+
+impl Hands {
+    fn of(hit: &Contender, model: Model) -> Result<Self> {
+        let (solution, effort) = (&hit.sweep.solution, hit.sweep.effort);
+        let mut fewer = solution.clone();
+        fewer.modes.truncate(solution.modes.len() * 3 / 4);
+        let all = Hitter::new(model, &hit.scene, &hit.bat, solution, effort)?;
+        let few = Hitter::new(model, &hit.scene, &hit.bat, &fewer, effort)?;
+        let least = [hit.spot.hands_velocity_min, hit.spot.hands_acceleration_min];
+        let least = least.map(|peak| peak.map(|peak| peak.x));
+        let places =
+            hit.sweep.impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
+        let felt = places.filter_map(|x| {
+            let [all, few] = [&all, &few].map(|hitter| hitter.glance(x).map(|seen| seen.hands));
+            let (all, few) = all.zip(few)?;
+            Some((x, [0, 1].map(|k| Figure::new(all[k], (all[k] - few[k]).abs()))))
+        });
+        Ok(Self { least, felt: felt.collect() })
+    }
+
+    fn felt(&self, answer: Answer) -> Option<Figure> {
+        let (x, which) = match answer {
+            Answer::HandsVelocity => (self.least[0]?, 0),
+            Answer::HandsAcceleration => (self.least[1]?, 1),
+            Answer::HandsVelocityAt(x) => (x, 0),
+            Answer::HandsAccelerationAt(x) => (x, 1),
+            _ => return None,
+        };
+        let near = |(place, _): &&(f64, _)| (place - x).abs() < 1e-9;
+        self.felt.iter().find(near).map(|(_, felt)| felt[which])
+    }
+}
+
 /// An answer that needs no hit.
-fn figure(answer: Answer, bat: &Bat, solution: &Solution) -> Option<Figure> {
+pub fn figure(answer: Answer, bat: &Bat, solution: &Solution) -> Option<Figure> {
     let mode = |order: usize| solution.modes.get(order - 1);
     match answer {
         Answer::Mass => Some(Figure::exact(bat.inertia().mass)),
@@ -253,6 +374,10 @@ fn figure(answer: Answer, bat: &Bat, solution: &Solution) -> Option<Figure> {
         Answer::Node(order) => {
             let mode = mode(order)?;
             Some(Figure::new(*mode.nodes.last()?, mode.error.nodes))
+        }
+        Answer::ModalMass(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(mode.modal_mass, mode.error.modal_mass * mode.modal_mass))
         }
         _ => None,
     }

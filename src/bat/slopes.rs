@@ -1,0 +1,135 @@
+//! What does a section lose per millimetre that is taken off?
+//!
+//! [`Layup::slopes`] is the derivative of [`Layup::worth`] by the outer and by the inner radius, material
+//! and sleeves as they are:
+//!
+//! ```text
+//! ∂EI/∂r = Eπr³    ∂ρA/∂r = 2πρr    ∂ρI/∂r = πρr³    ∂κGA/∂r = 2πκGr + GA ∂κ/∂h ∂h/∂r,  h = (r_i/r)²
+//! ```
+//!
+//! and the same in r_i, negative. Layer is added to layer.
+
+use std::f64::consts::PI;
+
+use crate::bat::layup::{Layup, Worth, unfilled};
+use crate::bat::material::Material;
+use crate::bat::profile::Section;
+
+/// A ring of one material, and by how much its two radii move with the radius that is changed.
+struct Ring<'a> {
+    material: &'a Material,
+    section: Section,
+    /// Of the outer and of the inner radius, 0 or 1.
+    moves: [f64; 2],
+    /// How empty the ring is of what bears shear.
+    empty: f64,
+}
+
+impl Ring<'_> {
+    /// What the ring is worth more per metre of radius.
+    fn slope(&self) -> Worth {
+        let Self {
+            material,
+            section: Section { outer: r, inner: ri },
+            moves: [out, inside],
+            empty,
+        } = *self;
+        let area = 2.0 * PI * (out * r - inside * ri);
+        let second = PI * (out * r.powi(3) - inside * ri.powi(3));
+        let shear = material.shear_modulus.map_or(0.0, |modulus| {
+            let hole = if r > 0.0 { (ri / r).powi(2) } else { 0.0 };
+            // Of h = (r_i/r)²: 2 r_i/r² of r_i, −2 h/r of r.
+            let widens = if r > 0.0 { 2.0 * (inside * ri / r - out * hole) / r } else { 0.0 };
+            let [kappa, by_hole] =
+                [material.kappa(hole * empty), material.kappa_slope(hole * empty)];
+            modulus * (kappa * area + self.section.area() * by_hole * empty * widens)
+        });
+        Worth {
+            bending: material.youngs_modulus * second,
+            mass: material.density * area,
+            turning: material.density * second,
+            shear,
+        }
+    }
+}
+
+impl Layup {
+    /// What a section is worth more per metre of its outer radius, and per metre of its inner radius
+    /// (each number of a [`Worth`], per m). The shear stiffness of a material whose shear modulus is not
+    /// known does not change.
+    pub fn slopes(&self, section: Section) -> [Worth; 2] {
+        let wall = self.wall(section);
+        let empty = self.emptiness();
+        let own = |moves| Ring { material: &self.outer, section: wall, moves, empty };
+        let bore =
+            |core| Ring { material: core, section: wall.bore(), moves: [1.0, 0.0], empty: 1.0 };
+        let below = std::iter::once(&self.outer).chain(self.sleeves.iter().map(|(below, _)| below));
+        let sleeves = self.rings(wall).zip(below).map(|((material, section), below)| {
+            let empty = unfilled(material, Some(below));
+            Ring { material, section, moves: [1.0; 2], empty }
+        });
+        let taped = Worth { turning: self.tape * section.outer, ..Worth::default() };
+        let outer =
+            sleeves.fold(plus(own([1.0, 0.0]).slope(), taped), |sum, ring| plus(sum, ring.slope()));
+        let inner = own([0.0, 1.0]).slope();
+        [outer, self.core.as_ref().map_or(inner, |core| plus(inner, bore(core).slope()))]
+    }
+}
+
+/// Both together.
+fn plus(a: Worth, b: Worth) -> Worth {
+    Worth {
+        bending: a.bending + b.bending,
+        mass: a.mass + b.mass,
+        turning: a.turning + b.turning,
+        shear: a.shear + b.shear,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wood(shear: f64) -> Material {
+        let mut wood = Material::new(650.0, 15e9).unwrap();
+        wood.shear_modulus = Some(shear);
+        wood
+    }
+
+    /// Central differences of the section's worth, for a solid rod, a tube, a filled one and one with tape and
+    /// sleeves.
+    #[test]
+    fn the_slopes_are_those_of_the_section_s_worth() {
+        let mut cork = Material::new(200.0, 3e7).unwrap();
+        cork.shear_modulus = Some(1e7);
+        let plain = Layup::of(wood(1e9));
+        let filled = Layup { core: Some(cork), tape: 0.03, ..Layup::of(wood(1e9)) };
+        let sleeves = vec![(wood(4e9), 0.001), (wood(2e8), 0.002)];
+        let sleeved = Layup { sleeves, ..filled.clone() };
+        for layup in [plain, filled, sleeved] {
+            for inner in [0.0, 0.01, 0.02] {
+                for which in [0, 1] {
+                    let at = |step: f64| {
+                        let moved = |k: usize| if k == which { step } else { 0.0 };
+                        let section = Section { outer: 0.03 + moved(0), inner: inner + moved(1) };
+                        let Worth { bending, mass, turning, shear } = layup.worth(section);
+                        [bending, mass, turning, shear]
+                    };
+                    if which == 1 && inner == 0.0 {
+                        continue;
+                    }
+                    let h = 1e-6;
+                    let slope = layup.slopes(Section { outer: 0.03, inner })[which];
+                    let slope = [slope.bending, slope.mass, slope.turning, slope.shear];
+                    for ((ahead, behind), slope) in at(h).into_iter().zip(at(-h)).zip(slope) {
+                        let found = (ahead - behind) / (2.0 * h);
+                        assert!(
+                            (found / slope - 1.0).abs() < 1e-7,
+                            "{which} {inner} {found} {slope}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Where does a cut do what?
+//!
+//! | file | question |
+//! |---|---|
+//! | [`same_plan`] | what are the modes of a changed bat on the elements of the one before |
+//! | [`samples`] | how do frequencies, mass, balance and swing weight change with the radius: closed formulas |
+//! | [`gauges`] | which places of a hit does an answer read, and how |
+//! | [`workpiece`] | the bat on the lathe: its answers, and how they change with its diameter |
+
+pub mod same_plan;
+pub mod samples;
+pub mod gauges;
+pub mod workpiece;

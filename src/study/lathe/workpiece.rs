@@ -1,0 +1,429 @@
+//! The bat on the lathe: what are its answers, and how do they change with its diameter?
+//!
+//! A [`Workpiece`] is a bat whose elements end where changes of its diameter may. [`Workpiece::slopes`] gives the
+//! derivative of every answer by each of a list of [`DiameterChange`]s: frequencies and the rigid body by closed
+//! formula ([`crate::study::lathe::samples`]), all else by central differences of whole bats with elements, number
+//! of modes and effort held fixed. [`Workpiece::measure`] gives the answers of a bat that is changed by much.
+
+use crate::base::error::Result;
+use crate::base::threads;
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::turned::DiameterChange;
+use crate::collision::hit::{Effort, Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::collision::sweep::{Trial, sweep};
+use crate::modes::solve::{Request, Solution};
+use crate::study::comparison::contender::Figure;
+use crate::study::lathe::gauges::{Along, Gauge, Rivals, Seen};
+use crate::study::lathe::same_plan::SamePlan;
+use crate::study::lathe::samples::{BodySlope, Samples};
+use crate::study::many::answers::{Answer, figure, on_the_bat};
+
+/// How the bat is hit for answers about a hit.
+#[derive(Debug, Clone)]
+pub struct HitTerms {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How a hit is computed.
+    pub model: Model,
+    /// Whether the request's modes are all there are.
+    pub exactly: bool,
+}
+
+/// How a derivative was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Rayleigh's quotient, stationary in the motion.
+    Formula,
+    /// Derivative of the rigid body's integrals.
+    Exact,
+    /// Central differences of whole bats.
+    Difference,
+}
+
+impl Method {
+    /// The method for an answer.
+    pub fn of(answer: Answer) -> Self {
+        match answer {
+            Answer::Mass | Answer::BalancePoint | Answer::Inertia | Answer::CenterOfPercussion => {
+                Self::Exact
+            }
+            Answer::Frequency(_) => Self::Formula,
+            _ => Self::Difference,
+        }
+    }
+
+    /// What it is called in documents.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Formula => "formula",
+            Self::Exact => "exact",
+            Self::Difference => "difference",
+        }
+    }
+}
+
+/// How the answers change per unit of one change of the diameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slopes {
+    /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
+    /// is none.
+    pub same_swing: Vec<Option<Figure>>,
+    /// Derivative of the moment of inertia about the standard pivot (kg m²).
+    pub inertia: f64,
+    /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
+    by_swing: Vec<Option<f64>>,
+    /// Share by which a swing of the same energy of rotation gains per unit of 2n: `−Ω/I dI`.
+    gain: f64,
+}
+
+impl Slopes {
+    /// The derivatives for a batter who swings another bat at `Ω (I₀/I)^n`: n = 0 is the same swing, n = ½ the
+    /// same energy of rotation.
+    pub fn by_law(&self, exponent: f64) -> Vec<Option<Figure>> {
+        if exponent == 0.0 {
+            return self.same_swing.clone();
+        }
+        let of = |(slope, by_swing): (&Option<Figure>, &Option<f64>)| {
+            let Figure { value, error } = (*slope)?;
+            Some(Figure::new(value + exponent * self.gain * (*by_swing)?, error))
+        };
+        self.same_swing.iter().zip(&self.by_swing).map(of).collect()
+    }
+}
+
+/// How much work a difference is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Care {
+    /// One step: two bats for each change. The error is not known and stated as 0.
+    OneStep,
+    /// Two steps: four bats for each change; their difference is the error.
+    TwoSteps,
+}
+
+/// A bat whose diameter may be changed between borders, with its answers.
+pub struct Workpiece {
+    bat: Bat,
+    plan: SamePlan,
+    solution: Solution,
+    samples: Samples,
+    hit: Option<Hit>,
+    answers: Vec<Answer>,
+    values: Vec<Option<Figure>>,
+    gauges: Vec<Option<Gauge>>,
+    by_swing: Vec<Option<f64>>,
+    /// Answers without a derivative, as two places compete.
+    pub rivals: Vec<Rivals>,
+    /// Whether all answers are as accurate as asked.
+    pub met: bool,
+}
+
+/// How the bat is hit, once modes and steps are planned.
+struct Hit {
+    scene: Scene,
+    model: Model,
+    effort: Effort,
+}
+
+/// The largest change of the diameter in a difference (m): 20 μm of radius either way. Half of it changes a
+/// derivative of the exit speed by less than 1e-7 m/s per mm.
+const STEP: f64 = 4e-5;
+/// Step of the swing for a derivative by it, relative.
+const FASTER: f64 = 1e-3;
+/// Where a barrel is hit so that modes and steps are planned, as shares of the length.
+const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+
+impl Workpiece {
+    /// A bat that is to be changed between these borders (m from the knob end), and what is asked of it. The
+    /// request's tolerance is that of frequencies and exit speeds, its theory holds for all changed bats; `terms`
+    /// are needed where an answer is about a hit.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::solve()`] and of a hit; [`crate::Error::Value`] for a place that is not on the bat.
+    pub fn new(
+        bat: &Bat,
+        borders: &[f64],
+        request: &Request,
+        terms: Option<&HitTerms>,
+        answers: &[Answer],
+    ) -> Result<Self> {
+        on_the_bat(answers, bat)?;
+        let bat = bat.cut_at(borders)?;
+        let mut modes = answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let (mut hit, mut met, mut off) = (None, true, 0.0);
+        if let Some(terms) = terms.filter(|_| answers.iter().any(|answer| answer.of_a_hit())) {
+            let trial = Trial { model: terms.model, scene: &terms.scene };
+            let accuracy = trial.accuracy(request, terms.exactly);
+            let places: Vec<f64> = ALONG.iter().map(|share| share * bat.length()).collect();
+            let sweep = sweep(&bat, terms.model, &terms.scene, &accuracy, &places)?;
+            (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met);
+            off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
+            let (scene, model, effort) = (terms.scene.clone(), terms.model, sweep.effort);
+            hit = Some(Hit { scene, model, effort });
+        }
+        let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
+        met &= solution.worst() <= request.tolerance;
+        let samples = Samples::new(&bat, &solution);
+        let mut piece = Self {
+            values: answers.iter().map(|answer| figure(*answer, &bat, &solution)).collect(),
+            gauges: vec![None; answers.len()],
+            by_swing: answers.iter().map(|answer| (!answer.of_a_hit()).then_some(0.0)).collect(),
+            answers: answers.to_vec(),
+            rivals: vec![],
+            bat,
+            plan,
+            solution,
+            samples,
+            hit,
+            met,
+        };
+        piece.look(off)?;
+        Ok(piece)
+    }
+
+    /// Looks along the bat for the places that answers about a hit read; exit speeds may be off by that share
+    /// of the closing speed.
+    fn look(&mut self, off: f64) -> Result<()> {
+        let Some(hit) = &self.hit else { return Ok(()) };
+        let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
+        let length = self.bat.length();
+        let mut along = Along::new(&hitter, length);
+        for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
+            let (gauge, value) = along.gauge(*answer);
+            let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
+            let error = if answer.unit() == "m/s" { off * closing } else { 0.0 };
+            self.values[k] = value.map(|value| Figure::new(value, error));
+            self.gauges[k] = gauge;
+        }
+        self.rivals = std::mem::take(&mut along.rivals);
+        let swing = hit.scene.swing;
+        let readings = |faster: f64| -> Result<Vec<Option<f64>>> {
+            let scene = Scene { swing: swing * (1.0 + faster), ..hit.scene.clone() };
+            Ok(self.readings(&hit.hitter(&self.bat, &self.solution, &scene)?))
+        };
+        if swing != 0.0 {
+            let (fast, slow) = (readings(FASTER)?, readings(-FASTER)?);
+            for (k, (fast, slow)) in fast.into_iter().zip(slow).enumerate() {
+                let by_swing = fast.zip(slow).map(|(a, b)| (a - b) / (2.0 * FASTER * swing));
+                if self.answers[k].of_a_hit() {
+                    self.by_swing[k] = by_swing;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What the gauges read of a bat that is hit.
+    fn readings(&self, hitter: &Hitter) -> Vec<Option<f64>> {
+        let seen = Seen::new(hitter, self.gauges.iter().flatten());
+        self.gauges.iter().map(|gauge| gauge.as_ref()?.read(hitter, &seen)).collect()
+    }
+
+    /// The bat, cut at its borders.
+    pub fn bat(&self) -> &Bat {
+        &self.bat
+    }
+
+    /// Its modes, as many as the answers need, and their shapes as exact as the tolerance.
+    pub fn solution(&self) -> &Solution {
+        &self.solution
+    }
+
+    /// Its sections at the points of a quadrature.
+    pub fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// What is asked.
+    pub fn answers(&self) -> &[Answer] {
+        &self.answers
+    }
+
+    /// The answers of the bat as it is; None where it has none.
+    pub fn values(&self) -> &[Option<Figure>] {
+        &self.values
+    }
+
+    /// How the answers change per unit of each of these changes of the diameter, whose knots are among the
+    /// borders.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bat::turned`] and of [`crate::solve()`].
+    pub fn slopes(&self, changes: &[DiameterChange], care: Care) -> Result<Vec<Slopes>> {
+        let differs = |answer: &Answer| Method::of(*answer) == Method::Difference;
+        let steps: &[f64] = match care {
+            _ if !self.answers.iter().any(differs) => &[],
+            Care::OneStep => &[1.0],
+            Care::TwoSteps => &[1.0, 0.5],
+        };
+        let now = if steps.is_empty() { vec![] } else { self.raw(&self.bat)? };
+        let all = threads::map(changes.len() * steps.len(), |k| {
+            self.difference(&changes[k / steps.len()], steps[k % steps.len()], &now)
+        });
+        let all: Vec<Difference> = all.into_iter().collect::<Result<_>>()?;
+        let one = |(k, change): (usize, &DiameterChange)| {
+            self.one(change, &all[k * steps.len()..(k + 1) * steps.len()])
+        };
+        Ok(changes.iter().enumerate().map(one).collect())
+    }
+
+    fn one(&self, change: &DiameterChange, differences: &[Difference]) -> Slopes {
+        let radius = |x: f64| [0.5 * change.at(x), 0.0];
+        let body = self.samples.body(STANDARD_PIVOT, radius);
+        let of = |(k, answer): (usize, &Answer)| match (Method::of(*answer), answer) {
+            (Method::Exact, _) => exact(*answer, &body),
+            (Method::Formula, Answer::Frequency(order)) => {
+                let mode = self.solution.modes.get(order - 1)?;
+                let [value, error] = self.samples.frequency(mode, radius);
+                Some(Figure::new(value, error))
+            }
+            _ => joined(differences, k),
+        };
+        let swing = self.hit.as_ref().map_or(0.0, |hit| hit.scene.swing);
+        Slopes {
+            same_swing: self.answers.iter().enumerate().map(of).collect(),
+            inertia: body.inertia,
+            by_swing: self.by_swing.clone(),
+            gain: -swing / self.bat.inertia().about(STANDARD_PIVOT) * body.inertia,
+        }
+    }
+
+    /// A difference over that share of the usual step.
+    fn difference(
+        &self,
+        change: &DiameterChange,
+        share: f64,
+        now: &[Option<f64>],
+    ) -> Result<Difference> {
+        let largest = change
+            .stretches()
+            .iter()
+            .flat_map(|s| s.diameter)
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        if largest == 0.0 {
+            return Ok(Difference { central: true, slopes: vec![Some(0.0); self.answers.len()] });
+        }
+        let step = share * STEP / largest;
+        let thick = self.raw(&self.bat.turned(&change.scaled(step))?)?;
+        // A bat that ends in a point cannot lose wood there.
+        let thin = self.bat.turned(&change.scaled(-step));
+        let central = thin.is_ok();
+        let (thin, run) = match thin {
+            Ok(thin) => (self.raw(&thin)?, 2.0 * step),
+            Err(_) => (now.to_vec(), step),
+        };
+        let slope = |(a, b): (Option<f64>, Option<f64>)| Some((a? - b?) / run);
+        let slopes = thick.into_iter().zip(thin).map(slope).collect();
+        Ok(Difference { central, slopes })
+    }
+
+    /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
+    fn raw(&self, bat: &Bat) -> Result<Vec<Option<f64>>> {
+        let solution = self.plan.solve(bat)?;
+        let read = match &self.hit {
+            Some(hit) => self.readings(&hit.hitter(bat, &solution, &hit.scene)?),
+            None => vec![None; self.answers.len()],
+        };
+        let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
+            Answer::Node(order) => {
+                let [was, is] = [&self.solution, &solution].map(|s| s.modes.get(order - 1));
+                // A node that comes or goes is another one.
+                let is =
+                    is.filter(|is| was.is_some_and(|was| was.nodes.len() == is.nodes.len()))?;
+                is.nodes.last().copied()
+            }
+            Answer::ModalMass(order) => Some(solution.modes.get(order - 1)?.modal_mass),
+            _ => read,
+        };
+        Ok(self.answers.iter().zip(read).map(of).collect())
+    }
+
+    /// The answers of the bat changed by much, for a batter who swings it at `Ω (I₀/I)^n`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::slopes`].
+    pub fn cut(&self, change: &DiameterChange, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
+        let bat = self.bat.turned(change)?;
+        let solution = self.plan.solve(&bat)?;
+        self.measured(&bat, &solution, exponents)
+    }
+
+    /// The answers of any other bat, with elements of its own and as many modes, for batters who swing it at
+    /// `Ω (I₀/I)^n`: a list for each n.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::solve()`] and of a hit.
+    pub fn measure(&self, bat: &Bat, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
+        self.measured(bat, &self.plan.solve_anew(bat)?, exponents)
+    }
+
+    fn measured(
+        &self,
+        bat: &Bat,
+        solution: &Solution,
+        exponents: &[f64],
+    ) -> Result<Vec<Vec<Option<f64>>>> {
+        let still = |answer: &Answer| figure(*answer, bat, solution).map(|figure| figure.value);
+        let still: Vec<Option<f64>> = self.answers.iter().map(still).collect();
+        let Some(hit) = &self.hit else { return Ok(vec![still; exponents.len()]) };
+        let inertia = |bat: &Bat| bat.inertia().about(STANDARD_PIVOT);
+        let ratio = inertia(&self.bat) / inertia(bat);
+        let one = |exponent: &f64| {
+            let swing = hit.scene.swing * ratio.powf(*exponent);
+            let scene = Scene { swing, ..hit.scene.clone() };
+            let hitter = hit.hitter(bat, solution, &scene)?;
+            let mut along = Along::new(&hitter, bat.length());
+            let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
+                true => along.gauge(*answer).1,
+                false => *known,
+            };
+            Ok(self.answers.iter().zip(&still).map(of).collect())
+        };
+        exponents.iter().map(one).collect()
+    }
+}
+
+impl Hit {
+    fn hitter<'a>(
+        &self,
+        bat: &'a Bat,
+        solution: &'a Solution,
+        scene: &'a Scene,
+    ) -> Result<Hitter<'a>> {
+        Hitter::new(self.model, scene, bat, solution, self.effort)
+    }
+}
+
+/// A quotient of differences, answer by answer.
+struct Difference {
+    /// Whether it is about the bat as it is; else to one side.
+    central: bool,
+    slopes: Vec<Option<f64>>,
+}
+
+/// The derivative from differences by one step or two.
+fn joined(differences: &[Difference], k: usize) -> Option<Figure> {
+    let [first, rest @ ..] = differences else { return None };
+    let whole = first.slopes[k]?;
+    let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
+    let half = second.slopes[k]?;
+    match first.central && second.central {
+        // The half step's error is a third of the difference.
+        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs())),
+        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs())),
+    }
+}
+
+fn exact(answer: Answer, body: &BodySlope) -> Option<Figure> {
+    let value = match answer {
+        Answer::Mass => body.mass,
+        Answer::BalancePoint => body.balance_point,
+        Answer::Inertia => body.inertia,
+        _ => body.center_of_percussion?,
+    };
+    Some(Figure::exact(value))
+}
