@@ -64,7 +64,7 @@ impl<'a> Limits<'a> {
     }
 
     /// What the change may be at `x`, where the bat has that section.
-    fn room(&self, x: f64, section: Section) -> Room {
+    pub fn room(&self, x: f64, section: Section) -> Room {
         let diameter = 2.0 * section.outer;
         let least = match section.inner > 0.0 {
             true => 2.0 * (section.inner + WALL),
