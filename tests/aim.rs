@@ -7,9 +7,8 @@ use std::path::Path;
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::study::aim::bench::{Bench, Terms};
-use sweetspot::study::aim::limits::Limits;
-use sweetspot::study::aim::search::{Search, Weights};
+use sweetspot::study::aim::bench::Terms;
+use sweetspot::study::aim::outcome::Outcome;
 use sweetspot::study::aim::wish::{Amount, Ask, DiameterLimit, Goal, Target, Wish};
 use sweetspot::study::lathe::workpiece::HitTerms;
 use sweetspot::study::many::answers::Answer;
@@ -51,22 +50,40 @@ fn task_a() -> Wish {
     Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() }
 }
 
+fn task_c() -> Wish {
+    let node = Ask::Value(Amount::FromTip(6.5 * INCH), within(0.01 * INCH));
+    let targets = vec![
+        target(Answer::Frequency(1), Ask::Value(Amount::Si(180.0), within(0.05))),
+        target(Answer::Node(1), node),
+        target(Answer::Mass, Ask::Between(None, Some(Amount::Si(31.0 * 0.028_349_523_125)))),
+        target(Answer::Inertia, Ask::Between(None, Some(Amount::Share(1.0)))),
+    ];
+    let limit = DiameterLimit { at_most: Some(0.066_294), ..least(24.0) };
+    Wish { targets, diameter: vec![limit], ..Wish::default() }
+}
+
+fn task_e() -> Wish {
+    let lighter = Amount::Si((30.652_8 - 4.0) * 0.028_349_523_125);
+    let targets = vec![
+        target(Answer::Mass, Ask::Between(None, Some(lighter))),
+        target(Answer::Inertia, Ask::Between(Some(Amount::Share(0.995)), None)),
+        target(Answer::Frequency(1), Ask::Change(Amount::Si(0.0), within(1.0))),
+    ];
+    Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() }
+}
+
 #[test]
 fn scratch() {
     let bat = r161();
-    let wish = task_a();
-    let begun = std::time::Instant::now();
-    let bench = Bench::new(&bat, &wish, terms()).unwrap();
-    let start = bench.look(&vec![0.0; bench.unknowns()]).unwrap().values;
-    println!("{start:?} {:?}", begun.elapsed());
-    let bands = wish.bands(&start, &bat).unwrap();
-    let limits = Limits::new(&wish, &bat);
-    let search = Search::new(&bench, &limits);
-    let found = search.from(&vec![0.0; bench.unknowns()], &bands, &Weights::met(bands.len())).unwrap();
-    println!("{:?}", begun.elapsed());
-    println!("{:?} {} {} {:?}", found.values, found.iterations, found.bats, found.stopped);
-    println!("I {} f {} tip {} norm {}", ounce_square_inches(found.values[0]), found.values[1],
-        inches(bat.length() - found.values[2]), search.norm(&found.p));
-    println!("mass {}", ounces(bench.changed(&found.p).unwrap().inertia().mass));
-    println!("{:?} {:?}", found.p, found.prices);
+    for wish in [task_a(), task_c(), task_e()] {
+        let begun = std::time::Instant::now();
+        let o = Outcome::of(&bat, &wish, &terms()).unwrap();
+        println!("{:?} met {} norm {} largest {:?} it {} bats {} stopped {:?} broken {} kept {}", begun.elapsed(), o.met, o.norm, o.largest(), o.iterations, o.bats, o.stopped, o.broken, o.kept_within);
+        println!("values {:?}\nprices {:?}\nconflict {:?}", o.values, o.prices, o.conflict);
+        for b in o.bands.iter().zip(&o.values) { println!("{:?} miss {}", b, b.0.miss(*b.1)); }
+        println!("oz {} ozin2 {} sweet {:?}", ounces(o.bat.inertia().mass), ounce_square_inches(o.bat.inertia().about(0.1524)), o.answers[9].1.map(|x| inches(bat.length()-x.unwrap())));
+        if let Some(c) = &o.conflict { for m in &c.members { println!("{} oz {} ozin2 {}", m.band, ounces(m.value), ounce_square_inches(m.value)); } }
+        for s in &o.stations { print!("[{:.1} {:.4} {:.4} {:.7}] ", 1e3*s.x, 1e3*s.old, 1e3*s.exact, 1e3*s.new); }
+        println!();
+    }
 }

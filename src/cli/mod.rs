@@ -45,6 +45,7 @@ mod frf_grid;
 mod frf;
 mod trade;
 mod study;
+mod aim;
 mod advise;
 mod convert;
 mod validate;

@@ -13,7 +13,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
+    advise, aim, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
     man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
@@ -53,6 +53,7 @@ enum Verb {
     Frf(frf::Args),
     Trade(trade::Args),
     Study(study::Args),
+    Aim(aim::Args),
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
@@ -87,6 +88,7 @@ pub fn run() -> Result<Done> {
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Study(args) => study::run(&args),
+        Verb::Aim(args) => aim::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),

@@ -30,6 +30,8 @@ pub mod u_curve;
 pub mod trade;
 pub mod mistakes;
 pub mod study;
+pub mod aim;
+pub mod aimed;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

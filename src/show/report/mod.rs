@@ -26,3 +26,7 @@ pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
 pub mod mistakes;
+#[cfg(feature = "aim")]
+pub mod aimed;
+#[cfg(feature = "aim")]
+pub mod aimed_text;

@@ -71,6 +71,19 @@ impl Conflict {
         }
         Ok(Self { members, bats })
     }
+
+    /// Weights by which everything else is met and the members come as near as they can together, each by its
+    /// tolerance.
+    pub fn nearest(&self, bands: usize) -> Weights {
+        const OTHERS: f64 = 100.0;
+        let mut weights = Weights::met(bands);
+        for (k, price) in weights.miss.iter_mut().enumerate() {
+            if self.members.iter().all(|member| member.band != k) {
+                *price *= OTHERS;
+            }
+        }
+        weights
+    }
 }
 
 /// Those weights for some of the bands only.
@@ -82,7 +95,7 @@ fn some(weights: &Weights, of: &[bool]) -> Weights {
 /// Weights by which the others are met first, then band k comes as near as it can, and the size of the change
 /// hardly counts.
 fn nearest(of: &[bool], k: usize) -> Weights {
-    const SIZE: f64 = 1e-4;
+    const SIZE: f64 = 1e-6;
     const OTHERS: f64 = 1e3;
     let price = |(j, of): (usize, &bool)| match *of {
         _ if j == k => 1.0,

@@ -9,7 +9,7 @@
 //! | [`bench`] | what does the bat become, and what are its goals then |
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
 //! | [`stations`] | which stations is the changed bat written with |
-//! | [`outcome`] | the bat that meets the wish, or comes nearest |
+//! | [`outcome`], [`cuts`] | the bat that meets the wish, or comes nearest; what the lathe takes off |
 
 pub mod rules;
 pub mod wish;
@@ -21,3 +21,4 @@ pub mod search;
 pub mod conflict;
 pub mod stations;
 pub mod outcome;
+pub mod cuts;

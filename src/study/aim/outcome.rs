@@ -224,6 +224,12 @@ impl Writing<'_> {
             true => Some(Conflict::of(&search, &self.bands, &found)?),
             false => None,
         };
+        if let Some(conflict) = conflict.as_ref().filter(|c| c.members.len() < self.bands.len()) {
+            let start = vec![0.0; bench.unknowns()];
+            let before = found.bats;
+            found = search.from(&start, &self.bands, &conflict.nearest(self.bands.len()))?;
+            found.bats += before;
+        }
         let mut best: Option<Drawn> = None;
         let mut bands = self.bands.clone();
         let norm = search.norm(&found.p);

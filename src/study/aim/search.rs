@@ -16,6 +16,9 @@ const MOST: usize = 12;
 const TRUST: f64 = 3.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
 const STILL: f64 = 1e-3;
+/// Or where a step makes what is made least less by that share only: at a corner of the limits steps go on and
+/// on.
+const NO_GAIN: f64 = 1e-7;
 /// A goal that misses its band by this share of its tolerance has missed.
 pub const MISSED: f64 = 1e-3;
 /// Rounds in which places where a limit is broken between others are added.
@@ -128,7 +131,8 @@ impl<'a> Search<'a> {
             };
             count += tried;
             (p, look) = (taken, next);
-            let still = step < STILL;
+            let gained = merit - self.merit(&p, &look.values, bands, weights);
+            let still = step < STILL || gained.abs() < NO_GAIN * merit.abs();
             found = Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
             if still {
                 break;
