@@ -44,6 +44,7 @@ mod compare;
 mod frf_grid;
 mod frf;
 mod trade;
+mod lathe;
 mod study;
 mod aim;
 mod advise;

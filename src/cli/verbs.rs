@@ -13,8 +13,8 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, aim, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
-    man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
+    advise, aim, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, lathe,
+    licences, man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -51,9 +51,10 @@ enum Verb {
     Compare(compare::Args),
     Ring(ring::Args),
     Frf(frf::Args),
+    Lathe(lathe::Args),
+    Aim(aim::Args),
     Trade(trade::Args),
     Study(study::Args),
-    Aim(aim::Args),
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
@@ -86,9 +87,10 @@ pub fn run() -> Result<Done> {
         Verb::Compare(args) => compare::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
+        Verb::Lathe(args) => lathe::run(&args),
+        Verb::Aim(args) => aim::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Study(args) => study::run(&args),
-        Verb::Aim(args) => aim::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),

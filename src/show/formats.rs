@@ -13,6 +13,7 @@ use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
 use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
+use crate::files::schema::lathe::LatheFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
 use crate::files::schema::mistakes::ErrorFile;
@@ -34,7 +35,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
@@ -45,6 +46,7 @@ impl FileKind {
         Self::of::<HitFile>(),
         Self::of::<AnalysisFile>(),
         Self::of::<BbcorFile>(),
+        Self::of::<LatheFile>(),
         Self::of::<CompareFile>(),
         Self::of::<MeasuredFile>(),
         Self::of::<RingFile>(),

@@ -30,6 +30,7 @@ pub mod u_curve;
 pub mod trade;
 pub mod mistakes;
 pub mod study;
+pub mod lathe;
 pub mod aim;
 pub mod aimed;
 

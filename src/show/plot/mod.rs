@@ -59,3 +59,4 @@ pub mod compared;
 pub mod change;
 pub mod measured;
 pub mod many;
+pub mod lathe;

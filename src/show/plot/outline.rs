@@ -49,6 +49,15 @@ impl Lying<'_> {
         upper.chain(lower).collect()
     }
 
+    /// The bat's outline alone.
+    pub fn outline(&self, svg: &mut Svg, bat: &Bat, pen: Pen) {
+        const MOST: usize = 300;
+        let all = sections(bat.profile(), MOST);
+        let mut closed = self.around(&all, |section| section.outer);
+        closed.extend(closed.first().copied());
+        svg.line(&closed, pen);
+    }
+
     /// The bat: its wall, its bore, its regions hatched, its joints and what is fastened to it.
     pub fn draw(&self, svg: &mut Svg, bat: &Bat, ink: Ink) {
         const MOST: usize = 300;
@@ -66,15 +75,20 @@ impl Lying<'_> {
     }
 
     /// A stretch (m) of the bat filled in that colour, from side to side.
-    pub fn stretch(&self, svg: &mut Svg, bat: &Bat, ([from, to], ink): ([f64; 2], Ink)) {
-        const POINTS: usize = 60;
+    pub fn stretch(&self, svg: &mut Svg, bat: &Bat, (ends, ink): ([f64; 2], Ink)) {
         const DARK: f64 = 0.4;
+        self.filled(svg, bat, ends, (ink, DARK));
+    }
+
+    /// A stretch (m) of the bat filled from side to side, as dark as that.
+    pub fn filled(&self, svg: &mut Svg, bat: &Bat, [from, to]: [f64; 2], look: (Ink, f64)) {
+        const POINTS: usize = 60;
         let at = |k: usize| {
             let x = from + (to - from) * k as f64 / POINTS as f64;
             (x, bat.profile().at(x))
         };
         let all: Vec<(f64, Section)> = (0..=POINTS).map(at).collect();
-        svg.area(&self.around(&all, |section| section.outer), ink, DARK, None);
+        svg.area(&self.around(&all, |section| section.outer), look.0, look.1, None);
     }
 
     /// Lines across a stretch (m), between two radii of either side.

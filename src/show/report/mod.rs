@@ -25,6 +25,8 @@ pub mod comparison;
 pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
+pub mod lathe_table;
+pub mod lathe;
 pub mod mistakes;
 #[cfg(feature = "aim")]
 pub mod aimed;

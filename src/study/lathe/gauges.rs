@@ -14,7 +14,7 @@
 use crate::base::threads;
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
-use crate::collision::sweet_spot::{Looked, Peak};
+use crate::collision::sweet_spot::{FEW, Looked, Peak};
 use crate::study::many::answers::Answer;
 
 /// What is read of a hit.
@@ -96,16 +96,19 @@ impl Seen {
 }
 
 /// The outer half of a bat after a look along it, from which gauges are made.
-pub struct Along<'a> {
+pub struct OuterHalf<'a> {
     hitter: &'a Hitter<'a>,
     ends: [f64; 2],
+    steps: usize,
     hits: Vec<Option<Glance>>,
     /// Best places that compete with others.
     pub rivals: Vec<Rivals>,
 }
 
-/// Places of the look along the outer half.
-const STEPS: usize = 128;
+/// Steps of a look along the outer half.
+pub const CLOSELY: usize = 128;
+/// Steps where best places are known to be near others.
+pub const ROUGHLY: usize = 32;
 /// Distance of the places of a difference along the bat, as a share of the length: 3 mm of 84 cm. The
 /// difference is of the fourth order.
 const APART: f64 = 1.0 / 280.0;
@@ -121,13 +124,13 @@ struct Greatest {
     bend: Option<f64>,
 }
 
-impl<'a> Along<'a> {
-    /// Looks along the outer half of a bat of that length (m).
-    pub fn new(hitter: &'a Hitter<'a>, length: f64) -> Self {
+impl<'a> OuterHalf<'a> {
+    /// Looks along the outer half of a bat of that length (m), in so many steps.
+    pub fn new(hitter: &'a Hitter<'a>, length: f64, steps: usize) -> Self {
         let ends = [0.5 * length, length];
-        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / STEPS as f64;
-        let hits = threads::map(STEPS + 1, |k| hitter.glance(place(k)));
-        Self { hitter, ends, hits, rivals: vec![] }
+        let place = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / steps as f64;
+        let hits = threads::map(steps + 1, |k| hitter.glance(place(k)));
+        Self { hitter, ends, steps, hits, rivals: vec![] }
     }
 
     /// The gauge and the value of an answer about a hit; None where there is no such answer, and no gauge
@@ -159,7 +162,7 @@ impl<'a> Along<'a> {
     }
 
     fn place(&self, k: usize) -> f64 {
-        self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / STEPS as f64
+        self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / self.steps as f64
     }
 
     /// Distance of the places of a difference (m).
@@ -196,8 +199,8 @@ impl<'a> Along<'a> {
             let value = probe.read(self.hitter, self.hits[k].as_ref());
             value.map_or(f64::NEG_INFINITY, |value| sign * value)
         };
-        let values: Vec<f64> = (0..=STEPS).map(signed).collect();
-        let Some(k) = (0..=STEPS).max_by(|a, b| values[*a].total_cmp(&values[*b])) else {
+        let values: Vec<f64> = (0..=self.steps).map(signed).collect();
+        let Some(k) = (0..=self.steps).max_by(|a, b| values[*a].total_cmp(&values[*b])) else {
             return (None, None);
         };
         if values[k] == f64::NEG_INFINITY {
@@ -208,23 +211,23 @@ impl<'a> Along<'a> {
         let higher = |j: usize, other: usize| values[j] >= values[other];
         let top = |j: &usize| {
             let up = *j == 0 || higher(*j, j - 1);
-            up && (*j == STEPS || higher(*j, j + 1)) && j.abs_diff(k) > 2
+            up && (*j == self.steps || higher(*j, j + 1)) && j.abs_diff(k) > 2
         };
-        let rival = (0..=STEPS).filter(top).find(|j| values[k] - values[*j] <= near);
+        let rival = (0..=self.steps).filter(top).find(|j| values[k] - values[*j] <= near);
         let rival = rival.map(|j| Peak { x: self.place(j), value: sign * values[j] });
         (found, rival)
     }
 
     /// Newton's steps to where the value's slope along the bat is 0, from a place of the look.
     fn refined(&self, probe: Probe, k: usize) -> Option<Greatest> {
-        const STEPS_OF_NEWTON: usize = 12;
+        const NEWTON: usize = 12;
         let h = self.apart();
         let start = self.place(k);
         let step = self.place(1) - self.place(0);
         let here = |x: f64| Some(Peak { x, value: self.value(probe, x)? });
         let at_end = Greatest { peak: here(start)?, bend: None };
         let mut x = start;
-        for _ in 0..STEPS_OF_NEWTON {
+        for _ in 0..NEWTON {
             if (x - start).abs() > 1.5 * step || x + 2.0 * h > self.ends[1] {
                 return Some(at_end);
             }
@@ -256,10 +259,21 @@ impl<'a> Along<'a> {
         let (Some(Greatest { peak, .. }), None) = self.greatest(Probe::Speed) else {
             return (None, None);
         };
-        let zone = Looked::new(self.ends, self.hitter).zone(peak);
-        let (x, h) = (zone[end], self.apart());
-        let inside = x - 2.0 * h > self.ends[0] && x + 2.0 * h < self.ends[1];
-        let slope = self.derivatives(Probe::Speed, x, h).filter(|_| inside);
+        let floor = peak.value - NEARLY * peak.value.abs();
+        let zone = Looked::by(self.ends, FEW, self.hitter).zone(peak);
+        let h = self.apart();
+        let inside = |x: f64| x - 2.0 * h > self.ends[0] && x + 2.0 * h < self.ends[1];
+        let mut x = zone[end];
+        // From some micrometres to as near as numbers are.
+        for _ in 0..3 {
+            let Some([value, slope, _]) = self.derivatives(Probe::Speed, x, h) else { break };
+            let by = (floor - value) / slope;
+            if !(by.abs() < h && inside(x + by)) {
+                break;
+            }
+            x += by;
+        }
+        let slope = self.derivatives(Probe::Speed, x, h).filter(|_| inside(x));
         let gauge = slope.map(|[_, slope, _]| Gauge {
             terms: vec![
                 (x, Probe::Speed, -1.0 / slope),

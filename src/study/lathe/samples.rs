@@ -46,7 +46,7 @@ struct Sample {
 
 /// The bat's sections at the points of a quadrature between all its borders.
 #[derive(Debug, Clone)]
-pub struct Samples {
+pub struct SectionSlopes {
     all: Vec<Sample>,
     body: Inertia,
     theory: Theory,
@@ -65,7 +65,7 @@ pub struct BodySlope {
     pub center_of_percussion: Option<f64>,
 }
 
-impl Samples {
+impl SectionSlopes {
     /// Those of a bat with its modes.
     pub fn new(bat: &Bat, solution: &Solution) -> Self {
         // Sections to the ninth degree, twice the motion, a cubic change of the radius.

@@ -14,9 +14,9 @@ use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Trial, sweep};
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
-use crate::study::lathe::gauges::{Along, Gauge, Rivals, Seen};
+use crate::study::lathe::gauges::{CLOSELY, Gauge, OuterHalf, ROUGHLY, Rivals, Seen};
 use crate::study::lathe::same_plan::SamePlan;
-use crate::study::lathe::samples::{BodySlope, Samples};
+use crate::study::lathe::samples::{BodySlope, SectionSlopes};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
 
 /// How the bat is hit for answers about a hit.
@@ -69,6 +69,9 @@ pub struct Slopes {
     /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
     /// is none.
     pub same_swing: Vec<Option<Figure>>,
+    /// The derivatives of the frequencies by differences too, as a check of the formula; None for other answers
+    /// and without [`Care::TwoSteps`].
+    pub checked: Vec<Option<f64>>,
     /// Derivative of the moment of inertia about the standard pivot (kg m²).
     pub inertia: f64,
     /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
@@ -106,7 +109,7 @@ pub struct Workpiece {
     bat: Bat,
     plan: SamePlan,
     solution: Solution,
-    samples: Samples,
+    samples: SectionSlopes,
     hit: Option<Hit>,
     answers: Vec<Answer>,
     values: Vec<Option<Figure>>,
@@ -164,7 +167,7 @@ impl Workpiece {
         }
         let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
         met &= solution.worst() <= request.tolerance;
-        let samples = Samples::new(&bat, &solution);
+        let samples = SectionSlopes::new(&bat, &solution);
         let mut piece = Self {
             values: answers.iter().map(|answer| figure(*answer, &bat, &solution)).collect(),
             gauges: vec![None; answers.len()],
@@ -188,7 +191,7 @@ impl Workpiece {
         let Some(hit) = &self.hit else { return Ok(()) };
         let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
         let length = self.bat.length();
-        let mut along = Along::new(&hitter, length);
+        let mut along = OuterHalf::new(&hitter, length, CLOSELY);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
@@ -231,7 +234,7 @@ impl Workpiece {
     }
 
     /// Its sections at the points of a quadrature.
-    pub fn samples(&self) -> &Samples {
+    pub fn samples(&self) -> &SectionSlopes {
         &self.samples
     }
 
@@ -258,18 +261,26 @@ impl Workpiece {
             Care::OneStep => &[1.0],
             Care::TwoSteps => &[1.0, 0.5],
         };
-        let now = if steps.is_empty() { vec![] } else { self.raw(&self.bat)? };
+        let now = if steps.is_empty() { Raw::default() } else { self.raw(&self.bat, care)? };
         let all = threads::map(changes.len() * steps.len(), |k| {
-            self.difference(&changes[k / steps.len()], steps[k % steps.len()], &now)
+            let (step, look) = (k % steps.len(), &changes[k / steps.len()]);
+            // How much the modes left out do is seen by one step.
+            let care = if step == 0 { care } else { Care::OneStep };
+            self.difference(look, steps[step], &now, care)
         });
-        let all: Vec<Difference> = all.into_iter().collect::<Result<_>>()?;
-        let one = |(k, change): (usize, &DiameterChange)| {
-            self.one(change, &all[k * steps.len()..(k + 1) * steps.len()])
+        let all: Vec<Quotient> = all.into_iter().collect::<Result<_>>()?;
+        let of_change = |k: usize| &all[k * steps.len()..(k + 1) * steps.len()];
+        // Where two numbers of modes agree by luck, what they do elsewhere tells more.
+        let usual = |answer: usize| {
+            let of = |k: usize| of_change(k).first().map_or(0.0, |first| first.left_out(answer));
+            (0..changes.len()).map(of).sum::<f64>() / changes.len() as f64
         };
+        let usual: Vec<f64> = (0..self.answers.len()).map(usual).collect();
+        let one = |(k, change): (usize, &DiameterChange)| self.one(change, of_change(k), &usual);
         Ok(changes.iter().enumerate().map(one).collect())
     }
 
-    fn one(&self, change: &DiameterChange, differences: &[Difference]) -> Slopes {
+    fn one(&self, change: &DiameterChange, found: &[Quotient], usual: &[f64]) -> Slopes {
         let radius = |x: f64| [0.5 * change.at(x), 0.0];
         let body = self.samples.body(STANDARD_PIVOT, radius);
         let of = |(k, answer): (usize, &Answer)| match (Method::of(*answer), answer) {
@@ -279,10 +290,17 @@ impl Workpiece {
                 let [value, error] = self.samples.frequency(mode, radius);
                 Some(Figure::new(value, error))
             }
-            _ => joined(differences, k),
+            _ => joined(found, k, usual[k]),
         };
         let swing = self.hit.as_ref().map_or(0.0, |hit| hit.scene.swing);
+        // Two steps as one of the fourth order.
+        let check = |(k, answer): (usize, &Answer)| {
+            let Answer::Frequency(_) = answer else { return None };
+            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_modes[0][k]);
+            Some((4.0 * half? - whole?) / 3.0).filter(|_| found.iter().all(|d| d.central))
+        };
         Slopes {
+            checked: self.answers.iter().enumerate().map(check).collect(),
             same_swing: self.answers.iter().enumerate().map(of).collect(),
             inertia: body.inertia,
             by_swing: self.by_swing.clone(),
@@ -295,36 +313,36 @@ impl Workpiece {
         &self,
         change: &DiameterChange,
         share: f64,
-        now: &[Option<f64>],
-    ) -> Result<Difference> {
-        let largest = change
-            .stretches()
-            .iter()
-            .flat_map(|s| s.diameter)
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        now: &Raw,
+        care: Care,
+    ) -> Result<Quotient> {
+        let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
+        let largest = all.fold(0.0, |largest: f64, by| largest.max(by.abs()));
         if largest == 0.0 {
-            return Ok(Difference { central: true, slopes: vec![Some(0.0); self.answers.len()] });
+            let by_modes = [0; 3].map(|_| vec![Some(0.0); self.answers.len()]);
+            return Ok(Quotient { central: true, by_modes });
         }
         let step = share * STEP / largest;
-        let thick = self.raw(&self.bat.turned(&change.scaled(step))?)?;
+        let thick = self.raw(&self.bat.turned(&change.scaled(step))?, care)?;
         // A bat that ends in a point cannot lose wood there.
         let thin = self.bat.turned(&change.scaled(-step));
         let central = thin.is_ok();
-        let (thin, run) = match thin {
-            Ok(thin) => (self.raw(&thin)?, 2.0 * step),
-            Err(_) => (now.to_vec(), step),
+        let thin = thin.map(|thin| self.raw(&thin, care)).unwrap_or_else(|_| Ok(now.clone()))?;
+        let run = if central { 2.0 * step } else { step };
+        let slopes = |(thick, thin): (&Vec<Option<f64>>, &Vec<Option<f64>>)| {
+            let slope = |(a, b): (&Option<f64>, &Option<f64>)| Some(((*a)? - (*b)?) / run);
+            thick.iter().zip(thin).map(slope).collect()
         };
-        let slope = |(a, b): (Option<f64>, Option<f64>)| Some((a? - b?) / run);
-        let slopes = thick.into_iter().zip(thin).map(slope).collect();
-        Ok(Difference { central, slopes })
+        let by_modes = [0, 1, 2].map(|k| slopes((&thick.by_modes[k], &thin.by_modes[k])));
+        Ok(Quotient { central, by_modes })
     }
 
     /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
-    fn raw(&self, bat: &Bat) -> Result<Vec<Option<f64>>> {
+    fn raw(&self, bat: &Bat, care: Care) -> Result<Raw> {
         let solution = self.plan.solve(bat)?;
         let read = match &self.hit {
-            Some(hit) => self.readings(&hit.hitter(bat, &solution, &hit.scene)?),
-            None => vec![None; self.answers.len()],
+            Some(hit) => self.with_fewer(hit, bat, &solution, care)?,
+            None => [0; 3].map(|_| vec![None; self.answers.len()]),
         };
         let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
             Answer::Node(order) => {
@@ -335,9 +353,33 @@ impl Workpiece {
                 is.nodes.last().copied()
             }
             Answer::ModalMass(order) => Some(solution.modes.get(order - 1)?.modal_mass),
+            Answer::Frequency(order) => Some(solution.modes.get(order - 1)?.frequency()),
             _ => read,
         };
-        Ok(self.answers.iter().zip(read).map(of).collect())
+        let all = |read: Vec<Option<f64>>| self.answers.iter().zip(read).map(of).collect();
+        Ok(Raw { by_modes: read.map(all) })
+    }
+
+    /// What the gauges read of a bat that is hit, by all its modes and, with care, without the last two and
+    /// without the last quarter of them.
+    fn with_fewer(
+        &self,
+        hit: &Hit,
+        bat: &Bat,
+        solution: &Solution,
+        care: Care,
+    ) -> Result<[Vec<Option<f64>>; 3]> {
+        let all = self.readings(&hit.hitter(bat, solution, &hit.scene)?);
+        if care == Care::OneStep || !hit.effort.completed {
+            return Ok([all.clone(), all.clone(), all]);
+        }
+        let few = |count: usize| {
+            let mut fewer = solution.clone();
+            fewer.modes.truncate(count);
+            Ok(self.readings(&hit.hitter(bat, &fewer, &hit.scene)?))
+        };
+        let count = solution.modes.len();
+        Ok([all, few(count.saturating_sub(2))?, few(count * 3 / 4)?])
     }
 
     /// The answers of the bat changed by much, for a batter who swings it at `Ω (I₀/I)^n`.
@@ -376,7 +418,7 @@ impl Workpiece {
             let swing = hit.scene.swing * ratio.powf(*exponent);
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
-            let mut along = Along::new(&hitter, bat.length());
+            let mut along = OuterHalf::new(&hitter, bat.length(), ROUGHLY);
             let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
                 true => along.gauge(*answer).1,
                 false => *known,
@@ -398,23 +440,42 @@ impl Hit {
     }
 }
 
-/// A quotient of differences, answer by answer.
-struct Difference {
-    /// Whether it is about the bat as it is; else to one side.
-    central: bool,
-    slopes: Vec<Option<f64>>,
+/// What differences are taken of, answer by answer.
+#[derive(Debug, Clone, Default)]
+struct Raw {
+    /// With all modes, without the last two, without the last quarter of them.
+    by_modes: [Vec<Option<f64>>; 3],
 }
 
-/// The derivative from differences by one step or two.
-fn joined(differences: &[Difference], k: usize) -> Option<Figure> {
+/// A quotient of differences, answer by answer.
+struct Quotient {
+    /// Whether it is about the bat as it is; else to one side.
+    central: bool,
+    /// With all modes, without the last two, without the last quarter of them.
+    by_modes: [Vec<Option<f64>>; 3],
+}
+
+impl Quotient {
+    /// The most that the last two modes, or the last quarter of them, do to an answer's slope.
+    fn left_out(&self, k: usize) -> f64 {
+        let [whole, fewer @ ..] = [0, 1, 2].map(|count| self.by_modes[count][k]);
+        let off = |few: f64| whole.map_or(0.0, |whole| (whole - few).abs());
+        fewer.into_iter().flatten().map(off).fold(0.0, f64::max)
+    }
+}
+
+/// The derivative from differences by one step or two. Its error is that of the step, and what modes that are
+/// left out do to it, or `usual`ly to such an answer.
+fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
     let [first, rest @ ..] = differences else { return None };
-    let whole = first.slopes[k]?;
+    let whole = first.by_modes[0][k]?;
     let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
-    let half = second.slopes[k]?;
+    let half = second.by_modes[0][k]?;
+    let left_out = first.left_out(k).max(usual);
     match first.central && second.central {
         // The half step's error is a third of the difference.
-        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs())),
-        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs())),
+        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + left_out)),
+        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + left_out)),
     }
 }
 

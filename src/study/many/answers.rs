@@ -78,8 +78,10 @@ const NAMED: [(&str, Answer); 14] = [
 /// More modes than this are no question of many bats.
 const MOST_MODES: usize = 40;
 const SPEED_AT: &str = "exit_speed_m_s@";
+/// An answer about a hit at a place (m).
+type Local = fn(f64) -> Answer;
 /// What is asked of a hit at a place, each with the beginning of its name.
-const AT: [(&str, fn(f64) -> Answer); 4] = [
+const AT: [(&str, Local); 4] = [
     (SPEED_AT, Answer::ExitSpeedAt),
     ("vibration_j@", Answer::VibrationAt),
     ("hands_velocity_m_s@", Answer::HandsVelocityAt),
@@ -100,7 +102,7 @@ impl Answer {
         };
         let known = NAMED.iter().find(|(known, _)| *known == name).map(|(_, answer)| *answer);
         let at = || {
-            let of = |(start, of): &(&str, fn(f64) -> Self)| Some((name.strip_prefix(start)?, *of));
+            let of = |(start, of): &(&str, Local)| Some((name.strip_prefix(start)?, *of));
             let (place, of) = AT.iter().find_map(of)?;
             let place: f64 = place.parse().ok()?;
             (place.is_finite() && place >= 0.0).then(|| of(place))
@@ -132,7 +134,7 @@ impl Answer {
             (None, Self::ModalMass(order)) => format!("modal_mass_mode_{order}_kg"),
             (None, Self::Frequency(order)) => format!("f{order}_hz"),
             (None, _) => {
-                let of = |(start, of): (&'static str, fn(f64) -> Self)| {
+                let of = |(start, of): (&'static str, Local)| {
                     self.place().filter(|x| of(*x) == self).map(|x| format!("{start}{x}"))
                 };
                 AT.into_iter().find_map(of).expect("every other answer is in the lists of names")
