@@ -125,7 +125,8 @@ pub fn source(outcome: &Outcome) -> String {
     let wishes = outcome.bands.iter().map(|band| format!("{} {}", called(band.goal), asked(band, false)));
     let wishes: Vec<String> = wishes.collect();
     format!(
-        "{}, changed by sweetspot aim for: {}. Stations where it was changed are rounded to {} mm.",
+        "{}, changed by sweetspot aim for: {}. Stations where it was changed are rounded to {} mm, with more digits \
+         where the change runs out.",
         outcome.start.name(),
         wishes.join("; "),
         shortest(rounded(1e3 * outcome.grid.round, 6))

@@ -22,6 +22,7 @@ pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> 
     out += &targets(outcome, us);
     if let Some(conflict) = &outcome.conflict {
         out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
+        out += "\n";
     }
     out += &before_and_after(outcome, us);
     if let Some(set) = rules {

@@ -15,12 +15,15 @@ pub struct StationCut {
     pub passes: Vec<f64>,
 }
 
+/// What is less is nothing to a lathe (m).
+const LEAST: f64 = 5e-6;
+
 /// The cuts at every station that loses wood, in passes that take no more than `pass` off the diameter (m).
 /// The last one leaves the new diameter, the others are equally deep.
 pub fn cuts(stations: &[Station], pass: f64) -> Vec<StationCut> {
     let cut = |station: &Station| {
         let off = station.old - station.new;
-        if off <= 1e-9 {
+        if off < LEAST {
             return None;
         }
         let count = (off / pass - 1e-9).ceil().max(1.0) as usize;

@@ -4,6 +4,9 @@
 //! nothing changes the bat keeps its stations and their digits, so that its curve is what it was. Rounding goes
 //! up or down so that the goals stay where they are: what one station moves, the next ones take back.
 //!
+//! A curve through stations feels two stations on: beside a stretch that is kept the next two stations stay,
+//! where they are near, so that its curve stays too.
+//!
 //! The curve between rounded stations is a new one. Where it breaks a limit (on a bat of which wood is only
 //! taken off it bulges before the first station that is lower, by some 7 µm for 0.1 mm) the station beside it
 //! gives way, by as many digits more as that takes.
@@ -69,6 +72,22 @@ pub struct Drafting<'a> {
     pub grid: Grid,
 }
 
+/// Two stations beside a stretch that is kept, the nearer one first (m).
+#[derive(Debug, Clone, Copy)]
+struct Guard {
+    first: f64,
+    second: f64,
+}
+
+impl Guard {
+    /// Whether a place is at one of them or between them.
+    fn has(&self, x: f64) -> bool {
+        x >= self.first.min(self.second) && x <= self.first.max(self.second)
+    }
+}
+
+/// Stations farther apart are not near (m).
+const NEAR: f64 = 0.06;
 /// A smaller change than this share of the rounding is none.
 const NOTHING: f64 = 0.25;
 /// Rounds of giving way to limits.
@@ -92,6 +111,31 @@ impl Drafting<'_> {
                 && x >= from - same
                 && x <= to + same
         })
+    }
+
+    /// The stations beside the stretches that are kept.
+    fn guards(&self) -> Vec<Guard> {
+        let (splines, _, stretch) = self.change;
+        let length = self.bat.length();
+        let same = SAME_PLACE * length;
+        let x = &self.bat.profile().stations.x;
+        let mut guards = vec![];
+        if !self.is_of_stations() {
+            return guards;
+        }
+        for ends in splines.stretches() {
+            let [from, to] = ends.map(|end| end * stretch);
+            let outwards: Vec<f64> = x.iter().copied().filter(|x| *x >= from - same).collect();
+            let inwards: Vec<f64> = x.iter().rev().copied().filter(|x| *x <= to + same).collect();
+            let held = [(from > same, outwards), (to < length - same, inwards)];
+            for (_, beside) in held.into_iter().filter(|(held, _)| *held) {
+                // At a step the curve begins anew.
+                let [first, second] = [beside.first(), beside.get(1)].map(|x| x.copied());
+                guards.extend(first.zip(second).map(|(first, second)| Guard { first, second }));
+            }
+        }
+        guards.retain(|guard| (guard.second - guard.first).abs() <= NEAR);
+        guards
     }
 
     /// Whether the profile is what its stations say, so that they alone make the same curve.
@@ -122,11 +166,15 @@ impl Drafting<'_> {
             }
         }
         places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let guards = self.guards();
+        places.retain(|(x, _)| own.x.contains(x) || guards.iter().all(|guard| !guard.has(*x)));
         let station = |(x, inside): (f64, f64)| {
             let at = section(profile, x, inside);
-            let (old, kept) = (2.0 * at.outer, !self.is_free(x));
+            let guarded = guards.iter().any(|guard| guard.has(x));
+            let beside = guards.iter().any(|guard| x == guard.first);
+            let (old, kept) = (2.0 * at.outer, !self.is_free(x) || beside);
             let room = self.limits.room(x, at);
-            let exact = if kept { old } else { old + self.change(x) };
+            let exact = if kept || guarded { old } else { old + self.change(x) };
             let (low, high) = (old + room.low, old + room.high);
             Station { x, old, exact, new: old, inner: at.inner, low, high, kept }
         };
