@@ -241,7 +241,8 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
 
 #[test]
 fn every_format_is_written_and_pinned_or_read() {
-    let others = ["page", "error", "study-manifest", "bat", "ball", "study", "validation", "aim", "rules"];
+    let others =
+        ["page", "error", "study-manifest", "bat", "ball", "study", "validation", "aim", "rules"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
         let known = written || others.contains(&file.name());

@@ -160,7 +160,8 @@ pub fn run(args: &Args) -> Result<Done> {
     // What is told is of the file as it is read again.
     let text = aimed::bat_text(&outcome);
     let written = Bat::from_text("the new bat", &text, Path::new(""))?;
-    let outcome = outcome.read_back(written.with(|parts| parts.inches = bat.inches())?, &wish, &terms)?;
+    let outcome =
+        outcome.read_back(written.with(|parts| parts.inches = bat.inches())?, &wish, &terms)?;
     drop(progress);
     if let Some(folder) = &args.plots {
         let law = terms.law;
@@ -192,7 +193,9 @@ pub fn run(args: &Args) -> Result<Done> {
 fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     let mut wish = aim_file.map_or_else(Wish::default, |file| file.wish.clone());
     let option = |option: &'static str| {
-        move |complaint: Complaint| Error::Value(Complaint { field: option.to_owned(), ..complaint })
+        move |complaint: Complaint| {
+            Error::Value(Complaint { field: option.to_owned(), ..complaint })
+        }
     };
     for text in &args.targets {
         wish.targets.push(aim_text::target(text).map_err(option("--target"))?);
@@ -238,7 +241,10 @@ fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
         ];
         for (key, option, from, said) in options {
             if let Some(text) = number(key).and_then(|k| said.get(k.checked_sub(from)?)) {
-                return Error::Value(Complaint { field: format!("{option} \"{text}\""), ..complaint });
+                return Error::Value(Complaint {
+                    field: format!("{option} \"{text}\""),
+                    ..complaint
+                });
             }
         }
         let field = complaint.field.clone();
@@ -255,7 +261,10 @@ fn draw(
     args: &Args,
     outcome: &Outcome,
     terms: &Terms,
-    scene: impl Fn(&Bat) -> Result<(crate::collision::Scene, Option<crate::collision::figures::SwingLaw>)>,
+    scene: impl Fn(
+        &Bat,
+    )
+        -> Result<(crate::collision::Scene, Option<crate::collision::figures::SwingLaw>)>,
 ) -> Result<Vec<crate::show::plot::picture::Picture>> {
     let entry = |bat: &Bat| -> Result<Entry> {
         let (scene, law) = scene(bat)?;

@@ -106,7 +106,9 @@ fn rules(node: &Node, folder: &Path) -> Result<crate::study::aim::rules::RuleSet
         Error::Read { source, .. } => {
             node.error(format!("{name}, which cannot be read ({source})"), "a rule file")
         }
-        error => error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint })),
+        error => {
+            error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
+        }
     })
 }
 
@@ -133,7 +135,8 @@ fn said<T>(
     goal: Goal,
     read: fn(&str, Goal) -> std::result::Result<T, Complaint>,
 ) -> Result<T> {
-    let text = words(node).map_err(|_| node.error(node.shown(), "a number, or a text with a unit"))?;
+    let text =
+        words(node).map_err(|_| node.error(node.shown(), "a number, or a text with a unit"))?;
     read(&text, goal).map_err(|complaint| node.complain(complaint))
 }
 
@@ -214,7 +217,9 @@ fn stretch(node: &Node) -> Result<[f64; 2]> {
     mistakes.end(())?;
     match from >= 0.0 && from < to {
         true => Ok([from, to]),
-        false => Err(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins")),
+        false => {
+            Err(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"))
+        }
     }
 }
 
@@ -233,7 +238,8 @@ fn limit(node: &Node) -> Result<DiameterLimit> {
     };
     let (at_least, at_most) = (of("at_least"), of("at_most"));
     if from < 0.0 || from >= to {
-        mistakes.add(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"));
+        mistakes
+            .add(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"));
     }
     if let (Some(least), Some(most)) = (at_least, at_most)
         && least > most
@@ -256,12 +262,15 @@ fn free(node: &Node) -> Result<FreeChoice> {
             let range = [from.quantity(quantity)?, to.quantity(quantity)?];
             match range[0] > 0.0 && range[0] < range[1] {
                 true => Ok(range),
-                false => Err(node.error("a range that does not rise", "[least, greatest], above 0")),
+                false => {
+                    Err(node.error("a range that does not rise", "[least, greatest], above 0"))
+                }
             }
         });
         mistakes.note(read.transpose())
     };
-    let (length, density) = (range("length", Quantity::Length), range("density", Quantity::Density));
+    let (length, density) =
+        (range("length", Quantity::Length), range("density", Quantity::Density));
     let woods = object.get("wood").map_or(Ok(vec![]), |node| list(node, part_file::whole_material));
     let woods = mistakes.note(woods);
     let weight = object.get("knob_weight").map(|node| match node.quantity(Quantity::Mass)? {
@@ -311,7 +320,8 @@ mod tests {
             "round": 0, "free": { "knob_weight": "2 Hz" } }"#;
         let said = told(text);
         assert!(said.len() >= 9, "{said:#?}");
-        for part in ["did you mean mlb?", "f1_hz", "a tolerance above 0", "leave something between"] {
+        for part in ["did you mean mlb?", "f1_hz", "a tolerance above 0", "leave something between"]
+        {
             assert!(said.iter().any(|line| line.contains(part)), "{part}: {said:#?}");
         }
     }

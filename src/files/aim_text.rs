@@ -40,7 +40,8 @@ pub fn goal(name: &str) -> Said<Goal> {
     if let Some((_, goal)) = CALLED.iter().find(|(called, _)| *called == plain) {
         return Ok(*goal);
     }
-    let short = plain.strip_prefix('f').and_then(|k| k.parse().ok()).filter(|k| (1..=40).contains(k));
+    let short =
+        plain.strip_prefix('f').and_then(|k| k.parse().ok()).filter(|k| (1..=40).contains(k));
     if let Some(order) = short {
         return Ok(Goal::Answer(Answer::Frequency(order)));
     }
@@ -61,7 +62,8 @@ pub fn goal(name: &str) -> Said<Goal> {
 pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
     let text = typed::plain(text);
     if let Some(share) = text.strip_suffix('%') {
-        let share = typed::number(share).ok_or_else(|| wrong(&text, "a percentage, such as 97 %"))?;
+        let share =
+            typed::number(share).ok_or_else(|| wrong(&text, "a percentage, such as 97 %"))?;
         return Ok(Amount::Share(0.01 * share));
     }
     let Some(quantity) = goal.quantity() else {
@@ -103,7 +105,8 @@ pub fn change(text: &str, goal: Goal) -> Said<Amount> {
         "slower",
     ];
     let text = typed::plain(text);
-    let ended = |words: &[&str]| words.iter().find_map(|word| text.strip_suffix(word)).map(str::trim);
+    let ended =
+        |words: &[&str]| words.iter().find_map(|word| text.strip_suffix(word)).map(str::trim);
     let signed = |amount: Amount, sign: f64| match amount {
         Amount::Si(value) => Amount::Si(sign * value),
         Amount::Share(share) => Amount::Share(sign * share),
@@ -156,7 +159,8 @@ pub fn target(text: &str) -> Said<Target> {
     let signed = rest.starts_with(['+', '-']) || rest.ends_with('%');
     let ends_in_a_word = rest.chars().last().is_some_and(char::is_alphabetic);
     if rest.is_empty() {
-        let expected = "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
+        let expected =
+            "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
         return Err(wrong(&text, expected));
     }
     if !signed && let Ok(value) = amount(rest, goal) {
@@ -224,7 +228,9 @@ pub fn diameter(text: &str) -> Said<DiameterLimit> {
         }
     }
     match (limit.at_least, limit.at_most) {
-        (None, None) => Err(wrong(text, "\"at least 24 mm\" or \"at most 2.61 in\", after a stretch")),
+        (None, None) => {
+            Err(wrong(text, "\"at least 24 mm\" or \"at most 2.61 in\", after a stretch"))
+        }
         _ => Ok(limit),
     }
 }
@@ -236,9 +242,9 @@ pub fn free(text: &str, free: &mut FreeChoice) -> Said<()> {
     if let Some(range) = after("length") {
         free.length = Some(stretch(range)?);
     } else if let Some(range) = after("density") {
-        let (from, to) = range.split_once(" to ").ok_or_else(|| {
-            wrong(text, "a range, such as \"density 600 kg/m^3 to 700 kg/m^3\"")
-        })?;
+        let (from, to) = range
+            .split_once(" to ")
+            .ok_or_else(|| wrong(text, "a range, such as \"density 600 kg/m^3 to 700 kg/m^3\""))?;
         let [from, to] = [from, to].map(|end| units::parse_or_si(end.trim(), Quantity::Density));
         let range = [from?, to?];
         if !(range[0] > 0.0 && range[0] < range[1]) {
@@ -288,7 +294,11 @@ mod tests {
             ("sweet spot 1 cm outward", place, Ask::Change(si(0.01), None)),
             ("sweet spot 1 cm towards the knob", place, Ask::Change(si(-0.01), None)),
             ("swing weight -3 %", swing, Ask::Change(share(-0.03), None)),
-            ("Swing weight \u{2212}3 % within 1 %", swing, Ask::Change(share(-0.03), Some(share(0.01)))),
+            (
+                "Swing weight \u{2212}3 % within 1 %",
+                swing,
+                Ask::Change(share(-0.03), Some(share(0.01))),
+            ),
             ("mass at most 31 oz", mass, Ask::Between(None, Some(si(31.0 * 0.028_349_523_125)))),
             ("inertia_pivot_kg_m2 at least 99.5 %", swing, Ask::Between(Some(share(0.995)), None)),
             ("f1 180 Hz", f1, Ask::Value(si(180.0), None)),

@@ -50,7 +50,9 @@ pub fn named(name: &str, folder: &Path) -> Result<RuleSet> {
     }
     let names = BUILT_IN.map(|(name, _)| name);
     let expected = format!("{}, or a rule file (.json)", names.join(", "));
-    Err(Error::Value(Complaint::new("rules", format!("\"{name}\""), expected).or_nearest(name, &names)))
+    Err(Error::Value(
+        Complaint::new("rules", format!("\"{name}\""), expected).or_nearest(name, &names),
+    ))
 }
 
 fn from_document(document: &Document) -> Result<RuleSet> {
@@ -71,13 +73,14 @@ fn from_document(document: &Document) -> Result<RuleSet> {
     let source = text("source", "\"source\": where the numbers are from");
     let date = text("date", "\"date\": of the source");
     let game = mistakes.note(root.string("game")).unwrap_or_default();
-    let ask = root.get("ask").map_or(Ok(vec![]), |node| {
-        mistakes::all(node.items()?.iter().map(Node::string))
-    });
+    let ask = root
+        .get("ask")
+        .map_or(Ok(vec![]), |node| mistakes::all(node.items()?.iter().map(Node::string)));
     let ask = mistakes.note(ask);
     let mut rules = vec![];
     for (key, quantity, rule) in MEASURED {
-        let value = mistakes.note(root.get(key).map(|node| positive(node, node.quantity(quantity))).transpose());
+        let value = mistakes
+            .note(root.get(key).map(|node| positive(node, node.quantity(quantity))).transpose());
         rules.extend(value.map(rule));
     }
     for (key, rule) in COUNTED {

@@ -73,7 +73,9 @@ pub fn asked(band: &Band, us: bool) -> String {
 /// What cannot be had, in words.
 pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
     let wish = |k: usize| format!("{} {}", called(bands[k].goal), asked(&bands[k], us));
-    let reach = |k: usize, value: f64| format!("{} comes to {}", called(bands[k].goal), shown(bands[k].goal, value, us));
+    let reach = |k: usize, value: f64| {
+        format!("{} comes to {}", called(bands[k].goal), shown(bands[k].goal, value, us))
+    };
     match conflict.members.as_slice() {
         [] => "the search has not met the targets, though no smaller set of them was found that cannot be had"
             .to_owned(),
@@ -122,7 +124,8 @@ pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
 
 /// Where the new bat's numbers are from.
 pub fn source(outcome: &Outcome) -> String {
-    let wishes = outcome.bands.iter().map(|band| format!("{} {}", called(band.goal), asked(band, false)));
+    let wishes =
+        outcome.bands.iter().map(|band| format!("{} {}", called(band.goal), asked(band, false)));
     let wishes: Vec<String> = wishes.collect();
     format!(
         "{}, changed by sweetspot aim for: {}. Stations where it was changed are rounded to {} mm, with more digits \
@@ -166,7 +169,8 @@ pub fn bat_text(outcome: &Outcome) -> String {
 
 /// The cut list as CSV: a line for each pass at each station.
 pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
-    let mut table = Csv::new(["x_mm", "from_mm", "to_mm", "pass", "off_diameter_mm", "diameter_mm"]);
+    let mut table =
+        Csv::new(["x_mm", "from_mm", "to_mm", "pass", "off_diameter_mm", "diameter_mm"]);
     let mm = |value: f64| rounded(1e3 * value, 6);
     for cut in cuts(&outcome.stations, pass) {
         for (k, off) in cut.passes.iter().enumerate() {
@@ -257,14 +261,15 @@ fn outputs(outcome: &Outcome) -> Vec<file::AimedOutput> {
 }
 
 fn of_rules(outcome: &Outcome, set: &RuleSet) -> file::AimedRules {
-    let rule = |(rule, value, kept): &(crate::study::aim::rules::Rule, Option<f64>, Option<bool>)| {
-        file::AimedRule {
-            rule: rule.name().to_owned(),
-            limit: rule.limit(),
-            value: *value,
-            kept: *kept,
-        }
-    };
+    let rule =
+        |(rule, value, kept): &(crate::study::aim::rules::Rule, Option<f64>, Option<bool>)| {
+            file::AimedRule {
+                rule: rule.name().to_owned(),
+                limit: rule.limit(),
+                value: *value,
+                kept: *kept,
+            }
+        };
     file::AimedRules {
         name: set.name.clone(),
         game: set.game.clone(),

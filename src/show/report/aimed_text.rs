@@ -46,7 +46,11 @@ fn head(outcome: &Outcome, us: bool) -> String {
     };
     let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
     let [cut, added] = outcome.largest();
-    let added = if added > 0.0 { format!("at most {} added", across(added, us)) } else { "nothing added".into() };
+    let added = if added > 0.0 {
+        format!("at most {} added", across(added, us))
+    } else {
+        "nothing added".into()
+    };
     let line = format!(
         "of its diameter at most {} off, {added}; norm of the change {:.3} mm; {} steps, {} bats",
         across(cut, us),
@@ -90,8 +94,12 @@ fn targets(outcome: &Outcome, us: bool) -> String {
             shown(band.goal, *value, us) + met,
         ]);
     }
-    let priced: Vec<String> =
-        outcome.bands.iter().zip(&outcome.prices).filter_map(|(band, price)| priced(band, *price, us)).collect();
+    let priced: Vec<String> = outcome
+        .bands
+        .iter()
+        .zip(&outcome.prices)
+        .filter_map(|(band, price)| priced(band, *price, us))
+        .collect();
     if !priced.is_empty() {
         out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
     }
@@ -116,12 +124,17 @@ fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
 }
 
 fn before_and_after(outcome: &Outcome, us: bool) -> String {
-    let columns =
-        Columns::new([first(21, "Before and after"), labels(17, "before"), labels(17, "after"), labels(15, "change")]);
+    let columns = Columns::new([
+        first(21, "Before and after"),
+        labels(17, "before"),
+        labels(17, "after"),
+        labels(15, "change"),
+    ]);
     let mut out = columns.heads();
     for (answer, [before, after]) in &outcome.answers {
         let goal = Goal::Answer(*answer);
-        let said = |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
+        let said =
+            |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
         let change = before.zip(*after).map_or(String::new(), |(a, b)| match answer {
             Answer::Node(_) | Answer::ExitSpeedPlace | Answer::BalancePoint => {
                 let way = if b >= a { "outward" } else { "inward" };
@@ -139,9 +152,11 @@ fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
         &format!("Rules: {} ({}, {}). Computed, not certified.", set.game, set.name, set.date),
         2,
     );
-    let columns = Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
+    let columns =
+        Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
     for (rule, value, kept) in &outcome.rules {
-        let said = |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
+        let said =
+            |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
         let kept = match kept {
             Some(true) => "kept",
             Some(false) => "broken",
@@ -219,7 +234,8 @@ fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
         out += &columns.row([place, from, to, off, passes]);
     }
     if every > 1 {
-        let line = format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
+        let line =
+            format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
         out += &wrapped(&line, 0);
     }
     out

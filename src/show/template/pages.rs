@@ -46,7 +46,8 @@ impl Stretch<'_> {
         let x = |place: f64| MARGIN + place - self.from;
         for (bat, width, dash) in [(self.new, 0.25, 0.0), (self.old, 0.15, 1.5)] {
             for side in [-1.0, 1.0] {
-                let points = self.outline(bat).into_iter().map(|[place, r]| [x(place), axis + side * r]);
+                let points =
+                    self.outline(bat).into_iter().map(|[place, r]| [x(place), axis + side * r]);
                 page.line(points.collect(), width, dash);
             }
         }

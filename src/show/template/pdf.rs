@@ -14,7 +14,8 @@ pub fn pdf(pages: &[Page]) -> Vec<u8> {
     let mut objects = vec![
         "<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>".to_owned(),
         format!("<< /Type /Pages /Kids [{}] /Count {} >>", kids.join(" "), pages.len()),
-        "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>".to_owned(),
+        "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"
+            .to_owned(),
     ];
     for (k, page) in pages.iter().enumerate() {
         let [width, height] = [page.paper.width, page.paper.height].map(|mm| mm * PER_MM);
@@ -49,7 +50,8 @@ fn content(page: &Page) -> String {
             }
             Drawn::Words { at: place, size, text } => {
                 let size = size * PER_MM;
-                let _ = writeln!(out, "BT /F1 {size:.3} Tf {} Td ({}) Tj ET", at(*place), plain(text));
+                let _ =
+                    writeln!(out, "BT /F1 {size:.3} Tf {} Td ({}) Tj ET", at(*place), plain(text));
             }
         }
     }
@@ -102,7 +104,8 @@ mod tests {
         page.line(vec![[0.0, 0.0], [100.0, 0.0]], 0.2, 0.0);
         page.words([10.0, 10.0], 4.0, "100 mm (\\) ½");
         let file = String::from_utf8(pdf(&[page.clone(), page])).unwrap();
-        let table: usize = file.rsplit("startxref\n").next().unwrap().lines().next().unwrap().parse().unwrap();
+        let table: usize =
+            file.rsplit("startxref\n").next().unwrap().lines().next().unwrap().parse().unwrap();
         assert!(file[table..].starts_with("xref\n0 8\n"));
         let lines = file[table..].lines().skip(3).take(7);
         for (k, line) in lines.enumerate() {

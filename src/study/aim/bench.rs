@@ -269,7 +269,9 @@ impl Bench {
         let exponent = self.terms.law.map_or(0.0, |law| law.exponent);
         let mut rows = vec![vec![]; self.goals.len()];
         for slopes in look.piece.slopes(&changes, Care::OneStep)? {
-            for ((row, goal), slope) in rows.iter_mut().zip(&self.goals).zip(slopes.by_law(exponent)) {
+            for ((row, goal), slope) in
+                rows.iter_mut().zip(&self.goals).zip(slopes.by_law(exponent))
+            {
                 row.push(goal.slope() * slope.map_or(0.0, |slope| slope.value));
             }
         }
@@ -355,7 +357,8 @@ fn stretched(bat: &Bat, by: f64) -> Result<Bat> {
         let joined = joints.iter_mut().map(|j| &mut j.x);
         let held = supports.iter_mut().map(|s| &mut s.x);
         let gripped = grip.iter_mut().map(|g| &mut g.to);
-        let all = ends.chain(taped).chain(places).chain(hung).chain(joined).chain(held).chain(gripped);
+        let all =
+            ends.chain(taped).chain(places).chain(hung).chain(joined).chain(held).chain(gripped);
         all.for_each(|x| *x *= by);
     })
 }

@@ -46,7 +46,8 @@ impl Conflict {
         let mut bats = 0;
         // What neither binds nor is missed is no part of it, most likely: it is left out first.
         let mut order: Vec<usize> = (0..bands.len()).collect();
-        let idle = |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;
+        let idle =
+            |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;
         order.sort_by_key(idle);
         for k in order {
             let mut without = stay.clone();

@@ -5,6 +5,7 @@
 //! [`Limits::broken`] looks between them.
 
 use crate::base::error::{Error, Result};
+use crate::base::golden;
 use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::profile::{Profile, SAME_PLACE, Section};
@@ -117,7 +118,10 @@ impl<'a> Limits<'a> {
                 ),
                 _ => (
                     "rules".to_owned(),
-                    format!("at most {} across there, which stays as it is", shown_length(self.rule)),
+                    format!(
+                        "at most {} across there, which stays as it is",
+                        shown_length(self.rule)
+                    ),
                 ),
             };
             return Err(Error::value(field, found, expected));
@@ -237,23 +241,24 @@ impl Seen {
     }
 }
 
-/// The worst places of a stretch: local maxima of what is broken, by parabolas through three places.
+/// The worst places of a stretch: local maxima of what is broken, each sought between the places around it.
 fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> Seen) -> Vec<Broken> {
+    /// What is farther inside is not near a limit (m).
+    const FAR: f64 = -1e-5;
     let count = ((to - from) / CLOSE).ceil().max(4.0) as usize;
     let place = |k: usize| from + (to - from) * k as f64 / count as f64;
     let seen: Vec<Seen> = (0..=count).map(|k| at(place(k))).collect();
-    let beyond = |k: Option<usize>| {
-        k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, Seen::beyond)
-    };
+    let beyond =
+        |k: Option<usize>| k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, Seen::beyond);
     let mut found = vec![];
     for (k, here) in seen.iter().enumerate() {
         let (before, value, after) = (beyond(k.checked_sub(1)), here.beyond(), beyond(Some(k + 1)));
-        if value < before || value < after {
+        let flat = before == value && value == after;
+        if value < before || value < after || value < FAR || flat {
             continue;
         }
-        let bend = before - 2.0 * value + after;
-        let off = if bend < 0.0 && bend.is_finite() { 0.5 * (before - after) / bend } else { 0.0 };
-        let near = at((place(k) + off.clamp(-1.0, 1.0) * (to - from) / count as f64).clamp(from, to));
+        let ends = [place(k.saturating_sub(1)), place((k + 1).min(count))];
+        let near = at(golden::least(ends[0], ends[1], |x| -at(x).beyond()));
         let best = if near.beyond() > value { near } else { *here };
         found.extend(best.broken());
     }
@@ -302,7 +307,10 @@ mod tests {
         };
         assert_eq!(said(limit(0.1, 0.2, 0.025)), Ok(()));
         let above = said(limit(0.1, 0.2, 0.03)).unwrap_err();
-        assert!(above.starts_with("diameter[0].at_least") && above.contains("taken off"), "{above}");
+        assert!(
+            above.starts_with("diameter[0].at_least") && above.contains("taken off"),
+            "{above}"
+        );
         assert!(said(limit(0.1, 0.9, 0.02)).unwrap_err().contains("on the bat"));
     }
 }

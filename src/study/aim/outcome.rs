@@ -143,7 +143,8 @@ impl Outcome {
             let other = bat.with(|parts| parts.material = wood.clone())?;
             let bench = Bench::new(&other, wish, terms.clone())?;
             let tried = self::least(bench, wish, &bands, wood.name.clone())?;
-            let better = (tried.miss.max(MISSED), tried.norm) < (least.miss.max(MISSED), least.norm);
+            let better =
+                (tried.miss.max(MISSED), tried.norm) < (least.miss.max(MISSED), least.norm);
             if better {
                 least = tried;
             }
@@ -328,8 +329,13 @@ impl Writing<'_> {
         let densities = densities(bench, &self.bands, found)?;
         let stretch = bench.stretch(&found.p);
         let change = (bench.splines(), &found.p[..n], stretch);
-        let drafting =
-            Drafting { bat: &base, limits: &limits, change, densities: &densities, grid: self.grid };
+        let drafting = Drafting {
+            bat: &base,
+            limits: &limits,
+            change,
+            densities: &densities,
+            grid: self.grid,
+        };
         let inside = self.inside(bench, &densities, found);
         let mut aside = inside.clone();
         let mut best: Option<(Drawn, Vec<f64>)> = None;

@@ -85,7 +85,8 @@ impl Program {
             .tol_feas(1e-11)
             .build()
             .ok()?;
-        let solver = DefaultSolver::new(&quadratic, &linear, &matrix, &rows.bounds, &cones, settings);
+        let solver =
+            DefaultSolver::new(&quadratic, &linear, &matrix, &rows.bounds, &cones, settings);
         let mut solver = solver.ok()?;
         solver.solve();
         let solution = &solver.solution;
@@ -124,7 +125,13 @@ struct Rows {
 
 impl Rows {
     /// Adds `sign · row·p − t ≤ bound` and tells its number, unless the bound is infinite.
-    fn at_most(&mut self, row: &[f64], bound: f64, sign: f64, slack: Option<usize>) -> Option<usize> {
+    fn at_most(
+        &mut self,
+        row: &[f64],
+        bound: f64,
+        sign: f64,
+        slack: Option<usize>,
+    ) -> Option<usize> {
         if !bound.is_finite() {
             return None;
         }

@@ -125,7 +125,8 @@ impl<'a> Search<'a> {
             };
             let step = largest(&p, &least.p);
             let merit = self.merit(&p, &look.values, bands, weights);
-            let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights) else {
+            let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
+            else {
                 let stopped = (step > 10.0 * STILL).then_some("no step makes it better");
                 return Ok(ended(p, look.values, count, stopped));
             };
@@ -133,7 +134,8 @@ impl<'a> Search<'a> {
             (p, look) = (taken, next);
             let gained = merit - self.merit(&p, &look.values, bands, weights);
             let still = step < STILL || gained.abs() < NO_GAIN * merit.abs();
-            found = Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
+            found =
+                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
             if still {
                 break;
             }

@@ -161,7 +161,8 @@ impl BSpline {
             let last = self.closed && x == t[4] && t[i + 1] == t[4] && t[i] < t[4];
             return if (t[i] <= x && x < t[i + 1]) || last { 1.0 } else { 0.0 };
         }
-        let part = |from: f64, to: f64, over: f64| if over > 0.0 { (to - from) / over } else { 0.0 };
+        let part =
+            |from: f64, to: f64, over: f64| if over > 0.0 { (to - from) / over } else { 0.0 };
         let rising = part(t[i], x, t[i + degree] - t[i]);
         let falling = part(x, t[i + degree + 1], t[i + degree + 1] - t[i + 1]);
         rising * self.value(i, degree - 1, x) + falling * self.value(i + 1, degree - 1, x)
@@ -187,7 +188,8 @@ impl BSpline {
 /// The B-splines of a stretch, without those that would move an end that is held.
 fn on_stretch([from, to]: [f64; 2], held: [bool; 2]) -> Vec<BSpline> {
     let pieces = (((to - from) / KNOT_EVERY).round() as usize).max(1);
-    let place = |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
+    let place =
+        |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
     let ends = |x: f64| std::iter::repeat_n(x, 3);
     let knots: Vec<f64> = ends(from).chain((0..=pieces).map(place)).chain(ends(to)).collect();
     // Value and slope at an end are of the two first curves there alone.
@@ -212,7 +214,8 @@ mod tests {
         assert_eq!(splines.len(), 17);
         let p: Vec<f64> = (0..17).map(|k| (k as f64).sin()).collect();
         assert_eq!([splines.at(&p, 0.01), splines.at(&p, 0.03)], [0.0; 2]);
-        let slope = |x: f64| splines.basis().iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
+        let slope =
+            |x: f64| splines.basis().iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
         assert_eq!(slope(0.03), 0.0);
         assert_eq!(splines.at(&p, 0.84), p[16]);
         let both = Splines::beside(&[[0.0, 0.03], [0.4, 0.5]], 0.84);
@@ -238,7 +241,9 @@ mod tests {
         // mean(1²) and mean(x²) without any bend.
         let form = |p: &[f64]| {
             let h = splines.roughness();
-            (0..p.len()).map(|i| (0..p.len()).map(|j| p[i] * h[i][j] * p[j]).sum::<f64>()).sum::<f64>()
+            (0..p.len())
+                .map(|i| (0..p.len()).map(|j| p[i] * h[i][j] * p[j]).sum::<f64>())
+                .sum::<f64>()
         };
         assert!((form(&vec![1.0; splines.len()]) - 1.0).abs() < 1e-12);
         assert!((form(&greville) - 0.64 / 3.0).abs() < 1e-12);
@@ -253,7 +258,11 @@ mod tests {
                 let slope = (curve.at(x + h) - curve.at(x - h)) / (2.0 * h);
                 assert!((slope - curve.slope(x)).abs() < 1e-6, "{x}");
                 let bend = (curve.slope(x + h) - curve.slope(x - h)) / (2.0 * h);
-                assert!((bend - curve.curvature(x)).abs() < 2e-2, "{x} {bend} {}", curve.curvature(x));
+                assert!(
+                    (bend - curve.curvature(x)).abs() < 2e-2,
+                    "{x} {bend} {}",
+                    curve.curvature(x)
+                );
             }
         }
     }

@@ -5,7 +5,7 @@
 //! up or down so that the goals stay where they are: what one station moves, the next ones take back.
 //!
 //! A curve through stations feels two stations on: beside a stretch that is kept the next two stations stay,
-//! where they are near, so that its curve stays too.
+//! where they are near, so that its curve stays too (unless a limit asks for some µm of them).
 //!
 //! The curve between rounded stations is a new one. Where it breaks a limit (on a bat of which wood is only
 //! taken off it bulges before the first station that is lower, by some 7 µm for 0.1 mm) the station beside it
@@ -107,7 +107,8 @@ impl Drafting<'_> {
         let same = SAME_PLACE * length;
         splines.stretches().iter().any(|s| {
             let [from, to] = s.map(|end| end * stretch);
-            (x > from + same || from <= same) && (x < to - same || to >= length - same)
+            (x > from + same || from <= same)
+                && (x < to - same || to >= length - same)
                 && x >= from - same
                 && x <= to + same
         })
@@ -171,8 +172,7 @@ impl Drafting<'_> {
         let station = |(x, inside): (f64, f64)| {
             let at = section(profile, x, inside);
             let guarded = guards.iter().any(|guard| guard.has(x));
-            let beside = guards.iter().any(|guard| x == guard.first);
-            let (old, kept) = (2.0 * at.outer, !self.is_free(x) || beside);
+            let (old, kept) = (2.0 * at.outer, !self.is_free(x));
             let room = self.limits.room(x, at);
             let exact = if kept || guarded { old } else { old + self.change(x) };
             let (low, high) = (old + room.low, old + room.high);
@@ -214,9 +214,13 @@ impl Drafting<'_> {
 
     /// Moves the limit of the station beside a broken one; false where none may move.
     fn give_way(&self, stations: &mut [Station], broken: &Broken) -> bool {
-        let free = stations.iter().filter(|s| !s.kept).map(|s| (s.x - broken.room.x).abs());
-        let nearest = free.fold(f64::INFINITY, f64::min);
-        if nearest > 0.1 {
+        // Only the stations at both ends of the piece: those beyond would make it worse.
+        let x = broken.room.x;
+        let left = stations.iter().map(|s| s.x).filter(|s| *s <= x).fold(0.0, f64::max);
+        let right = stations.iter().map(|s| s.x).filter(|s| *s >= x).fold(f64::INFINITY, f64::min);
+        let ends = stations.iter().filter(|s| !s.kept && (s.x == left || s.x == right));
+        let nearest = ends.map(|s| (s.x - x).abs()).fold(f64::INFINITY, f64::min);
+        if nearest.is_infinite() {
             return false;
         }
         // So much at the station moves the curve beside it by what it is over.
@@ -225,15 +229,19 @@ impl Drafting<'_> {
         let step = self.grid.round * digit;
         let by = (needed / step).ceil() * step;
         let beside = |s: &&mut Station| {
-            !s.kept && (s.x - broken.room.x).abs() <= nearest * (1.0 + 1e-9)
+            !s.kept && (s.x == left || s.x == right) && (s.x - x).abs() <= nearest * (1.0 + 1e-9)
         };
+        let mut moved = false;
         for station in stations.iter_mut().filter(beside) {
+            let (high, low) = (station.new - by, station.new + by);
             match broken.by > 0.0 {
-                true => station.high = station.high.min(station.new - by),
-                false => station.low = station.low.max(station.new + by),
+                true if high >= station.low => station.high = station.high.min(high),
+                false if low <= station.high => station.low = station.low.max(low),
+                _ => continue,
             }
+            moved = true;
         }
-        true
+        moved
     }
 
     /// Rounds the diameters, each so that the goals are off least up to there.

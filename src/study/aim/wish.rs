@@ -346,10 +346,8 @@ impl Wish {
         let gains = matches!(band.goal, Goal::Answer(Answer::Mass | Answer::Inertia));
         if self.remove_only && gains && band.low > band.start && !heavier && free.length.is_none() {
             let found = format!("{} {}", band.goal.name(), range(band));
-            let expected = format!(
-                "at most the {} that there is: wood is only taken off",
-                said(band.start)
-            );
+            let expected =
+                format!("at most the {} that there is: wood is only taken off", said(band.start));
             return Err(Error::value(field, found, expected));
         }
         Ok(())
@@ -394,7 +392,8 @@ mod tests {
         let most = mass(Ask::Between(None, Some(Amount::Share(0.995)))).band(2.0, 0.8);
         assert_eq!([most.low, most.high], [f64::NEG_INFINITY, 1.99]);
         let node = Goal::Answer(Answer::Node(1));
-        let at = Target { goal: node, ask: Ask::Value(Amount::FromTip(0.1), Some(Amount::Si(0.01))) };
+        let at =
+            Target { goal: node, ask: Ask::Value(Amount::FromTip(0.1), Some(Amount::Si(0.01))) };
         let band = at.band(0.6, 0.8);
         assert!((band.low - 0.69).abs() < 1e-15 && (band.high - 0.71).abs() < 1e-15);
     }
@@ -408,7 +407,9 @@ mod tests {
         };
         let least = mass(Ask::Between(Some(Amount::Si(0.5)), None));
         let most = mass(Ask::Between(None, Some(Amount::Si(0.4))));
-        assert!(wish(vec![least, most], false).starts_with("targets[1]: found mass_kg, at most 0.4"));
+        assert!(
+            wish(vec![least, most], false).starts_with("targets[1]: found mass_kg, at most 0.4")
+        );
         let both = mass(Ask::Between(Some(Amount::Si(0.5)), Some(Amount::Si(0.4))));
         assert!(wish(vec![both], false).contains("leave something between"));
         let more = mass(Ask::Change(Amount::Si(0.1), None));
