@@ -149,8 +149,11 @@ impl Bench {
 
     /// The value of a free choice, in SI.
     pub fn extra(&self, p: &[f64], k: usize) -> f64 {
-        let extra = &self.extras[k];
-        (extra.start + p[self.splines.len() + k] * extra.unit).clamp(extra.range[0], extra.range[1])
+        /// Nearer to its start than this share of a unit it is there: the program knows it no better.
+        const NEAR: f64 = 1e-6;
+        let (extra, by) = (&self.extras[k], p[self.splines.len() + k]);
+        let by = if by.abs() < NEAR { 0.0 } else { by };
+        (extra.start + by * extra.unit).clamp(extra.range[0], extra.range[1])
     }
 
     /// The bat with other free choices, its shape but for its length as it is.
