@@ -126,7 +126,9 @@ fn every_command_of_the_readme_and_the_documents_runs() {
     let mut seen = std::collections::BTreeSet::new();
     shown.retain(|command| seen.insert(command.clone()));
     assert!(shown.len() > 30, "{shown:#?}");
-    for verb in ["analyze", "bbcor", "compare", "convert", "frf", "hit", "modes", "ring", "trade"] {
+    for verb in
+        ["analyze", "bbcor", "compare", "convert", "frf", "hit", "lathe", "modes", "ring", "trade"]
+    {
         assert!(shown.iter().any(|command| words(command)[0] == verb), "{verb}");
     }
     all_succeed(&folder, &shown);

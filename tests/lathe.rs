@@ -4,12 +4,20 @@ mod common;
 
 use std::path::Path;
 
+use std::f64::consts::PI;
+
+use common::folder::Folder;
+use sweetspot::bat::body::STANDARD_PIVOT;
+use sweetspot::bat::edit::{Bore, Change, Edit};
+use sweetspot::bat::fixtures::{Attachment, Grip, Held, Joint, Support};
 use sweetspot::bat::turned::DiameterChange;
 use sweetspot::collision::{Model, Scene};
+use sweetspot::modes::solve::Solution;
 use sweetspot::study::comparison::contender::Figure;
+use sweetspot::study::lathe::samples::{SectionSlopes, by_added_mass};
 use sweetspot::study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
 use sweetspot::study::many::answers::Answer;
-use sweetspot::{Bat, Request, Theory};
+use sweetspot::{Bat, Request, Theory, solve};
 
 const MM: f64 = 1e-3;
 const INCH: f64 = 0.0254;
@@ -175,4 +183,365 @@ fn the_search_for_the_best_place_finds_what_the_implicit_formula_says() {
     // Its search located places to some tenths of a micrometre.
     assert!((1e3 * place - 0.27090).abs() < 1e-4, "{place}");
     assert!((speed + 0.03111).abs() < 1e-5, "{speed}");
+}
+
+fn frequencies(bat: &Bat, tolerance: f64) -> Vec<f64> {
+    let solution = solve(bat, &timoshenko(tolerance)).unwrap();
+    solution.modes.iter().map(|mode| mode.frequency()).collect()
+}
+
+/// Table L5: a gram at 19 and at 820 mm by the formula (Hz), and an ounce at 19 mm, solved.
+#[test]
+fn added_masses_lower_the_frequencies_as_another_solver_found() {
+    let table = [
+        (0.019, [-0.650120, -0.903308, -0.864214, -0.708620, -0.577219]),
+        (0.820, [-0.097568, -0.231725, -0.491929, -0.850443, -1.029959]),
+    ];
+    let bat = mesh("r161");
+    let solution = solve(&bat, &timoshenko(1e-12)).unwrap();
+    for (x, expected) in table {
+        for (mode, expected) in solution.modes.iter().zip(expected) {
+            let found = 1e-3 * by_added_mass(mode, x, 0.0)[0];
+            assert!((found - expected).abs() < 2e-6, "{x} {found} {expected}");
+        }
+    }
+    let ounce = Attachment { x: 0.019, mass: 0.028_349_523_125, ..Attachment::default() };
+    let heavy = bat.with(|parts| parts.fixtures.attachments.push(ounce)).unwrap();
+    let (before, after) = (frequencies(&bat, 1e-9), frequencies(&heavy, 1e-9));
+    let expected = [-13.5223, -17.0937, -15.7561, -12.6873, -10.2919];
+    for ((before, after), expected) in before.iter().zip(after).zip(expected) {
+        assert!((after - before - expected).abs() < 1e-4, "{} {expected}", after - before);
+    }
+}
+
+/// Table L6: a hole with straight walls, 1.5 in wide and 1 in deep, in the tip of the R161, solved.
+#[test]
+fn a_cup_is_solved() {
+    let bat = mesh("r161");
+    let (from, to) = (bat.length() - INCH, bat.length());
+    let change = Change::Bore(Bore { from, to, diameter: 1.5 * INCH });
+    let cupped = bat.edited(&[Edit { name: None, change }]).unwrap();
+    let (before, after) = (frequencies(&bat, 1e-9), frequencies(&cupped, 1e-9));
+    let expected = [2.17972, 5.44244, 12.03279, 21.95475, 28.40760];
+    for ((before, after), expected) in before.iter().zip(after).zip(expected) {
+        println!("{:.6} {expected}", after - before);
+        assert!((after - before - expected).abs() < 1e-5, "{} {expected}", after - before);
+    }
+    let body = cupped.inertia();
+    assert!((body.mass - 0.850199440512).abs() < 1e-12);
+    assert!((body.balance_point - 0.554974724).abs() < 1e-9);
+    assert!((body.about(STANDARD_PIVOT) - 0.182037287).abs() < 1e-9);
+}
+
+/// Table L7: finite cuts of the inch from 0.2032 m and from 0.7620 m, f1 per mm (Hz).
+#[test]
+fn finite_cuts_are_solved() {
+    let table = [
+        (0.2032, [-0.71641, -0.74308, -0.77853, -0.85729, -0.94816]),
+        (0.7620, [0.07963, 0.07947, 0.07928, 0.07888, 0.07848]),
+    ];
+    let bat = mesh("r161");
+    let from = table.map(|(x, _)| x);
+    let answers = [Answer::Frequency(1)];
+    let piece = Workpiece::new(&bat, &borders(&from), &timoshenko(1e-5), None, &answers).unwrap();
+    let now = piece.values()[0].unwrap().value;
+    for (x, expected) in table {
+        for (depth, expected) in [0.1, 0.5, 1.0, 2.0, 3.0].into_iter().zip(expected) {
+            let cut = DiameterChange::band([x, x + INCH], -depth * MM);
+            let found = (piece.cut(&cut, &[0.0]).unwrap()[0][0].unwrap() - now) / depth;
+            assert!((found - expected).abs() < 1e-5, "{x} {depth}: {found} {expected}");
+        }
+    }
+}
+
+const MESHES: [&str; 10] = [
+    "cone",
+    "corked",
+    "dowel",
+    "house",
+    "northwestern_aluminium",
+    "northwestern_wood",
+    "r161",
+    "tanh",
+    "torpedo",
+    "two_piece",
+];
+
+/// L8: on every bat and by every theory `∫ r ∂f/∂r dx`, both radii, is `f (2 U_b + U_s − T_t − 2 T_r)/U` with the
+/// energies of bending, shear, translation and rotation of the sections; of a bat of which nothing else moves
+/// `f (U_b/U − T_r/T)`, and f by Euler and Bernoulli.
+#[test]
+fn radii_that_grow_together_change_frequencies_as_the_energies_say() {
+    for name in MESHES {
+        let bat = mesh(name);
+        for theory in [Theory::EulerBernoulli, Theory::Rayleigh, Theory::Timoshenko] {
+            if theory.shears() && !bat.knows_shear() {
+                continue;
+            }
+            let request = Request { theory, ..timoshenko(1e-13) };
+            let solution = solve(&bat, &request).unwrap();
+            let samples = SectionSlopes::new(&bat, &solution);
+            for mode in &solution.modes {
+                let radii = |x: f64| {
+                    let section = bat.profile().at(x);
+                    [section.outer, section.inner]
+                };
+                let found = samples.frequency(mode, radii)[0] / mode.frequency();
+                let [bending, rotary] = shares(&bat, &solution, mode.order - 1);
+                let expected = bending - rotary;
+                println!("{name} {theory:?} {} {found:.10} {:.1e}", mode.order, found - expected);
+                assert!((found - expected).abs() < 1e-9, "{name} {theory:?} {}", mode.order);
+                if theory == Theory::EulerBernoulli && bat.fixtures().none_moving() {
+                    assert!((found - 1.0).abs() < 1e-9, "{name} {}", mode.order);
+                }
+            }
+        }
+    }
+    // The R161's, as another solver found them.
+    let rayleigh = [0.98940822, 0.98018835, 0.96756207, 0.95029094];
+    let timoshenko_s = [0.97331628, 0.89604036, 0.79913908, 0.71053011];
+    for (theory, expected) in [(Theory::Rayleigh, rayleigh), (Theory::Timoshenko, timoshenko_s)] {
+        let bat = mesh("r161");
+        let solution = solve(&bat, &Request { theory, ..timoshenko(1e-13) }).unwrap();
+        let samples = SectionSlopes::new(&bat, &solution);
+        for (mode, expected) in solution.modes.iter().zip(expected) {
+            let radii = |x: f64| [bat.profile().at(x).outer, bat.profile().at(x).inner];
+            let found = samples.frequency(mode, radii)[0] / mode.frequency();
+            assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+        }
+    }
+}
+
+/// Shares of bending in the strain energy and of rotation in the kinetic energy of a mode, by sums over the bat:
+/// the whole is the modal mass and frequency that were solved for.
+fn shares(bat: &Bat, solution: &Solution, k: usize) -> [f64; 2] {
+    let mode = &solution.modes[k];
+    let whole = mode.omega * mode.omega * mode.modal_mass;
+    let (mut bending, mut rotary) = (0.0, 0.0);
+    let rule = sweetspot::base::quadrature::gauss(24);
+    for element in &solution.mesh.elements {
+        for (s, weight) in &rule {
+            let x = element.start + element.length * s;
+            let worth = bat.worth_at(x);
+            let here = weight * element.length;
+            bending += here * worth.bending * mode.shape.curvature(x).powi(2);
+            rotary += here * worth.turning * mode.shape.rotation(x).powi(2);
+        }
+    }
+    let rotary = if solution.theory.turns() { mode.omega * mode.omega * rotary } else { 0.0 };
+    // What gives way in a joint is no bending of sections, what is attached no motion of theirs.
+    let joint = |joint: &Joint| {
+        let [before, after] = [-1e-12, 1e-12].map(|by| mode.shape.rotation(joint.x + by));
+        joint.rotational_stiffness * (after - before).powi(2)
+    };
+    let joints: f64 = bat.fixtures().joints.iter().map(joint).sum();
+    let weight = |a: &Attachment| {
+        let (w, turn) = (mode.shape.deflection(a.x), mode.shape.rotation(a.x));
+        a.mass * (w + a.offset * turn).powi(2) + a.rotary_inertia * turn * turn
+    };
+    let weights: f64 = bat.fixtures().attachments.iter().map(weight).sum();
+    let weights = mode.omega * mode.omega * weights;
+    [(bending - joints) / whole, (rotary - weights) / whole]
+}
+
+/// L8: hollow, cored, sleeveless and held bats, taped ones and those of two woods, by all theories: the formula
+/// is what differences of whole bats say.
+#[test]
+fn the_formula_holds_for_hollow_cored_and_held_bats() {
+    let held = |bat: Bat, kind: Held| {
+        bat.with(|parts| parts.fixtures.supports.push(Support { x: 0.03, kind })).unwrap()
+    };
+    let gripped = |bat: Bat| {
+        let grip = Grip { from: 0.02, to: 0.2, stiffness: 2e5, damping: 0.0 };
+        bat.with(|parts| parts.fixtures.grip = Some(grip)).unwrap()
+    };
+    let bats = [
+        mesh("northwestern_aluminium"),
+        mesh("corked"),
+        mesh("two_piece"),
+        mesh("torpedo"),
+        held(mesh("r161"), Held::Clamped),
+        held(mesh("corked"), Held::Pinned),
+        gripped(mesh("r161")),
+    ];
+    for bat in bats {
+        let bands = [[0.25, 0.2754], [0.45, 0.47], [0.7, 0.74]];
+        let borders: Vec<f64> = bands.into_iter().flatten().collect();
+        for theory in [Theory::EulerBernoulli, Theory::Rayleigh, Theory::Timoshenko] {
+            if theory.shears() && !bat.knows_shear() {
+                continue;
+            }
+            let request = Request { theory, ..timoshenko(1e-6) };
+            // A node asks for differences of whole bats.
+            let answers =
+                [1, 2, 3, 4, 5].map(Answer::Frequency).into_iter().chain([Answer::Node(2)]);
+            let answers: Vec<Answer> = answers.collect();
+            let piece = Workpiece::new(&bat, &borders, &request, None, &answers).unwrap();
+            let cuts = bands.map(|band| DiameterChange::band(band, -MM));
+            let slopes = piece.slopes(&cuts, Care::TwoSteps).unwrap();
+            for k in 0..5 {
+                let pairs =
+                    slopes.iter().map(|s| [s.same_swing[k].unwrap().value, s.checked[k].unwrap()]);
+                let pairs: Vec<[f64; 2]> = pairs.collect();
+                let most = pairs.iter().fold(0.0_f64, |most, pair| most.max(pair[0].abs()));
+                for [formula, difference] in pairs {
+                    let off = (formula - difference).abs();
+                    assert!(
+                        off < 1e-6 * most,
+                        "{} {theory:?} f{}: {formula} {difference}",
+                        bat.name(),
+                        k + 1
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// L8: a bat turned end for end has its map in the mirror.
+#[test]
+fn a_bat_turned_end_for_end_mirrors_its_map() {
+    let bat = mesh("r161");
+    let length = bat.length();
+    let turned = bat.with(|parts| parts.profile = parts.profile.clone().reversed()).unwrap();
+    let answers = [1, 2, 3].map(Answer::Frequency);
+    let bands = [[0.1, 0.1254], [0.5, 0.55]];
+    let mirrored = bands.map(|[from, to]| [length - to, length - from]);
+    let of = |bat: &Bat, bands: [[f64; 2]; 2]| {
+        let borders: Vec<f64> = bands.into_iter().flatten().collect();
+        let piece = Workpiece::new(bat, &borders, &timoshenko(1e-6), None, &answers).unwrap();
+        piece.slopes(&bands.map(|band| DiameterChange::band(band, -MM)), Care::OneStep).unwrap()
+    };
+    for (a, b) in of(&bat, bands).into_iter().zip(of(&turned, mirrored)) {
+        for (a, b) in a.same_swing.into_iter().zip(b.same_swing) {
+            let [a, b] = [a, b].map(|figure| figure.unwrap().value);
+            assert!((a - b).abs() < 1e-8 * a.abs().max(1e-3), "{a} {b}");
+        }
+    }
+}
+
+/// A dowel's mass falls by `ρπD/2` per metre of length and of diameter, and its map is the mirror of itself.
+#[test]
+fn a_dowel_loses_what_a_cylinder_loses() {
+    let bat = common::dowel();
+    let answers = [Answer::Mass, Answer::BalancePoint];
+    let band = [0.4, 0.45];
+    let request = Request { modes: 1, theory: Theory::EulerBernoulli, ..timoshenko(1e-6) };
+    let piece = Workpiece::new(&bat, &band, &request, None, &answers).unwrap();
+    let slopes = piece.slopes(&[DiameterChange::band(band, -1.0)], Care::OneStep).unwrap();
+    let found = slopes[0].same_swing[0].unwrap().value;
+    let expected = -common::DENSITY * PI * common::RADIUS * 0.05;
+    assert!((found / expected - 1.0).abs() < 1e-13, "{found} {expected}");
+    let moved = slopes[0].same_swing[1].unwrap().value;
+    let expected = expected * (0.425 - 0.5 * common::LENGTH) / bat.inertia().mass;
+    assert!((moved / expected - 1.0).abs() < 1e-9, "{moved} {expected}");
+}
+
+/// Where a bat ends in a point no wood can come off it there, and the derivative is from one side.
+#[test]
+fn a_pointed_bat_has_a_map() {
+    let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile":
+        { "x": [0, 0.3, 0.6, 0.8, 0.84], "radius": [0.012, 0.014, 0.03, 0.033, 0] } }"#;
+    let bat = Bat::from_text("pointed.json", text, "".as_ref()).unwrap();
+    let answers = [Answer::Mass, Answer::Frequency(1), Answer::Node(1)];
+    let piece = Workpiece::new(&bat, &[0.82], &timoshenko(1e-4), None, &answers).unwrap();
+    let tip = DiameterChange::band([0.82, 0.84], -MM);
+    let slopes = piece.slopes(&[tip], Care::TwoSteps).unwrap();
+    for found in &slopes[0].same_swing {
+        assert!(found.is_some_and(|found| found.value.is_finite() && found.value != 0.0));
+    }
+    assert!(piece.cut(&DiameterChange::band([0.82, 0.84], -MM), &[0.0]).is_err());
+}
+
+/// Under a sleeve nothing is turned off, hands on a pin feel nothing, and neither stops the map of the rest.
+#[test]
+fn what_cannot_be_turned_or_felt_has_no_value() {
+    let folder = Folder::new("lathe-sleeve");
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    let text = include_str!("../meshes/r161.json").trim_end();
+    let pinned = r#", "supports": [ { "x": "6 in", "type": "pinned" } ] }"#;
+    folder.write("pinned.json", format!("{}{pinned}", text.strip_suffix('}').unwrap()));
+    let sleeve = "24 in to 30 in, 1 mm, aluminium-7075";
+    let args = ["lathe", "r161.json", "--bands", "8 in", "--tol", "1e-3", "--json", "-"];
+    let document = folder.json(&[&args[..], &["--sleeve", sleeve]].concat());
+    let bands = document["bands"].as_array().unwrap();
+    let bare: Vec<bool> = bands.iter().map(|band| band["change"].is_object()).collect();
+    assert_eq!(bare, [true, true, true, false]);
+    assert!(bands[3]["reason"].as_str().unwrap().contains("sleeve"));
+    let mut args = args;
+    args[1] = "pinned.json";
+    let document = folder.json(&args);
+    let change = &document["bands"][0]["change"];
+    assert!(change["hands_acceleration_min.value"].is_null());
+    assert!(change["exit_speed_max.value"].is_number() && change["f1_hz"].is_number());
+}
+
+/// What is asked that cannot be is said, with exit code 2 and nothing written.
+#[test]
+fn mistakes_are_told_and_nothing_is_written() {
+    let folder = Folder::new("lathe-mistakes");
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    for (args, told) in [
+        (vec!["--outputs", "inertia_pivot_kg_m"], "did you mean inertia_pivot_kg_m2?"),
+        (vec!["--outputs", "mass_kg,exit_speed_m_s@2"], "a place on the bat, 0 to 0.84 m"),
+        (vec!["--bands", "80 cm to 90 cm"], "a place on the bat"),
+        (vec!["--bands", "50 cm to 40 cm"], "expected a rising one"),
+        (vec!["--bands", "0 in"], "a width from 1 mm to the bat's length"),
+        (vec!["--bands", "1 in to 5 in", "--bands", "4 in to 6 in"], "bands that do not overlap"),
+        (vec!["--bands", "1 in", "--bands", "4 in to 6 in"], "one width, or stretches alone"),
+        (vec!["--depth", "0 mm"], "a depth above 0 and up to 20 mm"),
+        (vec!["--depth", "-1 mm"], "a depth above 0 and up to 20 mm"),
+        (vec!["--at", "90 cm"], "a place on the bat"),
+        (vec!["--tol", "0"], "tol"),
+        (vec!["--budget", "1 s"], "--budget"),
+        (vec!["--csv", "x", "--json", "x"], "x"),
+    ] {
+        let mut all = vec!["lathe", "r161.json", "--plots", "p"];
+        all.extend(&args);
+        let output = folder.run(&all);
+        let said = String::from_utf8_lossy(&output.stderr).replace('\n', " ");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {said}");
+        assert!(said.contains(told) && output.stdout.is_empty(), "{args:?}: {said}");
+        assert_eq!(folder.names(), ["r161.json"], "{args:?}");
+    }
+}
+
+/// The verb: same numbers in JSON, CSV and table, both swing laws, and what is solved.
+#[test]
+fn the_verb_writes_what_it_finds() {
+    let folder = Folder::new("lathe-verb");
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    let scene = ["--swing-speed", "50 rad/s", "--pivot", "2.5 in", "--pitch", "90 mph"];
+    let mut args = vec!["lathe", "r161.json", "--bands", "0.6 m to 0.6254 m", "--at", "70 cm"];
+    args.extend(scene);
+    args.extend(["--csv", "map.csv", "--plots", "p", "--theory", "timoshenko"]);
+    let table = folder.text(&args);
+    assert!(table.contains("n=1/2") && table.contains("knob weight 1 oz"), "{table}");
+    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+    assert!(folder.read("p/lathe.svg").contains("sweet spot, outward"));
+    args.truncate(12);
+    args.extend(["--theory", "timoshenko", "--json", "-"]);
+    let document = folder.json(&args);
+    assert_eq!(document["format"], "sweetspot-lathe/1");
+    let band = &document["bands"][0];
+    let f1 = band["change"]["f1_hz"].as_f64().unwrap();
+    assert!((f1 - 0.007823).abs() < 2e-6, "{f1}");
+    let [same, energy] = ["change", "change_same_energy"]
+        .map(|law| band[law]["exit_speed_max.value"].as_f64().unwrap());
+    assert!(same < 0.0 && energy > same);
+    assert!(band["error"]["exit_speed_max.value"].as_f64().unwrap() > 0.0);
+    assert_eq!(band["finite"]["cut_mm"], 0.5);
+    let finite = band["finite"]["f1_hz"].as_f64().unwrap();
+    // A second order is there, and it is small.
+    assert!((finite - f1).abs() < 1e-3 && finite != f1, "{finite} {f1}");
+    let csv = folder.read("map.csv");
+    let (heads, row) = csv.split_once('\n').unwrap();
+    let k = heads.split(',').position(|head| head == "f1_hz").unwrap();
+    let cell: f64 = row.split(',').nth(k).unwrap().parse().unwrap();
+    assert_eq!(cell, f1);
+    assert!(document["check"]["formula_against_difference"].as_f64().unwrap() < 1e-6);
+    assert_eq!(document["done_to_the_end"].as_array().unwrap().len(), 4);
+    let per_g = &document["added_mass"]["per_g"]["mass_kg"][0];
+    assert!((per_g.as_f64().unwrap() - 1e-3).abs() < 1e-18);
 }

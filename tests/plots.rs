@@ -28,9 +28,12 @@ use sweetspot::show::plot::sheet::{Paper, Sheet};
 use sweetspot::show::plot::svg::Shape;
 use sweetspot::show::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use sweetspot::show::plot::{
-    exit_speed, front, ledger, matrix, profile, response, ringing, shapes,
+    exit_speed, front, lathe, ledger, matrix, profile, response, ringing, shapes,
 };
 use sweetspot::show::report::aftermath::AfterHit;
+use sweetspot::study::lathe::map::{LatheMap, LatheTerms, bands};
+use sweetspot::study::lathe::workpiece::HitTerms;
+use sweetspot::study::many::answers::Answer;
 use sweetspot::study::trade::measure::measure;
 use sweetspot::{Bat, Request, Solution, solve};
 
@@ -111,6 +114,36 @@ fn every_form_of_a_picture_is_whole_and_none_is_wider_than_its_room() {
                 let metric = texts(&document).iter().any(|(words, _)| words.contains("(cm)"));
                 assert!(!(us && metric), "{name} {}", picture.name);
             }
+        }
+    }
+}
+
+/// The strips of a lathe map, in every form.
+#[test]
+fn a_lathe_map_is_whole_in_every_form() {
+    for name in ["r161", "torpedo", "corked"] {
+        let bat = bat(name);
+        let (bands, cut) = (bands(bat.length(), 0.0254), 5e-4);
+        let answers = vec![
+            Answer::Mass,
+            Answer::Inertia,
+            Answer::Frequency(1),
+            Answer::Frequency(2),
+            Answer::Node(1),
+            Answer::ExitSpeed,
+            Answer::ExitSpeedPlace,
+            Answer::HandsAccelerationAt(0.7),
+        ];
+        let terms = LatheTerms { bands, cut, exponent: 0.25, answers };
+        let request = Request { tolerance: 1e-3, ..Request::default() };
+        let scene = Scene::default();
+        let hit = HitTerms { scene, model: Model::Contact, exactly: false };
+        let map = LatheMap::new(&bat, &request, Some(&hit), terms).unwrap();
+        for (us, paper) in [(false, Paper::File), (true, Paper::Page), (true, Paper::Narrow)] {
+            let sheet = Sheet { us, paper };
+            let picture = lathe::picture(sheet, &map).unwrap();
+            check(&picture, name);
+            assert_eq!(picture.drawing.width, sheet.width());
         }
     }
 }

@@ -96,6 +96,15 @@ enum BandArg {
     Stretch([f64; 2]),
 }
 
+impl BandArg {
+    fn width(&self) -> Option<f64> {
+        match self {
+            Self::Width(width) => Some(*width),
+            Self::Stretch(_) => None,
+        }
+    }
+}
+
 fn band(text: &str) -> std::result::Result<BandArg, String> {
     match text.split_once(" to ") {
         Some((from, to)) => {
@@ -158,10 +167,11 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
         BandArg::Width(_) => None,
     });
     let mut all: Vec<[f64; 2]> = stretches.collect();
-    let width = args.bands.iter().find_map(|band| match band {
-        BandArg::Width(width) => Some(*width),
-        BandArg::Stretch(_) => None,
-    });
+    let widths: Vec<f64> = args.bands.iter().filter_map(BandArg::width).collect();
+    if !(widths.is_empty() || widths.len() == 1 && all.is_empty()) {
+        let found = format!("{} width(s) and {} stretch(es)", widths.len(), all.len());
+        wrong.push(Error::value("--bands", found, "one width, or stretches alone"));
+    }
     for ends in &mut all {
         let x = on_the_bat(bat, "--bands", ends[1]);
         match x {
@@ -178,7 +188,8 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
         );
         wrong.push(Error::value("--bands", found, expected));
     }
-    if let (Some(width), true) = (width, all.is_empty()) {
+    if let ([width], true) = (&widths[..], all.is_empty()) {
+        let width = *width;
         const NARROWEST: f64 = 1e-3;
         match (NARROWEST..=length).contains(&width) {
             true => all = bands(length, width),

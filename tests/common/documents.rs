@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 18] = [
+pub const WRITTEN: [Written; 19] = [
     (
         "modes",
         "modes",
@@ -42,6 +42,12 @@ pub const WRITTEN: [Written; 18] = [
         Numbers::Rough,
     ),
     ("bbcor", "bbcor", "bbcor dowel.json --tol 1e-4", Numbers::Rough),
+    (
+        "lathe",
+        "lathe",
+        "lathe r161.json --tol 1e-3 --theory timoshenko --bands 0.12 --reference-inertia 0.2 --swing-exponent 0.3 --swing-speed 50 --pitch 40.2336 --outputs mass_kg,f1_hz,node_mode_1_m,exit_speed_max.x_m,exit_speed_m_s@0.7,vibration_min.value",
+        Numbers::Rough,
+    ),
     (
         "compare",
         "compare",

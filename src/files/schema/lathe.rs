@@ -68,6 +68,8 @@ pub struct Output {
     pub name: String,
     /// Its value for the bat as it is; null where it has none.
     pub value: Option<f64>,
+    /// How far the value may be off; null where that is not known.
+    pub error: Option<f64>,
     /// How its changes are found.
     #[schemars(extend("enum" = ["formula", "exact", "difference"]))]
     pub method: String,

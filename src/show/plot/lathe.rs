@@ -2,6 +2,8 @@
 
 use crate::base::number::signed;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::bat::body::Bat;
+use crate::bat::profile::Section;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::outline::Lying;
 use crate::show::plot::picture::Picture;
@@ -19,6 +21,10 @@ use crate::study::many::answers::Answer;
 /// Height of a strip's bat and of the words above it (px).
 const BAT: f64 = 34.0;
 const WORDS: f64 = 19.0;
+/// Evenly spaced sections of an outline.
+const OUTLINE: usize = 40;
+/// Bands that say their change where a pointer is.
+const MOST_TOLD: usize = 70;
 /// Opacity of the largest change of a strip.
 const FULL: f64 = 0.85;
 /// A millimetre of diameter; what the picture is per in US units.
@@ -55,6 +61,9 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     plane.above(&mut svg, &tip);
     let per_metre = 0.5 * BAT / widest(bat);
+    // As many points on all bands together as on the outline.
+    let parts = (OUTLINE / map.bands.len()).clamp(1, 60);
+    let outline = few_sections(bat);
     let mut told = vec![];
     for (k, strip) in strips.iter().enumerate() {
         let upper = top + each * k as f64;
@@ -66,19 +75,37 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
             let Some(change) = change else { continue };
             let share = if most > 0.0 { change.abs() / most } else { 0.0 };
             let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
-            lying.filled(&mut svg, bat, band.ends, (ink, rounded(FULL * share)));
+            let opacity = rounded(FULL * share);
+            if opacity > 0.0 {
+                lying.filled(&mut svg, bat, band.ends, (ink, opacity, parts));
+            }
             let middle = plane.across(0.5 * (band.ends[0] + band.ends[1]));
             told.push(([middle, axis], strip.of(sheet, band, *change)));
         }
-        lying.outline(&mut svg, bat, Pen::new(FRAME, 0.9));
+        lying.outline(&mut svg, &outline, Pen::new(FRAME, 0.9));
     }
-    let count = told.len();
-    svg.hover(&told, count);
+    svg.hover(&told, MOST_TOLD);
     plane.below(&mut svg);
     let named: Vec<String> = strips.iter().map(Strip::range).collect();
     let alt =
         format!("{}: what a cut does along the bat, {facts}. {}.", bat.name(), named.join("; "));
     Some(Picture::new("lathe", title, &alt, svg))
+}
+
+/// Few sections that tell the bat's shape: evenly spaced ones, and its stations with both sides of steps.
+fn few_sections(bat: &Bat) -> Vec<(f64, Section)> {
+    let (profile, stations) = (bat.profile(), &bat.profile().stations);
+    let even = (0..=OUTLINE).map(|k| bat.length() * k as f64 / OUTLINE as f64);
+    let mut all: Vec<(f64, Section)> = even.map(|x| (x, profile.at(x))).collect();
+    if stations.x.len() <= 2 * OUTLINE {
+        // A place that is a station has the station's two sides.
+        all.retain(|(x, _)| !stations.x.contains(x));
+        let radii = stations.outer.iter().zip(&stations.inner);
+        let sections = radii.map(|(outer, inner)| Section { outer: *outer, inner: *inner });
+        all.extend(stations.x.iter().copied().zip(sections));
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
 }
 
 fn rounded(opacity: f64) -> f64 {

@@ -49,11 +49,9 @@ impl Lying<'_> {
         upper.chain(lower).collect()
     }
 
-    /// The bat's outline alone.
-    pub fn outline(&self, svg: &mut Svg, bat: &Bat, pen: Pen) {
-        const MOST: usize = 300;
-        let all = sections(bat.profile(), MOST);
-        let mut closed = self.around(&all, |section| section.outer);
+    /// An outline alone, through these sections.
+    pub fn outline(&self, svg: &mut Svg, all: &[(f64, Section)], pen: Pen) {
+        let mut closed = self.around(all, |section| section.outer);
         closed.extend(closed.first().copied());
         svg.line(&closed, pen);
     }
@@ -77,17 +75,16 @@ impl Lying<'_> {
     /// A stretch (m) of the bat filled in that colour, from side to side.
     pub fn stretch(&self, svg: &mut Svg, bat: &Bat, (ends, ink): ([f64; 2], Ink)) {
         const DARK: f64 = 0.4;
-        self.filled(svg, bat, ends, (ink, DARK));
+        self.filled(svg, bat, ends, (ink, DARK, 60));
     }
 
-    /// A stretch (m) of the bat filled from side to side, as dark as that.
-    pub fn filled(&self, svg: &mut Svg, bat: &Bat, [from, to]: [f64; 2], look: (Ink, f64)) {
-        const POINTS: usize = 60;
+    /// A stretch (m) of the bat filled from side to side, as dark as that, its sides drawn in so many parts.
+    pub fn filled(&self, svg: &mut Svg, bat: &Bat, [from, to]: [f64; 2], look: (Ink, f64, usize)) {
         let at = |k: usize| {
-            let x = from + (to - from) * k as f64 / POINTS as f64;
+            let x = from + (to - from) * k as f64 / look.2 as f64;
             (x, bat.profile().at(x))
         };
-        let all: Vec<(f64, Section)> = (0..=POINTS).map(at).collect();
+        let all: Vec<(f64, Section)> = (0..=look.2).map(at).collect();
         svg.area(&self.around(&all, |section| section.outer), look.0, look.1, None);
     }
 

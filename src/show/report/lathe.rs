@@ -1,6 +1,7 @@
 //! What a cut does, band by band: sentences, CSV and JSON. The table is in [`crate::show::report::lathe_table`].
 
 use crate::base::number::significant;
+use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::hit::{Model, Scene};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::lathe as file;
@@ -97,22 +98,20 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
         };
         cuts.iter().map(one).collect::<Vec<_>>().join(", ")
     };
-    let outward = |by: f64| if by > 0.0 { "outward" } else { "inward" };
+    // Every cut lowers the swing weight.
+    let most = 0.01 * map.piece.bat().inertia().about(STANDARD_PIVOT);
+    let (far, by) = if shown.us() { ("1/16 in", 0.0254 / 16.0) } else { ("1 mm", MM) };
     let wishes = [
         (Answer::Frequency(1), 1.0, "raise f1 by 1 Hz".to_owned()),
-        (Answer::ExitSpeedPlace, MM, format!("move the sweet spot 1 mm {}", outward(1.0))),
-        (Answer::ExitSpeedPlace, -MM, format!("move the sweet spot 1 mm {}", outward(-1.0))),
+        (Answer::ExitSpeedPlace, by, format!("move the sweet spot {far} outward")),
+        (Answer::ExitSpeedPlace, -by, format!("move the sweet spot {far} inward")),
     ];
     let one = |(answer, by, what): &(Answer, f64, String)| {
         map.terms.answers.contains(answer).then_some(())?;
-        map.terms.answers.contains(&Answer::Inertia).then_some(())?;
-        Some(match least_wood(map, (*answer, *by), Answer::Inertia) {
-            Some(found) => {
-                format!("To {what} and keep the swing weight, the least wood: {}.", cuts(&found))
-            }
-            None => {
-                format!("To {what} and keep the swing weight: not by taking wood off these bands.")
-            }
+        let kept = "keep the swing weight within 1 %";
+        Some(match least_wood(map, (*answer, *by), most) {
+            Some(found) => format!("To {what} and {kept}, the least wood: {}.", cuts(&found)),
+            None => format!("To {what} and {kept}: not by taking wood off these bands."),
         })
     };
     wishes.iter().filter_map(one).collect()
@@ -154,6 +153,7 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> file::LatheFile 
     let output = |(answer, value): (&Answer, &Option<Figure>)| file::Output {
         name: answer.name(),
         value: value.map(|value| value.value),
+        error: value.map(|value| value.error).filter(|error| *error > 0.0),
         method: Method::of(*answer).name().to_owned(),
     };
     file::LatheFile {

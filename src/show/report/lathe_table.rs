@@ -107,15 +107,18 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<Shown> {
     };
     let length = pick(("mm", 1e3, 2), ("mil", 1.0 / THOU, 1));
     let speed = pick(("m/s", 1.0, 3), ("mph", miles_per_hour(1.0), 3));
-    add(Answer::Mass, "mass", 6, pick(("g", 1e3, 2), ("oz", ounces(1.0), 3)), 0.0);
-    add(Answer::BalancePoint, "bal.", 7, length, 0.0);
+    add(Answer::Mass, "mass", 7, pick(("g", 1e3, 2), ("oz", ounces(1.0), 3)), 0.0);
+    let own = map.exponents().get(2).copied();
+    // A law of the batter's own takes its room.
+    if own.is_none() {
+        add(Answer::BalancePoint, "bal.", 7, length, 0.0);
+    }
     let inertia = pick(("kg cm²", 1e4, 2), ("oz in²", ounce_square_inches(1.0), 1));
     add(Answer::Inertia, "swing", 8, inertia, 0.0);
     add(Answer::Frequency(1), "f1", 7, ("Hz", 1.0, 2), 0.0);
     add(Answer::Frequency(2), "f2", 7, ("Hz", 1.0, 2), 0.0);
     add(Answer::Node(1), "node 1", 7, length, 0.0);
     add(Answer::ExitSpeed, "n=0", 8, speed, 0.0);
-    let own = map.exponents().get(2).copied();
     if let Some(own) = own {
         add(Answer::ExitSpeed, &format!("n={own}"), 8, speed, own);
     }

@@ -47,6 +47,17 @@ impl Probe {
     }
 }
 
+impl Probe {
+    /// Whether a value is more than nothing: hands on a pin feel nothing, and without modes nothing shakes them.
+    fn feels(self, value: f64) -> bool {
+        match self {
+            Self::HandsVelocity => value > 1e-9,
+            Self::HandsAcceleration => value > 1e-5,
+            _ => true,
+        }
+    }
+}
+
 /// A value that two places along the bat have nearly alike, so that a small change makes the best place jump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rivals {
@@ -137,7 +148,7 @@ impl<'a> OuterHalf<'a> {
     /// where it has no derivative.
     pub fn gauge(&mut self, answer: Answer) -> (Option<Gauge>, Option<f64>) {
         let at = |x: f64, probe: Probe| {
-            let value = self.value(probe, x);
+            let value = self.value(probe, x).filter(|value| probe.feels(*value));
             (value.map(|_| Gauge { terms: vec![(x, probe, 1.0)] }), value)
         };
         match answer {
@@ -179,6 +190,9 @@ impl<'a> OuterHalf<'a> {
     ) -> (Option<Gauge>, Option<f64>) {
         let (Some(best), rival) = self.greatest(probe) else { return (None, None) };
         let Greatest { peak, bend } = best;
+        if !probe.feels(peak.value) {
+            return (None, None);
+        }
         let value = if place { peak.x } else { peak.value };
         if let Some(rival) = rival {
             self.rivals.push(Rivals { answer, peaks: [peak, rival] });

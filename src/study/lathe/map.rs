@@ -3,7 +3,7 @@
 //! A band's derivative is for fractions of a millimetre; a finite cut of the same band, solved whole, stands beside
 //! it. Cups, holes, corks and knob weights are solved.
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::edit::{Bore, Change, Cork, Cup, Edit};
@@ -174,7 +174,7 @@ impl LatheMap {
             }
             let change = off(&self.terms.bands[k]).scaled(self.terms.cut);
             let found = self.piece.cut(&change, &exponents);
-            found.map(|found| self.less(&found, self.terms.cut)).map_err(|error| error.to_string())
+            found.map(|found| self.less(&found, self.terms.cut)).map_err(|error| reason(&error))
         });
         let band = |(k, finite): (usize, std::result::Result<_, String>)| {
             let ends = self.terms.bands[k];
@@ -240,7 +240,7 @@ impl LatheMap {
             let (what, change) = &all[k];
             let edit = Edit { name: None, change: change.clone() };
             let found = bat.edited(&[edit]).and_then(|bat| self.piece.measure(&bat, &exponents));
-            let change = found.map(|found| self.less(&found, 1.0)).map_err(|e| e.to_string());
+            let change = found.map(|found| self.less(&found, 1.0)).map_err(|error| reason(&error));
             WholeChange { what, change }
         })
     }
@@ -251,6 +251,14 @@ impl LatheMap {
         let mode = solution.modes.get(order - 1)?;
         let bat = self.piece.bat();
         Some(places.iter().map(|x| -0.5 * frequency_density(bat, solution, mode, *x)).collect())
+    }
+}
+
+/// Why something cannot be done to the bat, without the name of an edit that nobody typed.
+fn reason(error: &Error) -> String {
+    match error {
+        Error::Value(complaint) => complaint.found.clone(),
+        other => other.to_string(),
     }
 }
 

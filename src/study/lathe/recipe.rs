@@ -7,7 +7,9 @@
 //! ```
 //!
 //! by the active set: on the bands that are cut `c = W⁻¹Gᵀ λ` with `(G W⁻¹ Gᵀ) λ = t`; a band that would grow is
-//! left alone, and cut again where its `gᵀλ` is positive.
+//! left alone, and cut again where its `gᵀλ` is positive. Every cut lowers the swing weight, so that it cannot be
+//! kept to the last digit: where the least wood for the first wish alone lowers it by more than is allowed, what is
+//! allowed is the second row of G.
 
 use crate::study::lathe::map::LatheMap;
 use crate::study::many::answers::Answer;
@@ -21,30 +23,33 @@ pub struct RecipeCut {
     pub depth: f64,
 }
 
-/// The least wood off the bat that changes the first answer by `by` (in its unit) and keeps the second, for the
-/// same swing, to first order; stretches from the knob on. None where taking wood off does not do it.
+/// The least wood off the bat that changes an answer by `by` (in its unit) and lowers the swing weight by no more
+/// than `most` (kg m²), for the same swing, to first order; stretches from the knob on. None where taking wood
+/// off does not do it, or the answers are not known.
 pub fn least_wood(
     map: &LatheMap,
-    (change, by): (Answer, f64),
-    kept: Answer,
+    (answer, by): (Answer, f64),
+    most: f64,
 ) -> Option<Vec<RecipeCut>> {
     let index = |wanted: Answer| map.terms.answers.iter().position(|answer| *answer == wanted);
-    let (first, second) = (index(change)?, index(kept)?);
+    let first = index(answer)?;
     let usable: Vec<(usize, [f64; 2])> = map
         .bands
         .iter()
         .enumerate()
         .filter_map(|(k, band)| {
-            let slopes = &band.slopes.as_ref()?.same_swing;
-            Some((k, [slopes[first]?.value, slopes[second]?.value]))
+            let slopes = band.slopes.as_ref()?;
+            Some((k, [slopes.same_swing[first]?.value, slopes.inertia]))
         })
         .collect();
     let width = |k: usize| map.bands[k].ends[1] - map.bands[k].ends[0];
     let rows: Vec<[f64; 3]> = usable.iter().map(|(k, [a, b])| [*a, *b, width(*k)]).collect();
-    let depths = least(&rows, by)?;
-    let most = depths.iter().fold(0.0_f64, |most, depth| most.max(*depth));
+    let alone = least(&rows, [Some(by), None])?;
+    let lost: f64 = -rows.iter().zip(&alone).map(|(row, depth)| row[1] * depth).sum::<f64>();
+    let depths = if lost <= most { alone } else { least(&rows, [Some(by), Some(-most)])? };
+    let deepest = depths.iter().fold(0.0_f64, |most, depth| most.max(*depth));
     // What is a tenth of the deepest is no cut to be told.
-    let told = usable.iter().zip(&depths).filter(|(_, depth)| **depth > 0.1 * most);
+    let told = usable.iter().zip(&depths).filter(|(_, depth)| **depth > 0.1 * deepest);
     let mut cuts: Vec<RecipeCut> = vec![];
     for ((k, _), depth) in told {
         let ends = map.bands[*k].ends;
@@ -60,71 +65,77 @@ pub fn least_wood(
     (!cuts.is_empty()).then_some(cuts)
 }
 
-/// Depths of bands whose rows are the two slopes and the width, that change the first by `by` and the second not.
-fn least(rows: &[[f64; 3]], by: f64) -> Option<Vec<f64>> {
+/// Depths of bands whose rows are the two slopes and the width, that change the first by one target and the second
+/// by the other, if it has one.
+fn least(rows: &[[f64; 3]], targets: [Option<f64>; 2]) -> Option<Vec<f64>> {
     let mut cut = vec![true; rows.len()];
     for _ in 0..4 * rows.len() + 8 {
-        let multipliers = multipliers(rows, &cut, by)?;
-        let depth = |row: &[f64; 3]| (row[0] * multipliers[0] + row[1] * multipliers[1]) / row[2];
-        let depths: Vec<f64> = rows.iter().map(depth).collect();
-        let size = depths.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
-        let all = 0..rows.len();
-        let lowest =
-            all.clone().filter(|k| cut[*k]).min_by(|a, b| depths[*a].total_cmp(&depths[*b]));
-        if let Some(k) = lowest.filter(|k| depths[*k] < -1e-12 * size) {
-            cut[k] = false;
-            continue;
+        let [a, b] = multipliers(rows, &cut, targets)?;
+        let depths: Vec<f64> = rows.iter().map(|row| (row[0] * a + row[1] * b) / row[2]).collect();
+        let small = 1e-12 * depths.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
+        let order = |a: &usize, b: &usize| depths[*a].total_cmp(&depths[*b]);
+        let lowest = (0..rows.len()).filter(|k| cut[*k]).min_by(order);
+        let highest = (0..rows.len()).filter(|k| !cut[*k]).max_by(order);
+        match (lowest, highest) {
+            (Some(k), _) if depths[k] < -small => cut[k] = false,
+            (_, Some(k)) if depths[k] > small => cut[k] = true,
+            _ => {
+                let all = depths.into_iter().zip(cut);
+                return Some(all.map(|(depth, cut)| if cut { depth } else { 0.0 }).collect());
+            }
         }
-        let highest = all.filter(|k| !cut[*k]).max_by(|a, b| depths[*a].total_cmp(&depths[*b]));
-        if let Some(k) = highest.filter(|k| depths[*k] > 1e-12 * size) {
-            cut[k] = true;
-            continue;
-        }
-        return Some(
-            depths.iter().zip(cut).map(|(depth, cut)| if cut { *depth } else { 0.0 }).collect(),
-        );
     }
     None
 }
 
 /// λ of the bands that are cut.
-fn multipliers(rows: &[[f64; 3]], cut: &[bool], by: f64) -> Option<[f64; 2]> {
+fn multipliers(rows: &[[f64; 3]], cut: &[bool], targets: [Option<f64>; 2]) -> Option<[f64; 2]> {
     let [mut aa, mut ab, mut bb] = [0.0; 3];
     for ([a, b, width], _) in rows.iter().zip(cut).filter(|(_, cut)| **cut) {
         aa += a * a / width;
         ab += a * b / width;
         bb += b * b / width;
     }
-    let determinant = aa * bb - ab * ab;
-    let found = [by * bb / determinant, -by * ab / determinant];
-    let sound = determinant > 1e-12 * aa * bb && found.iter().all(|value| value.is_finite());
-    sound.then_some(found)
+    let first = targets[0]?;
+    let found = match targets[1] {
+        None => [first / aa, 0.0],
+        Some(second) => {
+            let determinant = aa * bb - ab * ab;
+            // Rows that are nearly one cannot be told apart.
+            (determinant > 1e-12 * aa * bb).then_some(())?;
+            [(first * bb - second * ab) / determinant, (second * aa - first * ab) / determinant]
+        }
+    };
+    found.iter().all(|value| value.is_finite()).then_some(found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// In three unknowns and two wishes the depths that meet both are a line; on it no point is smaller.
     #[test]
-    fn the_least_depths_meet_both_wishes_and_no_band_grows() {
-        let rows = [[1.0, -0.5, 1.0], [0.2, 1.0, 1.0], [-1.0, 0.3, 2.0], [0.7, 0.1, 0.5]];
-        let depths = least(&rows, 0.3).unwrap();
+    fn the_least_depths_meet_both_wishes_and_no_others_are_smaller() {
+        let rows = [[1.0, -0.5, 1.0], [0.2, 1.0, 1.0], [0.6, 0.3, 2.0]];
+        let depths = least(&rows, [Some(0.3), Some(0.05)]).unwrap();
         let sum = |k: usize| rows.iter().zip(&depths).map(|(row, c)| row[k] * c).sum::<f64>();
-        assert!((sum(0) - 0.3).abs() < 1e-14 && sum(1).abs() < 1e-14);
-        assert!(depths.iter().all(|depth| *depth >= 0.0));
+        assert!((sum(0) - 0.3).abs() < 1e-14 && (sum(1) - 0.05).abs() < 1e-14);
+        let [a, b] = [0, 1].map(|k| rows.map(|row| row[k]));
+        let line =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let norm = |c: &[f64]| rows.iter().zip(c).map(|(row, c)| row[2] * c * c).sum::<f64>();
-        // Any other that meets both wishes is larger: along the two directions that change neither.
-        for (i, j, k) in [(0, 1, 3), (0, 1, 2)] {
-            let [u, v, w] = [rows[i], rows[j], rows[k]];
-            let along =
-                [v[0] * w[1] - v[1] * w[0], w[0] * u[1] - w[1] * u[0], u[0] * v[1] - u[1] * v[0]];
-            for step in [-1e-3, 1e-3] {
-                let mut other = depths.clone();
-                [i, j, k].into_iter().zip(along).for_each(|(k, by)| other[k] += step * by);
-                let allowed = other.iter().all(|depth| *depth >= 0.0);
-                assert!(!allowed || norm(&other) > norm(&depths));
-            }
+        for step in [-1e-3, 1e-3] {
+            let other: Vec<f64> = depths.iter().zip(line).map(|(c, by)| c + step * by).collect();
+            assert!(norm(&other) > norm(&depths));
         }
-        assert!(least(&[[1.0, 1.0, 1.0], [2.0, 1.0, 1.0]], 1.0).is_none());
+        assert!(depths.iter().all(|depth| *depth > 0.0), "{depths:?}");
+    }
+
+    /// A band that would have to grow is left alone, and a wish that only growing meets is not met.
+    #[test]
+    fn no_band_grows() {
+        let depths = least(&[[1.0, 0.0, 1.0], [-1.0, 0.0, 1.0]], [Some(0.3), None]).unwrap();
+        assert!((depths[0] - 0.3).abs() < 1e-15 && depths[1] == 0.0);
+        assert!(least(&[[1.0, 1.0, 1.0], [2.0, 1.0, 1.0]], [Some(-1.0), None]).is_none());
     }
 }

@@ -84,7 +84,8 @@ impl Slopes {
     /// The derivatives for a batter who swings another bat at `Ω (I₀/I)^n`: n = 0 is the same swing, n = ½ the
     /// same energy of rotation.
     pub fn by_law(&self, exponent: f64) -> Vec<Option<Figure>> {
-        if exponent == 0.0 {
+        // A bat at rest stays at rest.
+        if exponent == 0.0 || self.gain == 0.0 {
             return self.same_swing.clone();
         }
         let of = |(slope, by_swing): (&Option<Figure>, &Option<f64>)| {
@@ -323,11 +324,15 @@ impl Workpiece {
             return Ok(Quotient { central: true, by_modes });
         }
         let step = share * STEP / largest;
-        let thick = self.raw(&self.bat.turned(&change.scaled(step))?, care)?;
         // A bat that ends in a point cannot lose wood there.
-        let thin = self.bat.turned(&change.scaled(-step));
-        let central = thin.is_ok();
-        let thin = thin.map(|thin| self.raw(&thin, care)).unwrap_or_else(|_| Ok(now.clone()))?;
+        let [more, less] = [step, -step].map(|step| self.bat.turned(&change.scaled(step)));
+        let central = more.is_ok() && less.is_ok();
+        let (thick, thin) = match (more, less) {
+            (Ok(more), Ok(less)) => (self.raw(&more, care)?, self.raw(&less, care)?),
+            (Ok(more), Err(_)) => (self.raw(&more, care)?, now.clone()),
+            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, care)?),
+            (Err(error), Err(_)) => return Err(error),
+        };
         let run = if central { 2.0 * step } else { step };
         let slopes = |(thick, thin): (&Vec<Option<f64>>, &Vec<Option<f64>>)| {
             let slope = |(a, b): (&Option<f64>, &Option<f64>)| Some(((*a)? - (*b)?) / run);
