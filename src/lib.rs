@@ -167,8 +167,9 @@
 //! # Features
 //!
 //! `cli` (default): the command-line program. `show`: known answers, reports, pictures, schemas and
-//! files for other programs. `parallel`: work on all processors. `png` (default): pictures as PNG
-//! beside SVG. `arpack`: the solver ARPACK as an outside referee; it needs a C compiler and the
+//! files for other programs. `aim`: the least change of a bat that meets a wish. `parallel`: work on
+//! all processors. `png` (default): pictures as PNG beside SVG. `arpack`: the solver ARPACK as an
+//! outside referee; it needs a C compiler and the
 //! library. With none of them there is the physics and the reader of bat files, which also run in a
 //! browser (`wasm32-unknown-unknown`); [`proof`], [`show`] and [`cli`] are left out then.
 

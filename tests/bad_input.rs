@@ -1390,7 +1390,10 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--up-to", "2 mm"], &["'2 mm'", "a frequency such as \"170 Hz\""]),
         (&["modes", "bat.json", "--up-to", "1e8"], &["--up-to", "more than 1000 bending modes"]),
         (&["modes", "bat.json", "--up-to", "2000", "-n", "3"], &["cannot be used with", "--modes"]),
-        (&["schema", "oak"], &["'oak'", "possible values: bat, ball, study, validation, modes"]),
+        (
+            &["schema", "oak"],
+            &["'oak'", "possible values: bat, ball, study, aim, rules, validation"],
+        ),
         (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
         (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
         (&["hit", "bat.json", "--budget", "5 ms"], &["--budget", "with hit"]),

@@ -47,6 +47,16 @@ fn furnished(name: &str) -> Folder {
              "vary": { "bat.material.density": { "lognormal": [650, 0.04] } },
              "outputs": ["f1_hz", "mass_kg", "exit_speed_max.value"] }"#,
     );
+    // docs/aim.md describes it.
+    folder.write(
+        "wish.json",
+        r#"{ "format": "sweetspot-aim/1", "targets": [
+             { "name": "inertia_pivot_kg_m2", "change": "-3 %", "within": "5 oz in2" },
+             { "name": "exit_speed_max.x_m", "change": "0 mm", "within": "0.02 in" },
+             { "name": "mass_kg", "at_most": "31 oz" } ],
+             "rules": "mlb", "remove_only": true, "keep": [{ "from": 0, "to": "30 mm" }],
+             "diameter": [{ "from": "4 in", "to": "18 in", "at_least": "24 mm" }] }"#,
+    );
     // docs/hit.md describes it.
     folder.write("push.csv", "t_ms,force_n\n0,0\n0.5,2000\n1,0\n");
     folder

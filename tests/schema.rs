@@ -241,7 +241,8 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
 
 #[test]
 fn every_format_is_written_and_pinned_or_read() {
-    let others = ["page", "error", "study-manifest", "bat", "ball", "study", "validation"];
+    let others =
+        ["page", "error", "study-manifest", "bat", "ball", "study", "validation", "aim", "rules"];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
         let known = written || others.contains(&file.name());
@@ -259,6 +260,12 @@ fn every_case_of_known_answers_ball_and_study_of_this_project_is_valid() {
     assert_valid(&validator(&kind("ball").schema()), &ball, "ball");
     let study = serde_json::from_str(include_str!("golden/study-1.json")).unwrap();
     assert_valid(&validator(&kind("study").schema()), &study, "study");
+    let aim = serde_json::from_str(include_str!("golden/aim-1.json")).unwrap();
+    assert_valid(&validator(&kind("aim").schema()), &aim, "aim");
+    for (name, text) in sweetspot::files::rules_file::BUILT_IN {
+        let rules = serde_json::from_str(text).unwrap();
+        assert_valid(&validator(&kind("rules").schema()), &rules, name);
+    }
 }
 
 fn kind(name: &str) -> FileKind {

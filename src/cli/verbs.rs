@@ -13,7 +13,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, lathe,
+    advise, aim, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, lathe,
     licences, man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
@@ -52,6 +52,7 @@ enum Verb {
     Ring(ring::Args),
     Frf(frf::Args),
     Lathe(lathe::Args),
+    Aim(aim::Args),
     Trade(trade::Args),
     Study(study::Args),
     Advise(advise::Args),
@@ -87,6 +88,7 @@ pub fn run() -> Result<Done> {
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Lathe(args) => lathe::run(&args),
+        Verb::Aim(args) => aim::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Study(args) => study::run(&args),
         Verb::Advise(args) => advise::run(&args),

@@ -10,6 +10,7 @@
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
 //! | [`study_file`], [`study_rows`] | what a study varies and asks; row k of it |
+//! | `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
 //! | [`measured`] | measured modes, as laboratories write them |
@@ -30,6 +31,12 @@ pub mod shape_file;
 pub mod force_file;
 pub mod study_file;
 pub mod study_rows;
+#[cfg(feature = "aim")]
+pub mod aim_text;
+#[cfg(feature = "aim")]
+pub mod rules_file;
+#[cfg(feature = "aim")]
+pub mod aim_file;
 #[cfg(feature = "show")]
 pub mod schema;
 #[cfg(feature = "show")]

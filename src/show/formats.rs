@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use crate::files::schema::advice::AdviceFile;
+use crate::files::schema::aim::{AimForm, RulesForm};
+use crate::files::schema::aimed::AimedFile;
 use crate::files::schema::analysis::AnalysisFile;
 use crate::files::schema::ball::BallFile;
 use crate::files::schema::bat::BatFile;
@@ -33,10 +35,12 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 23] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
+        Self::of::<AimForm>(),
+        Self::of::<RulesForm>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
@@ -49,6 +53,7 @@ impl FileKind {
         Self::of::<FrfFile>(),
         Self::of::<AdviceFile>(),
         Self::of::<StudyManifest>(),
+        Self::of::<AimedFile>(),
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),
         Self::of::<MaterialsFile>(),

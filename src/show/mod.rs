@@ -8,6 +8,7 @@
 //! | [`many`] | the rows of a study and the folder of them |
 //! | [`plot`] | pictures |
 //! | [`page`] | all of it on one page |
+//! | [`template`] | a bat in its own size, to be printed |
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
 //! | [`formats`] | every format that is read or written, with its schema |
 
@@ -18,6 +19,7 @@ pub mod exchange;
 pub mod many;
 pub mod plot;
 pub mod page;
+pub mod template;
 pub mod hit_figure;
 pub mod proof_page;
 pub mod formats;

@@ -22,3 +22,5 @@ pub mod comparison;
 pub mod measured;
 pub mod many;
 pub mod lathe;
+#[cfg(feature = "aim")]
+pub mod aim;

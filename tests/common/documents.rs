@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 18] = [
+pub const WRITTEN: [Written; 19] = [
     (
         "modes",
         "modes",
@@ -102,6 +102,12 @@ pub const WRITTEN: [Written; 18] = [
         "frf lossy.json --measured tap.uff --points 3 -n 3 --tol 1e-8",
         Numbers::Rough,
     ),
+    (
+        "aimed",
+        "aimed",
+        "aim r161.json aim-1.json --tol 1e-3 --swing-speed 50 --pitch 40.2336",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -124,6 +130,7 @@ pub fn folder(test: &str) -> Folder {
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);
     folder.write("tap.uff", include_str!("../golden/tap.uff"));
+    folder.write("aim-1.json", include_str!("../golden/aim-1.json"));
     folder.write("study-1.json", include_str!("../golden/study-1.json"));
     folder
 }

@@ -31,6 +31,8 @@ pub mod trade;
 pub mod mistakes;
 pub mod study;
 pub mod lathe;
+pub mod aim;
+pub mod aimed;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

@@ -56,6 +56,7 @@ pub mod u_curve;
 pub mod matrix;
 pub mod sets;
 pub mod compared;
+pub mod change;
 pub mod measured;
 pub mod many;
 pub mod lathe;

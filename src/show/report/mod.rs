@@ -28,3 +28,7 @@ pub mod measured;
 pub mod lathe_table;
 pub mod lathe;
 pub mod mistakes;
+#[cfg(feature = "aim")]
+pub mod aimed;
+#[cfg(feature = "aim")]
+pub mod aimed_text;

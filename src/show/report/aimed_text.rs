@@ -1,0 +1,242 @@
+//! The bat that meets a wish, for people: 80 columns wide.
+
+use std::fmt::Write;
+
+use crate::base::number::{rounded, shortest, signed};
+use crate::base::units::{inches, ounce_square_inches, ounces};
+use crate::show::report::aimed::{asked, called, conflict_words, shown};
+use crate::show::report::columns::{Columns, first, labels, numbers};
+use crate::show::report::text::wrapped;
+use crate::study::aim::cuts::cuts;
+use crate::study::aim::outcome::Outcome;
+use crate::study::aim::rules::{Rule, RuleSet};
+use crate::study::aim::wish::{Band, Goal};
+use crate::study::many::answers::Answer;
+
+/// Stations of the cut list that are shown.
+const SHOWN: usize = 24;
+
+/// Everything there is to say, in one system of units.
+pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> String {
+    let mut out = head(outcome, us);
+    out += &targets(outcome, us);
+    if let Some(conflict) = &outcome.conflict {
+        out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
+        out += "\n";
+    }
+    out += &before_and_after(outcome, us);
+    if let Some(set) = rules {
+        out += &of_rules(outcome, set, us);
+    }
+    out += &choices(outcome, us);
+    out += &cut_list(outcome, pass, us);
+    out
+}
+
+/// A diameter, in the maker's unit.
+fn across(value: f64, us: bool) -> String {
+    if us { format!("{:.3} in", inches(value)) } else { format!("{:.2} mm", 1e3 * value) }
+}
+
+fn head(outcome: &Outcome, us: bool) -> String {
+    let verdict = match (outcome.met, &outcome.conflict) {
+        (true, _) => "every target is met by the bat as it is written",
+        (_, Some(_)) => "the targets cannot all be had; this bat comes nearest",
+        _ => "not every target is met by the bat as it is written; this one comes nearest",
+    };
+    let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
+    let [cut, added] = outcome.largest();
+    let added = if added > 0.0 {
+        format!("at most {} added", across(added, us))
+    } else {
+        "nothing added".into()
+    };
+    let line = format!(
+        "of its diameter at most {} off, {added}; norm of the change {:.3} mm; {} steps, {} bats",
+        across(cut, us),
+        outcome.norm,
+        outcome.iterations,
+        outcome.bats
+    );
+    out += &wrapped(&line, 2);
+    if outcome.broken > 1e-9 {
+        let line = format!("a limit of the diameter is broken by {:.4} mm", 1e3 * outcome.broken);
+        out += &wrapped(&line, 2);
+    }
+    if outcome.kept_within > 1e-9 {
+        let line = format!(
+            "where the bat is kept, the curve through its stations moves by {:.4} mm at most",
+            1e3 * outcome.kept_within
+        );
+        out += &wrapped(&line, 2);
+    }
+    out + "\n"
+}
+
+fn targets(outcome: &Outcome, us: bool) -> String {
+    let columns = Columns::new([
+        first(21, "Target"),
+        labels(24, "asked"),
+        labels(15, "before"),
+        labels(14, "after"),
+    ]);
+    let mut out = columns.heads();
+    for (band, value) in outcome.bands.iter().zip(&outcome.values) {
+        let met = if band.has(*value) { "" } else { " missed" };
+        let name = match band.rule {
+            Some(_) => format!("{} (rule)", called(band.goal)),
+            None => called(band.goal),
+        };
+        out += &columns.row([
+            name,
+            asked(band, us),
+            shown(band.goal, band.start, us),
+            shown(band.goal, *value, us) + met,
+        ]);
+    }
+    let priced: Vec<String> = outcome
+        .bands
+        .iter()
+        .zip(&outcome.prices)
+        .filter_map(|(band, price)| priced(band, *price, us))
+        .collect();
+    if !priced.is_empty() {
+        out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
+    }
+    out + "\n"
+}
+
+/// What a little more of a target that binds would cost.
+fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
+    let price = price.filter(|price| *price > 0.0)?;
+    let (step, words) = match (band.goal.unit(), us) {
+        ("kg", false) => (1e-3, "1 g".to_owned()),
+        ("kg", true) => (0.1 / ounces(1.0), "0.1 oz".to_owned()),
+        ("m", false) => (1e-3, "1 mm".to_owned()),
+        ("m", true) => (0.1 / inches(1.0), "0.1 in".to_owned()),
+        ("kg m²", false) => (1e-3, "0.001 kg m²".to_owned()),
+        ("kg m²", true) => (100.0 / ounce_square_inches(1.0), "100 oz in²".to_owned()),
+        ("", _) => (0.1, "0.1".to_owned()),
+        (unit, _) => (1.0, format!("1 {unit}")),
+    };
+    let cost = crate::base::number::significant(price * step, 2);
+    Some(format!("{words} more of the {} changes the norm by {cost} mm", called(band.goal)))
+}
+
+fn before_and_after(outcome: &Outcome, us: bool) -> String {
+    let columns = Columns::new([
+        first(21, "Before and after"),
+        labels(17, "before"),
+        labels(17, "after"),
+        labels(15, "change"),
+    ]);
+    let mut out = columns.heads();
+    for (answer, [before, after]) in &outcome.answers {
+        let goal = Goal::Answer(*answer);
+        let said =
+            |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
+        let change = before.zip(*after).map_or(String::new(), |(a, b)| match answer {
+            Answer::Node(_) | Answer::ExitSpeedPlace | Answer::BalancePoint => {
+                let way = if b >= a { "outward" } else { "inward" };
+                format!("{} {way}", across((b - a).abs(), us))
+            }
+            _ => format!("{} %", signed(100.0 * (b / a - 1.0), 2)),
+        });
+        out += &columns.row([called(goal), said(before), said(after), change]);
+    }
+    out + "\n"
+}
+
+fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
+    let mut out = wrapped(
+        &format!("Rules: {} ({}, {}). Computed, not certified.", set.game, set.name, set.date),
+        2,
+    );
+    let columns =
+        Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
+    for (rule, value, kept) in &outcome.rules {
+        let said =
+            |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
+        let kept = match kept {
+            Some(true) => "kept",
+            Some(false) => "broken",
+            None => "not known",
+        };
+        let name = rule.name().replace('_', " ");
+        out += &columns.row([name, said(rule.limit()), said(*value), kept.to_owned()]);
+    }
+    for ask in &set.ask {
+        out += &wrapped(&format!("  not computed: {ask}"), 4);
+    }
+    out + "\n"
+}
+
+/// A value of a rule.
+fn of_rule(rule: Rule, value: f64, us: bool) -> String {
+    let goal = match rule {
+        Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
+        Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
+        Rule::LengthAtMost(_) => Goal::Answer(Answer::BalancePoint),
+        Rule::DropAtMost(_) | Rule::BbcorAtMost(_) => Goal::Drop,
+        _ => return across(value, us),
+    };
+    shown(goal, value, us)
+}
+
+fn choices(outcome: &Outcome, us: bool) -> String {
+    use crate::study::aim::bench::ExtraKind;
+    let mut out = String::new();
+    if let Some(wood) = &outcome.wood {
+        let _ = writeln!(out, "Wood: {wood}");
+    }
+    for (extra, found) in &outcome.extras {
+        let said = |value: f64| match extra.what {
+            ExtraKind::Length => shown(Goal::Answer(Answer::BalancePoint), value, us),
+            ExtraKind::Density => format!("{value:.1} kg/m³"),
+            ExtraKind::KnobWeight => shown(Goal::Answer(Answer::Mass), value, us),
+        };
+        let name = match extra.what {
+            ExtraKind::Length => "Length",
+            ExtraKind::Density => "Density",
+            ExtraKind::KnobWeight => "Weight on the knob",
+        };
+        let _ = writeln!(out, "{name}: {}, was {}", said(*found), said(extra.start));
+    }
+    if out.is_empty() { out } else { out + "\n" }
+}
+
+fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
+    let all = cuts(&outcome.stations, pass);
+    if all.is_empty() {
+        return "Nothing is turned off.\n".to_owned();
+    }
+    let columns = Columns::new([
+        first(12, "Cut at"),
+        numbers(12, "from"),
+        numbers(12, "to"),
+        numbers(12, "off"),
+        labels(26, "after each pass"),
+    ]);
+    let mut out = columns.heads();
+    let every = all.len().div_ceil(SHOWN);
+    for cut in all.iter().step_by(every) {
+        let place = match us {
+            true => format!("{:.2} in", inches(cut.x)),
+            false => format!("{} mm", shortest(rounded(1e3 * cut.x, 1))),
+        };
+        let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
+        let passes = match passes.len() {
+            1 => "one pass".to_owned(),
+            count if count > 3 => format!("{count} passes"),
+            _ => passes.join(", "),
+        };
+        let [from, to, off] = [cut.from, cut.to, cut.from - cut.to].map(|value| across(value, us));
+        out += &columns.row([place, from, to, off, passes]);
+    }
+    if every > 1 {
+        let line =
+            format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
+        out += &wrapped(&line, 0);
+    }
+    out
+}

@@ -1,0 +1,107 @@
+//! Which of the targets cannot be had together, and how near can each come?
+//!
+//! Judged from the bat as it is: linearised far from it, what can be had looks impossible. One band after the
+//! other is left out; those without which the others still cannot be met stay out. What remains is a smallest
+//! conflict: without any of its members the others can be met.
+
+use crate::base::error::Result;
+use crate::study::aim::search::{Found, MISSED, Search, Weights};
+use crate::study::aim::wish::Band;
+
+/// A smallest set of bands that cannot be met together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conflict {
+    /// How near each member comes.
+    pub members: Vec<Reach>,
+    /// Bats that were computed for it.
+    pub bats: usize,
+}
+
+/// How near a band comes, the other members met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Number of the band.
+    pub band: usize,
+    /// The nearest value, in SI.
+    pub value: f64,
+    /// Whether the others are met there.
+    pub others_met: bool,
+}
+
+/// Whether a search has missed one of these bands.
+pub fn missed(found: &Found, bands: &[Band], of: &[bool]) -> bool {
+    let misses = bands.iter().zip(&found.values).zip(of).filter(|(_, of)| **of);
+    misses.into_iter().any(|((band, value), _)| band.miss(*value) > MISSED)
+}
+
+impl Conflict {
+    /// The conflict of bands that a search has missed.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Search::from`].
+    pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<Self> {
+        let start = vec![0.0; found.p.len()];
+        let mut stay = vec![true; bands.len()];
+        let mut bats = 0;
+        // What neither binds nor is missed is no part of it, most likely: it is left out first.
+        let mut order: Vec<usize> = (0..bands.len()).collect();
+        let idle =
+            |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;
+        order.sort_by_key(idle);
+        for k in order {
+            let mut without = stay.clone();
+            without[k] = false;
+            if without.iter().any(|stays| *stays) {
+                let weights = some(&Weights::met(bands.len()), &without);
+                let tried = search.from(&start, bands, &weights)?;
+                bats += tried.bats;
+                if missed(&tried, bands, &without) {
+                    stay = without;
+                }
+            }
+        }
+        let mut members = vec![];
+        for k in (0..bands.len()).filter(|k| stay[*k]) {
+            let reached = search.from(&start, bands, &nearest(&stay, k))?;
+            bats += reached.bats;
+            let mut others = stay.clone();
+            others[k] = false;
+            let others_met = !missed(&reached, bands, &others);
+            members.push(Reach { band: k, value: reached.values[k], others_met });
+        }
+        Ok(Self { members, bats })
+    }
+
+    /// Weights by which everything else is met and the members come as near as they can together, each by its
+    /// tolerance.
+    pub fn nearest(&self, bands: usize) -> Weights {
+        const OTHERS: f64 = 100.0;
+        let mut weights = Weights::met(bands);
+        for (k, price) in weights.miss.iter_mut().enumerate() {
+            if self.members.iter().all(|member| member.band != k) {
+                *price *= OTHERS;
+            }
+        }
+        weights
+    }
+}
+
+/// Those weights for some of the bands only.
+fn some(weights: &Weights, of: &[bool]) -> Weights {
+    let price = |(price, of): (&f64, &bool)| if *of { *price } else { 0.0 };
+    Weights { miss: weights.miss.iter().zip(of).map(price).collect(), ..*weights }
+}
+
+/// Weights by which the others are met first, then band k comes as near as it can, and the size of the change
+/// hardly counts.
+fn nearest(of: &[bool], k: usize) -> Weights {
+    const SIZE: f64 = 1e-6;
+    const OTHERS: f64 = 1e3;
+    let price = |(j, of): (usize, &bool)| match *of {
+        _ if j == k => 1.0,
+        true => OTHERS,
+        false => 0.0,
+    };
+    Weights { size: SIZE, miss: of.iter().enumerate().map(price).collect() }
+}

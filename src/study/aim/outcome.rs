@@ -1,0 +1,477 @@
+//! The bat that meets a wish, or comes nearest to it.
+//!
+//! [`Outcome::of`] searches the least change, writes it with rounded stations and computes the goals of the bat
+//! that is written. A least change lies on the edge of its tolerances, so that rounding may take it out: the
+//! stations are then rounded anew, aside by what the last ones were off, and if that does not do, the search is
+//! made anew with bands that are moved by as much.
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::study::aim::bench::{Bench, Extra, Terms};
+use crate::study::aim::conflict::{Conflict, missed};
+use crate::study::aim::limits::{KEPT, Limits};
+use crate::study::aim::rules::{Rule, cup, one_piece};
+use crate::study::aim::search::{Found, MISSED, Search, Weights};
+use crate::study::aim::stations::{Draft, Drafting, Grid, Station};
+use crate::study::aim::wish::{Band, Wish};
+use crate::study::many::answers::Answer;
+
+/// What came of a wish.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The bat as it was.
+    pub start: Bat,
+    /// The bat as it is written.
+    pub bat: Bat,
+    /// The stations of the bat that is written.
+    pub stations: Vec<Station>,
+    /// How they were laid.
+    pub grid: Grid,
+    /// What each goal may be.
+    pub bands: Vec<Band>,
+    /// What each goal is, of the bat that is written.
+    pub values: Vec<f64>,
+    /// How much the norm of the change (mm) would be less if the goal's bound gave way by one SI unit; None
+    /// where the goal is missed, 0 where it does not bind.
+    pub prices: Vec<Option<f64>>,
+    /// Whether every goal is met and every limit kept by the bat that is written.
+    pub met: bool,
+    /// The targets that cannot be had together.
+    pub conflict: Option<Conflict>,
+    /// Root of `mean(d²) + ℓ⁴ mean(d″²)` of the change d of the diameter (mm).
+    pub norm: f64,
+    /// Quadratic programs of the search.
+    pub iterations: usize,
+    /// Bats that were computed, all in all.
+    pub bats: usize,
+    /// Why the search ended before it stood still.
+    pub stopped: Option<&'static str>,
+    /// How far a limit of the diameter is broken (m); 0 where all are kept.
+    pub broken: f64,
+    /// How far the diameter moved where the bat is kept (m).
+    pub kept_within: f64,
+    /// What else was chosen, with its value in SI.
+    pub extras: Vec<(Extra, f64)>,
+    /// The wood that was chosen.
+    pub wood: Option<String>,
+    /// Main answers before and after.
+    pub answers: Vec<(Answer, [Option<f64>; 2])>,
+    /// The rules, with what the bat has, and whether it keeps them.
+    pub rules: Vec<(Rule, Option<f64>, Option<bool>)>,
+}
+
+/// What is told of every bat before and after.
+const TOLD: [Answer; 10] = [
+    Answer::Mass,
+    Answer::BalancePoint,
+    Answer::Inertia,
+    Answer::Frequency(1),
+    Answer::Frequency(2),
+    Answer::Frequency(3),
+    Answer::Node(1),
+    Answer::Node(2),
+    Answer::ExitSpeed,
+    Answer::ExitSpeedPlace,
+];
+/// Roundings of the stations before the search is made anew, and how often it is.
+const DRAFTS: usize = 5;
+const ANEW: usize = 4;
+
+/// The least change of one bat, before it is written.
+struct Least {
+    bench: Bench,
+    found: Found,
+    /// Worst miss, in tolerances.
+    miss: f64,
+    norm: f64,
+    wood: Option<String>,
+}
+
+impl Outcome {
+    /// The least change of the bat that meets the wish, written with rounded stations.
+    ///
+    /// ```
+    /// use sweetspot::bat::theory::Theory;
+    /// use sweetspot::collision::{Model, Scene};
+    /// use sweetspot::study::aim::bench::Terms;
+    /// use sweetspot::study::aim::outcome::Outcome;
+    /// use sweetspot::study::aim::wish::{Amount, Ask, Goal, Target, Wish};
+    /// use sweetspot::study::lathe::workpiece::HitTerms;
+    /// use sweetspot::study::many::answers::Answer;
+    /// use sweetspot::{Bat, Request};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let request = Request { theory: Theory::Timoshenko, ..Request::default() };
+    /// let hit = HitTerms { scene: Scene::default(), model: Model::Contact, exactly: false };
+    /// let terms = Terms { request, hit, law: None };
+    /// // 3 % less swing weight, and the first frequency within half a hertz of what it was.
+    /// let lighter = Ask::Change(Amount::Share(-0.03), Some(Amount::Share(0.001)));
+    /// let same = Ask::Change(Amount::Si(0.0), Some(Amount::Si(0.5)));
+    /// let targets = vec![
+    ///     Target { goal: Goal::Answer(Answer::Inertia), ask: lighter },
+    ///     Target { goal: Goal::Answer(Answer::Frequency(1)), ask: same },
+    /// ];
+    /// let wish = Wish { targets, remove_only: true, ..Wish::default() };
+    /// let outcome = Outcome::of(&bat, &wish, &terms)?;
+    /// assert!(outcome.met && outcome.conflict.is_none());
+    /// assert!(outcome.bat.inertia().about(0.1524) < 0.972 * bat.inertia().about(0.1524));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about a wish that contradicts itself or the bat; those of [`crate::solve()`] and of a
+    /// hit.
+    pub fn of(bat: &Bat, wish: &Wish, terms: &Terms) -> Result<Self> {
+        if wish.goals().is_empty() {
+            let expected = "one target at least, such as \"swing weight -3 %\"";
+            return Err(Error::value("targets", "no target", expected));
+        }
+        let bench = Bench::new(bat, wish, terms.clone())?;
+        let start = bench.look(&vec![0.0; bench.unknowns()])?.values;
+        if let Some(k) = start.iter().position(|value| !value.is_finite()) {
+            let found = format!("{}, which this bat has not", bench.goals()[k].name());
+            return Err(Error::value(format!("targets[{k}].name"), found, "what this bat has"));
+        }
+        let bands = wish.bands(&start, bat)?;
+        let mut least = least(bench, wish, &bands, None)?;
+        for wood in &wish.free.woods {
+            let other = bat.with(|parts| parts.material = wood.clone())?;
+            let bench = Bench::new(&other, wish, terms.clone())?;
+            let tried = self::least(bench, wish, &bands, wood.name.clone())?;
+            let better =
+                (tried.miss.max(MISSED), tried.norm) < (least.miss.max(MISSED), least.norm);
+            if better {
+                least = tried;
+            }
+        }
+        Writing { wish, bands, bat, grid: grid(wish, bat) }.outcome(least)
+    }
+
+    /// Takes the bat as it was read from the file that was written, and computes its goals anew.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bench::of`].
+    pub fn read_back(mut self, written: Bat, wish: &Wish, terms: &Terms) -> Result<Self> {
+        let bench = Bench::new(&self.start, wish, terms.clone())?;
+        self.values = bench.of(&written)?;
+        self.bat = written;
+        self.met = self.is_met();
+        self.answers = told(&bench, &self.start, &self.bat)?;
+        self.rules = rules(wish, &self.bat, &bench)?;
+        Ok(self)
+    }
+
+    fn is_met(&self) -> bool {
+        let inside = self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value));
+        inside && self.broken <= KEPT
+    }
+
+    /// The largest amount taken off a diameter, and the largest put on (m).
+    pub fn largest(&self) -> [f64; 2] {
+        let changes = self.stations.iter().map(|station| station.new - station.old);
+        changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
+    }
+}
+
+/// The grid of the stations that a wish asks for.
+fn grid(wish: &Wish, bat: &Bat) -> Grid {
+    const INCH: f64 = 0.0254;
+    let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
+    Grid { every: wish.stations.unwrap_or(every), round: wish.round.unwrap_or(round) }
+}
+
+/// The least change on that bench.
+fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<Least> {
+    let limits = Limits::new(wish, bench.bat());
+    let search = Search::new(&bench, &limits);
+    let start = vec![0.0; bench.unknowns()];
+    let found = search.from(&start, bands, &Weights::met(bands.len()))?;
+    let norm = search.norm(&found.p);
+    let misses = bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value));
+    let miss = misses.fold(0.0, f64::max);
+    drop(search);
+    Ok(Least { bench: bench.clone(), found, miss, norm, wood })
+}
+
+/// What is needed to write a change.
+struct Writing<'a> {
+    wish: &'a Wish,
+    bands: Vec<Band>,
+    bat: &'a Bat,
+    grid: Grid,
+}
+
+/// A draft with the goals of its bat.
+struct Drawn {
+    draft: Draft,
+    values: Vec<f64>,
+    p: Vec<f64>,
+    norm: f64,
+}
+
+impl Writing<'_> {
+    fn outcome(self, least: Least) -> Result<Outcome> {
+        let Least { bench, mut found, wood, .. } = least;
+        let all = vec![true; self.bands.len()];
+        let limits = Limits::new(self.wish, bench.bat());
+        let search = Search::new(&bench, &limits);
+        let conflict = match missed(&found, &self.bands, &all) {
+            true => Some(Conflict::of(&search, &self.bands, &found)?),
+            false => None,
+        };
+        if let Some(conflict) = conflict.as_ref().filter(|c| c.members.len() < self.bands.len()) {
+            let start = vec![0.0; bench.unknowns()];
+            let before = found.bats;
+            found = search.from(&start, &self.bands, &conflict.nearest(self.bands.len()))?;
+            found.bats += before;
+        }
+        let mut best: Option<Drawn> = None;
+        let mut bands = self.bands.clone();
+        let norm = search.norm(&found.p);
+        let prices = self.prices(&found, norm);
+        let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
+        let iterations = found.iterations;
+        for _ in 0..ANEW {
+            let norm = search.norm(&found.p);
+            let (drawn, off) = self.drafted(&bench, &search, &limits, &found)?;
+            bats += DRAFTS;
+            let drawn = Drawn { norm, ..drawn };
+            if best.as_ref().is_none_or(|best| self.worse(best) > self.worse(&drawn)) {
+                best = Some(drawn);
+            }
+            let done = best.as_ref().is_some_and(|best| self.worse(best) <= 1e-9);
+            if done || conflict.is_some() {
+                break;
+            }
+            // The search anew, for goals that rounding then puts where they are to be.
+            for ((band, of), off) in bands.iter_mut().zip(&self.bands).zip(&off) {
+                let by = off * of.scale;
+                let inside = (0.25 * of.scale).min(0.25 * (of.high - of.low));
+                band.low = of.low - by + inside;
+                band.high = of.high - by - inside;
+            }
+            let again = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
+            bats += again.bats;
+            found = again;
+        }
+        let Drawn { draft, values, p, norm } = best.expect("one draft at least was made");
+        let written = norm;
+        let extras = bench.extras().iter().enumerate();
+        let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
+        let kept = |x: f64| !bench.splines().stretches().iter().any(|s| x > s[0] && x < s[1]);
+        let kept_within = moved_where(&kept, &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+        let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
+        let bat = draft.bat.with(|parts| self.name(parts))?;
+        let mut outcome = Outcome {
+            start: self.bat.clone(),
+            answers: told(&bench, self.bat, &bat)?,
+            rules: rules(self.wish, &bat, &bench)?,
+            bat,
+            stations: draft.stations,
+            grid: self.grid,
+            bands: self.bands,
+            values,
+            prices,
+            met: false,
+            conflict,
+            norm: written,
+            iterations,
+            bats,
+            stopped: found.stopped,
+            broken,
+            kept_within,
+            extras,
+            wood,
+        };
+        outcome.met = outcome.is_met();
+        Ok(outcome)
+    }
+
+    fn name(&self, parts: &mut crate::bat::body::Parts) {
+        parts.name = format!("{}, aimed", self.bat.name());
+    }
+
+    /// Worst miss of a draft, in tolerances; a broken limit counts by its share of the rounding.
+    fn worse(&self, drawn: &Drawn) -> f64 {
+        let misses = self.bands.iter().zip(&drawn.values).map(|(band, value)| band.miss(*value));
+        let broken = drawn.draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
+        let broken = if broken > KEPT { broken / self.grid.round } else { 0.0 };
+        misses.fold(broken, f64::max)
+    }
+
+    /// What the norm would be less by, per SI unit of each goal.
+    fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
+        let of = |(k, band): (usize, &Band)| {
+            let bound = band.miss(found.values[k]) <= MISSED;
+            let price = found.prices[k].abs() / (2.0 * norm.max(1e-9)) / band.scale;
+            bound.then_some(if found.prices[k].abs() > 1e-6 { price } else { 0.0 })
+        };
+        self.bands.iter().enumerate().map(of).collect()
+    }
+
+    /// The best of some drafts, and by how much it moved each goal, in tolerances.
+    fn drafted(
+        &self,
+        bench: &Bench,
+        search: &Search,
+        limits: &Limits,
+        found: &Found,
+    ) -> Result<(Drawn, Vec<f64>)> {
+        let base = bench.rechosen(bench.bat(), &found.p)?;
+        let limits = limits.on(&base);
+        let n = bench.splines().len();
+        let densities = densities(bench, &self.bands, found)?;
+        let stretch = bench.stretch(&found.p);
+        let change = (bench.splines(), &found.p[..n], stretch);
+        let drafting = Drafting {
+            bat: &base,
+            limits: &limits,
+            change,
+            densities: &densities,
+            grid: self.grid,
+        };
+        let inside = self.inside(bench, &densities, found);
+        let mut aside = inside.clone();
+        let mut best: Option<(Drawn, Vec<f64>)> = None;
+        for _ in 0..DRAFTS {
+            let draft = drafting.draft(&aside)?;
+            let values = bench.of(&draft.bat)?;
+            let off: Vec<f64> = (0..values.len())
+                .map(|k| (values[k] - found.values[k]) / self.bands[k].scale)
+                .collect();
+            let drawn = Drawn { draft, values, p: found.p.clone(), norm: search.norm(&found.p) };
+            let better = best.as_ref().is_none_or(|best| self.worse(&best.0) > self.worse(&drawn));
+            let met = self.worse(&drawn) <= 1e-9;
+            if better {
+                best = Some((drawn, off.clone()));
+            }
+            if met {
+                break;
+            }
+            for ((aside, off), inside) in aside.iter_mut().zip(&off).zip(&inside) {
+                *aside += off + inside;
+            }
+        }
+        Ok(best.expect("there is a first draft"))
+    }
+
+    /// How far inside its band each goal is to be that is at its edge, in tolerances: what the rounding of one
+    /// station does to it.
+    fn inside(&self, bench: &Bench, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
+        let one = |of: &Vec<f64>| {
+            let places = (1..100).map(|k| 0.01 * f64::from(k) * bench.bat().length());
+            let effect = places.map(|x| bench.splines().at(of, x).abs()).fold(0.0, f64::max);
+            1e3 * self.grid.round * self.grid.every * effect
+        };
+        let of = |(k, density): (usize, &Vec<f64>)| {
+            let width = (self.bands[k].high - self.bands[k].low) / self.bands[k].scale;
+            let far = one(density).clamp(0.02, 0.4).min(0.4 * width);
+            match found.prices[k] {
+                price if price > 1e-6 => far,
+                price if price < -1e-6 => -far,
+                _ => 0.0,
+            }
+        };
+        densities.iter().enumerate().map(of).collect()
+    }
+}
+
+/// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the curves:
+/// their products with the curves are the slopes.
+fn densities(bench: &Bench, bands: &[Band], found: &Found) -> Result<Vec<Vec<f64>>> {
+    let n = bench.splines().len();
+    let overlaps = bench.splines().overlaps();
+    let of = |(band, slopes): (&Band, &Vec<f64>)| {
+        let right: Vec<f64> = slopes[..n].iter().map(|slope| slope / band.scale).collect();
+        solved(&overlaps, right)
+    };
+    Ok(bands.iter().zip(&found.slopes).map(of).collect())
+}
+
+/// `A x = b` for a symmetric positive definite matrix, by Cholesky's factors.
+fn solved(matrix: &[Vec<f64>], mut x: Vec<f64>) -> Vec<f64> {
+    let n = x.len();
+    let mut l = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for j in 0..=i {
+            let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+            l[i][j] = match i == j {
+                true => (matrix[i][i] - sum).max(f64::MIN_POSITIVE).sqrt(),
+                false => (matrix[i][j] - sum) / l[j][j],
+            };
+        }
+        let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
+        x[i] = (x[i] - sum) / l[i][i];
+    }
+    for i in (0..n).rev() {
+        let sum: f64 = (i + 1..n).map(|k| l[k][i] * x[k]).sum();
+        x[i] = (x[i] - sum) / l[i][i];
+    }
+    x
+}
+
+/// The largest difference of two bats' diameters where `kept` (m).
+fn moved_where(kept: &dyn Fn(f64) -> bool, old: &Bat, new: &Bat) -> f64 {
+    const PLACES: usize = 4000;
+    let length = old.length();
+    let place = |k: usize| length * (k as f64 + 0.5) / PLACES as f64;
+    let by = |x: f64| 2.0 * (old.profile().at(x).outer - new.profile().at(x).outer).abs();
+    (0..PLACES).map(place).filter(|x| kept(*x)).map(by).fold(0.0, f64::max)
+}
+
+/// The main answers of both bats, swung alike.
+fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<(Answer, [Option<f64>; 2])>> {
+    let of = |bat: &Bat| -> Result<Vec<Option<f64>>> {
+        let piece = bench.piece_of(bat, &TOLD)?;
+        Ok(piece.values().iter().map(|figure| figure.map(|figure| figure.value)).collect())
+    };
+    let (before, after) = (of(start)?, of(bat)?);
+    let both = before.into_iter().zip(after).map(|(a, b)| [a, b]);
+    Ok(TOLD.into_iter().zip(both).collect())
+}
+
+/// What the bat has of each rule's matter, and whether the rule is kept.
+fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<(Rule, Option<f64>, Option<bool>)>> {
+    let Some(set) = &wish.rules else { return Ok(vec![]) };
+    let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+    let body = bat.inertia();
+    let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
+        true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
+        false => None,
+    };
+    let hole = cup(bat);
+    let of = |rule: &Rule| {
+        let (value, most) = match rule {
+            Rule::DiameterAtMost(_) => (Some(2.0 * widest), true),
+            Rule::LengthAtMost(_) => (Some(bat.length()), true),
+            Rule::MassAtMost(_) => (Some(body.mass), true),
+            Rule::DropAtMost(_) => {
+                let drop = crate::base::units::inches(bat.length())
+                    - crate::base::units::ounces(body.mass);
+                (Some(drop), true)
+            }
+            Rule::BbcorAtMost(_) => (bbcor, true),
+            Rule::InertiaAtLeast(_) => (Some(body.about(STANDARD_PIVOT)), false),
+            Rule::CupDepthAtMost(_) => (hole.map(|hole| hole[0]), true),
+            Rule::CupDiameterAtLeast(_) => (hole.map(|hole| hole[1]), false),
+            Rule::CupDiameterAtMost(_) => (hole.map(|hole| hole[1]), true),
+            Rule::OnePiece => return (*rule, None, Some(one_piece(bat))),
+        };
+        let limit = rule.limit().unwrap_or(f64::INFINITY);
+        let slack = 1e-9 * limit.abs().max(1.0);
+        let kept = value.map(|value| match most {
+            true => value <= limit + slack,
+            false => value >= limit - slack,
+        });
+        // Without a cup every rule of cups is kept.
+        let of_cup = rule.name().starts_with("cup");
+        (*rule, value, if of_cup { Some(kept.unwrap_or(true)) } else { kept })
+    };
+    Ok(set.rules.iter().map(of).collect())
+}

@@ -1,0 +1,283 @@
+//! The least change that meets the bands: a sequence of quadratic programs.
+//!
+//! Each step makes the goals linear in the unknowns and solves [`Program`] for the next unknowns. The
+//! objective is exactly quadratic and the goals are nearly linear over a millimetre, so that some steps do. A
+//! step is halved until the penalty function `pᵀHp + Σ μ_i miss_i` falls.
+
+use crate::base::error::{Error, Result};
+use crate::study::aim::bench::{Bench, Look};
+use crate::study::aim::limits::{Broken, Limits, Room};
+use crate::study::aim::program::{Bounded, Elastic, Least, Program};
+use crate::study::aim::wish::Band;
+
+/// Steps at most.
+const MOST: usize = 12;
+/// A step changes no coefficient by more than that (mm).
+const TRUST: f64 = 3.0;
+/// The search has ended where a step changes no coefficient by more than that (mm).
+const STILL: f64 = 1e-3;
+/// Or where a step makes what is made least less by that share only: at a corner of the limits steps go on and
+/// on.
+const NO_GAIN: f64 = 1e-7;
+/// A goal that misses its band by this share of its tolerance has missed.
+pub const MISSED: f64 = 1e-3;
+/// Rounds in which places where a limit is broken between others are added.
+const ROUNDS: usize = 10;
+
+/// What is to be made least: so many times the size of the change, and the price of each band's miss.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weights {
+    /// Factor of `pᵀHp`.
+    pub size: f64,
+    /// Price of a miss by one tolerance (mm²), for each band.
+    pub miss: Vec<f64>,
+}
+
+impl Weights {
+    /// Bands are met, if they can be, by the least change.
+    pub fn met(bands: usize) -> Self {
+        /// More than what a tolerance is worth: a centimetre of the sweet spot, some twenty of them, costs 50.
+        const PENALTY: f64 = 1e3;
+        Self { size: 1.0, miss: vec![PENALTY; bands] }
+    }
+}
+
+/// The end of a search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The unknowns.
+    pub p: Vec<f64>,
+    /// The goals, in the order of the bands.
+    pub values: Vec<f64>,
+    /// How the goals change with the unknowns.
+    pub slopes: Vec<Vec<f64>>,
+    /// How much less the square of the norm (mm²) would be if a band's bound gave way by one tolerance: above
+    /// 0 at the upper bound, below 0 at the lower one.
+    pub prices: Vec<f64>,
+    /// Quadratic programs.
+    pub iterations: usize,
+    /// Bats that were computed.
+    pub bats: usize,
+    /// Why it ended before it stood still; None where it did not.
+    pub stopped: Option<&'static str>,
+}
+
+/// A bench with its limits, and the quadratic form of the change.
+pub struct Search<'a> {
+    bench: &'a Bench,
+    limits: &'a Limits<'a>,
+    form: Vec<Vec<f64>>,
+    rooms: Vec<Room>,
+}
+
+impl<'a> Search<'a> {
+    /// A search on that bench.
+    pub fn new(bench: &'a Bench, limits: &'a Limits<'a>) -> Self {
+        let (n, count) = (bench.splines().len(), bench.unknowns());
+        let mut form = vec![vec![0.0; count]; count];
+        for (row, of) in form.iter_mut().zip(bench.splines().roughness()) {
+            row[..n].copy_from_slice(&of);
+        }
+        for (k, extra) in bench.extras().iter().enumerate() {
+            form[n + k][n + k] = extra.cost.powi(2);
+        }
+        let changes = |x: f64| bench.splines().basis().iter().any(|curve| curve.at(x) != 0.0);
+        let rooms = limits.rows(&changes);
+        Self { bench, limits, form, rooms }
+    }
+
+    /// The size of the change of the diameter: root of `mean(d²) + ℓ⁴ mean(d″²)` (mm).
+    pub fn norm(&self, p: &[f64]) -> f64 {
+        let n = self.bench.splines().len();
+        self.square(&self.form, &p[..n]).max(0.0).sqrt()
+    }
+
+    fn square(&self, form: &[Vec<f64>], p: &[f64]) -> f64 {
+        let product = |row: &Vec<f64>| row.iter().zip(p).map(|(h, p)| h * p).sum::<f64>();
+        form.iter().zip(p).map(|(row, p)| p * product(row)).sum()
+    }
+
+    /// The search from those unknowns on.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where the limits of the diameter contradict each other; those of [`Bench::look`].
+    pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+        let mut look = self.bench.look(start)?;
+        let mut p = start.to_vec();
+        let mut count = 1;
+        let mut rooms = self.rooms.clone();
+        let mut found = None;
+        for iteration in 1..=MOST {
+            let slopes = self.bench.slopes(&look)?;
+            count += self.bench.bats_of_slopes();
+            let program = self.program((&p, &look.values, &slopes), bands, weights);
+            let mut least = self.solve(program, &p, &mut rooms)?;
+            least.prices = asked(&least.prices, weights);
+            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Found {
+                p,
+                values,
+                slopes: slopes.clone(),
+                prices: least.prices.clone(),
+                iterations: iteration,
+                bats,
+                stopped,
+            };
+            let step = largest(&p, &least.p);
+            let merit = self.merit(&p, &look.values, bands, weights);
+            let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
+            else {
+                let stopped = (step > 10.0 * STILL).then_some("no step makes it better");
+                return Ok(ended(p, look.values, count, stopped));
+            };
+            count += tried;
+            (p, look) = (taken, next);
+            let gained = merit - self.merit(&p, &look.values, bands, weights);
+            let still = step < STILL || gained.abs() < NO_GAIN * merit.abs();
+            found =
+                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
+            if still {
+                break;
+            }
+        }
+        found.ok_or_else(|| Error::value("aim", "no step at all", "one step at least"))
+    }
+
+    /// What is made least.
+    fn merit(&self, p: &[f64], values: &[f64], bands: &[Band], weights: &Weights) -> f64 {
+        let misses = bands.iter().zip(values).map(|(band, value)| band.miss(*value));
+        let price: f64 = misses.zip(&weights.miss).map(|(miss, price)| miss * price).sum();
+        weights.size * self.square(&self.form, p) + price
+    }
+
+    /// The step as far as it makes the penalty function less: the bat there, its unknowns, and how many bats
+    /// were tried. None where no part of it does.
+    fn descend(
+        &self,
+        (p, merit): (&[f64], f64),
+        to: &[f64],
+        bands: &[Band],
+        weights: &Weights,
+    ) -> Option<(Look, Vec<f64>, usize)> {
+        const HALVINGS: i32 = 6;
+        let small = largest(p, to) < STILL;
+        for k in 0..HALVINGS {
+            let share = 0.5_f64.powi(k);
+            let tried: Vec<f64> = p.iter().zip(to).map(|(p, to)| p + share * (to - p)).collect();
+            // A bat that cannot be is one step too far.
+            let Ok(look) = self.bench.look(&tried) else { continue };
+            let now = self.merit(&tried, &look.values, bands, weights);
+            // At the end rounding decides, and the last step is taken.
+            if now < merit || small && now <= merit + 1e-6 * (1.0 + merit.abs()) {
+                return Some((look, tried, k as usize + 1));
+            }
+        }
+        None
+    }
+
+    /// The program at those unknowns, goals and slopes.
+    fn program(
+        &self,
+        (p, values, slopes): (&[f64], &[f64], &[Vec<f64>]),
+        bands: &[Band],
+        weights: &Weights,
+    ) -> Program {
+        let wish = |k: usize| {
+            let Band { low, high, scale, .. } = bands[k];
+            let at: f64 = slopes[k].iter().zip(p).map(|(g, p)| g * p).sum();
+            let row = slopes[k].iter().map(|g| g / scale).collect();
+            let rest = values[k] - at;
+            let wish = Bounded { row, low: (low - rest) / scale, high: (high - rest) / scale };
+            Elastic { wish, penalty: weights.miss[k] }
+        };
+        let form = self.form.iter().map(|row| row.iter().map(|h| weights.size * h).collect());
+        let wishes = (0..bands.len()).filter(|k| weights.miss[*k] > 0.0).map(wish).collect();
+        Program { form: form.collect(), wishes, limits: self.ranges() }
+    }
+
+    /// The ranges of the free choices.
+    fn ranges(&self) -> Vec<Bounded> {
+        let n = self.bench.splines().len();
+        let range = |(k, extra): (usize, &super::bench::Extra)| {
+            let [low, high] = extra.range.map(|value| (value - extra.start) / extra.unit);
+            Bounded { row: self.unit(n + k), low, high }
+        };
+        self.bench.extras().iter().enumerate().map(range).collect()
+    }
+
+    fn unit(&self, k: usize) -> Vec<f64> {
+        (0..self.bench.unknowns()).map(|j| if j == k { 1.0 } else { 0.0 }).collect()
+    }
+
+    /// Solves the program under the limits of the diameter, along the whole curve, within the trust region:
+    /// a wider one where the limits leave nothing in it.
+    fn solve(&self, program: Program, p: &[f64], rooms: &mut Vec<Room>) -> Result<Least> {
+        for wider in 0..6 {
+            let trust = TRUST * f64::from(1 << wider);
+            if let Some(least) = self.within(&program, p, trust, rooms) {
+                return Ok(least);
+            }
+        }
+        let expected = "limits of the diameter that a smooth curve can keep";
+        Err(Error::value("diameter", "limits that leave no room", expected))
+    }
+
+    fn within(
+        &self,
+        program: &Program,
+        p: &[f64],
+        trust: f64,
+        rooms: &mut Vec<Room>,
+    ) -> Option<Least> {
+        let mut least = None;
+        for _ in 0..ROUNDS {
+            let mut program = program.clone();
+            program.limits.extend((0..p.len()).map(|k| Bounded {
+                row: self.unit(k),
+                low: p[k] - trust,
+                high: p[k] + trust,
+            }));
+            program.limits.extend(rooms.iter().map(|room| self.row(room)));
+            let found = program.solve()?;
+            let broken = self.broken(&found.p);
+            least = Some(found);
+            if broken.is_empty() {
+                break;
+            }
+            rooms.extend(broken.iter().map(|broken| broken.room));
+        }
+        least
+    }
+
+    /// A limit of the diameter as a row of the program (mm).
+    fn row(&self, room: &Room) -> Bounded {
+        let mut row: Vec<f64> =
+            self.bench.splines().basis().iter().map(|curve| curve.at(room.x)).collect();
+        row.resize(self.bench.unknowns(), 0.0);
+        // So much inside that what is left between two places is within the limit; where the change comes to
+        // nothing there is nothing to be inside of.
+        let inside = 4e-7 * row.iter().sum::<f64>();
+        let (low, high) = (1e3 * room.low, 1e3 * room.high);
+        // Where the diameter is given exactly there is no inside.
+        let inside = if high - low > 2.0 * inside { inside } else { 0.0 };
+        Bounded { row, low: low + inside, high: high - inside }
+    }
+
+    /// Where the change of those unknowns breaks a limit.
+    fn broken(&self, p: &[f64]) -> Vec<Broken> {
+        let splines = self.bench.splines();
+        self.limits.broken(&splines.knots(), &|x, _| 1e-3 * splines.at(p, x))
+    }
+}
+
+/// The prices of all bands, 0 of those that are not asked for.
+fn asked(prices: &[f64], weights: &Weights) -> Vec<f64> {
+    let mut prices = prices.iter();
+    let of = |miss: &f64| if *miss > 0.0 { prices.next().copied().unwrap_or(0.0) } else { 0.0 };
+    weights.miss.iter().map(of).collect()
+}
+
+/// The largest difference.
+fn largest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
