@@ -408,7 +408,7 @@ fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
         let mut variance = form(&fit.covariance, &parts, &parts);
         if !is_free {
             // What was known before still holds.
-            variance += before[own][own];
+            variance = (variance + before[own][own]).min(form(&before, &parts, &parts));
         }
         let prior = Reading { value: centre, deviation: form(&before, &parts, &parts).sqrt() };
         let learned = |parts: &[f64]| {

@@ -8,7 +8,7 @@
 //!
 //! θ the logarithms of the unknowns over what the file says, P what was known of them before. σ² is that of the
 //! reading and, of a frequency, `(model · y)²` for what a beam leaves out. A step changes no logarithm by more than
-//! 0.3.
+//! 0.3, and is halved until χ² falls.
 //!
 //! # Source
 //!
@@ -26,7 +26,7 @@ use crate::study::calibrate::wood::{Shown, Slopes, WoodenBat};
 /// The largest change of a logarithm in one step.
 const LARGEST_STEP: f64 = 0.3;
 /// A fit that has not ended by then runs away.
-const MOST_STEPS: usize = 30;
+const MOST_STEPS: usize = 40;
 /// Steps of this size change nothing that anybody reads.
 const SETTLED: f64 = 1e-7;
 /// Beyond so many standard deviations of what was known before, a fit has run away.
@@ -143,6 +143,11 @@ pub struct Fit {
     pub shown: Shown,
 }
 
+fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
+    let product = |row: &Vec<f64>| row.iter().zip(vector).map(|(a, b)| a * b).sum();
+    matrix.iter().map(product).collect()
+}
+
 /// One place of the search, linearised.
 struct Linear {
     chi2: f64,
@@ -179,33 +184,44 @@ impl Search<'_> {
         let prior = self.prior();
         let mut logs = [0.0; UNKNOWNS];
         let mut shown = self.wood.shown(&logs, modes)?;
+        let mut here = self.linear(data, &shown, &logs);
         let (mut steps, mut settled) = (0, false);
-        while steps < MOST_STEPS {
-            let Linear { gradient, covariance, .. } = self.linear(data, &shown, &logs);
-            let step: Vec<f64> =
-                covariance.iter().map(|row| row.iter().zip(&gradient).map(|(c, g)| c * g).sum()).collect();
+        while steps < MOST_STEPS && !settled {
+            let step = times(&here.covariance, &here.gradient);
             let largest = step.iter().fold(0.0_f64, |most, step| most.max(step.abs()));
-            let share = (LARGEST_STEP / largest).min(1.0);
-            let mut next = logs;
-            free.iter().zip(&step).for_each(|(k, step)| next[*k] += share * step);
-            let Ok(there) = self.wood.shown(&next, modes) else { break };
-            (logs, shown, steps) = (next, there, steps + 1);
-            if largest < SETTLED {
-                settled = true;
-                break;
-            }
-            let beyond = |k: &usize| logs[*k].abs() > 2.0 * RUNAWAY * prior[*k][*k].sqrt();
-            if free.iter().any(beyond) {
-                break;
-            }
+            let mut share = (LARGEST_STEP / largest).min(1.0);
+            let downhill = loop {
+                let mut next = logs;
+                free.iter().zip(&step).for_each(|(k, step)| next[*k] += share * step);
+                if let Ok(there) = self.wood.shown(&next, modes) {
+                    let linear = self.linear(data, &there, &next);
+                    if linear.chi2 <= here.chi2 || largest < SETTLED {
+                        break Some((next, there, linear));
+                    }
+                }
+                share *= 0.5;
+                if share * largest < SETTLED {
+                    break None;
+                }
+            };
+            let Some((next, there, linear)) = downhill else { break };
+            (logs, shown, here, steps) = (next, there, linear, steps + 1);
+            settled = largest < SETTLED;
         }
         let near = |k: &usize| logs[*k].abs() <= RUNAWAY * prior[*k][*k].sqrt();
         settled &= free.iter().all(near);
-        Ok(self.ended(data, shown, logs, (steps, settled)))
+        Ok(self.ended(data, shown, (logs, here), (steps, settled)))
     }
 
-    fn ended(&self, data: &[Datum], shown: Shown, logs: Logs, how: (usize, bool)) -> Fit {
-        let Linear { chi2, covariance: of_free, .. } = self.linear(data, &shown, &logs);
+    /// The fit that ended there.
+    fn ended(
+        &self,
+        data: &[Datum],
+        shown: Shown,
+        (logs, linear): (Logs, Linear),
+        (steps, settled): (usize, bool),
+    ) -> Fit {
+        let Linear { chi2, covariance: of_free, .. } = linear;
         let (free, unknowns) = (self.free(), Unknown::of(self.wood.regions()).len());
         let mut covariance = vec![vec![0.0; unknowns]; unknowns];
         for (i, row) in free.iter().zip(&of_free) {
@@ -220,7 +236,6 @@ impl Search<'_> {
             Residual { datum: *datum, computed: value, deviations: z, left_out }
         };
         let residuals = data.iter().map(residual).collect();
-        let (steps, settled) = how;
         Fit { logs, covariance, chi2, steps, settled, residuals, shown }
     }
 
@@ -229,8 +244,7 @@ impl Search<'_> {
         let (free, mut weights) = (self.free(), self.precision());
         let at: Vec<f64> = free.iter().map(|k| logs[*k]).collect();
         let mut chi2 = form(&weights, &at, &at);
-        let mut gradient: Vec<f64> =
-            weights.iter().map(|row| -row.iter().zip(&at).map(|(p, x)| p * x).sum::<f64>()).collect();
+        let mut gradient: Vec<f64> = times(&weights, &at).iter().map(|slope| -slope).collect();
         for datum in data {
             let Slopes { value, by } = datum.kind.of(shown);
             let z = (datum.reading.value - value) / datum.sigma;
