@@ -138,7 +138,7 @@ pub fn length(text: &str, unit: &str) -> Read<f64> {
 }
 
 /// Whether somebody says so that nothing is known.
-fn unknown(text: &str) -> bool {
+pub fn unknown(text: &str) -> bool {
     let plain = text.to_lowercase().replace(['\'', '’'], "");
     ["dont know", "unknown", "none", "no"].contains(&plain.as_str())
 }

@@ -13,7 +13,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, licences,
+    advise, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help, hit, licences,
     man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
@@ -49,6 +49,7 @@ enum Verb {
     Hit(hit::Args),
     Bbcor(bbcor::Args),
     Compare(compare::Args),
+    Calibrate(calibrate::Args),
     Ring(ring::Args),
     Frf(frf::Args),
     Trade(trade::Args),
@@ -83,6 +84,7 @@ pub fn run() -> Result<Done> {
         Verb::Hit(args) => hit::run(&args),
         Verb::Bbcor(args) => bbcor::run(&args),
         Verb::Compare(args) => compare::run(&args),
+        Verb::Calibrate(args) => calibrate::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),

@@ -7,6 +7,7 @@ use crate::files::schema::analysis::AnalysisFile;
 use crate::files::schema::ball::BallFile;
 use crate::files::schema::bat::BatFile;
 use crate::files::schema::bbcor::BbcorFile;
+use crate::files::schema::calibrate::CalibrateFile;
 use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
 use crate::files::schema::frf::FrfFile;
@@ -15,6 +16,7 @@ use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
 use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
+use crate::files::schema::readings::ReadingsForm;
 use crate::files::schema::ring::RingFile;
 use crate::files::schema::study::{StudyForm, StudyManifest};
 use crate::files::schema::trade::TradeFile;
@@ -32,10 +34,11 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
+        Self::of::<ReadingsForm>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
@@ -46,6 +49,7 @@ impl FileKind {
         Self::of::<RingFile>(),
         Self::of::<FrfFile>(),
         Self::of::<AdviceFile>(),
+        Self::of::<CalibrateFile>(),
         Self::of::<StudyManifest>(),
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),

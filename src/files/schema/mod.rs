@@ -28,6 +28,8 @@ pub mod frf;
 pub mod advice;
 pub mod u_curve;
 pub mod trade;
+pub mod readings;
+pub mod calibrate;
 pub mod mistakes;
 pub mod study;
 

@@ -58,3 +58,4 @@ pub mod sets;
 pub mod compared;
 pub mod measured;
 pub mod many;
+pub mod calibrate;

@@ -25,4 +25,6 @@ pub mod comparison;
 pub mod comparison_screen;
 pub mod comparison_data;
 pub mod measured;
+pub mod calibrate;
+pub mod calibrated_bat;
 pub mod mistakes;

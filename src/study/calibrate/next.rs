@@ -12,7 +12,7 @@ use crate::study::calibrate::fit::{Fit, Kind, Search};
 use crate::study::calibrate::unknowns::form;
 use crate::study::calibrate::wood::Slopes;
 
-/// Modes beyond the highest one measured that are thought of.
+/// Modes beyond the highest one measured that are solved; the first of them is thought of.
 pub const BEYOND: usize = 2;
 
 /// A measurement that was not made, and what it would do.
@@ -34,7 +34,12 @@ pub fn proposals(search: &Search, fit: &Fit, parameters: &[Vec<f64>]) -> Vec<Pro
         let frequency = fit.shown.frequencies[k].value;
         (Kind::Frequency(k + 1), f64::hypot(0.5, search.readings.model * frequency))
     };
-    let tones = (0..fit.shown.frequencies.len()).map(tone);
+    let order = |kind: Kind| match kind {
+        Kind::Frequency(order) => order,
+        _ => 0,
+    };
+    let highest = fit.residuals.iter().map(|residual| order(residual.datum.kind)).max();
+    let tones = (0..fit.shown.frequencies.len().min(highest.unwrap_or(0) + 1)).map(tone);
     let all = rigid.into_iter().chain(tones).filter(|(kind, _)| !made(*kind));
     let proposal = |(kind, sigma): (Kind, f64)| {
         let Slopes { by, .. } = kind.of(&fit.shown);
