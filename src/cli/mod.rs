@@ -47,6 +47,7 @@ mod frf_grid;
 mod frf;
 mod trade;
 mod study;
+mod scatter;
 mod advise;
 mod convert;
 mod validate;

@@ -14,7 +14,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help, hit, licences,
-    man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
+    man, materials, modes, new, ring, scatter, scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -54,6 +54,7 @@ enum Verb {
     Frf(frf::Args),
     Trade(trade::Args),
     Study(study::Args),
+    Scatter(scatter::Args),
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
@@ -89,6 +90,7 @@ pub fn run() -> Result<Done> {
         Verb::Frf(args) => frf::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Study(args) => study::run(&args),
+        Verb::Scatter(args) => scatter::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),

@@ -9,6 +9,8 @@
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
+//! | `amounts`, [`readings_file`] | shares and readings with their uncertainty; what was measured of a bat |
+//! | [`scatter_file`] | what differs between bats of one model |
 //! | [`study_file`], [`study_rows`] | what a study varies and asks; row k of it |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
@@ -32,6 +34,7 @@ pub mod shape_file;
 pub mod force_file;
 pub mod study_file;
 pub mod study_rows;
+pub mod scatter_file;
 #[cfg(feature = "show")]
 pub mod schema;
 #[cfg(feature = "show")]

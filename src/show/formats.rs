@@ -18,6 +18,7 @@ use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::readings::ReadingsForm;
 use crate::files::schema::ring::RingFile;
+use crate::files::schema::scatter::{ScatterForm, ScatterResult};
 use crate::files::schema::study::{StudyForm, StudyManifest};
 use crate::files::schema::trade::TradeFile;
 use crate::files::schema::u_curve::UCurveFile;
@@ -34,11 +35,12 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 23] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
         Self::of::<ReadingsForm>(),
+        Self::of::<ScatterForm>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
@@ -50,6 +52,7 @@ impl FileKind {
         Self::of::<FrfFile>(),
         Self::of::<AdviceFile>(),
         Self::of::<CalibrateFile>(),
+        Self::of::<ScatterResult>(),
         Self::of::<StudyManifest>(),
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),

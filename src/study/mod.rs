@@ -10,6 +10,7 @@
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
 //! | [`many`] | which bats does a study vary |
+//! | [`scatter`] | how much do bats of one model and swings of one batter differ |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
@@ -22,3 +23,4 @@ pub mod advise;
 pub mod comparison;
 pub mod measured;
 pub mod many;
+pub mod scatter;

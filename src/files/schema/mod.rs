@@ -32,6 +32,7 @@ pub mod readings;
 pub mod calibrate;
 pub mod mistakes;
 pub mod study;
+pub mod scatter;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

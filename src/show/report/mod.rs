@@ -27,4 +27,5 @@ pub mod comparison_data;
 pub mod measured;
 pub mod calibrate;
 pub mod calibrated_bat;
+pub mod scatter;
 pub mod mistakes;
