@@ -1,11 +1,19 @@
 //! What `sweetspot calibrate` finds: the numbers of an independent solver, and closed forms.
 
+mod common;
+
+use std::io::Write;
+use std::process::Stdio;
+
+use common::folder::Folder;
 use sweetspot::modes::shares::Shares;
 use sweetspot::study::calibrate::calibration::{
     Calibration, CalibrationPlan, Estimated, Property, Verdict,
 };
 use sweetspot::study::calibrate::fit::{Search, data};
-use sweetspot::study::calibrate::readings::{BatReadings, Pendulum, Priors, Reading, ShearPrior, SpectralLine};
+use sweetspot::study::calibrate::readings::{
+    BatReadings, Pendulum, Priors, Reading, ShearPrior, SpectralLine,
+};
 use sweetspot::study::calibrate::unknowns::Unknown;
 use sweetspot::study::calibrate::wood::WoodenBat;
 use sweetspot::{Bat, Request, Theory, solve};
@@ -207,14 +215,11 @@ fn one_tap_alone_gives_the_factor_of_the_bat_file() {
         "weighed": { "mass": "31 oz", "first_bending_hz": 170 },
         "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
     let file = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
-    let tapped =
-        sweetspot::study::tuned::tuned(file.clone(), Theory::Timoshenko, 1e-9).unwrap();
-    let bare = Bat::from_text("bat.json", &text.replace(", \"first_bending_hz\": 170", ""), "".as_ref());
-    let mut readings = BatReadings {
-        lines: lines(&[(170.0, 1e-3, 1)]),
-        model: 1e-7,
-        ..BatReadings::default()
-    };
+    let tapped = sweetspot::study::tuned::tuned(file.clone(), Theory::Timoshenko, 1e-9).unwrap();
+    let bare =
+        Bat::from_text("bat.json", &text.replace(", \"first_bending_hz\": 170", ""), "".as_ref());
+    let mut readings =
+        BatReadings { lines: lines(&[(170.0, 1e-3, 1)]), model: 1e-7, ..BatReadings::default() };
     readings.priors.youngs_modulus = 1e3;
     readings.priors.correlation = 0.0;
     let held = vec![Unknown::ShearOverYoung, Unknown::Density];
@@ -223,4 +228,74 @@ fn one_tap_alone_gives_the_factor_of_the_bat_file() {
     let (e, _) = of(&found.parameters, Property::YoungsModulus);
     let known = tapped.material().youngs_modulus;
     assert!((e / known - 1.0).abs() < 1e-6, "{e} {known}");
+}
+
+/// The file that is written is the bat that was found, and says how well it is known.
+#[test]
+fn the_written_bat_is_the_one_that_was_found() {
+    let folder = Folder::new("calibrate");
+    folder.write("r161.json", R161);
+    folder.write("readings.json", include_str!("golden/readings-1.json"));
+    for more in [&[][..], &["--regions", "42 cm"]] {
+        let args = ["calibrate", "r161.json", "readings.json", "--out", "mine.json", "--json", "-"];
+        let found = folder.json(&[&args[..], more].concat());
+        let solved = folder.json(&[
+            "modes",
+            "mine.json",
+            "-n",
+            "3",
+            "--theory",
+            "timoshenko",
+            "--json",
+            "-",
+        ]);
+        for datum in found["data"].as_array().unwrap() {
+            let computed = datum["computed"].as_f64().unwrap();
+            let name = datum["name"].as_str().unwrap();
+            let again = match name {
+                "mass_kg" | "balance_point_m" => solved["rigid_body"][name].as_f64(),
+                "pendulum_period_s" => None,
+                name => {
+                    let order: usize = name[1..2].parse().unwrap();
+                    solved["modes"][order - 1]["frequency_hz"].as_f64()
+                }
+            };
+            if let Some(again) = again {
+                assert!((again / computed - 1.0).abs() < 1e-4, "{name} {again} {computed}");
+            }
+        }
+        let text = folder.read("mine.json");
+        assert!(text.contains("95 % from") && text.contains("\"loss_factor\": 0.0145"), "{text}");
+    }
+}
+
+#[test]
+fn answers_are_asked_and_kept() {
+    let folder = Folder::new("calibrate_asked");
+    let answers = "30.65 oz\n56.1 cm\n14.70\n174.5, 581.3, 1187\n\n";
+    let asked = ["calibrate", "r161", "--ask", "--readings", "kept.json", "--json", "-"];
+    let mut command = folder.command(&asked);
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = piped.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(answers.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let again = folder.json(&["calibrate", "r161", "kept.json", "--json", "-"]);
+    let first: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(first["parameters"], again["parameters"]);
+    assert_eq!(first["labels"]["taken"], serde_json::json!([1, 2, 3]));
+}
+
+#[test]
+fn a_mismatch_is_a_failed_check() {
+    let folder = Folder::new("calibrate_mismatch");
+    let text = r#"{ "format": "sweetspot-readings/1", "mass": "0.885 kg", "balance_point": "0.564 m",
+        "lines": [ { "hz": 165, "mode": 1 }, { "hz": 568, "mode": 2 }, { "hz": 1177, "mode": 3 },
+            { "hz": 1851, "mode": 4 } ] }"#;
+    folder.write("nathan.json", text);
+    let output = folder.run(&["calibrate", "r161", "nathan.json"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("The readings do not fit this bat"), "{said}");
+    assert!(said.contains("f1_hz (-4.5 sd)") || said.contains("f1_hz (-4.4 sd)"), "{said}");
 }

@@ -47,6 +47,11 @@ fn furnished(name: &str) -> Folder {
              "vary": { "bat.material.density": { "lognormal": [650, 0.04] } },
              "outputs": ["f1_hz", "mass_kg", "exit_speed_max.value"] }"#,
     );
+    // docs/wood.md describes them.
+    folder.write("readings.json", include_str!("golden/readings-1.json"));
+    let bats = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "tol": 1e-2,
+        "impact": { "normal": "0.5 in" }, "outputs": ["f1_hz", "exit_speed_m_s@impact"] }"#;
+    folder.write("bats.json", bats);
     // docs/hit.md describes it.
     folder.write("push.csv", "t_ms,force_n\n0,0\n0.5,2000\n1,0\n");
     folder

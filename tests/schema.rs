@@ -241,7 +241,17 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
 
 #[test]
 fn every_format_is_written_and_pinned_or_read() {
-    let others = ["page", "error", "study-manifest", "bat", "ball", "study", "validation"];
+    let others = [
+        "page",
+        "error",
+        "study-manifest",
+        "bat",
+        "ball",
+        "study",
+        "readings",
+        "scatter",
+        "validation",
+    ];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
         let known = written || others.contains(&file.name());
@@ -259,6 +269,10 @@ fn every_case_of_known_answers_ball_and_study_of_this_project_is_valid() {
     assert_valid(&validator(&kind("ball").schema()), &ball, "ball");
     let study = serde_json::from_str(include_str!("golden/study-1.json")).unwrap();
     assert_valid(&validator(&kind("study").schema()), &study, "study");
+    let readings = serde_json::from_str(include_str!("golden/readings-1.json")).unwrap();
+    assert_valid(&validator(&kind("readings").schema()), &readings, "readings");
+    let scatter = serde_json::from_str(include_str!("golden/scatter-1.json")).unwrap();
+    assert_valid(&validator(&kind("scatter").schema()), &scatter, "scatter");
 }
 
 fn kind(name: &str) -> FileKind {

@@ -18,8 +18,8 @@ use crate::cli::common::{examples, printed, read_with_text, warn};
 use crate::cli::delivered::{apart, put};
 use crate::cli::dialogue::Dialogue;
 use crate::cli::done::{Done, FAILED};
-use crate::cli::readings_asked::asked;
 use crate::cli::edits::EditArgs;
+use crate::cli::readings_asked::asked;
 use crate::cli::value::{PLACE, choice};
 use crate::cli::{pictures, style};
 
@@ -101,8 +101,12 @@ fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let written =
-        [("--json", &args.json), ("--csv", &args.csv), ("--out", &args.out), ("--readings", &args.readings)];
+    let written = [
+        ("--json", &args.json),
+        ("--csv", &args.csv),
+        ("--out", &args.out),
+        ("--readings", &args.readings),
+    ];
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
     let (readings, name) = readings(args, &bat)?;

@@ -16,7 +16,8 @@ use crate::cli::dialogue::{Asked, Dialogue, Question, Read};
 const WELCOME: &str = "What was measured of the bat. An empty line takes what stands in [ ]; ? explains a \
                        question, back goes to the one before.";
 const ON_MASS: &str = "As the scale shows it, with all that is on the bat; taken as within 1 g.";
-const ON_BALANCE: &str = "Where the bat balances on an edge, from the knob end; taken as within 1 mm.";
+const ON_BALANCE: &str =
+    "Where the bat balances on an edge, from the knob end; taken as within 1 mm.";
 const ON_SWINGS: &str = "Hang the bat on a pin or an edge 6 in from the knob end, let it swing a few degrees \
                          and time ten swings there and back; ten of them are taken as within 10 ms.";
 const ON_TONES: &str = "Hold the bat loosely some 6 in from the knob, tap the barrel, and read the peaks off \

@@ -114,7 +114,9 @@ pub fn run(args: &Args) -> Result<Done> {
             let Some(row) = found.nearest(of, percentile) else { continue };
             let share = SHARES[percentile];
             let source = scatter::told(&rows, &found, (row, of), share);
-            let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else { continue };
+            let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else {
+                continue;
+            };
             let path = folder.join(format!("p{:02.0}.json", 100.0 * share));
             file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
         }

@@ -13,8 +13,9 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help, hit, licences,
-    man, materials, modes, new, ring, scatter, scene, schema, stop, study, style, trade, validate,
+    advise, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help, hit,
+    licences, man, materials, modes, new, ring, scatter, scene, schema, stop, study, style, trade,
+    validate,
 };
 use crate::show::report::mistakes;
 

@@ -98,7 +98,9 @@ mod tests {
             assert!((found.value - value).abs() < 1e-15, "{text} {found:?}");
             assert!((found.deviation - deviation).abs() < 1e-15, "{text} {found:?}");
         }
-        for wrong in ["\"0.8 ± 1 g\"", "\"0.8 kg ± 0 g\"", "\"0.8 kg ± 1 mm\"", "9", "\"1 kg ± 2 kg\""] {
+        for wrong in
+            ["\"0.8 ± 1 g\"", "\"0.8 kg ± 0 g\"", "\"0.8 kg ± 1 mm\"", "9", "\"1 kg ± 2 kg\""]
+        {
             assert!(read(wrong).is_err(), "{wrong}");
         }
     }

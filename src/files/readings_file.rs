@@ -106,9 +106,11 @@ fn listed<T>(root: &Object, key: &str, one: impl Fn(&Node) -> Result<T>) -> Resu
 fn pendulum(node: &Node) -> Result<Pendulum> {
     let mut mistakes = Mistakes::default();
     let object = node.object(&["pivot", "period"], &mut mistakes)?;
-    let pivot = object.get("pivot").map_or(Ok(STANDARD_PIVOT), |node| node.quantity(Quantity::Length));
+    let pivot =
+        object.get("pivot").map_or(Ok(STANDARD_PIVOT), |node| node.quantity(Quantity::Length));
     let pivot = mistakes.note(pivot);
-    let period = object.require("period", "\"period\" of a swing there and back, such as \"1.470 s ± 1 ms\"");
+    let period = object
+        .require("period", "\"period\" of a swing there and back, such as \"1.470 s ± 1 ms\"");
     let period = period.and_then(|node| reading(node, Quantity::Time, USUAL[2], RANGES[2]));
     mistakes.and(period.map(|period| Pendulum { pivot, period }))
 }
@@ -118,7 +120,8 @@ fn line(node: &Node) -> Result<SpectralLine> {
     let object = node.object(&["hz", "within", "mode"], &mut mistakes)?;
     let mode = mistakes.note(object.get("mode").map(order).transpose());
     let frequency = object.require("hz", "\"hz\": the frequency of the line");
-    let frequency = frequency.and_then(|node| reading(node, Quantity::Frequency, USUAL[3], RANGES[3]));
+    let frequency =
+        frequency.and_then(|node| reading(node, Quantity::Frequency, USUAL[3], RANGES[3]));
     let within = object.get("within").map(|node| {
         let value = node.quantity(Quantity::Frequency)?;
         let most = frequency.as_ref().map_or(f64::INFINITY, |line| line.value);
@@ -137,7 +140,8 @@ fn line(node: &Node) -> Result<SpectralLine> {
 fn tone(node: &Node) -> Result<RingDown> {
     let mut mistakes = Mistakes::default();
     let object = node.object(&["mode", "cycles", "ratio"], &mut mistakes)?;
-    let mode = mistakes.note(object.require("mode", "\"mode\": which bending mode died out").and_then(order));
+    let mode = mistakes
+        .note(object.require("mode", "\"mode\": which bending mode died out").and_then(order));
     let within = |key: &str, expected: &str, [low, high]: [f64; 2]| {
         let node = object.require(key, expected)?;
         let value = node.number()?;
@@ -166,7 +170,8 @@ fn order(node: &Node) -> Result<usize> {
 }
 
 fn each_mode_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
-    let again = |k: usize| lines[k].mode.is_some() && lines[..k].iter().any(|l| l.mode == lines[k].mode);
+    let again =
+        |k: usize| lines[k].mode.is_some() && lines[..k].iter().any(|l| l.mode == lines[k].mode);
     mistakes::all((0..lines.len()).filter(|k| again(*k)).map(|k| {
         let item = node.item(k);
         Err::<(), _>(item.error("a mode a second time", "every mode once"))
@@ -201,9 +206,11 @@ fn priors(node: &Node) -> Result<Priors> {
     } else if let Some(node) = object.get("shear_modulus") {
         priors.shear = ShearPrior::Alone(mistakes.some(share(node)).unwrap_or(0.35));
     }
-    let possible = crate::base::linear::inverse(&crate::study::calibrate::unknowns::covariance(&priors, 2));
+    let possible =
+        crate::base::linear::inverse(&crate::study::calibrate::unknowns::covariance(&priors, 2));
     if possible.is_none() {
-        let expected = "correlations that can be: of density in handle and barrel, and of both with E";
+        let expected =
+            "correlations that can be: of density in handle and barrel, and of both with E";
         mistakes.add(node.error("correlations that contradict each other", expected));
     }
     mistakes.end(priors)

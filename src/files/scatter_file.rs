@@ -101,7 +101,8 @@ fn from_document(document: &Document, folder: &Path) -> Result<ScatterFile> {
     mistakes.note(root.require("format", format).map(|_| ()));
     mistakes.note(root.string("$schema"));
     mistakes.note(root.string("name"));
-    let ball = mistakes.some(root.get("ball").map_or(Ok(Ball::baseball()), |node| ball(node, folder)));
+    let ball =
+        mistakes.some(root.get("ball").map_or(Ok(Ball::baseball()), |node| ball(node, folder)));
     let ball = ball.unwrap_or_else(Ball::baseball);
     let setup = root.get("scene").map(|node| scene_file::read(node, ball.clone()));
     let setup = mistakes.some(setup.unwrap_or(Ok(Setup { ball, ..Setup::default() })));
@@ -164,7 +165,8 @@ fn difference(key: &str, way: &'static str, node: &Node) -> Result<Difference> {
         "cor" => "0.016",
         _ => "\"4 %\"",
     };
-    let deviation = object.require(way, &format!("\"{way}\": a standard deviation, such as {example}"));
+    let deviation =
+        object.require(way, &format!("\"{way}\": a standard deviation, such as {example}"));
     let length = |node: &Node| {
         let value = node.quantity(Quantity::Length)?;
         match value > 0.0 && value < 0.2 {
@@ -216,7 +218,8 @@ fn correlations(node: &Node, differences: &mut Differences) -> Result<()> {
         match found.filter(|k| !matches!(all[*k].what, Differs::Turned(_))) {
             Some(k) => Ok(k),
             None => {
-                let expected = format!("something that differs in one number, one of {}", names.join(", "));
+                let expected =
+                    format!("something that differs in one number, one of {}", names.join(", "));
                 let complaint = Complaint::new("", node.shown(), expected);
                 Err(node.complain(complaint.or_nearest(&name, &names)))
             }
@@ -297,7 +300,10 @@ fn covariance(
 fn outputs(root: &Object, differences: &Differences) -> Result<Vec<Output>> {
     let at_impact = differences.all.iter().any(|one| one.what == Differs::Impact);
     let Some(node) = root.get("outputs") else {
-        let mut all = USUAL.iter().map(|name| Answer::named(name).map(Output::Of)).collect::<Result<Vec<_>>>()?;
+        let mut all = USUAL
+            .iter()
+            .map(|name| Answer::named(name).map(Output::Of))
+            .collect::<Result<Vec<_>>>()?;
         all.extend(at_impact.then_some(Output::AtImpact));
         return Ok(all);
     };
@@ -311,7 +317,9 @@ fn outputs(root: &Object, differences: &Differences) -> Result<Vec<Output>> {
         let output = match name == AT_IMPACT {
             true => Output::AtImpact,
             false => Output::Of(Answer::named(&name).map_err(|error: Error| {
-                error.placed(|complaint| item.complain(Complaint { field: String::new(), ..complaint }))
+                error.placed(|complaint| {
+                    item.complain(Complaint { field: String::new(), ..complaint })
+                })
             })?),
         };
         if seen.contains(&output) {

@@ -140,8 +140,7 @@ mod tests {
                 pair.map(|(a, b)| (a.omega / b.omega).ln() / (2.0 * step)).collect::<Vec<f64>>()
             };
             let bent = slope(&|m, by| m.youngs_modulus *= by);
-            let sheared =
-                slope(&|m, by| m.shear_modulus = m.shear_modulus.map(|shear| by * shear));
+            let sheared = slope(&|m, by| m.shear_modulus = m.shear_modulus.map(|shear| by * shear));
             let moved = slope(&|m, by| m.density *= by);
             let whole = two(&|_| {});
             let solution = solve(&whole, &request).unwrap();

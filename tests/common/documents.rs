@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 17] = [
+pub const WRITTEN: [Written; 19] = [
     (
         "modes",
         "modes",
@@ -96,6 +96,13 @@ pub const WRITTEN: [Written; 17] = [
         "frf lossy.json --measured tap.uff --points 3 -n 3 --tol 1e-8",
         Numbers::Rough,
     ),
+    ("calibrate", "calibrate", "calibrate r161.json readings-1.json", Numbers::Rough),
+    (
+        "scatter-result",
+        "scatter-result",
+        "scatter r161.json scatter-1.json --points 64",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -118,6 +125,8 @@ pub fn folder(test: &str) -> Folder {
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);
     folder.write("tap.uff", include_str!("../golden/tap.uff"));
+    folder.write("readings-1.json", include_str!("../golden/readings-1.json"));
+    folder.write("scatter-1.json", include_str!("../golden/scatter-1.json"));
     folder.write("study-1.json", include_str!("../golden/study-1.json"));
     folder
 }

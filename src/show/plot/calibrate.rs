@@ -30,7 +30,8 @@ fn wood(name: &str, parameters: &[Estimated]) -> Picture {
     let facts = "95 of 100 cases: light before, dark after; the line is what was found";
     let ends = |one: &Estimated| {
         let before = one.prior.value / one.value;
-        let wide = |centre: f64, sd: f64| [-1.0, 1.0].map(|s| centre * (s * NINETY_FIVE * sd).exp());
+        let wide =
+            |centre: f64, sd: f64| [-1.0, 1.0].map(|s| centre * (s * NINETY_FIVE * sd).exp());
         [wide(before, one.prior.deviation), wide(1.0, one.deviation)]
     };
     let all: Vec<[[f64; 2]; 2]> = parameters.iter().map(ends).collect();
@@ -59,7 +60,8 @@ fn wood(name: &str, parameters: &[Estimated]) -> Picture {
 /// How far each reading is from what all others say; picture `readings`.
 fn residuals(name: &str, all: &[Residual]) -> Picture {
     let title = "Which readings fit";
-    let facts = "measured less computed; circle: with it, bar: from all others; beyond 3 it does not fit";
+    let facts =
+        "measured less computed; circle: with it, bar: from all others; beyond 3 it does not fit";
     let values = all.iter().flat_map(|one| [one.left_out, one.deviations]);
     let x = Axis::around("standard deviations", values.chain([-4.0, 4.0]), 9);
     let labels: Vec<String> = all.iter().map(|one| one.datum.kind.name()).collect();
@@ -71,7 +73,8 @@ fn residuals(name: &str, all: &[Residual]) -> Picture {
         let ends = [one.left_out.min(0.0), one.left_out.max(0.0)];
         bar(&mut svg, &plane, (ends, middle), (ink, 0.7));
         svg.mark(Mark::Circle, [plane.across(one.deviations), middle], 4.0, TEXT, false);
-        let words = format!("{label}: {:+.1}, from all others {:+.1}", one.deviations, one.left_out);
+        let words =
+            format!("{label}: {:+.1}, from all others {:+.1}", one.deviations, one.left_out);
         svg.hover(&[([plane.across(one.left_out), middle], words.clone())], 1);
         said.push(words);
     }

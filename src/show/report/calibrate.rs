@@ -130,7 +130,10 @@ pub fn words(found: &Calibration) -> Vec<String> {
     all.extend(relabelled(found));
     all.extend(mismatch(found));
     if found.typical_shear {
-        all.push("The bat file has no shear modulus: one that is typical of the kind was the start.".to_owned());
+        all.push(
+            "The bat file has no shear modulus: one that is typical of the kind was the start."
+                .to_owned(),
+        );
     }
     for one in found.parameters.iter().filter(|one| one.verdict == Verdict::OnlyTogether) {
         let Some((other, r)) = one.correlated else { continue };
@@ -142,7 +145,8 @@ pub fn words(found: &Calibration) -> Vec<String> {
         ));
     }
     let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
-    let silent: Vec<&str> = found.parameters.iter().filter(silent).map(|p| short(p.property)).collect();
+    let silent: Vec<&str> =
+        found.parameters.iter().filter(silent).map(|p| short(p.property)).collect();
     if !silent.is_empty() {
         all.push(format!(
             "Of {} the readings say nothing: what stands there is what was taken for known before.",
@@ -178,7 +182,8 @@ fn mismatch(found: &Calibration) -> Option<String> {
     let name = |residual: &Residual| {
         format!("{} ({:+.1} sd)", residual.datum.kind.name(), residual.left_out)
     };
-    let outliers: Vec<String> = found.outliers.iter().map(|k| name(&found.fit.residuals[*k])).collect();
+    let outliers: Vec<String> =
+        found.outliers.iter().map(|k| name(&found.fit.residuals[*k])).collect();
     let which = match outliers.is_empty() {
         true => "No one reading stands out".to_owned(),
         false => format!("Beside all others these are far off: {}", outliers.join(", ")),

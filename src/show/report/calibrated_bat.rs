@@ -35,13 +35,17 @@ pub fn text(
     new.insert("name".to_owned(), json!(bat.name()));
     new.insert("comment".to_owned(), json!(intervals(found)));
     let from = bat.source();
-    let source = format!("Calibrated by {measured} (sweetspot {}). {from}", env!("CARGO_PKG_VERSION"));
+    let source =
+        format!("Calibrated by {measured} (sweetspot {}). {from}", env!("CARGO_PKG_VERSION"));
     new.insert("source".to_owned(), json!(source.trim_end()));
     new.insert("material".to_owned(), json!(material(found, found.bat.material())));
     if let Some(from) = split {
         let barrel = found.bat.fixtures().regions.first().map(|region| &region.layup.outer);
         let barrel = material(found, barrel.unwrap_or(found.bat.material()));
-        new.insert("regions".to_owned(), json!([{ "from": from, "to": bat.length(), "material": barrel }]));
+        new.insert(
+            "regions".to_owned(),
+            json!([{ "from": from, "to": bat.length(), "material": barrel }]),
+        );
     }
     for (key, value) in old {
         if !ANEW.contains(&key.as_str()) && !new.contains_key(&key) {

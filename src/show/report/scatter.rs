@@ -53,7 +53,9 @@ fn spread(output: &OutputSpread) -> String {
     }
     out += &columns.heads();
     let row = |head: &str, of: &dyn Fn(&Percentile) -> String| {
-        std::iter::once(head.to_owned()).chain(output.percentiles.iter().map(of)).collect::<Vec<_>>()
+        std::iter::once(head.to_owned())
+            .chain(output.percentiles.iter().map(of))
+            .collect::<Vec<_>>()
     };
     out += &columns.row(row("", &|one| significant(one.value, 5)));
     let error = |one: &Percentile| one.error.map_or("-".to_owned(), |error| significant(error, 2));
@@ -96,7 +98,11 @@ fn given(rows: &ScatterRows, k: usize) -> Vec<String> {
 
 fn reasons(found: &Scattered) -> Vec<(String, usize)> {
     let mut all: BTreeMap<&String, usize> = BTreeMap::new();
-    found.reasons.iter().filter(|why| !why.is_empty()).for_each(|why| *all.entry(why).or_default() += 1);
+    found
+        .reasons
+        .iter()
+        .filter(|why| !why.is_empty())
+        .for_each(|why| *all.entry(why).or_default() += 1);
     let mut all: Vec<(String, usize)> = all.into_iter().map(|(why, n)| (why.clone(), n)).collect();
     all.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     all
@@ -204,7 +210,12 @@ pub fn csv(rows: &ScatterRows, found: &Scattered) -> String {
 }
 
 /// What the bat of a row is, as its source says: which percentile it is nearest to, and what differs.
-pub fn told(rows: &ScatterRows, found: &Scattered, (row, output): (usize, usize), share: f64) -> String {
+pub fn told(
+    rows: &ScatterRows,
+    found: &Scattered,
+    (row, output): (usize, usize),
+    share: f64,
+) -> String {
     let values = rows.values(row as u64);
     let one = |(k, difference): (usize, &crate::study::scatter::spreads::Difference)| {
         let value = significant(rows.told(&values, k), 6);

@@ -318,7 +318,8 @@ fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
     }
     let center = bat.inertia().balance_point;
     if readings.pendulum.is_some() && !(0.0..0.9 * center).contains(&pivot) {
-        let expected = format!("a place on the knob side of the balance point, which is at {center:.3} m");
+        let expected =
+            format!("a place on the knob side of the balance point, which is at {center:.3} m");
         return Err(Error::value("pendulum.pivot", format!("{pivot} m"), expected));
     }
     let attached = bat.fixtures().attached_mass();
@@ -411,16 +412,16 @@ fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
             variance = (variance + before[own][own]).min(form(&before, &parts, &parts));
         }
         let prior = Reading { value: centre, deviation: form(&before, &parts, &parts).sqrt() };
-        let learned = |parts: &[f64]| {
-            1.0 - form(&fit.covariance, parts, parts) / form(&before, parts, parts)
-        };
+        let learned =
+            |parts: &[f64]| 1.0 - form(&fit.covariance, parts, parts) / form(&before, parts, parts);
         let mut single = vec![0.0; unknowns];
         single[own] = 1.0;
         let learned = if is_free { learned(&single).min(learned(&parts)) } else { 0.0 };
         let others = properties.iter().filter(|other| **other != property);
         let correlation = |other: &Property| {
             let theirs = other.parts(unknowns);
-            let sizes = form(&fit.covariance, &theirs, &theirs) * form(&fit.covariance, &parts, &parts);
+            let sizes =
+                form(&fit.covariance, &theirs, &theirs) * form(&fit.covariance, &parts, &parts);
             let r = form(&fit.covariance, &parts, &theirs) / sizes.sqrt();
             (sizes > 0.0).then_some((*other, r))
         };
@@ -434,7 +435,15 @@ fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
             learned if learned > DETERMINED => Verdict::Determined,
             _ => Verdict::Partly,
         };
-        Estimated { property, value, deviation: variance.sqrt(), prior, learned, correlated, verdict }
+        Estimated {
+            property,
+            value,
+            deviation: variance.sqrt(),
+            prior,
+            learned,
+            correlated,
+            verdict,
+        }
     };
     properties.iter().map(|property| of(*property)).collect()
 }

@@ -90,9 +90,10 @@ pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
         (Kind::Period, readings.pendulum.map(|pendulum| pendulum.period)),
     ];
     let rigid = rigid.into_iter().filter_map(|(kind, reading)| Some((kind, None, reading?)));
-    let lines = readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
-        Some((Kind::Frequency((*mode)?), Some(k), line.frequency))
-    });
+    let lines =
+        readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
+            Some((Kind::Frequency((*mode)?), Some(k), line.frequency))
+        });
     let datum = |(kind, line, reading): (Kind, Option<usize>, Reading)| {
         let model = if line.is_some() { readings.model * reading.value } else { 0.0 };
         Datum { kind, line, reading, sigma: reading.deviation.hypot(model) }

@@ -60,10 +60,12 @@ pub fn best(search: &Search, told: &Labels, start: &Shown) -> Result<Vec<Labelle
         let strangers = labels.iter().filter(|label| label.is_none()).count();
         search.guess(&data(search.readings, labels), start) + STRANGER * strangers as f64
     };
-    let mut ordered: Vec<(f64, Labels)> = all.drain(..).map(|labels| (guess(&labels), labels)).collect();
+    let mut ordered: Vec<(f64, Labels)> =
+        all.drain(..).map(|labels| (guess(&labels), labels)).collect();
     ordered.sort_by(|a, b| a.0.total_cmp(&b.0));
     ordered.truncate(MOST_FITTED);
-    let fitted = threads::map(ordered.len(), |k| Labelled::new(search, ordered[k].1.clone(), modes));
+    let fitted =
+        threads::map(ordered.len(), |k| Labelled::new(search, ordered[k].1.clone(), modes));
     let mut fitted: Vec<Labelled> = fitted.into_iter().filter_map(|one| one.ok()).collect();
     fitted.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
     Ok(fitted)
@@ -101,5 +103,8 @@ fn rising(search: &Search, told: &Labels, start: &Shown) -> Vec<Labels> {
         longer.truncate(MOST_LOOKED_AT);
         all = longer;
     }
-    all.into_iter().map(|(_, labels)| labels).filter(|labels| labels.iter().any(Option::is_some)).collect()
+    all.into_iter()
+        .map(|(_, labels)| labels)
+        .filter(|labels| labels.iter().any(Option::is_some))
+        .collect()
 }

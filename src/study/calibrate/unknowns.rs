@@ -53,28 +53,28 @@ pub fn covariance(priors: &Priors, regions: usize) -> Vec<Vec<f64>> {
 }
 
 fn entry(priors: &Priors, a: Unknown, b: Unknown) -> f64 {
-        use Unknown::{BarrelDensity, Density, ModulusRatio, ShearOverYoung, YoungsModulus};
-        match (a, b) {
-            (YoungsModulus, YoungsModulus) => priors.youngs_modulus.powi(2),
-            (ShearOverYoung, ShearOverYoung) => match priors.shear {
-                ShearPrior::OverYoung(deviation) => deviation.powi(2),
-                ShearPrior::Alone(deviation) => deviation.powi(2) + priors.youngs_modulus.powi(2),
-            },
-            // G by itself does not go with E, so that G/E goes against it.
-            (ShearOverYoung, other) | (other, ShearOverYoung) => match priors.shear {
-                ShearPrior::OverYoung(_) => 0.0,
-                ShearPrior::Alone(_) => -entry(priors, YoungsModulus, other),
-            },
-            (Density, Density) | (BarrelDensity, BarrelDensity) => priors.density.powi(2),
-            (ModulusRatio, ModulusRatio) => priors.modulus_ratio.powi(2),
-            (Density, BarrelDensity) | (BarrelDensity, Density) => {
-                priors.densities_together * priors.density.powi(2)
-            }
-            (YoungsModulus, Density | BarrelDensity) | (Density | BarrelDensity, YoungsModulus) => {
-                priors.correlation * priors.youngs_modulus * priors.density
-            }
-            _ => 0.0,
+    use Unknown::{BarrelDensity, Density, ModulusRatio, ShearOverYoung, YoungsModulus};
+    match (a, b) {
+        (YoungsModulus, YoungsModulus) => priors.youngs_modulus.powi(2),
+        (ShearOverYoung, ShearOverYoung) => match priors.shear {
+            ShearPrior::OverYoung(deviation) => deviation.powi(2),
+            ShearPrior::Alone(deviation) => deviation.powi(2) + priors.youngs_modulus.powi(2),
+        },
+        // G by itself does not go with E, so that G/E goes against it.
+        (ShearOverYoung, other) | (other, ShearOverYoung) => match priors.shear {
+            ShearPrior::OverYoung(_) => 0.0,
+            ShearPrior::Alone(_) => -entry(priors, YoungsModulus, other),
+        },
+        (Density, Density) | (BarrelDensity, BarrelDensity) => priors.density.powi(2),
+        (ModulusRatio, ModulusRatio) => priors.modulus_ratio.powi(2),
+        (Density, BarrelDensity) | (BarrelDensity, Density) => {
+            priors.densities_together * priors.density.powi(2)
         }
+        (YoungsModulus, Density | BarrelDensity) | (Density | BarrelDensity, YoungsModulus) => {
+            priors.correlation * priors.youngs_modulus * priors.density
+        }
+        _ => 0.0,
+    }
 }
 
 /// The sum `Σ a_i b_j C_ij`.
@@ -94,16 +94,17 @@ mod tests {
     fn what_was_known_before_is_a_covariance_that_can_be() {
         for regions in [1, 2] {
             for shear in [ShearPrior::OverYoung(0.35), ShearPrior::Alone(0.35)] {
-        let all = covariance(&Priors { shear, ..Priors::default() }, regions);
-            assert!(inverse(&all).is_some());
-            assert_eq!(all.len(), Unknown::of(regions).len());
-            let sum = form(&all, &vec![1.0; all.len()], &vec![1.0; all.len()]);
-            assert!((sum - all.iter().flatten().sum::<f64>()).abs() < 1e-15);
-            if let ShearPrior::Alone(own) = shear {
-                // ln G is the sum of the first two.
-                let sum = all[0][0] + 2.0 * all[0][1] + all[1][1];
-                assert!((sum - own * own).abs() < 1e-15);
+                let all = covariance(&Priors { shear, ..Priors::default() }, regions);
+                assert!(inverse(&all).is_some());
+                assert_eq!(all.len(), Unknown::of(regions).len());
+                let sum = form(&all, &vec![1.0; all.len()], &vec![1.0; all.len()]);
+                assert!((sum - all.iter().flatten().sum::<f64>()).abs() < 1e-15);
+                if let ShearPrior::Alone(own) = shear {
+                    // ln G is the sum of the first two.
+                    let sum = all[0][0] + 2.0 * all[0][1] + all[1][1];
+                    assert!((sum - own * own).abs() < 1e-15);
+                }
             }
-        } }
+        }
     }
 }

@@ -83,7 +83,8 @@ impl WoodenBat {
             return Err(Error::value("edits", "a bat of another wood", expected));
         }
         if bat.fixtures().holding() || !bat.fixtures().absorbers.is_empty() {
-            let expected = "a free bat, as it is tapped: without supports, springs, hands and absorbers";
+            let expected =
+                "a free bat, as it is tapped: without supports, springs, hands and absorbers";
             return Err(Error::value("bat", "a bat that something holds", expected));
         }
         if let Some(x) = split {

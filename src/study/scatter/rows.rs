@@ -158,7 +158,8 @@ impl ScatterRows {
         match what {
             Differs::Turned(turning) => {
                 let count = 64;
-                let at = |i: i32| turning.error(self.bat.length() * (f64::from(i) + 0.5) / 64.0, &own);
+                let at =
+                    |i: i32| turning.error(self.bat.length() * (f64::from(i) + 0.5) / 64.0, &own);
                 ((0..count).map(|i| at(i).powi(2)).sum::<f64>() / f64::from(count)).sqrt()
             }
             Differs::Cor | Differs::Impact | Differs::Moisture => own[0],
@@ -222,7 +223,8 @@ impl ScatterRows {
         let wet = (1.0 + moist).max(0.01);
         let ratio = of(Differs::ModulusRatio);
         // G goes with E, or has a factor of its own.
-        let by_itself = self.plan.differences.all.iter().any(|one| one.what == Differs::ShearModulus);
+        let by_itself =
+            self.plan.differences.all.iter().any(|one| one.what == Differs::ShearModulus);
         let shear = match by_itself {
             true => of(Differs::ShearModulus),
             false => e + of(Differs::ShearOverYoung),
@@ -267,7 +269,9 @@ fn settled(bat: &Bat, tolerance: f64) -> Result<Bat> {
 fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
     let all = &plan.differences.all;
     let has = |what: &dyn Fn(Differs) -> bool| all.iter().any(|one| what(one.what));
-    if has(&|what| matches!(what, Differs::ShearOverYoung | Differs::ShearModulus)) && !bat.knows_shear() {
+    if has(&|what| matches!(what, Differs::ShearOverYoung | Differs::ShearModulus))
+        && !bat.knows_shear()
+    {
         let found = format!("it, but {} has no shear modulus", bat.without_shear());
         return Err(Error::value("shear_over_young", found, "a bat whose shear modulus is known"));
     }
@@ -304,7 +308,11 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;
     let spot = SweetSpot::within(&Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter));
     spot.exit_speed_max.map(|peak| peak.x).ok_or_else(|| {
-        Error::value("impact.at", "no place at which a ball leaves fastest", "a place, such as \"27.7 in\"")
+        Error::value(
+            "impact.at",
+            "no place at which a ball leaves fastest",
+            "a place, such as \"27.7 in\"",
+        )
     })
 }
 

@@ -149,4 +149,3 @@ impl Differences {
 pub fn softened(moisture: f64) -> f64 {
     (1.0 - SOFTENED * moisture).max(0.01)
 }
-
