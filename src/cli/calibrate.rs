@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, stdin};
 use std::path::{Path, PathBuf};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
 use crate::files::schema;
@@ -14,12 +14,12 @@ use crate::study::calibrate::calibration::{Calibration, CalibrationPlan};
 use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use crate::study::calibrate::unknowns::Unknown;
 
+use crate::cli::asking::dialogue::Dialogue;
+use crate::cli::asking::readings_asked::asked;
 use crate::cli::common::{examples, printed, read_with_text, warn};
 use crate::cli::delivered::{apart, put};
-use crate::cli::dialogue::Dialogue;
 use crate::cli::done::{Done, FAILED};
 use crate::cli::edits::EditArgs;
-use crate::cli::readings_asked::asked;
 use crate::cli::value::{PLACE, choice};
 use crate::cli::{pictures, style};
 
@@ -130,12 +130,12 @@ fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
     let file = args.measured.as_deref().map_or("the answers".to_owned(), printed);
     move |error| {
         error.placed(|complaint| {
-            Error::Value(complaint.naming(|field| match field {
+            let field = match &*complaint.field {
                 "regions" => "--regions".to_owned(),
-                field if field.starts_with("--") => field.to_owned(),
-                "bat" | "edits" => field.to_owned(),
+                "--hold" | "bat" | "edits" => complaint.field.clone(),
                 field => format!("{file}: {field}"),
-            }))
+            };
+            Error::Value(Complaint { field, ..complaint })
         })
     }
 }

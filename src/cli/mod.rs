@@ -8,7 +8,7 @@
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
 //! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
 //! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
-//! | `dialogue`, `ask`, `new_options`, `interview`, `readings_asked`, `*_table` | questions to the user; the promises as tables |
+//! | `asking`, `tables` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
 mod done;
@@ -25,14 +25,8 @@ mod csv_option;
 mod bat_text;
 mod pictures;
 mod scene;
-mod dialogue;
-mod ask;
-mod new_options;
-mod interview;
-mod readings_asked;
-mod promise_table;
-mod hit_promise_table;
-mod extremes_table;
+mod asking;
+mod tables;
 mod modes;
 mod hit;
 mod ring_args;

@@ -143,11 +143,11 @@ fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
 fn named(args: &Args, error: Error) -> Error {
     let file = printed(&args.scatter);
     error.placed(|complaint| {
-        Error::Value(complaint.naming(|field| match field {
+        let field = match &*complaint.field {
             "points" => "--points".to_owned(),
-            field if field.starts_with("--") => field.to_owned(),
             field => format!("{file}: {}", field.trim_matches('`')),
-        }))
+        };
+        Error::Value(Complaint { field, ..complaint })
     })
 }
 

@@ -210,7 +210,7 @@ fn read_draft(text: &str) -> Vec<[String; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::ask::mass;
+    use crate::cli::asking::ask::mass;
 
     const MASS: Question =
         Question { name: "mass", text: "Mass", usual: None, help: "On a scale." };

@@ -10,8 +10,8 @@ use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::files::schema;
 
-use crate::cli::ask;
-use crate::cli::dialogue::{Asked, Dialogue, Question, Read};
+use crate::cli::asking::ask;
+use crate::cli::asking::dialogue::{Asked, Dialogue, Question, Read};
 
 const WELCOME: &str = "What was measured of the bat. An empty line takes what stands in [ ]; ? explains a \
                        question, back goes to the one before.";
