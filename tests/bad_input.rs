@@ -1392,7 +1392,10 @@ fn a_wrong_command_line_is_refused() {
         (&["modes", "bat.json", "--up-to", "2000", "-n", "3"], &["cannot be used with", "--modes"]),
         (
             &["schema", "oak"],
-            &["'oak'", "possible values: bat, ball, study, aim, rules, validation"],
+            &[
+                "'oak'",
+                "possible values: bat, ball, study, aim, rules, readings, scatter, validation",
+            ],
         ),
         (&["modes", "bat.json", "--degree", "2"], &["--degree", "3..=12"]),
         (&["modes", "bat.json", "--budget", "5 kg"], &["--budget"]),
@@ -2004,4 +2007,134 @@ fn a_million_stations_are_read() {
     fs::remove_file(folder.0.join("out.json")).unwrap();
     let says = ["profile.x[999999]: found 0.7 m", "beyond x[999998]"];
     assert_none(folder.misanswer(&["modes", "bat.json"], &says).into_iter().collect());
+}
+
+/// What was measured, and what differs, is told wrong with its place, and nothing is written.
+#[test]
+fn readings_and_scatters_that_cannot_be_are_told() {
+    let folder = Folder::new("wood");
+    folder.write("bat.json", BAT);
+    let readings: &[(&str, &[&str])] = &[
+        (
+            r#""mass": "0.9 kg ± 0 g""#,
+            &["readings.json:2:9: mass: found", "above 0 and below the reading"],
+        ),
+        (r#""mass": "0.9 m""#, &["found unit \"m\", which measures a length"]),
+        (r#""mass": 31"#, &["mass: found 31, expected a mass from 0.1 to 5 kg"]),
+        (r#""balance_point": "1 m""#, &["readings.json: balance_point: found 1 m", "below 0.8 m"]),
+        (
+            r#""pendulum": { "pivot": "16 in", "period": "1.4 s" }"#,
+            &["pendulum.pivot", "knob side of the balance"],
+        ),
+        (r#""pendulum": {}"#, &["no \"period\"", "a swing there and back"]),
+        (
+            r#""lines": [ { "hz": 5 } ]"#,
+            &["lines[0].hz: found 5, expected a frequency from 10 to 20000 Hz"],
+        ),
+        (r#""lines": [ { "hz": 170, "within": 200 } ]"#, &["lines[0].within", "below the line"]),
+        (r#""lines": [ { "hz": 170, "mode": 0 } ]"#, &["lines[0].mode", "1 to 20"]),
+        (
+            r#""lines": [ { "hz": 170, "mode": 1 }, { "hz": 180, "mode": 1 } ]"#,
+            &["lines[1]", "every mode once"],
+        ),
+        (r#""lines": [ { "hz": 19000 } ]"#, &["none that may be a bending mode", "within 30 %"]),
+        (
+            r#""ring_down": [ { "mode": 1, "cycles": 20, "ratio": 1.4 } ]"#,
+            &["ring_down[0].ratio", "between 0 and 1"],
+        ),
+        (r#""model": 0"#, &["model: found 0", "above 0 and below 1"]),
+        (
+            r#""priors": { "correlation": 1.5 }"#,
+            &["priors.correlation: found 1.5", "between -1 and 1"],
+        ),
+        (
+            r#""priors": { "correlation": 0.9, "densities_together": 0.1 }"#,
+            &["contradict each other", "that can be"],
+        ),
+        (r#""priors": { "shear_modulus": 0.3, "shear_over_young": 0.3 }"#, &["shear_modulus"]),
+        (r#""masss": "1 kg""#, &["unknown key \"masss\"", "mass"]),
+        (r#""ring_down": []"#, &["nothing that was measured", "\"lines\""]),
+    ];
+    let mut faults = vec![];
+    for (member, says) in readings {
+        let text = format!("{{ \"format\": \"sweetspot-readings/1\",\n{member} }}");
+        folder.write("readings.json", text);
+        let args = ["calibrate", "bat.json", "readings.json", "--out", "o.json", "--quiet"];
+        faults.extend(folder.misanswer(&args, says));
+    }
+    folder.write("readings.json", "{ \"format\": \"sweetspot-readings/1\", \"mass\": 1 }");
+    let options: &[(&[&str], &[&str])] = &[
+        (&["--regions", "2 m"], &["--regions: found 2 m", "inside the bat"]),
+        (&["--hold", "H"], &["'H'", "E, G, density"]),
+        (&["--hold", "E", "--hold", "density", "--hold", "G"], &["everything", "not held"]),
+    ];
+    for (more, says) in options {
+        let args = ["calibrate", "bat.json", "readings.json", "--out", "o.json", "--quiet"];
+        faults.extend(folder.misanswer(&[&args[..], more].concat(), says));
+    }
+    let scatters: &[(&str, &[&str])] = &[
+        (r#""name": "nothing""#, &["nothing that differs", "one at least"]),
+        (r#""density": { "lognormal": "0 %" }"#, &["density.lognormal: found \"0 %\"", "above 0"]),
+        (r#""density": { "normal": "4 %" }"#, &["unknown key \"normal\"", "lognormal"]),
+        (
+            r#""density": { "lognormal": "4 %" }, "tol": 0"#,
+            &["tol: found 0", "above 0 and below 1"],
+        ),
+        (
+            r#""density": { "lognormal": "4 %" }, "outputs": ["f1_h"]"#,
+            &["outputs[0]: found \"f1_h\"", "f1_hz"],
+        ),
+        (
+            r#""density": { "lognormal": "4 %" }, "correlation": [["density", "density", 0.5]]"#,
+            &["another one than the first"],
+        ),
+        (
+            r#""density": { "lognormal": "4 %" }, "correlation": [["density", "pitch", 0.5]]"#,
+            &["correlation[0][1]: found \"pitch\"", "one of density"],
+        ),
+        (
+            r#""density": { "lognormal": "4 %" }, "pitch": { "normal": "4 %" }, "correlation": [["density", "pitch", 1.5]]"#,
+            &["correlation[0][2]: found 1.5", "between -1 and 1"],
+        ),
+        (
+            r#""density": { "lognormal": "4 %" }, "pitch": { "normal": "4 %" }, "cor": { "normal": 0.1 },
+            "correlation": [["density", "pitch", 0.9], ["pitch", "cor", 0.9], ["density", "cor", -0.9]]"#,
+            &["contradict each other", "positive definite"],
+        ),
+        (r#""turning": { "normal": "3 oz" }"#, &["turning.normal: found unit \"oz\""]),
+        (r#""turning": { "normal": "0.1 mm", "along": "9 m" }"#, &["turning.along", "0.02 to 2 m"]),
+        (
+            r#""shear_over_young": { "lognormal": "9 %" }"#,
+            &["no shear modulus", "whose shear modulus is known"],
+        ),
+        (
+            r#""impact": { "normal": "1 in" }, "outputs": ["f1_hz"]"#,
+            &["nothing is asked of", "exit_speed_m_s@impact"],
+        ),
+        (r#""impact": { "normal": "1 in", "at": "2 m" }"#, &["impact.at: found 2 m", "on the bat"]),
+        (r#""covariance": "none.json""#, &["cannot read none.json"]),
+        (r#""covariance": "bat.json""#, &["bat.json:2:13: format", "sweetspot-calibrate/1"]),
+        (
+            r#""density": { "lognormal": "4 %" }, "covariance": "bat.json""#,
+            &["\"density\" beside \"covariance\""],
+        ),
+        (r#""density": { "lognormal": "4 %" }, "ball": "plum""#, &["plum"]),
+    ];
+    for (member, says) in scatters {
+        let text = format!("{{ \"format\": \"sweetspot-scatter/1\",\n{member} }}");
+        folder.write("scatter.json", text);
+        let args = ["scatter", "bat.json", "scatter.json", "--csv", "o.csv", "--quiet"];
+        faults.extend(folder.misanswer(&args, says));
+    }
+    let text = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "outputs": ["f1_hz"] }"#;
+    folder.write("scatter.json", text);
+    let options: &[(&[&str], &[&str])] = &[
+        (&["--points", "100"], &["--points: found 100", "a power of two from 64"]),
+        (&["--bats", "b", "--of", "f2_hz"], &["--of: found \"f2_hz\"", "f1_hz"]),
+    ];
+    for (more, says) in options {
+        let args = ["scatter", "bat.json", "scatter.json", "--csv", "o.csv", "--quiet"];
+        faults.extend(folder.misanswer(&[&args[..], more].concat(), says));
+    }
+    assert_none(faults);
 }

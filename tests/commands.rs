@@ -57,6 +57,11 @@ fn furnished(name: &str) -> Folder {
              "rules": "mlb", "remove_only": true, "keep": [{ "from": 0, "to": "30 mm" }],
              "diameter": [{ "from": "4 in", "to": "18 in", "at_least": "24 mm" }] }"#,
     );
+    // docs/wood.md describes them.
+    folder.write("readings.json", include_str!("golden/readings-1.json"));
+    let bats = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "tol": 1e-2,
+        "impact": { "normal": "0.5 in" }, "outputs": ["f1_hz", "exit_speed_m_s@impact"] }"#;
+    folder.write("bats.json", bats);
     // docs/hit.md describes it.
     folder.write("push.csv", "t_ms,force_n\n0,0\n0.5,2000\n1,0\n");
     folder

@@ -241,8 +241,19 @@ fn the_program_prints_the_schemas_and_writes_what_they_say() {
 
 #[test]
 fn every_format_is_written_and_pinned_or_read() {
-    let others =
-        ["page", "error", "study-manifest", "bat", "ball", "study", "validation", "aim", "rules"];
+    let others = [
+        "page",
+        "error",
+        "study-manifest",
+        "bat",
+        "ball",
+        "study",
+        "aim",
+        "rules",
+        "readings",
+        "scatter",
+        "validation",
+    ];
     for file in FileKind::ALL {
         let written = WRITTEN.iter().any(|document| document.1 == file.name());
         let known = written || others.contains(&file.name());
@@ -266,6 +277,10 @@ fn every_case_of_known_answers_ball_and_study_of_this_project_is_valid() {
         let rules = serde_json::from_str(text).unwrap();
         assert_valid(&validator(&kind("rules").schema()), &rules, name);
     }
+    let readings = serde_json::from_str(include_str!("golden/readings-1.json")).unwrap();
+    assert_valid(&validator(&kind("readings").schema()), &readings, "readings");
+    let scatter = serde_json::from_str(include_str!("golden/scatter-1.json")).unwrap();
+    assert_valid(&validator(&kind("scatter").schema()), &scatter, "scatter");
 }
 
 fn kind(name: &str) -> FileKind {

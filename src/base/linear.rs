@@ -1,4 +1,4 @@
-//! What is the product of two vectors, and which two numbers solve two equations?
+//! What is the product of two vectors, which two numbers solve two equations, what is the inverse of a few?
 
 use crate::base::real::Real;
 
@@ -41,6 +41,35 @@ pub fn solve_two(matrix: [[f64; 2]; 2], [e, f]: [f64; 2]) -> [f64; 2] {
     [(d * e - b * f) / det, (a * f - c * e) / det]
 }
 
+/// The inverse of a small symmetric positive definite matrix, by Cholesky's factor; None for any other.
+pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let n = matrix.len();
+    let mut factor = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for j in 0..=i {
+            let left = matrix[i][j] - (0..j).map(|k| factor[i][k] * factor[j][k]).sum::<f64>();
+            factor[i][j] = match i == j {
+                true if left > 0.0 => left.sqrt(),
+                true => return None,
+                false => left / factor[j][j],
+            };
+        }
+    }
+    let mut inverse = vec![vec![0.0; n]; n];
+    for column in 0..n {
+        let mut x = vec![0.0; n];
+        for i in 0..n {
+            let right = if i == column { 1.0 } else { 0.0 };
+            x[i] = (right - (0..i).map(|k| factor[i][k] * x[k]).sum::<f64>()) / factor[i][i];
+        }
+        for i in (0..n).rev() {
+            x[i] = (x[i] - (i + 1..n).map(|k| factor[k][i] * x[k]).sum::<f64>()) / factor[i][i];
+        }
+        (0..n).for_each(|i| inverse[i][column] = x[i]);
+    }
+    Some(inverse)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +89,19 @@ mod tests {
     fn two_equations_hold_for_their_solution() {
         let [x, y] = solve_two([[2.0, 1.0], [-3.0, 4.0]], [1.0, 15.0]);
         assert_eq!([2.0 * x + y, -3.0 * x + 4.0 * y], [1.0, 15.0]);
+    }
+
+    #[test]
+    fn an_inverse_times_its_matrix_is_one_and_what_is_not_positive_has_none() {
+        let matrix = vec![vec![4.0, 2.0, -1.0], vec![2.0, 3.0, 0.5], vec![-1.0, 0.5, 2.0]];
+        let inverse = inverse(&matrix).unwrap();
+        for i in 0..3 {
+            for j in 0..3 {
+                let product: f64 = (0..3).map(|k| matrix[i][k] * inverse[k][j]).sum();
+                let one = if i == j { 1.0 } else { 0.0 };
+                assert!((product - one).abs() < 1e-15, "{i} {j} {product}");
+            }
+        }
+        assert!(super::inverse(&[vec![1.0, 2.0], vec![2.0, 1.0]]).is_none());
     }
 }

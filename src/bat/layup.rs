@@ -112,6 +112,19 @@ impl Layup {
         Worth { bending, mass, turning, shear }
     }
 
+    /// What the wall alone is worth, without core, sleeves and tape.
+    pub fn worth_of_wall(&self, section: Section) -> Worth {
+        let wall = self.wall(section);
+        let Material { youngs_modulus, density, .. } = self.outer;
+        let (area, second) = (wall.area(), wall.second_moment());
+        Worth {
+            bending: youngs_modulus * second,
+            mass: density * area,
+            turning: density * second,
+            shear: self.shears(wall)[0],
+        }
+    }
+
     /// κGA (N) of the wall and of the core.
     fn shears(&self, wall: Section) -> [f64; 2] {
         let hole = (wall.inner / wall.outer).powi(2);

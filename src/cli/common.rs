@@ -335,7 +335,7 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
 
 /// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
 /// ending is that of a built-in bat, unless there is a file of it.
-fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
+pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
     let Named { bat, text, columns_outside } = match bundled::named(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;

@@ -6,7 +6,8 @@
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
 //! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
-//! | `ring_args` to `frf_grid`, `dialogue`, `ask`, `new_options`, `interview`, `*_table` | what `ring` and `frf` are asked; questions to the user; the promises as tables |
+//! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
+//! | `asking`, `tables` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
 mod done;
@@ -23,13 +24,8 @@ mod csv_option;
 mod bat_text;
 mod pictures;
 mod scene;
-mod dialogue;
-mod ask;
-mod new_options;
-mod interview;
-mod promise_table;
-mod hit_promise_table;
-mod extremes_table;
+mod asking;
+mod tables;
 mod modes;
 mod hit;
 mod ring_args;
@@ -39,12 +35,14 @@ mod ring;
 mod bbcor;
 mod analyze;
 mod compare;
+mod calibrate;
 mod frf_grid;
 mod frf;
 mod trade;
 mod lathe;
 mod study;
 mod aim;
+mod scatter;
 mod advise;
 mod convert;
 mod validate;

@@ -11,15 +11,15 @@ use crate::show::report::text;
 use crate::show::report::text::wrapped;
 use crate::show::report::units::Units;
 
-use crate::cli::ask::shown_density;
+use crate::cli::asking::ask::shown_density;
+use crate::cli::asking::dialogue::Dialogue;
+use crate::cli::asking::interview::asked;
+use crate::cli::asking::new_options::{called, given, refuse_existing};
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{glyphs, printed};
-use crate::cli::dialogue::Dialogue;
 use crate::cli::done::Done;
-use crate::cli::interview::asked;
-use crate::cli::new_options::{called, given, refuse_existing};
 
-pub use crate::cli::new_options::Args;
+pub use crate::cli::asking::new_options::Args;
 
 pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.file {

@@ -17,7 +17,7 @@ use crate::show::report::text::wrapped;
 
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
-use crate::cli::{extremes_table, hit_promise_table, promise_table};
+use crate::cli::tables::{extremes_table, hit_promise_table, promise_table};
 use crate::show::report::columns::{Columns, first, numbers};
 
 /// Every known answer beside ours

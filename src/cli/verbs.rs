@@ -13,8 +13,9 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, aim, analyze, bbcor, compare, completions, convert, diagnostic, frf, help, hit, lathe,
-    licences, man, materials, modes, new, ring, scene, schema, stop, study, style, trade, validate,
+    advise, aim, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help,
+    hit, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop, study,
+    style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -49,12 +50,14 @@ enum Verb {
     Hit(hit::Args),
     Bbcor(bbcor::Args),
     Compare(compare::Args),
+    Calibrate(calibrate::Args),
     Ring(ring::Args),
     Frf(frf::Args),
     Lathe(lathe::Args),
     Aim(aim::Args),
     Trade(trade::Args),
     Study(study::Args),
+    Scatter(scatter::Args),
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
@@ -85,12 +88,14 @@ pub fn run() -> Result<Done> {
         Verb::Hit(args) => hit::run(&args),
         Verb::Bbcor(args) => bbcor::run(&args),
         Verb::Compare(args) => compare::run(&args),
+        Verb::Calibrate(args) => calibrate::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Lathe(args) => lathe::run(&args),
         Verb::Aim(args) => aim::run(&args),
         Verb::Trade(args) => trade::run(&args),
         Verb::Study(args) => study::run(&args),
+        Verb::Scatter(args) => scatter::run(&args),
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),

@@ -9,6 +9,8 @@
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
+//! | `amounts`, [`readings_file`] | shares and readings with their uncertainty; what was measured of a bat |
+//! | [`scatter_file`] | what differs between bats of one model |
 //! | [`study_file`], [`study_rows`] | what a study varies and asks; row k of it |
 //! | `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
 //! | [`schema`] | the types of every JSON format and their schemas |
@@ -20,6 +22,7 @@ pub(crate) mod broken_json;
 pub(crate) mod json_node;
 pub(crate) mod csv_file;
 pub(crate) mod station_table;
+pub(crate) mod amounts;
 pub(crate) mod part_file;
 pub(crate) mod fixtures_file;
 pub(crate) mod edits_file;
@@ -27,6 +30,7 @@ pub mod bat_file;
 pub mod ball_file;
 pub mod balls;
 pub mod scene_file;
+pub mod readings_file;
 pub mod shape_file;
 pub mod force_file;
 pub mod study_file;
@@ -37,6 +41,7 @@ pub mod aim_text;
 pub mod rules_file;
 #[cfg(feature = "aim")]
 pub mod aim_file;
+pub mod scatter_file;
 #[cfg(feature = "show")]
 pub mod schema;
 #[cfg(feature = "show")]

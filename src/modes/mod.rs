@@ -33,6 +33,7 @@ pub mod pole;
 #[doc(hidden)]
 pub mod reduced;
 pub(crate) mod free_motions;
+pub mod shares;
 pub mod damping;
 #[doc(hidden)]
 pub mod certificate;

@@ -140,6 +140,12 @@ impl Shape {
         self.coefficients.iter_mut().chain(&mut self.turns).for_each(|w| *w *= scale);
     }
 
+    /// Where its elements end (m), rising from 0.
+    pub fn borders(&self) -> impl Iterator<Item = f64> + '_ {
+        let ends = self.stretches.iter().map(|(middle, length)| middle + 0.5 * length);
+        std::iter::once(0.0).chain(ends)
+    }
+
     /// Legendre coefficients of the deflection, element by element, `degree + 1` each.
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients

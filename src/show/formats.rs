@@ -9,6 +9,7 @@ use crate::files::schema::analysis::AnalysisFile;
 use crate::files::schema::ball::BallFile;
 use crate::files::schema::bat::BatFile;
 use crate::files::schema::bbcor::BbcorFile;
+use crate::files::schema::calibrate::CalibrateFile;
 use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
 use crate::files::schema::frf::FrfFile;
@@ -18,7 +19,9 @@ use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
 use crate::files::schema::mistakes::ErrorFile;
 use crate::files::schema::modes::ModesFile;
+use crate::files::schema::readings::ReadingsForm;
 use crate::files::schema::ring::RingFile;
+use crate::files::schema::scatter::{ScatterForm, ScatterResult};
 use crate::files::schema::study::{StudyForm, StudyManifest};
 use crate::files::schema::trade::TradeFile;
 use crate::files::schema::u_curve::UCurveFile;
@@ -35,12 +38,14 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 27] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
         Self::of::<AimForm>(),
         Self::of::<RulesForm>(),
+        Self::of::<ReadingsForm>(),
+        Self::of::<ScatterForm>(),
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
@@ -52,6 +57,8 @@ impl FileKind {
         Self::of::<RingFile>(),
         Self::of::<FrfFile>(),
         Self::of::<AdviceFile>(),
+        Self::of::<CalibrateFile>(),
+        Self::of::<ScatterResult>(),
         Self::of::<StudyManifest>(),
         Self::of::<AimedFile>(),
         Self::of::<TradeFile>(),

@@ -5,17 +5,20 @@
 //! | [`trade`] | what does a digit cost on this bat |
 //! | [`ignored`], [`theory_choice`] | what does a theory leave out, and what does that cost; which theory does a bat need |
 //! | [`tuned`] | how stiff is the wood, by a tap |
+//! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
 //! | [`many`] | which bats does a study vary |
 //! | [`lathe`] | where does a cut do what |
+//! | [`scatter`] | how much do bats of one model and swings of one batter differ |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
 pub mod ignored;
 pub mod theory_choice;
 pub mod tuned;
+pub mod calibrate;
 pub mod spread;
 pub mod advise;
 pub mod comparison;
@@ -24,3 +27,4 @@ pub mod many;
 pub mod lathe;
 #[cfg(feature = "aim")]
 pub mod aim;
+pub mod scatter;

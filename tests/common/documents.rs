@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 19] = [
+pub const WRITTEN: [Written; 21] = [
     (
         "modes",
         "modes",
@@ -108,6 +108,13 @@ pub const WRITTEN: [Written; 19] = [
         "aim r161.json aim-1.json --tol 1e-3 --swing-speed 50 --pitch 40.2336",
         Numbers::Rough,
     ),
+    ("calibrate", "calibrate", "calibrate r161.json readings-1.json", Numbers::Rough),
+    (
+        "scatter-result",
+        "scatter-result",
+        "scatter r161.json scatter-1.json --points 64",
+        Numbers::Rough,
+    ),
     ("advice", "advice", "advise r161.json -n 2 --tol 1%", Numbers::Rough),
     ("trade", "trade", "trade dowel.json -n 2 --budget 200ms", Numbers::Times),
     ("u-curve", "u-curve", "trade dowel.json -n 2 --budget 200ms --u-curve", Numbers::Times),
@@ -131,6 +138,8 @@ pub fn folder(test: &str) -> Folder {
     folder.write("lossy.json", LOSSY);
     folder.write("tap.uff", include_str!("../golden/tap.uff"));
     folder.write("aim-1.json", include_str!("../golden/aim-1.json"));
+    folder.write("readings-1.json", include_str!("../golden/readings-1.json"));
+    folder.write("scatter-1.json", include_str!("../golden/scatter-1.json"));
     folder.write("study-1.json", include_str!("../golden/study-1.json"));
     folder
 }

@@ -60,3 +60,4 @@ pub mod change;
 pub mod measured;
 pub mod many;
 pub mod lathe;
+pub mod calibrate;

@@ -27,6 +27,9 @@ pub mod comparison_data;
 pub mod measured;
 pub mod lathe_table;
 pub mod lathe;
+pub mod calibrate;
+pub mod calibrated_bat;
+pub mod scatter;
 pub mod mistakes;
 #[cfg(feature = "aim")]
 pub mod aimed;

@@ -67,6 +67,13 @@ impl Indices {
     /// Of rows of independent numbers with their answer; None where there are too few for a plane, or where
     /// the answer does not vary.
     pub fn new(kinds: &[Kind], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
+        Self::grouped(kinds, &(0..kinds.len()).collect::<Vec<_>>(), rows)
+    }
+
+    /// As [`Self::new`], by groups of numbers, 0, 1, … for each number: what they do within their group alone is of first
+    /// order.
+    pub fn grouped(kinds: &[Kind], groups: &[usize], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
+        let of_each = groups;
         let degree = (1..=MOST_DEGREE).rev().find(|degree| {
             let terms = terms(kinds.len(), *degree);
             terms.is_some_and(|terms| terms <= MOST_TERMS && ROWS_A_TERM * terms <= rows.len())
@@ -80,7 +87,8 @@ impl Indices {
         }
         let mut all = Sums::new(exponents.len());
         groups.iter().for_each(|group| all.put(group, 1.0));
-        let of = |sums: &Sums| shares(sums, &exponents, kinds.len());
+        let count = of_each.iter().map(|group| group + 1).max().unwrap_or(0);
+        let of = |sums: &Sums| shares(sums, &exponents, (of_each, count));
         let whole = of(&all)?;
         let mut parts = vec![];
         for group in &groups {
@@ -94,7 +102,6 @@ impl Indices {
             let deviation = (squares * (GROUPS - 1) as f64 / GROUPS as f64).sqrt();
             Share { value: whole[k], deviation }
         };
-        let count = kinds.len();
         Some(Self {
             first: (0..count).map(told).collect(),
             total: (count..2 * count).map(told).collect(),
@@ -215,7 +222,11 @@ impl Sums {
 }
 
 /// First-order shares, total shares, and what is left.
-fn shares(sums: &Sums, exponents: &[Vec<usize>], count: usize) -> Option<Vec<f64>> {
+fn shares(
+    sums: &Sums,
+    exponents: &[Vec<usize>],
+    (groups, count): (&[usize], usize),
+) -> Option<Vec<f64>> {
     let c = sums.coefficients()?;
     let [rows, sum, squares] = sums.answer;
     // Roundings of an answer that is the same for all.
@@ -228,7 +239,10 @@ fn shares(sums: &Sums, exponents: &[Vec<usize>], count: usize) -> Option<Vec<f64
     all[2 * count] = left / variance;
     for (one, c) in exponents.iter().zip(&c).skip(1) {
         let share = c * c / variance;
-        let used: Vec<usize> = (0..count).filter(|k| one[*k] > 0).collect();
+        let mut used: Vec<usize> =
+            groups.iter().zip(one).filter(|(_, k)| **k > 0).map(|(group, _)| *group).collect();
+        used.sort_unstable();
+        used.dedup();
         used.iter().for_each(|k| all[count + k] += share);
         if let [only] = used[..] {
             all[only] += share;

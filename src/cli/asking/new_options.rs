@@ -6,7 +6,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::base::units::inches;
 use crate::proof::bundled::bundled_bat;
 
-use crate::cli::ask;
+use crate::cli::asking::ask;
 use crate::cli::bat_text::Measured;
 
 /// Write a bat file, by asking or from options

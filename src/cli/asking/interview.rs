@@ -4,13 +4,13 @@ use std::io::BufRead;
 
 use crate::base::error::Complaint;
 
-use crate::cli::ask;
-use crate::cli::bat_text::Measured;
-use crate::cli::common::printed;
-use crate::cli::dialogue::{Asked, Dialogue, Question, Read};
-use crate::cli::new_options::{
+use crate::cli::asking::ask;
+use crate::cli::asking::dialogue::{Asked, Dialogue, Question, Read};
+use crate::cli::asking::new_options::{
     Args, called, length, like, of_option, refuse_existing, source, stations, unit,
 };
+use crate::cli::bat_text::Measured;
+use crate::cli::common::printed;
 
 const WELCOME: &str = "A bat file. An empty line takes what stands in [ ]; ? explains a question, \
                        back goes to the one before.";

@@ -5,7 +5,7 @@ use crate::base::typed;
 use crate::base::units::{self, Quantity, inches};
 use crate::bat::material::{BUILT_IN, BuiltIn};
 
-use crate::cli::dialogue::Read;
+use crate::cli::asking::dialogue::Read;
 use crate::cli::value::{BAT_LENGTH, DIAMETER, PLACE, TAP};
 
 /// Where bats change: close at the knob, then every few inches, and just before the tip.
@@ -138,7 +138,7 @@ pub fn length(text: &str, unit: &str) -> Read<f64> {
 }
 
 /// Whether somebody says so that nothing is known.
-fn unknown(text: &str) -> bool {
+pub fn unknown(text: &str) -> bool {
     let plain = text.to_lowercase().replace(['\'', '’'], "");
     ["dont know", "unknown", "none", "no"].contains(&plain.as_str())
 }

@@ -63,7 +63,6 @@ pub struct Dialogue<R> {
 
 impl<R: BufRead> Dialogue<R> {
     /// A dialogue that is kept nowhere.
-    #[cfg(test)]
     pub fn new(answers: R) -> Self {
         Self { answers, given: vec![], passed: 0, draft: None }
     }
@@ -211,7 +210,7 @@ fn read_draft(text: &str) -> Vec<[String; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::ask::mass;
+    use crate::cli::asking::ask::mass;
 
     const MASS: Question =
         Question { name: "mass", text: "Mass", usual: None, help: "On a scale." };

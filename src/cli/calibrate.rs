@@ -1,0 +1,181 @@
+//! `sweetspot calibrate BAT [MEASURED]`: what the wood is, by what was measured.
+
+use std::io::{IsTerminal, stdin};
+use std::path::{Path, PathBuf};
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::file;
+use crate::bat::body::Bat;
+use crate::files::schema;
+use crate::files::{measured, readings_file};
+use crate::show::plot::calibrate as pictures_of;
+use crate::show::report::{calibrate, calibrated_bat};
+use crate::study::calibrate::calibration::{Calibration, CalibrationPlan};
+use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
+use crate::study::calibrate::unknowns::Unknown;
+
+use crate::cli::asking::dialogue::Dialogue;
+use crate::cli::asking::readings_asked::asked;
+use crate::cli::common::{examples, printed, read_with_text, warn};
+use crate::cli::delivered::{apart, put};
+use crate::cli::done::{Done, FAILED};
+use crate::cli::edits::EditArgs;
+use crate::cli::value::{PLACE, choice};
+use crate::cli::{pictures, style};
+
+/// What a bat's wood is: E, G and density from scale, ruler, pendulum and tap
+///
+/// Reads what was measured of a bat and finds the wood that shows it, each property with its 95 % interval, how much
+/// of it the readings say and how much was known before. It tells readings that do not fit and lines that were taken
+/// for another mode, and names the measurement that would tell most. Without a file of readings it asks. A mismatch
+/// is told, not fitted away: the exit code is then 1.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    /// Readings file (JSON), or a table of measured modes as for compare --measured [without it: asked]
+    #[arg(help_heading = "The bat")]
+    measured: Option<PathBuf>,
+
+    /// Two regions of wood, the barrel's from this place on, such as "42 cm"
+    #[arg(long, value_name = "m", value_parser = |s: &str| PLACE.read(s), help_heading = "The bat")]
+    regions: Option<f64>,
+
+    /// Keep as the file has it: E, G (its share of E), density, density-barrel or ratio; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = held(), hide_possible_values = true,
+          help_heading = "The bat")]
+    hold: Vec<Unknown>,
+
+    /// Read answers from standard input, one per line, even when it is not a terminal
+    #[arg(long, conflicts_with = "measured", help_heading = "The bat")]
+    ask: bool,
+
+    /// Write the answers as a readings file
+    #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
+    readings: Option<PathBuf>,
+
+    /// Write the bat of the wood that was found to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: Option<PathBuf>,
+
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    json: Option<PathBuf>,
+
+    /// Write the properties as CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw what was known before and after, and what does not fit, into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// No warnings on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot calibrate r161 readings.json
+      what the wood is, and how well the readings say it
+
+  sweetspot calibrate r161 readings.json --out mine.json --json mine-wood.json
+      the bat of that wood, and the result with its covariance
+
+  sweetspot calibrate r161 readings.json --regions \"42 cm\" --hold G
+      another density and stiffness in the barrel; G/E as the file has it";
+
+/// Unknowns by their names on the command line.
+fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
+    choice(&["E", "G", "density", "density-barrel", "ratio"], |name| match name {
+        "E" => Unknown::YoungsModulus,
+        "G" => Unknown::ShearOverYoung,
+        "density" => Unknown::Density,
+        "density-barrel" => Unknown::BarrelDensity,
+        _ => Unknown::ModulusRatio,
+    })
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let written = [
+        ("--json", &args.json),
+        ("--csv", &args.csv),
+        ("--out", &args.out),
+        ("--readings", &args.readings),
+    ];
+    apart(&written)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
+    let (readings, name) = readings(args, &bat)?;
+    let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
+    let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
+    let table = calibrate::text(&bat, &found);
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &pictures_of::pictures(bat.name(), &found), args.quiet)?;
+    }
+    let file = || calibrated_bat::text((&bat, &text), &found, &name, args.regions);
+    let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
+    let out = put(&args.out, out, file)?;
+    let out = put(&args.json, out, || {
+        Ok(schema::text(&calibrate::document(&bat, &found, args.regions)))
+    })?;
+    Ok(Done::new(out, if found.fits() { 0 } else { FAILED }))
+}
+
+/// An error about a reading or an option, by the name that it has for the user.
+fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
+    let file = args.measured.as_deref().map_or("the answers".to_owned(), printed);
+    move |error| {
+        error.placed(|complaint| {
+            let field = match &*complaint.field {
+                "regions" => "--regions".to_owned(),
+                "--hold" | "bat" | "edits" => complaint.field.clone(),
+                field => format!("{file}: {field}"),
+            };
+            Error::Value(Complaint { field, ..complaint })
+        })
+    }
+}
+
+/// What was measured, and what it is called.
+fn readings(args: &Args, bat: &Bat) -> Result<(BatReadings, String)> {
+    let Some(path) = &args.measured else {
+        if !args.ask && !stdin().is_terminal() {
+            let expected = "a readings file, such as readings.json, or --ask to answer questions";
+            return Err(Error::value("MEASURED", "none", expected));
+        }
+        let text = Dialogue::new(stdin().lock()).hold(|person| asked(person, bat))?;
+        if let Some(path) = &args.readings {
+            file::write(path, text.as_bytes())?;
+        }
+        return Ok((readings_file::from_text("the answers", &text)?, "answers".to_owned()));
+    };
+    let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match ["csv", "uff", "unv"].contains(&ending.as_str()) {
+        true => Ok((of_modes(path, args.quiet)?, name)),
+        false => Ok((readings_file::from_file(path)?, name)),
+    }
+}
+
+/// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.
+fn of_modes(path: &Path, quiet: bool) -> Result<BatReadings> {
+    /// Standard deviation of a frequency in a table (Hz).
+    const WITHIN: f64 = 0.5;
+    let measured = measured::read(path)?;
+    measured.assumed.iter().for_each(|text| warn(&format!("note: {text}"), quiet));
+    let mut readings = BatReadings::default();
+    for mode in &measured.modes {
+        let frequency = Reading { value: mode.frequency, deviation: WITHIN };
+        readings.lines.push(SpectralLine { frequency, mode: mode.order });
+        let damped = mode.damping_ratio.filter(|ratio| *ratio > 0.0);
+        if let (Some(order), Some(damped)) = (mode.order, damped) {
+            let ratio = (-std::f64::consts::TAU * damped).exp();
+            readings.ring_down.push(RingDown { mode: order, cycles: 1.0, ratio });
+        }
+    }
+    Ok(readings)
+}

@@ -1,0 +1,169 @@
+//! `sweetspot scatter BAT SCATTER`: how much bats of one model differ.
+
+use std::path::PathBuf;
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::{file, threads};
+use crate::files::scatter_file::{self, ScatterFile};
+use crate::files::schema;
+use crate::show::many::summary::sorted;
+use crate::show::many::table::Column;
+use crate::show::plot::many;
+use crate::show::plot::picture::Picture;
+use crate::show::report::{resolved, scatter};
+use crate::study::scatter::rows::{ScatterPlan, ScatterRows};
+use crate::study::scatter::scattered::{SHARES, Scattered, WRITTEN};
+
+use crate::cli::common::{examples, printed, read};
+use crate::cli::delivered::{apart, put};
+use crate::cli::done::Done;
+use crate::cli::edits::EditArgs;
+use crate::cli::progress::Progress;
+use crate::cli::{pictures, style};
+
+/// How much bats of one model, and swings of one batter, differ
+///
+/// Draws bats by what differs between them (density, stiffness, what the lathe misses, moisture) and hits by what
+/// differs between swings (speed, pitch, ball, place): percentiles of every output, each with its own error, and what
+/// makes it vary. The same seed gives the same bytes, on any number of threads.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    /// Scatter file (JSON): what differs
+    #[arg(help_heading = "The bat")]
+    scatter: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
+
+    /// Bats that are drawn, a power of two from 64 to 1048576
+    #[arg(long, value_name = "N", default_value = "1024")]
+    points: u64,
+
+    /// Another seed draws other bats
+    #[arg(long, value_name = "N", default_value = "1")]
+    seed: u64,
+
+    /// Threads [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+
+    /// Write the bats nearest to the 5th, 50th and 95th percentile into this folder, as bat files
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    bats: Option<PathBuf>,
+
+    /// The output whose percentiles these bats are nearest to [default: the first]
+    #[arg(long, value_name = "NAME", requires = "bats", help_heading = "Output")]
+    of: Option<String>,
+
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    json: Option<PathBuf>,
+
+    /// Write every bat as a line of CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw a histogram of every output and what makes it vary into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// No warnings and no progress on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot scatter r161 bats.json --points 64
+      how much bats differ by what bats.json says, from few bats
+
+  sweetspot scatter r161 bats.json --points 64 --bats spread --plots spread
+      the bats nearest to the 5th, 50th and 95th percentile, and pictures";
+
+pub fn run(args: &Args) -> Result<Done> {
+    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
+    let said = scatter_file::from_file(&args.scatter)?;
+    let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let ScatterFile { differences, setup, impact, outputs, tolerance } = said;
+    let (points, seed) = (args.points, args.seed);
+    let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
+    let of = output(args, &plan)?;
+    let rows = ScatterRows::new(&bat, plan).map_err(|error| named(args, error))?;
+    let progress = Progress::new(args.quiet, "bats");
+    let tell = |done: u64| {
+        progress.say(done as f64 / points as f64, &format!("{done} of {points} bats"));
+    };
+    let found = threads::with(args.jobs.map(usize::from), || Scattered::new(&rows, &tell));
+    drop(progress);
+    if found.answered() == 0 {
+        let why = found.reasons.first().cloned().unwrap_or_default();
+        return Err(Error::value(printed(&args.scatter), why, "bats that can be"));
+    }
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &drawn(&rows, &found), args.quiet)?;
+    }
+    if let Some(folder) = &args.bats {
+        let failed = |source| Error::Write { path: folder.clone(), source };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        for percentile in WRITTEN {
+            let Some(row) = found.nearest(of, percentile) else { continue };
+            let share = SHARES[percentile];
+            let source = scatter::told(&rows, &found, (row, of), share);
+            let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else {
+                continue;
+            };
+            let path = folder.join(format!("p{:02.0}.json", 100.0 * share));
+            file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
+        }
+    }
+    let text = put(&args.csv, style::table(&scatter::text(&rows, &found)), || {
+        Ok(scatter::csv(&rows, &found))
+    })?;
+    let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows, &found))))?;
+    Ok(Done::new(text, 0))
+}
+
+/// The output whose percentiles the written bats are of, by its place.
+fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
+    let Some(name) = &args.of else { return Ok(0) };
+    let names: Vec<String> = plan.outputs.iter().map(|output| output.name()).collect();
+    names.iter().position(|other| other == name).ok_or_else(|| {
+        let known: Vec<&str> = names.iter().map(String::as_str).collect();
+        let complaint = Complaint::new("--of", format!("\"{name}\""), known.join(", "));
+        Error::Value(complaint.or_nearest(name, &known))
+    })
+}
+
+/// An error about the rows, by the name that its cause has for the user.
+fn named(args: &Args, error: Error) -> Error {
+    let file = printed(&args.scatter);
+    error.placed(|complaint| {
+        let field = match &*complaint.field {
+            "points" => "--points".to_owned(),
+            field => format!("{file}: {}", field.trim_matches('`')),
+        };
+        Error::Value(Complaint { field, ..complaint })
+    })
+}
+
+fn drawn(rows: &ScatterRows, found: &Scattered) -> Vec<Picture> {
+    let names: Vec<String> =
+        rows.plan.differences.all.iter().map(|one| one.what.name().to_owned()).collect();
+    let of_one = |one: &crate::study::scatter::scattered::OutputSpread| {
+        let column = Column {
+            name: one.name.clone(),
+            unit: one.unit.to_owned(),
+            values: one.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect(),
+        };
+        let at = |k: usize| one.percentiles.get(k).map_or(f64::NAN, |one| one.value);
+        let histogram = many::histogram(&column, &sorted(&column), WRITTEN.map(at));
+        let tornado = one.indices.as_ref().map(|indices| many::tornado(&one.name, &names, indices));
+        [histogram, tornado].into_iter().flatten()
+    };
+    found.outputs.iter().flat_map(of_one).collect()
+}

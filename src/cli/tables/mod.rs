@@ -1,0 +1,10 @@
+//! The promises as tables.
+//!
+//! | file | question |
+//! |---|---|
+//! | [`promise_table`], [`hit_promise_table`] | are frequencies, and hits, as accurate as stated |
+//! | [`extremes_table`] | what holds of bats that are no bats any more |
+
+pub mod promise_table;
+pub mod hit_promise_table;
+pub mod extremes_table;

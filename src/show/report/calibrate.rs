@@ -1,0 +1,344 @@
+//! What a bat's wood is: table, JSON, words.
+
+use std::fmt::Write;
+
+use crate::base::number::{percent, significant};
+use crate::bat::body::Bat;
+use crate::files::schema::calibrate as file;
+use crate::files::schema::document::{BatName, Format, Generator};
+use crate::show::csv::Csv;
+use crate::show::report::columns::{Columns, first, labels, numbers};
+use crate::show::report::text::wrapped;
+use crate::study::calibrate::calibration::{Calibration, Estimated, Property, Verdict};
+use crate::study::calibrate::fit::{Kind, Residual};
+use crate::study::calibrate::next::Proposal;
+
+/// Parameters, data and words, 80 columns wide.
+pub fn text(bat: &Bat, found: &Calibration) -> String {
+    let mut out = format!("What the wood of {} is\n", bat.name());
+    out += &parameters(&found.parameters);
+    out += &data(found);
+    for tone in &found.readings.ring_down {
+        let _ = writeln!(
+            out,
+            "Mode {} dies out with a loss factor of {} (damping ratio {})",
+            tone.mode,
+            significant(tone.loss_factor(), 3),
+            significant(tone.damping_ratio(), 3)
+        );
+    }
+    out += "In words\n";
+    words(found).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    out
+}
+
+fn parameters(all: &[Estimated]) -> String {
+    let columns = Columns::new([
+        first(14, "property"),
+        numbers(12, "value"),
+        numbers(8, "within"),
+        numbers(12, "before"),
+        numbers(8, "learned"),
+        labels(22, "the readings"),
+    ]);
+    let mut out = columns.heads();
+    for one in all {
+        out += &columns.row([
+            short(one.property).to_owned(),
+            shown(one.property, one.value),
+            percent(1.96 * one.deviation, 1),
+            shown(one.property, one.prior.value),
+            percent(one.learned.max(0.0), 0),
+            verdict(one),
+        ]);
+    }
+    out
+}
+
+fn data(found: &Calibration) -> String {
+    let columns = Columns::new([
+        first(18, "reading"),
+        numbers(10, "measured"),
+        numbers(10, "computed"),
+        numbers(11, "off by"),
+        numbers(10, "left out"),
+        labels(16, ""),
+    ]);
+    let mut out = format!(
+        "Readings beside the bat of that wood: chi2 {} of {} data\n",
+        significant(found.fit.chi2, 3),
+        found.data()
+    );
+    out += &columns.heads();
+    for one in &found.fit.residuals {
+        let sd = |value: f64| format!("{value:+.1} sd");
+        let flag = if one.is_outlier() { "does not fit" } else { "" };
+        out += &columns.row([
+            one.datum.kind.name(),
+            significant(one.datum.reading.value, 5),
+            significant(one.computed, 5),
+            sd(one.deviations),
+            sd(one.left_out),
+            flag.to_owned(),
+        ]);
+    }
+    let lines = found.readings.lines.iter().zip(&found.identified.labels);
+    for (line, _) in lines.filter(|(_, label)| label.is_none()) {
+        let hz = significant(line.frequency.value, 5);
+        let _ = writeln!(out, "{hz} Hz is no bending mode of this bat");
+    }
+    out
+}
+
+/// What a parameter is called in a table.
+pub fn short(property: Property) -> &'static str {
+    match property {
+        Property::YoungsModulus => "E",
+        Property::ShearModulus => "G",
+        Property::Density => "density",
+        Property::BarrelDensity => "barrel density",
+        Property::ModulusRatio => "E ratio",
+    }
+}
+
+/// A value in the unit that people use for it.
+pub fn shown(property: Property, value: f64) -> String {
+    match property {
+        Property::YoungsModulus => format!("{:.2} GPa", 1e-9 * value),
+        Property::ShearModulus => format!("{:.3} GPa", 1e-9 * value),
+        Property::Density | Property::BarrelDensity => format!("{value:.1} kg/m³"),
+        Property::ModulusRatio => format!("{value:.3}"),
+    }
+}
+
+fn verdict(one: &Estimated) -> String {
+    match one.verdict {
+        Verdict::Determined => "determine it".to_owned(),
+        Verdict::Partly => "say it in part".to_owned(),
+        Verdict::OnlyTogether => {
+            let with = one.correlated.map_or("another", |(other, _)| short(other));
+            format!("only with {with}")
+        }
+        Verdict::NotDetermined => "do not say it".to_owned(),
+        Verdict::Held => "held".to_owned(),
+    }
+}
+
+/// What follows, a sentence each.
+pub fn words(found: &Calibration) -> Vec<String> {
+    let mut all = vec![];
+    all.extend(relabelled(found));
+    all.extend(mismatch(found));
+    if found.typical_shear {
+        all.push(
+            "The bat file has no shear modulus: one that is typical of the kind was the start."
+                .to_owned(),
+        );
+    }
+    for one in found.parameters.iter().filter(|one| one.verdict == Verdict::OnlyTogether) {
+        let Some((other, r)) = one.correlated else { continue };
+        let sign = if r > 0.0 { "quotient" } else { "product" };
+        all.push(format!(
+            "{} and {} are known only together (correlation {r:.2}): the readings say a {sign}.",
+            short(one.property),
+            short(other)
+        ));
+    }
+    let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
+    let silent: Vec<&str> =
+        found.parameters.iter().filter(silent).map(|p| short(p.property)).collect();
+    if !silent.is_empty() {
+        all.push(format!(
+            "Of {} the readings say nothing: what stands there is what was taken for known before.",
+            silent.join(" and ")
+        ));
+    }
+    all.push(advice(found));
+    all
+}
+
+fn relabelled(found: &Calibration) -> Option<String> {
+    let (told, chi2) = found.identified.told.as_ref()?;
+    let list = |labels: &[Option<usize>]| {
+        let one = |label: &Option<usize>| label.map_or("none".to_owned(), |mode| mode.to_string());
+        labels.iter().map(one).collect::<Vec<_>>().join(", ")
+    };
+    let second = found.identified.second.as_ref().map_or(String::new(), |(labels, chi2)| {
+        format!("; the next best are {} ({})", list(labels), significant(*chi2, 3))
+    });
+    Some(format!(
+        "As modes {} the lines do not fit at all (chi2 {}); they were taken for {} ({}){second}.",
+        list(told),
+        significant(*chi2, 3),
+        list(&found.identified.labels),
+        significant(found.identified.chi2, 3)
+    ))
+}
+
+fn mismatch(found: &Calibration) -> Option<String> {
+    if found.fits() {
+        return None;
+    }
+    let name = |residual: &Residual| {
+        format!("{} ({:+.1} sd)", residual.datum.kind.name(), residual.left_out)
+    };
+    let outliers: Vec<String> =
+        found.outliers.iter().map(|k| name(&found.fit.residuals[*k])).collect();
+    let which = match outliers.is_empty() {
+        true => "No one reading stands out".to_owned(),
+        false => format!("Beside all others these are far off: {}", outliers.join(", ")),
+    };
+    let without = found.without.as_ref().map_or(String::new(), |(_, chi2, data)| {
+        format!(" Without them chi2 is {} of {data}.", significant(*chi2, 3))
+    });
+    Some(format!(
+        "The readings do not fit this bat: errors would have to be {} times larger. {which}: the \
+         profile, the label or the reading is another one than the file says, and no wood mends \
+         that.{without}",
+        significant(found.birge(), 2)
+    ))
+}
+
+/// What a datum is called in a sentence.
+fn called(kind: Kind) -> String {
+    match kind {
+        Kind::Mass => "the mass".to_owned(),
+        Kind::BalancePoint => "the balance point".to_owned(),
+        Kind::Period => "the period as a pendulum".to_owned(),
+        Kind::Frequency(order) => format!("the frequency of mode {order}"),
+    }
+}
+
+/// What to measure next.
+fn advice(found: &Calibration) -> String {
+    match found.advice() {
+        Some((least, Proposal { kind, .. }, factor)) if factor < 0.95 => format!(
+            "Measure {} next: of all that is missing it tells most of {}, whose interval it would \
+             make {} times as wide.",
+            called(*kind),
+            short(least.property),
+            significant(factor, 2)
+        ),
+        _ => "No further measurement of these kinds would tell much more.".to_owned(),
+    }
+}
+
+/// The `sweetspot-calibrate/1` document.
+pub fn document(bat: &Bat, found: &Calibration, split: Option<f64>) -> file::CalibrateFile {
+    let identified = &found.identified;
+    let residuals = &found.fit.residuals;
+    file::CalibrateFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName::of(bat),
+        regions_at_m: split,
+        parameters: found.parameters.iter().map(parameter).collect(),
+        covariance: found.covariance.clone(),
+        data: residuals.iter().map(datum).collect(),
+        chi2: found.fit.chi2,
+        expected: found.data(),
+        errors_larger_by: found.birge(),
+        model: found.readings.model,
+        fits: found.fits(),
+        steps: found.fit.steps,
+        labels: file::LabelsFound {
+            lines_hz: found.readings.lines.iter().map(|line| line.frequency.value).collect(),
+            taken: identified.labels.clone(),
+            chi2: identified.chi2,
+            told: identified.told.as_ref().map(|(labels, _)| labels.clone()),
+            told_chi2: identified.told.as_ref().map(|(_, chi2)| *chi2),
+            second: identified.second.as_ref().map(|(labels, _)| labels.clone()),
+            second_chi2: identified.second.as_ref().map(|(_, chi2)| *chi2),
+        },
+        outliers: found.outliers.iter().map(|k| residuals[*k].datum.kind.name()).collect(),
+        without_outliers: found.without.as_ref().map(|(parameters, chi2, expected)| {
+            let parameters = parameters.iter().map(parameter).collect();
+            file::WithoutOutliers { parameters, chi2: *chi2, expected: *expected }
+        }),
+        loss_factors: found
+            .readings
+            .ring_down
+            .iter()
+            .map(|tone| file::LossFound {
+                mode: tone.mode,
+                damping_ratio: tone.damping_ratio(),
+                loss_factor: tone.loss_factor(),
+            })
+            .collect(),
+        next: found
+            .proposals
+            .iter()
+            .map(|one| file::NextMeasurement {
+                name: one.kind.name(),
+                sd: one.sigma,
+                factors: one.factors.clone(),
+            })
+            .collect(),
+        advice: advice(found),
+        words: words(found),
+    }
+}
+
+fn parameter(one: &Estimated) -> file::ParameterFound {
+    file::ParameterFound {
+        name: one.property.name(),
+        unit: one.property.unit(),
+        value: one.value,
+        interval95: one.interval(),
+        relative_sd: one.deviation,
+        prior: one.prior.value,
+        prior_relative_sd: one.prior.deviation,
+        learned: one.learned,
+        correlated_with: one.correlated.map(|(other, _)| other.name()),
+        correlation: one.correlated.map(|(_, r)| r),
+        verdict: match one.verdict {
+            Verdict::Determined => "determined",
+            Verdict::Partly => "partly",
+            Verdict::OnlyTogether => "only_together",
+            Verdict::NotDetermined => "not_determined",
+            Verdict::Held => "held",
+        },
+    }
+}
+
+fn datum(one: &Residual) -> file::DatumFound {
+    file::DatumFound {
+        name: one.datum.kind.name(),
+        measured: one.datum.reading.value,
+        reading_sd: one.datum.reading.deviation,
+        sd: one.datum.sigma,
+        computed: one.computed,
+        residual_sd: one.deviations,
+        left_out_sd: one.left_out,
+    }
+}
+
+/// Every parameter as a line of CSV.
+pub fn csv(found: &Calibration) -> String {
+    let mut table = Csv::new([
+        "name",
+        "unit",
+        "value",
+        "low95",
+        "high95",
+        "relative_sd",
+        "prior",
+        "prior_relative_sd",
+        "learned",
+    ]);
+    for one in &found.parameters {
+        let [low, high] = one.interval();
+        table.row([
+            one.property.name().into(),
+            one.property.unit().into(),
+            one.value.into(),
+            low.into(),
+            high.into(),
+            one.deviation.into(),
+            one.prior.value.into(),
+            one.prior.deviation.into(),
+            one.learned.into(),
+        ]);
+    }
+    table.text()
+}

@@ -1,0 +1,464 @@
+//! What is this wood, and how much of that do the readings say?
+//!
+//! [`Calibration::new`] from a bat and what was measured of it.
+
+use serde::Serialize;
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::study::calibrate::fit::{Fit, Residual, Search};
+use crate::study::calibrate::labels::{Labelled, Labels, MOST_MODES, best};
+use crate::study::calibrate::next::{BEYOND, Proposal, proposals};
+use crate::study::calibrate::readings::{BatReadings, Reading};
+use crate::study::calibrate::unknowns::{UNKNOWNS, Unknown, form};
+use crate::study::calibrate::wood::WoodenBat;
+
+/// Left out by more standard deviations than this, a datum does not fit the others.
+pub const OUTLIER: f64 = 3.0;
+/// With fewer frequencies G/E stays as it was known before.
+const ENOUGH_FOR_SHEAR: usize = 3;
+/// What was learned of a parameter that is determined, and of one that is not: `1 − σ²/σ₀²`.
+const DETERMINED: f64 = 0.9;
+const UNDETERMINED: f64 = 0.1;
+/// Two parameters that go together so much are known only together, unless both are known to a twentieth.
+const TOGETHER: f64 = 0.95;
+const WELL_KNOWN: f64 = 0.05;
+/// 95 of 100 lie within so many standard deviations.
+pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;
+
+/// How a calibration is made.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CalibrationPlan {
+    /// Where the barrel's region begins (m), if there are two.
+    pub split: Option<f64>,
+    /// Unknowns that stay as the file has them.
+    pub held: Vec<Unknown>,
+}
+
+/// A parameter of the wood, in the order in which they are told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Property {
+    /// E (Pa), of the handle where there are two regions.
+    YoungsModulus,
+    /// G (Pa), of the handle where there are two regions; with the file's shear coefficient κ, of which only the product κG is found.
+    ShearModulus,
+    /// Density (kg/m³), of the handle where there are two regions.
+    Density,
+    /// Density of the barrel (kg/m³).
+    BarrelDensity,
+    /// E of the barrel over E of the handle.
+    ModulusRatio,
+}
+
+impl Property {
+    /// Those of so many regions.
+    pub fn of(regions: usize) -> &'static [Self] {
+        const ALL: [Property; UNKNOWNS] = [
+            Property::YoungsModulus,
+            Property::ShearModulus,
+            Property::Density,
+            Property::BarrelDensity,
+            Property::ModulusRatio,
+        ];
+        const ONE: [Property; 3] =
+            [Property::YoungsModulus, Property::ShearModulus, Property::Density];
+        if regions == 1 { &ONE } else { &ALL }
+    }
+
+    /// Its name, as in a bat file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::YoungsModulus => "youngs_modulus",
+            Self::ShearModulus => "shear_modulus",
+            Self::Density => "density",
+            Self::BarrelDensity => "density_barrel",
+            Self::ModulusRatio => "youngs_modulus_ratio",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::YoungsModulus | Self::ShearModulus => "Pa",
+            Self::Density | Self::BarrelDensity => "kg/m³",
+            Self::ModulusRatio => "",
+        }
+    }
+
+    /// The unknown that is its own: of G, G/E.
+    fn own(self) -> usize {
+        match self {
+            Self::YoungsModulus => 0,
+            Self::ShearModulus => 1,
+            Self::Density => 2,
+            Self::BarrelDensity => 3,
+            Self::ModulusRatio => 4,
+        }
+    }
+
+    /// Its logarithm as a sum of unknowns.
+    fn parts(self, unknowns: usize) -> Vec<f64> {
+        let mut parts = vec![0.0; unknowns];
+        parts[self.own()] = 1.0;
+        if self == Self::ShearModulus {
+            parts[0] = 1.0;
+        }
+        parts
+    }
+}
+
+/// How well the readings determine a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Verdict {
+    /// The readings alone say it.
+    Determined,
+    /// The readings and what was known before.
+    Partly,
+    /// Only with another one: the readings know a product or a quotient of the two.
+    OnlyTogether,
+    /// The readings say nothing: what was known before.
+    NotDetermined,
+    /// It was not sought.
+    Held,
+}
+
+/// What was found of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimated {
+    /// Which.
+    pub property: Property,
+    /// Its value, SI.
+    pub value: f64,
+    /// Standard deviation of its logarithm.
+    pub deviation: f64,
+    /// Value and standard deviation of the logarithm before anything was measured.
+    pub prior: Reading,
+    /// What was learned, `1 − σ²/σ₀²`; of G, of G/E.
+    pub learned: f64,
+    /// The parameter that it goes with most, and the correlation.
+    pub correlated: Option<(Property, f64)>,
+    /// How well it is determined.
+    pub verdict: Verdict,
+}
+
+impl Estimated {
+    /// Where it lies in 95 of 100 cases.
+    pub fn interval(&self) -> [f64; 2] {
+        [-1.0, 1.0].map(|sign| self.value * (sign * NINETY_FIVE * self.deviation).exp())
+    }
+}
+
+/// What the labels of the lines come to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// Labels that were told, with the χ² they come to; None where none were told or all are kept.
+    pub told: Option<(Labels, f64)>,
+    /// Labels that were taken.
+    pub labels: Labels,
+    /// χ² of the labels that were taken, strangers included.
+    pub chi2: f64,
+    /// The second best labels of as many lines and their χ², if others were looked at.
+    pub second: Option<(Labels, f64)>,
+}
+
+/// What is known of a bat's wood.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// The parameters.
+    pub parameters: Vec<Estimated>,
+    /// Covariance of their logarithms, in their order.
+    pub covariance: Vec<Vec<f64>>,
+    /// The fit.
+    pub fit: Fit,
+    /// Which mode each line was taken for.
+    pub identified: Identified,
+    /// Data that do not fit the others, by their places in [`Fit::residuals`].
+    pub outliers: Vec<usize>,
+    /// The parameters without those, and χ² with the number of data that remain.
+    pub without: Option<(Vec<Estimated>, f64, usize)>,
+    /// Which measurements are missing, and what each would do to the parameters' standard deviations.
+    pub proposals: Vec<Proposal>,
+    /// Whether G is of its kind, as the file has none.
+    pub typical_shear: bool,
+    /// The bat of the wood that was found.
+    pub bat: Bat,
+    /// What was measured.
+    pub readings: BatReadings,
+}
+
+impl Calibration {
+    /// The wood of a bat that was measured so.
+    ///
+    /// ```
+    /// use sweetspot::Bat;
+    /// use sweetspot::study::calibrate::calibration::{Calibration, CalibrationPlan};
+    /// use sweetspot::study::calibrate::readings::{BatReadings, Reading, SpectralLine};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let line = |value, mode| {
+    ///     let frequency = Reading { value, deviation: 0.5 };
+    ///     SpectralLine { frequency, mode: Some(mode) }
+    /// };
+    /// let readings = BatReadings {
+    ///     mass: Some(Reading { value: 0.80, deviation: 1e-3 }),
+    ///     lines: vec![line(165.0, 1), line(551.0, 2), line(1160.0, 3)],
+    ///     ..BatReadings::default()
+    /// };
+    /// let found = Calibration::new(&bat, readings, &CalibrationPlan::default())?;
+    /// let modulus = &found.parameters[0];
+    /// println!("E = {:.3e} Pa within {:?}", modulus.value, modulus.interval());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where nothing was measured, where readings are none of this bat, and those of
+    /// [`WoodenBat::new`] and of a solve.
+    pub fn new(bat: &Bat, readings: BatReadings, plan: &CalibrationPlan) -> Result<Self> {
+        let pivot = readings.pendulum.map_or(crate::bat::body::STANDARD_PIVOT, |swing| swing.pivot);
+        check(bat, &readings, pivot)?;
+        let wood = WoodenBat::new(bat, plan.split, pivot)?;
+        let mut held = plan.held.clone();
+        if readings.lines.len() < ENOUGH_FOR_SHEAR && !held.contains(&Unknown::ShearOverYoung) {
+            held.push(Unknown::ShearOverYoung);
+        }
+        let search = Search { wood: &wood, readings: &readings, held: &held };
+        if search.free().is_empty() {
+            return Err(Error::value("--hold", "everything", "something that is not held"));
+        }
+        let (taken, identified) = labelled(&search)?;
+        let fit = taken.fit;
+        let parameters = estimated(&search, &fit);
+        let properties = Property::of(wood.regions());
+        let parts: Vec<Vec<f64>> =
+            properties.iter().map(|property| property.parts(fit.covariance.len())).collect();
+        let outliers: Vec<usize> = (0..fit.residuals.len())
+            .filter(|k| fit.residuals[*k].left_out.abs() > OUTLIER)
+            .collect();
+        let without = without(&search, &fit, &outliers)?;
+        let covariance = |a: &Vec<f64>| parts.iter().map(|b| form(&fit.covariance, a, b)).collect();
+        Ok(Self {
+            parameters,
+            covariance: parts.iter().map(covariance).collect(),
+            proposals: proposals(&search, &fit, &parts),
+            identified,
+            outliers,
+            without,
+            typical_shear: wood.typical_shear,
+            bat: wood.of(&fit.logs)?,
+            fit,
+            readings,
+        })
+    }
+
+    /// How many data there are.
+    pub fn data(&self) -> usize {
+        self.fit.residuals.len()
+    }
+
+    /// Whether the data fit the bat: none is an outlier, the fit has settled, and χ² is not far above their number.
+    pub fn fits(&self) -> bool {
+        self.outliers.is_empty() && self.fit.settled && self.fit.chi2 <= far(self.data())
+    }
+
+    /// How many times larger all errors would have to be for χ² to be the number of data (Birge's ratio).
+    pub fn birge(&self) -> f64 {
+        (self.fit.chi2 / self.data() as f64).sqrt()
+    }
+
+    /// The loss factor of the wood, the mean of all tones that were heard dying out; None without one.
+    pub fn loss_factor(&self) -> Option<f64> {
+        let all = &self.readings.ring_down;
+        let sum: f64 = all.iter().map(|tone| tone.loss_factor()).sum();
+        (!all.is_empty()).then(|| sum / all.len() as f64)
+    }
+
+    /// The parameter that the readings say least of, of those that were sought, and the measurement that would do most
+    /// for it.
+    pub fn advice(&self) -> Option<(&Estimated, &Proposal, f64)> {
+        let sought = self.parameters.iter().enumerate();
+        let sought = sought.filter(|(_, parameter)| parameter.verdict != Verdict::Held);
+        let (k, least) = sought.min_by(|a, b| a.1.learned.total_cmp(&b.1.learned))?;
+        let best = self.proposals.iter().min_by(|a, b| a.factors[k].total_cmp(&b.factors[k]))?;
+        Some((least, best, best.factors[k]))
+    }
+}
+
+impl Residual {
+    /// Whether it does not fit the others.
+    pub fn is_outlier(&self) -> bool {
+        self.left_out.abs() > OUTLIER
+    }
+}
+
+/// χ² of so many data that nobody takes for chance: four standard deviations above their number.
+fn far(data: usize) -> f64 {
+    data as f64 + 4.0 * (2.0 * data as f64).sqrt()
+}
+
+/// Refuses what cannot have been measured of this bat.
+fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
+    let rigid = [readings.mass.is_some(), readings.balance_point.is_some()];
+    if rigid == [false; 2] && readings.pendulum.is_none() && readings.lines.is_empty() {
+        let expected = "\"mass\", \"balance_point\", \"pendulum\" or \"lines\"";
+        return Err(Error::value("readings", "nothing that was measured", expected));
+    }
+    let length = bat.length();
+    if let Some(balance) = readings.balance_point.filter(|balance| balance.value >= length) {
+        let expected = format!("a place on the bat, below {length} m");
+        return Err(Error::value("balance_point", format!("{} m", balance.value), expected));
+    }
+    let center = bat.inertia().balance_point;
+    if readings.pendulum.is_some() && !(0.0..0.9 * center).contains(&pivot) {
+        let expected =
+            format!("a place on the knob side of the balance point, which is at {center:.3} m");
+        return Err(Error::value("pendulum.pivot", format!("{pivot} m"), expected));
+    }
+    let attached = bat.fixtures().attached_mass();
+    if let Some(mass) = readings.mass.filter(|mass| mass.value <= attached) {
+        let found = format!("{} kg, no more than the {attached} kg attached", mass.value);
+        return Err(Error::value("mass", found, "the mass of bat and attachments"));
+    }
+    let unlabelled = readings.lines.iter().filter(|line| line.mode.is_none()).count();
+    if readings.lines.len() > MOST_MODES || unlabelled > 10 {
+        let found = format!("{} lines, {unlabelled} of them without a mode", readings.lines.len());
+        let expected = format!("{MOST_MODES} at most, and 10 whose mode is not known");
+        return Err(Error::value("lines", found, expected));
+    }
+    Ok(())
+}
+
+/// The labels that are taken, and what others come to.
+fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
+    let told: Labels = search.readings.lines.iter().map(|line| line.mode).collect();
+    let highest = told.iter().flatten().max().copied().unwrap_or(0);
+    let modes = (highest.max(told.len()) + BEYOND).clamp(3, MOST_MODES + BEYOND);
+    let alone = |labelled: Labelled| {
+        let Labelled { labels, chi2, .. } = labelled.clone();
+        (labelled, Identified { told: None, labels, chi2, second: None })
+    };
+    let all_told = told.iter().all(Option::is_some);
+    let as_told = if all_told { Some(Labelled::new(search, told.clone(), modes)?) } else { None };
+    let data = told.len() + 3;
+    match &as_told {
+        Some(fitted) if fitted.fit.settled && fitted.chi2 <= far(data) => {
+            return Ok(alone(fitted.clone()));
+        }
+        Some(fitted) if told.is_empty() => return Ok(alone(fitted.clone())),
+        _ => {}
+    }
+    let start = search.wood.shown(&[0.0; UNKNOWNS], modes.max(told.len() + 3))?;
+    let fixed = if all_told { vec![None; told.len()] } else { told.clone() };
+    let mut found = best(search, &fixed, &start)?.into_iter();
+    let first = found.next();
+    // With fewer lines there is always one that fits as well and says less.
+    let strangers = |one: &Labelled| one.labels.iter().filter(|label| label.is_none()).count();
+    let most = first.as_ref().map_or(0, strangers);
+    let other = |second: &Labelled| strangers(second) <= most;
+    let second = found.find(other).map(|second| (second.labels, second.chi2));
+    match (as_told, first) {
+        // Other labels are taken only where they explain what was measured, and nearly all of it.
+        (Some(told), Some(best)) if best.chi2 + 24.0 < told.chi2 && best.chi2 <= far(data) => {
+            let Labelled { labels, chi2, .. } = best.clone();
+            let told = (told.labels, told.chi2);
+            Ok((best, Identified { told: Some(told), labels, chi2, second }))
+        }
+        (Some(told), _) => Ok(alone(told)),
+        (None, Some(best)) => {
+            let Labelled { labels, chi2, .. } = best.clone();
+            Ok((best, Identified { told: None, labels, chi2, second }))
+        }
+        (None, None) => {
+            let expected = "lines of which one at least is within 30 % of a bending mode";
+            Err(Error::value("lines", "none that may be a bending mode of this bat", expected))
+        }
+    }
+}
+
+/// The parameters and what the fit says of them.
+fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
+    let properties = Property::of(search.wood.regions());
+    let unknowns = fit.covariance.len();
+    let before = search.prior();
+    let start = search.wood.materials(&[0.0; UNKNOWNS]);
+    let value = |property: Property| {
+        let centre = match property {
+            Property::YoungsModulus => start[0].youngs_modulus,
+            Property::ShearModulus => start[0].shear_modulus.unwrap_or(0.0),
+            Property::Density | Property::BarrelDensity => start[0].density,
+            Property::ModulusRatio => 1.0,
+        };
+        let parts = property.parts(unknowns);
+        let log: f64 = parts.iter().zip(&fit.logs).map(|(part, log)| part * log).sum();
+        (centre, centre * log.exp())
+    };
+    let free = search.free();
+    let of = |property: Property| {
+        let parts = property.parts(unknowns);
+        let (centre, value) = value(property);
+        let own = property.own();
+        let is_free = free.contains(&own);
+        let mut variance = form(&fit.covariance, &parts, &parts);
+        if !is_free {
+            // What was known before still holds.
+            variance = (variance + before[own][own]).min(form(&before, &parts, &parts));
+        }
+        let prior = Reading { value: centre, deviation: form(&before, &parts, &parts).sqrt() };
+        let learned =
+            |parts: &[f64]| 1.0 - form(&fit.covariance, parts, parts) / form(&before, parts, parts);
+        let mut single = vec![0.0; unknowns];
+        single[own] = 1.0;
+        let learned = if is_free { learned(&single).min(learned(&parts)) } else { 0.0 };
+        let others = properties.iter().filter(|other| **other != property);
+        let correlation = |other: &Property| {
+            let theirs = other.parts(unknowns);
+            let sizes =
+                form(&fit.covariance, &theirs, &theirs) * form(&fit.covariance, &parts, &parts);
+            let r = form(&fit.covariance, &parts, &theirs) / sizes.sqrt();
+            (sizes > 0.0).then_some((*other, r))
+        };
+        let correlated =
+            others.filter_map(correlation).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let together = correlated.is_some_and(|(_, r)| r.abs() > TOGETHER);
+        let verdict = match learned {
+            _ if !is_free => Verdict::Held,
+            learned if learned <= UNDETERMINED => Verdict::NotDetermined,
+            _ if together && variance.sqrt() > WELL_KNOWN => Verdict::OnlyTogether,
+            learned if learned > DETERMINED => Verdict::Determined,
+            _ => Verdict::Partly,
+        };
+        Estimated {
+            property,
+            value,
+            deviation: variance.sqrt(),
+            prior,
+            learned,
+            correlated,
+            verdict,
+        }
+    };
+    properties.iter().map(|property| of(*property)).collect()
+}
+
+/// The fit without what does not fit, if anything does not and two data are left.
+fn without(
+    search: &Search,
+    fit: &Fit,
+    outliers: &[usize],
+) -> Result<Option<(Vec<Estimated>, f64, usize)>> {
+    let kept = fit.residuals.iter().enumerate().filter(|(k, _)| !outliers.contains(k));
+    let kept: Vec<_> = kept.map(|(_, residual)| residual.datum).collect();
+    if outliers.is_empty() || kept.len() < 2 {
+        return Ok(None);
+    }
+    let again = search.fit(&kept, fit.shown.frequencies.len())?;
+    Ok(Some((estimated(search, &again), again.chi2, kept.len())))
+}

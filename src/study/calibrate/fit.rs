@@ -1,0 +1,278 @@
+//! Which wood shows what was measured?
+//!
+//! Gauss-Newton on
+//!
+//! ```text
+//! χ² = Σ ((y − y(θ))/σ)² + θᵀ P⁻¹ θ
+//! ```
+//!
+//! θ the logarithms of the unknowns over what the file says, P what was known of them before. σ² is that of the
+//! reading and, of a frequency, `(model · y)²` for what a beam leaves out. A step changes no logarithm by more than
+//! 0.3, and is halved until χ² falls.
+//!
+//! # Source
+//!
+//! A. Tarantola, Inverse Problem Theory (SIAM, 2005), section 3.4.1: the least-squares criterion with a Gaussian
+//! prior, its quasi-Newton step and posterior covariance.
+
+use serde::Serialize;
+
+use crate::base::error::Result;
+use crate::base::linear::inverse;
+use crate::study::calibrate::readings::{BatReadings, Reading};
+use crate::study::calibrate::unknowns::{Logs, UNKNOWNS, Unknown, covariance, form};
+use crate::study::calibrate::wood::{Shown, Slopes, WoodenBat};
+
+/// The largest change of a logarithm in one step.
+const LARGEST_STEP: f64 = 0.3;
+/// A fit that has not ended by then runs away.
+const MOST_STEPS: usize = 40;
+/// Steps of this size change nothing that anybody reads.
+const SETTLED: f64 = 1e-7;
+/// Beyond so many standard deviations of what was known before, a fit has run away.
+const RUNAWAY: f64 = 4.0;
+
+/// What a datum is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Kind {
+    /// Mass (kg).
+    Mass,
+    /// Balance point (m).
+    BalancePoint,
+    /// Period of the pendulum (s).
+    Period,
+    /// Frequency of that bending mode, from 1 (Hz).
+    Frequency(usize),
+}
+
+impl Kind {
+    /// Its name, that of an output of the program where there is one.
+    pub fn name(self) -> String {
+        match self {
+            Self::Mass => "mass_kg".to_owned(),
+            Self::BalancePoint => "balance_point_m".to_owned(),
+            Self::Period => "pendulum_period_s".to_owned(),
+            Self::Frequency(order) => format!("f{order}_hz"),
+        }
+    }
+
+    /// What a bat shows of it.
+    pub fn of(self, shown: &Shown) -> Slopes {
+        match self {
+            Self::Mass => shown.mass,
+            Self::BalancePoint => shown.balance_point,
+            Self::Period => shown.period,
+            Self::Frequency(order) => shown.frequencies[order - 1],
+        }
+    }
+}
+
+/// Something that was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// What.
+    pub kind: Kind,
+    /// Which of the lines it is; None for what is no line.
+    pub line: Option<usize>,
+    /// The reading.
+    pub reading: Reading,
+    /// σ of reading and model together.
+    pub sigma: f64,
+}
+
+/// The data of these readings, the lines taken for those modes; None where a line is of none of them.
+pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
+    let rigid = [
+        (Kind::Mass, readings.mass),
+        (Kind::BalancePoint, readings.balance_point),
+        (Kind::Period, readings.pendulum.map(|pendulum| pendulum.period)),
+    ];
+    let rigid = rigid.into_iter().filter_map(|(kind, reading)| Some((kind, None, reading?)));
+    let lines =
+        readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
+            Some((Kind::Frequency((*mode)?), Some(k), line.frequency))
+        });
+    let datum = |(kind, line, reading): (Kind, Option<usize>, Reading)| {
+        let model = if line.is_some() { readings.model * reading.value } else { 0.0 };
+        Datum { kind, line, reading, sigma: reading.deviation.hypot(model) }
+    };
+    rigid.chain(lines).map(datum).collect()
+}
+
+/// What is sought, and from where.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// The bat.
+    pub wood: &'a WoodenBat,
+    /// What was measured and known before.
+    pub readings: &'a BatReadings,
+    /// Unknowns that stay as the file has them.
+    pub held: &'a [Unknown],
+}
+
+/// A datum beside what the fitted bat shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// The datum.
+    pub datum: Datum,
+    /// What the bat shows.
+    pub computed: f64,
+    /// `(y − y(θ))/σ`.
+    pub deviations: f64,
+    /// The same from the fit to all other data, `z/√(1 − h)`.
+    pub left_out: f64,
+}
+
+/// A fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The unknowns.
+    pub logs: Logs,
+    /// Their covariance; 0 for what was held.
+    pub covariance: Vec<Vec<f64>>,
+    /// χ², what was known before included.
+    pub chi2: f64,
+    /// Steps that were taken.
+    pub steps: usize,
+    /// Whether it ended where it should, and not too far from what was known before.
+    pub settled: bool,
+    /// The data beside what the bat shows.
+    pub residuals: Vec<Residual>,
+    /// Everything that the bat shows.
+    pub shown: Shown,
+}
+
+fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
+    let product = |row: &Vec<f64>| row.iter().zip(vector).map(|(a, b)| a * b).sum();
+    matrix.iter().map(product).collect()
+}
+
+/// One place of the search, linearised.
+struct Linear {
+    chi2: f64,
+    gradient: Vec<f64>,
+    covariance: Vec<Vec<f64>>,
+}
+
+impl Search<'_> {
+    /// The covariance of the unknowns before anything was measured.
+    pub fn prior(&self) -> Vec<Vec<f64>> {
+        covariance(&self.readings.priors, self.wood.regions())
+    }
+
+    /// Which unknowns are free, by their places.
+    pub fn free(&self) -> Vec<usize> {
+        let unknowns = Unknown::of(self.wood.regions()).iter().enumerate();
+        unknowns.filter(|(_, unknown)| !self.held.contains(unknown)).map(|(k, _)| k).collect()
+    }
+
+    /// What was known before of the free unknowns, the held ones known: the inverse of their covariance.
+    fn precision(&self) -> Vec<Vec<f64>> {
+        let whole = inverse(&self.prior()).unwrap_or_default();
+        let free = self.free();
+        free.iter().map(|i| free.iter().map(|j| whole[*i][*j]).collect()).collect()
+    }
+
+    /// The wood that shows these data; frequencies up to `modes` are looked at.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`WoodenBat::shown`] at the beginning; a bat that cannot be solved on the way ends the search.
+    pub fn fit(&self, data: &[Datum], modes: usize) -> Result<Fit> {
+        let free = self.free();
+        let prior = self.prior();
+        let mut logs = [0.0; UNKNOWNS];
+        let mut shown = self.wood.shown(&logs, modes)?;
+        let mut here = self.linear(data, &shown, &logs);
+        let (mut steps, mut settled) = (0, false);
+        while steps < MOST_STEPS && !settled {
+            let step = times(&here.covariance, &here.gradient);
+            let largest = step.iter().fold(0.0_f64, |most, step| most.max(step.abs()));
+            let mut share = (LARGEST_STEP / largest).min(1.0);
+            let downhill = loop {
+                let mut next = logs;
+                free.iter().zip(&step).for_each(|(k, step)| next[*k] += share * step);
+                if let Ok(there) = self.wood.shown(&next, modes) {
+                    let linear = self.linear(data, &there, &next);
+                    if linear.chi2 <= here.chi2 || largest < SETTLED {
+                        break Some((next, there, linear));
+                    }
+                }
+                share *= 0.5;
+                if share * largest < SETTLED {
+                    break None;
+                }
+            };
+            let Some((next, there, linear)) = downhill else { break };
+            (logs, shown, here, steps) = (next, there, linear, steps + 1);
+            settled = largest < SETTLED;
+        }
+        let near = |k: &usize| logs[*k].abs() <= RUNAWAY * prior[*k][*k].sqrt();
+        settled &= free.iter().all(near);
+        Ok(self.ended(data, shown, (logs, here), (steps, settled)))
+    }
+
+    /// The fit that ended there.
+    fn ended(
+        &self,
+        data: &[Datum],
+        shown: Shown,
+        (logs, linear): (Logs, Linear),
+        (steps, settled): (usize, bool),
+    ) -> Fit {
+        let Linear { chi2, covariance: of_free, .. } = linear;
+        let (free, unknowns) = (self.free(), Unknown::of(self.wood.regions()).len());
+        let mut covariance = vec![vec![0.0; unknowns]; unknowns];
+        for (i, row) in free.iter().zip(&of_free) {
+            free.iter().zip(row).for_each(|(j, entry)| covariance[*i][*j] = *entry);
+        }
+        let residual = |datum: &Datum| {
+            let Slopes { value, by } = datum.kind.of(&shown);
+            let z = (datum.reading.value - value) / datum.sigma;
+            let by = &by[..unknowns];
+            let leverage = form(&covariance, by, by) / datum.sigma.powi(2);
+            let left_out = z / (1.0 - leverage).max(1e-9).sqrt();
+            Residual { datum: *datum, computed: value, deviations: z, left_out }
+        };
+        let residuals = data.iter().map(residual).collect();
+        Fit { logs, covariance, chi2, steps, settled, residuals, shown }
+    }
+
+    /// χ², half its downward gradient and the covariance, of the free unknowns.
+    fn linear(&self, data: &[Datum], shown: &Shown, logs: &Logs) -> Linear {
+        let (free, mut weights) = (self.free(), self.precision());
+        let at: Vec<f64> = free.iter().map(|k| logs[*k]).collect();
+        let mut chi2 = form(&weights, &at, &at);
+        let mut gradient: Vec<f64> = times(&weights, &at).iter().map(|slope| -slope).collect();
+        for datum in data {
+            let Slopes { value, by } = datum.kind.of(shown);
+            let z = (datum.reading.value - value) / datum.sigma;
+            chi2 += z * z;
+            let slopes: Vec<f64> = free.iter().map(|k| by[*k] / datum.sigma).collect();
+            for (i, slope) in slopes.iter().enumerate() {
+                gradient[i] += slope * z;
+                weights[i].iter_mut().zip(&slopes).for_each(|(w, other)| *w += slope * other);
+            }
+        }
+        let covariance = inverse(&weights).unwrap_or_default();
+        Linear { chi2, gradient, covariance }
+    }
+
+    /// χ² that a bat on the straight line from here would have: what a fit comes to, without one.
+    pub fn guess(&self, data: &[Datum], shown: &Shown) -> f64 {
+        let straight: Vec<Datum> = data
+            .iter()
+            .map(|datum| {
+                // In logarithms a frequency goes straight with the unknowns, nearly.
+                let value = datum.kind.of(shown).value;
+                let moved = value * (1.0 + (datum.reading.value / value).ln());
+                let sigma = datum.sigma * value / datum.reading.value;
+                Datum { reading: Reading { value: moved, ..datum.reading }, sigma, ..*datum }
+            })
+            .collect();
+        let Linear { chi2, gradient, covariance } = self.linear(&straight, shown, &[0.0; UNKNOWNS]);
+        chi2 - form(&covariance, &gradient, &gradient)
+    }
+}

@@ -1,0 +1,302 @@
+//! What `sweetspot calibrate` finds: the numbers of an independent solver, and closed forms.
+
+mod common;
+
+use std::io::Write;
+use std::process::Stdio;
+
+use common::folder::Folder;
+use sweetspot::modes::shares::Shares;
+use sweetspot::study::calibrate::calibration::{
+    Calibration, CalibrationPlan, Estimated, Property, Verdict,
+};
+use sweetspot::study::calibrate::fit::{Search, data};
+use sweetspot::study::calibrate::readings::{
+    BatReadings, Pendulum, Priors, Reading, ShearPrior, SpectralLine,
+};
+use sweetspot::study::calibrate::unknowns::Unknown;
+use sweetspot::study::calibrate::wood::WoodenBat;
+use sweetspot::{Bat, Request, Theory, solve};
+
+const R161: &str = include_str!("../meshes/r161.json");
+
+/// What the independent solver took for known before: no property goes with another.
+const INDEPENDENT: Priors = Priors {
+    youngs_modulus: 0.22,
+    shear: ShearPrior::Alone(0.35),
+    density: 0.10,
+    correlation: 0.0,
+    modulus_ratio: 0.08,
+    densities_together: 0.95,
+};
+
+fn reading(value: f64, deviation: f64) -> Reading {
+    Reading { value, deviation }
+}
+
+/// The R161 of a handbook's ash, from which the search begins.
+fn handbook() -> Bat {
+    let bat = Bat::from_text("r161.json", R161, "".as_ref()).unwrap();
+    bat.with(|parts| {
+        parts.material.youngs_modulus = 12e9;
+        parts.material.shear_modulus = Some(1.1e9);
+        parts.material.density = 672.0;
+    })
+    .unwrap()
+}
+
+fn lines(all: &[(f64, f64, usize)]) -> Vec<SpectralLine> {
+    let line = |(hz, within, mode): &(f64, f64, usize)| SpectralLine {
+        frequency: reading(*hz, *within),
+        mode: Some(*mode),
+    };
+    all.iter().map(line).collect()
+}
+
+/// A bat of 18.14 GPa, 1.05 GPa and 649 kg/m³, read with a scale, a ruler, a watch and a microphone.
+fn sound() -> BatReadings {
+    BatReadings {
+        mass: Some(reading(0.869, 1e-3)),
+        balance_point: Some(reading(0.561, 1e-3)),
+        pendulum: Some(Pendulum { pivot: 0.1524, period: reading(1.470, 1e-3) }),
+        lines: lines(&[(174.5, 0.3, 1), (581.3, 0.5, 2), (1187.0, 1.0, 3), (1854.8, 1.5, 4)]),
+        model: 1e-3,
+        priors: INDEPENDENT,
+        ..BatReadings::default()
+    }
+}
+
+fn near(found: f64, known: f64, half_a_digit: f64) {
+    assert!((found - known).abs() <= half_a_digit, "{found} is not {known}");
+}
+
+fn of(found: &[Estimated], property: Property) -> (f64, f64) {
+    let one = found.iter().find(|one| one.property == property).unwrap();
+    (one.value, 100.0 * one.deviation)
+}
+
+#[test]
+fn c1_two_regions_are_found_with_their_intervals() {
+    let plan = CalibrationPlan { split: Some(0.42), held: vec![] };
+    let found = Calibration::new(&handbook(), sound(), &plan).unwrap();
+    for (property, scale, value, half, sd) in [
+        (Property::YoungsModulus, 1e9, 18.117, 5e-4, 0.92),
+        (Property::ShearModulus, 1e9, 1.0475, 5e-5, 3.52),
+        (Property::Density, 1.0, 648.38, 5e-3, 0.81),
+        (Property::BarrelDensity, 1.0, 649.18, 5e-3, 0.26),
+        (Property::ModulusRatio, 1.0, 1.0024, 5e-5, 2.93),
+    ] {
+        let (v, s) = of(&found.parameters, property);
+        near(v / scale, value, half);
+        near(s, sd, 5e-3);
+    }
+    assert!(found.fits() && found.fit.steps <= 8, "{}", found.fit.steps);
+}
+
+#[test]
+fn c1_one_region_is_found_with_its_intervals() {
+    let found = Calibration::new(&handbook(), sound(), &CalibrationPlan::default()).unwrap();
+    for (property, scale, value, half, sd) in [
+        (Property::YoungsModulus, 1e9, 18.139, 5e-4, 0.32),
+        (Property::ShearModulus, 1e9, 1.0503, 5e-5, 1.42),
+        (Property::Density, 1.0, 649.00, 5e-3, 0.12),
+    ] {
+        let (v, s) = of(&found.parameters, property);
+        near(v / scale, value, half);
+        near(s, sd, 5e-3);
+    }
+    for one in &found.parameters {
+        assert_eq!(one.verdict, Verdict::Determined);
+    }
+}
+
+/// A. M. Nathan, Am. J. Phys. 68 (2000) 979: what he measured does not go with the profile of the file.
+#[test]
+fn c2_the_published_r161_does_not_fit_and_f1_and_balance_point_are_found() {
+    let bat = Bat::from_text("r161.json", R161, "".as_ref()).unwrap();
+    let measured = [(165.0, 0.5, 1), (568.0, 0.5, 2), (1177.0, 0.5, 3), (1851.0, 0.5, 4)];
+    let readings = BatReadings {
+        mass: Some(reading(0.885, 1e-3)),
+        balance_point: Some(reading(0.564, 1e-3)),
+        lines: lines(&measured),
+        priors: INDEPENDENT,
+        ..BatReadings::default()
+    };
+    let found = Calibration::new(&bat, readings, &CalibrationPlan::default()).unwrap();
+    near(found.fit.chi2, 30.7, 0.05);
+    assert_eq!(found.data(), 6);
+    let names: Vec<(String, f64)> = found
+        .outliers
+        .iter()
+        .map(|k| &found.fit.residuals[*k])
+        .map(|residual| (residual.datum.kind.name(), residual.left_out))
+        .collect();
+    assert_eq!(names.len(), 2, "{names:?}");
+    assert_eq!((&*names[0].0, &*names[1].0), ("balance_point_m", "f1_hz"));
+    near(names[0].1, 3.1, 0.05);
+    near(names[1].1, -4.4, 0.05);
+    assert!(!found.fits() && found.identified.told.is_none());
+    let (without, chi2, count) = found.without.unwrap();
+    near(chi2, 1.4, 0.05);
+    assert_eq!(count, 4);
+    let (e, e_sd) = of(&without, Property::YoungsModulus);
+    let (g, g_sd) = of(&without, Property::ShearModulus);
+    near(e / 1e9, 17.343, 5e-4);
+    near(e_sd, 0.93, 5e-3);
+    near(g / 1e9, 1.302, 5e-4);
+    near(g_sd, 5.1, 0.05);
+    near(of(&without, Property::Density).0, 660.95, 5e-3);
+}
+
+#[test]
+fn c3_mislabelled_lines_are_found_and_relabelled() {
+    let wrong = lines(&[(174.5, 0.3, 1), (1187.0, 1.0, 2), (1854.8, 1.5, 3)]);
+    let readings = BatReadings { lines: wrong, ..sound() };
+    let plan = CalibrationPlan { split: Some(0.42), held: vec![] };
+    let found = Calibration::new(&handbook(), readings, &plan).unwrap();
+    let identified = &found.identified;
+    let (told, chi2) = identified.told.as_ref().unwrap();
+    assert_eq!(told, &[Some(1), Some(2), Some(3)]);
+    assert!(*chi2 > 10_000.0, "{chi2}");
+    assert_eq!(identified.labels, [Some(1), Some(3), Some(4)]);
+    near(identified.chi2, 3.7, 0.05);
+    // No wood of this profile has f4 and f5 as far apart as 1187 and 1854.8 Hz, nor f3 and f5 as near.
+    let (second, chi2) = identified.second.as_ref().unwrap();
+    assert!(second != &identified.labels && *chi2 > 53.0, "{second:?} {chi2}");
+}
+
+#[test]
+fn c4_shares_of_energy_are_the_derivatives_of_the_frequencies() {
+    const BENDING: [f64; 5] = [0.4918378, 0.4567961, 0.4115629, 0.3703576, 0.3259064];
+    let bat = Bat::from_text("r161.json", R161, "".as_ref()).unwrap();
+    let theory = Theory::Timoshenko;
+    let request = Request { modes: 5, tolerance: 1e-11, theory, ..Request::default() };
+    let solution = solve(&bat, &request).unwrap();
+    for (mode, known) in solution.modes.iter().zip(BENDING) {
+        let shares = Shares::of(&bat, mode, theory, &[0.0, bat.length()], |_| true);
+        near(0.5 * shares.bending[0], known, 5e-8);
+        near(0.5 * shares.shear[0], 0.5 - known, 5e-8);
+        near(0.5 * shares.kinetic[0], 0.5, 1e-9);
+    }
+}
+
+/// Standard deviations in per cent that readings leave of E, G, both densities and the ratio of E.
+#[test]
+fn what_is_determined_is_what_the_readings_can_say() {
+    let all = sound();
+    let few = BatReadings {
+        balance_point: None,
+        pendulum: None,
+        lines: all.lines[..1].to_vec(),
+        ..all.clone()
+    };
+    let tones = BatReadings { mass: None, balance_point: None, pendulum: None, ..all.clone() };
+    let wood = WoodenBat::new(&handbook(), Some(0.42), 0.1524).unwrap();
+    for (readings, known) in [
+        (few, [2.1, 35.0, 2.4, 0.7, 8.0]),
+        (tones, [8.8, 9.4, 8.8, 8.8, 3.1]),
+        (all, [0.9, 3.5, 0.8, 0.3, 2.9]),
+    ] {
+        let search = Search { wood: &wood, readings: &readings, held: &[] };
+        let labels: Vec<_> = readings.lines.iter().map(|line| line.mode).collect();
+        let c = search.fit(&data(&readings, &labels), 5).unwrap().covariance;
+        let shear = c[0][0] + 2.0 * c[0][1] + c[1][1];
+        let variances = [c[0][0], shear, c[2][2], c[3][3], c[4][4]];
+        for (found, known) in variances.map(|variance| 100.0 * variance.sqrt()).iter().zip(known) {
+            near(*found, known, 0.06);
+        }
+    }
+}
+
+/// With one frequency, G/E held and nothing known of E before, E is that of the one-number form.
+#[test]
+fn one_tap_alone_gives_the_factor_of_the_bat_file() {
+    let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "weighed": { "mass": "31 oz", "first_bending_hz": 170 },
+        "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    let file = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
+    let tapped = sweetspot::study::tuned::tuned(file.clone(), Theory::Timoshenko, 1e-9).unwrap();
+    let bare =
+        Bat::from_text("bat.json", &text.replace(", \"first_bending_hz\": 170", ""), "".as_ref());
+    let mut readings =
+        BatReadings { lines: lines(&[(170.0, 1e-3, 1)]), model: 1e-7, ..BatReadings::default() };
+    readings.priors.youngs_modulus = 1e3;
+    readings.priors.correlation = 0.0;
+    let held = vec![Unknown::ShearOverYoung, Unknown::Density];
+    let plan = CalibrationPlan { split: None, held };
+    let found = Calibration::new(&bare.unwrap(), readings, &plan).unwrap();
+    let (e, _) = of(&found.parameters, Property::YoungsModulus);
+    let known = tapped.material().youngs_modulus;
+    assert!((e / known - 1.0).abs() < 1e-6, "{e} {known}");
+}
+
+/// The file that is written is the bat that was found, and says how well it is known.
+#[test]
+fn the_written_bat_is_the_one_that_was_found() {
+    let folder = Folder::new("calibrate");
+    folder.write("r161.json", R161);
+    folder.write("readings.json", include_str!("golden/readings-1.json"));
+    for more in [&[][..], &["--regions", "42 cm"]] {
+        let args = ["calibrate", "r161.json", "readings.json", "--out", "mine.json", "--json", "-"];
+        let found = folder.json(&[&args[..], more].concat());
+        let solved = folder.json(&[
+            "modes",
+            "mine.json",
+            "-n",
+            "3",
+            "--theory",
+            "timoshenko",
+            "--json",
+            "-",
+        ]);
+        for datum in found["data"].as_array().unwrap() {
+            let computed = datum["computed"].as_f64().unwrap();
+            let name = datum["name"].as_str().unwrap();
+            let again = match name {
+                "mass_kg" | "balance_point_m" => solved["summary"][name].as_f64(),
+                "pendulum_period_s" => None,
+                name => {
+                    let order: usize = name[1..2].parse().unwrap();
+                    solved["modes"][order - 1]["frequency_hz"].as_f64()
+                }
+            };
+            if let Some(again) = again {
+                assert!((again / computed - 1.0).abs() < 1e-4, "{name} {again} {computed}");
+            }
+        }
+        let text = folder.read("mine.json");
+        assert!(text.contains("95 % from") && text.contains("\"loss_factor\": 0.0145"), "{text}");
+    }
+}
+
+#[test]
+fn answers_are_asked_and_kept() {
+    let folder = Folder::new("calibrate_asked");
+    let answers = "30.65 oz\n56.1 cm\n14.70\n174.5, 581.3, 1187\n\n";
+    let asked = ["calibrate", "r161", "--ask", "--readings", "kept.json", "--json", "-"];
+    let mut command = folder.command(&asked);
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = piped.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(answers.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let again = folder.json(&["calibrate", "r161", "kept.json", "--json", "-"]);
+    let first: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(first["parameters"], again["parameters"]);
+    assert_eq!(first["labels"]["taken"], serde_json::json!([1, 2, 3]));
+}
+
+#[test]
+fn a_mismatch_is_a_failed_check() {
+    let folder = Folder::new("calibrate_mismatch");
+    let text = r#"{ "format": "sweetspot-readings/1", "mass": "0.885 kg", "balance_point": "0.564 m",
+        "lines": [ { "hz": 165, "mode": 1 }, { "hz": 568, "mode": 2 }, { "hz": 1177, "mode": 3 },
+            { "hz": 1851, "mode": 4 } ] }"#;
+    folder.write("nathan.json", text);
+    let output = folder.run(&["calibrate", "r161", "nathan.json"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("The readings do not fit this bat"), "{said}");
+    let plain = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(plain.contains("balance_point_m (+3.1 sd), f1_hz (-4.5 sd)"), "{said}");
+}

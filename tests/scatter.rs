@@ -1,0 +1,191 @@
+//! What `sweetspot scatter` finds: closed forms, known indices, and the same bytes whoever computes them.
+
+mod common;
+
+use common::folder::Folder;
+use serde_json::Value;
+use sweetspot::study::many::indices::{Indices, Kind};
+use sweetspot::study::many::sobol::Sobol;
+
+const R161: &str = include_str!("../meshes/r161.json");
+
+/// G goes with E, density and E are lognormal and go together.
+const LOGNORMAL: &str = r#"{ "format": "sweetspot-scatter/1",
+    "correlation": [["density", "youngs_modulus", 0.6]],
+    "density": { "lognormal": "4 %" }, "youngs_modulus": { "lognormal": "10 %" },
+    "outputs": ["f1_hz", "f2_hz", "mass_kg"], "tol": 1e-6 }"#;
+
+/// Everything that may differ.
+const ALL: &str = r#"{ "format": "sweetspot-scatter/1",
+    "correlation": [["density", "youngs_modulus", 0.6]],
+    "scene": { "swing_speed": "50 rad/s", "pitch": "90 mph" },
+    "density": { "lognormal": "4 %" }, "youngs_modulus": { "lognormal": "10 %" },
+    "shear_over_young": { "lognormal": "15 %" }, "turning": { "normal": "0.1 mm", "along": "12 in" },
+    "swing_speed": { "normal": "4 %" }, "pitch": { "normal": "3 %" }, "cor": { "normal": 0.016 },
+    "impact": { "normal": "0.5 in" },
+    "outputs": ["f1_hz", "exit_speed_m_s@impact", "exit_speed_max.x_m"] }"#;
+
+fn folder(name: &str, scatter: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("r161.json", R161);
+    folder.write("scatter.json", scatter);
+    folder
+}
+
+fn run(folder: &Folder, more: &[&str]) -> Value {
+    folder.json(&[&["scatter", "r161.json", "scatter.json", "--json", "-"], more].concat())
+}
+
+fn output<'a>(document: &'a Value, name: &str) -> &'a Value {
+    document["outputs"].as_array().unwrap().iter().find(|one| one["name"] == name).unwrap()
+}
+
+fn share(document: &Value, name: &str, order: &str, input: &str) -> (f64, f64) {
+    let inputs = document["inputs"].as_array().unwrap();
+    let k = inputs.iter().position(|one| one["name"] == input).unwrap();
+    let share = &output(document, name)["shares"][order][k];
+    (share["value"].as_f64().unwrap(), share["sd"].as_f64().unwrap())
+}
+
+/// `f ∝ √(E/ρ)` with E and ρ lognormal: ln f is normal, sd ½√(σ_E² + σ_ρ² − 2 r σ_E σ_ρ) = 0.0412311.
+#[test]
+fn s1_lognormal_wood_has_percentiles_and_shares_in_closed_form() {
+    let folder = folder("s1", LOGNORMAL);
+    let found = run(&folder, &["--points", "4096"]);
+    for (name, known) in [
+        ("f1_hz", [163.06594, 186.75409]),
+        ("f2_hz", [543.13922, 622.03962]),
+        ("mass_kg", [0.81365902, 0.92809089]),
+    ] {
+        for (percent, known) in [5.0, 95.0].into_iter().zip(known) {
+            let all = output(&found, name)["percentiles"].as_array().unwrap();
+            let one = all.iter().find(|one| one["percent"] == percent).unwrap();
+            let [value, error] = ["value", "error"].map(|key| one[key].as_f64().unwrap());
+            assert!((value / known - 1.0).abs() < 1e-3, "{name} {percent} %: {value} {known}");
+            assert!(
+                (value - known).abs() < error,
+                "{name} {percent} %: {value} ± {error}, {known}"
+            );
+        }
+    }
+    for (input, known) in [("density", 0.0588235), ("youngs_modulus", 0.9411765)] {
+        let (value, sd) = share(&found, "f1_hz", "first", input);
+        // Shares of f, not of ln f: σ² = 0.0017 apart at most.
+        assert!((value - known).abs() < 1e-3 + 3.0 * sd, "{input} {value} {known}");
+    }
+    assert_eq!(found["inputs"][1]["given"][0], "density");
+    let said = found["words"][0].as_str().unwrap();
+    assert_eq!(said, "Of the spread of f1_hz, 94 % is youngs_modulus given density, 6 % density.");
+}
+
+/// T. Ishigami, T. Homma (1990), a = 7, b = 0.1.
+#[test]
+fn s2_ishigamis_function_has_its_known_indices() {
+    let sobol = Sobol::new(3, 1);
+    let row = |k: u64| {
+        let shares: Vec<f64> = (0..3).map(|c| sobol.at(k, c)).collect();
+        let x = [0, 1, 2].map(|c| std::f64::consts::PI * (2.0 * shares[c] - 1.0));
+        let y = x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+        (shares, y)
+    };
+    let rows: Vec<(Vec<f64>, f64)> = (0..4096).map(row).collect();
+    let found = Indices::new(&[Kind::Share; 3], &rows).unwrap();
+    let known = [[0.3139, 0.4424, 0.0], [0.5576, 0.4424, 0.2437]];
+    for (found, known) in [&found.first, &found.total].into_iter().zip(known) {
+        for (found, known) in found.iter().zip(known) {
+            assert!((found.value - known).abs() < 2e-3, "{found:?} {known}");
+        }
+    }
+    // By groups: what the first and the last do together is theirs alone.
+    let groups = Indices::grouped(&[Kind::Share; 3], &[0, 1, 0], &rows).unwrap();
+    assert_eq!(groups.first.len(), 2);
+    assert!((groups.first[0].value - 0.5576).abs() < 2e-3, "{:?}", groups.first);
+}
+
+#[test]
+fn s3_the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let folder = folder("s3", ALL);
+    let bytes = |jobs: &str, seed: &str, out: &str| {
+        let args = ["scatter", "r161.json", "scatter.json", "--points", "64", "--jobs", jobs];
+        folder.text(&[&args[..], &["--seed", seed, "--csv", "rows.csv", "--bats", out]].concat());
+        let bats = ["p05", "p50", "p95"].map(|bat| folder.read(&format!("{out}/{bat}.json")));
+        (
+            folder.read("rows.csv"),
+            bats,
+            run(&folder, &["--points", "64", "--jobs", jobs, "--seed", seed]),
+        )
+    };
+    let one = bytes("1", "7", "one");
+    assert_eq!(one, bytes("3", "7", "three"));
+    assert_ne!(one.0, bytes("2", "8", "two").0);
+    assert_eq!(one.0.lines().count(), 65);
+    // A written bat is that of its row.
+    let table: Vec<Vec<&str>> = one.0.lines().map(|line| line.split(',').collect()).collect();
+    let f1 = table[0].iter().position(|head| *head == "f1_hz").unwrap();
+    let wanted = output(&one.2, "f1_hz")["percentiles"][3]["value"].as_f64().unwrap();
+    let values = table[1..].iter().map(|row| row[f1].parse::<f64>().unwrap());
+    let nearest = values.min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs())).unwrap();
+    let solved = folder.json(&["modes", "one/p50.json", "-n", "1", "--tol", "1e-6", "--json", "-"]);
+    let frequency = solved["modes"][0]["frequency_hz"].as_f64().unwrap();
+    assert!((frequency / nearest - 1.0).abs() < 1e-4, "{frequency} {nearest}");
+}
+
+/// As an independent solver and estimator found them, from 1024 bats each.
+#[test]
+fn bats_and_swings_differ_as_an_independent_program_found() {
+    let folder = folder("all", ALL);
+    let found = run(&folder, &["--points", "1024"]);
+    let mph = 0.44704;
+    for (name, unit, known, within) in [
+        ("f1_hz", 1.0, [163.0, 174.6, 187.0], 0.5),
+        ("exit_speed_m_s@impact", mph, [115.0, 123.2, 132.1], 0.8),
+    ] {
+        let all = output(&found, name)["percentiles"].as_array().unwrap();
+        for (percent, known) in [5.0, 50.0, 95.0].into_iter().zip(known) {
+            let one = all.iter().find(|one| one["percent"] == percent).unwrap();
+            let value = one["value"].as_f64().unwrap() / unit;
+            assert!((value - known).abs() < within, "{name} {percent} %: {value} {known}");
+        }
+    }
+    for (name, input, known) in [
+        ("f1_hz", "youngs_modulus", 0.93),
+        ("f1_hz", "density", 0.06),
+        ("f1_hz", "turning", 0.01),
+        ("exit_speed_m_s@impact", "swing_speed", 0.67),
+        ("exit_speed_m_s@impact", "cor", 0.18),
+        ("exit_speed_m_s@impact", "density", 0.11),
+        ("exit_speed_m_s@impact", "impact", 0.03),
+        ("exit_speed_m_s@impact", "pitch", 0.01),
+        ("exit_speed_max.x_m", "youngs_modulus", 0.74),
+        ("exit_speed_max.x_m", "shear_over_young", 0.14),
+        ("exit_speed_max.x_m", "swing_speed", 0.10),
+    ] {
+        let (value, _) = share(&found, name, "first", input);
+        assert!((value - known).abs() < 0.015, "{name} {input}: {value} {known}");
+    }
+}
+
+/// What a calibration leaves open is what scatters: the spread of f1 that was measured is that of its reading.
+#[test]
+fn a_calibration_is_scattered_by_its_covariance() {
+    let folder = Folder::new("covariance");
+    folder.write("r161.json", R161);
+    folder.write("readings.json", include_str!("golden/readings-1.json"));
+    let made =
+        ["calibrate", "r161.json", "readings.json", "--out", "mine.json", "--json", "wood.json"];
+    folder.text(&made);
+    let text = r#"{ "format": "sweetspot-scatter/1", "covariance": "wood.json", "outputs": ["f1_hz", "mass_kg"],
+        "tol": 1e-6 }"#;
+    folder.write("scatter.json", text);
+    let found =
+        folder.json(&["scatter", "mine.json", "scatter.json", "--points", "256", "--json", "-"]);
+    let wood: Value = serde_json::from_str(&folder.read("wood.json")).unwrap();
+    let data = wood["data"].as_array().unwrap();
+    for name in ["f1_hz", "mass_kg"] {
+        let sd = output(&found, name)["sd"].as_f64().unwrap();
+        let datum = data.iter().find(|one| one["name"] == name).unwrap();
+        let reading = datum["sd"].as_f64().unwrap();
+        // The other readings say something of it too.
+        assert!(sd < 1.02 * reading && sd > 0.3 * reading, "{name}: {sd} {reading}");
+    }
+}
