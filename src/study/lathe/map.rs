@@ -79,9 +79,9 @@ pub struct LatheMap {
     pub check: Option<f64>,
 }
 
-/// Bands of that width (m) from the knob end to the tip; what is left over is with the last.
+/// Bands of that width (m) from the knob end to the tip; less than half a band that is left over is with the last.
 pub fn bands(length: f64, width: f64) -> Vec<[f64; 2]> {
-    let count = (length / width + 1e-9).floor().max(1.0) as usize;
+    let count = (length / width).round().max(1.0) as usize;
     let end = |k: usize| if k == count { length } else { k as f64 * width };
     (0..count).map(|k| [end(k), end(k + 1)]).collect()
 }
