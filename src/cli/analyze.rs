@@ -16,11 +16,13 @@ use crate::show::csv;
 use crate::show::page;
 use crate::show::page::content::Report;
 use crate::show::page::inputs::Input;
-use crate::show::plot::sets;
+use crate::show::plot::{self, sets};
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::sketch::{self, SketchRow};
 use crate::show::report::text;
-use crate::show::report::{advice, aftermath, hit_json, hit_text, trust};
+use crate::show::report::{self, advice, aftermath, hit_json, hit_text, trust};
+use crate::study::lathe::map::LatheMap;
+use crate::study::lathe::workpiece::HitTerms;
 use crate::study::spread::Readings;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
@@ -136,16 +138,19 @@ pub fn run(args: &Args) -> Result<Done> {
     let task = Task { model, scene, law, hits, proof, readings };
     let tell = |share: f64, what: &str| progress.say(share, what);
     let analysis = Analysis::telling(bat, solution, task, &tell)?;
+    let lathe = match args.full || args.plots.is_some() {
+        true => lathe(args, &analysis)?,
+        false => None,
+    };
     drop(progress);
     if let Some(folder) = &args.out {
         write_out(args, &analysis, folder)?;
     }
     if let Some(folder) = &args.plots {
-        pictures::write(
-            folder,
-            &sets::of_analysis(args.output.sheet(&analysis.bat), &analysis)?,
-            args.output.quiet,
-        )?;
+        let sheet = args.output.sheet(&analysis.bat);
+        let mut pictures = sets::of_analysis(sheet, &analysis)?;
+        pictures.extend(lathe.as_ref().and_then(|map| plot::lathe::picture(sheet, map)));
+        pictures::write(folder, &pictures, args.output.quiet)?;
     }
     if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
         let us = args.output.sheet(&analysis.bat).us;
@@ -163,7 +168,11 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = match args.full {
-        true => table(&analysis, &args.output),
+        true => {
+            let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units));
+            let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
+            table(&analysis, &args.output) + &cuts.unwrap_or_default()
+        }
         false => trust::screen(&analysis, args.output.units) + MORE,
     };
     let table = table + &written(args);
@@ -173,6 +182,13 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// What a short answer ends with.
 const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html\n";
+
+/// What a cut does, in wide bands, for the same hits.
+fn lathe(args: &Args, analysis: &Analysis) -> Result<Option<LatheMap>> {
+    let Task { model, scene, hits, .. } = &analysis.task;
+    let hit = HitTerms { scene: scene.clone(), model: *model, exactly: args.bat.asked() };
+    LatheMap::in_short(&analysis.bat, hits, &hit)
+}
 
 /// How far a reading may be off.
 fn reading(of: &Use, text: &str) -> std::result::Result<f64, String> {

@@ -61,8 +61,6 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     plane.above(&mut svg, &tip);
     let per_metre = 0.5 * BAT / widest(bat);
-    // As many points on all bands together as on the outline.
-    let parts = (OUTLINE / map.bands.len()).clamp(1, 60);
     let outline = few_sections(bat);
     let mut told = vec![];
     for (k, strip) in strips.iter().enumerate() {
@@ -77,7 +75,7 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
             let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
             let opacity = rounded(FULL * share);
             if opacity > 0.0 {
-                lying.filled(&mut svg, bat, band.ends, (ink, opacity, parts));
+                lying.filled(&mut svg, &between(bat, &outline, band.ends), (ink, opacity));
             }
             let middle = plane.across(0.5 * (band.ends[0] + band.ends[1]));
             told.push(([middle, axis], strip.of(sheet, band, *change)));
@@ -106,6 +104,14 @@ fn few_sections(bat: &Bat) -> Vec<(f64, Section)> {
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all
+}
+
+/// The sections of a band: those of the outline, and its ends.
+fn between(bat: &Bat, outline: &[(f64, Section)], [from, to]: [f64; 2]) -> Vec<(f64, Section)> {
+    let just_before = to - 1e-9 * bat.length();
+    let ends = [(from, bat.profile().at(from)), (to, bat.profile().at(just_before))];
+    let inside = outline.iter().copied().filter(|(x, _)| *x > from && *x < just_before);
+    [ends[0]].into_iter().chain(inside).chain([ends[1]]).collect()
 }
 
 fn rounded(opacity: f64) -> f64 {

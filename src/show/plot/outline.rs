@@ -75,17 +75,18 @@ impl Lying<'_> {
     /// A stretch (m) of the bat filled in that colour, from side to side.
     pub fn stretch(&self, svg: &mut Svg, bat: &Bat, (ends, ink): ([f64; 2], Ink)) {
         const DARK: f64 = 0.4;
-        self.filled(svg, bat, ends, (ink, DARK, 60));
-    }
-
-    /// A stretch (m) of the bat filled from side to side, as dark as that, its sides drawn in so many parts.
-    pub fn filled(&self, svg: &mut Svg, bat: &Bat, [from, to]: [f64; 2], look: (Ink, f64, usize)) {
+        const POINTS: usize = 60;
         let at = |k: usize| {
-            let x = from + (to - from) * k as f64 / look.2 as f64;
+            let x = ends[0] + (ends[1] - ends[0]) * k as f64 / POINTS as f64;
             (x, bat.profile().at(x))
         };
-        let all: Vec<(f64, Section)> = (0..=look.2).map(at).collect();
-        svg.area(&self.around(&all, |section| section.outer), look.0, look.1, None);
+        let all: Vec<(f64, Section)> = (0..=POINTS).map(at).collect();
+        self.filled(svg, &all, (ink, DARK));
+    }
+
+    /// These sections filled from side to side, as dark as that.
+    pub fn filled(&self, svg: &mut Svg, all: &[(f64, Section)], (ink, opacity): (Ink, f64)) {
+        svg.area(&self.around(all, |section| section.outer), ink, opacity, None);
     }
 
     /// Lines across a stretch (m), between two radii of either side.

@@ -56,6 +56,29 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
     out + &words(map, shown)
 }
 
+/// Where a cut does most, in three lines.
+pub fn in_short(map: &LatheMap, units: Units) -> String {
+    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let mut out = format!("Where a cut does most, per {} off the diameter\n", shown.per_name());
+    let laws = [(0.0, "the same swing"), (0.5, "a swing of the same energy")];
+    let line = |what: &str, answer: Answer, exponent: f64| {
+        let (band, change) = map.strongest(answer, exponent)?;
+        let [from, to] = band.ends.map(|x| shown.place(x));
+        Some(format!("{from} to {to}: {}{what}", shown.sentence(answer, change * shown.per())?))
+    };
+    let mut lines: Vec<String> = [Answer::ExitSpeedPlace, Answer::Frequency(1)]
+        .into_iter()
+        .filter_map(|answer| line("", answer, 0.0))
+        .collect();
+    let balls = laws
+        .into_iter()
+        .filter_map(|(exponent, law)| line(&format!(" for {law}"), Answer::ExitSpeed, exponent));
+    let balls: Vec<String> = balls.collect();
+    lines.extend((!balls.is_empty()).then(|| balls.join("; ")));
+    lines.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    if lines.is_empty() { String::new() } else { out + "  More: sweetspot lathe\n" }
+}
+
 /// What stands below the tables.
 fn words(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::from("\n");

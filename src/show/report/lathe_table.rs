@@ -35,7 +35,7 @@ impl TableUnits {
     }
 
     /// What comes off the diameter (m).
-    fn per(self) -> f64 {
+    pub fn per(self) -> f64 {
         if self.us { THIRTY_SECOND } else { 1e-3 }
     }
 
@@ -55,6 +55,15 @@ impl TableUnits {
         }
     }
 
+    /// How far the sweet spot moves (m).
+    fn moved(self, by: f64) -> String {
+        let far = match self.us {
+            true => format!("{:.3} in", inches(by.abs())),
+            false => format!("{:.2} mm", 1e3 * by.abs()),
+        };
+        format!("sweet spot {far} {}", if by >= 0.0 { "outward" } else { "inward" })
+    }
+
     /// An answer's change as a part of a sentence; None for those that are not told there.
     pub fn sentence(self, answer: Answer, change: f64) -> Option<String> {
         let (what, unit, value, decimals) = match (answer, self.us) {
@@ -63,10 +72,9 @@ impl TableUnits {
             (Answer::Inertia, false) => ("swing weight", "kg cm²", 1e4 * change, 1),
             (Answer::Inertia, true) => ("swing weight", "oz in²", ounce_square_inches(change), 0),
             (Answer::Frequency(1), _) => ("f1", "Hz", change, 2),
-            (Answer::ExitSpeed, false) => ("best ball", "m/s", change, 2),
-            (Answer::ExitSpeed, true) => ("best ball", "mph", miles_per_hour(change), 2),
-            (Answer::ExitSpeedPlace, false) => ("sweet spot", "mm", 1e3 * change, 1),
-            (Answer::ExitSpeedPlace, true) => ("sweet spot", "in", inches(change), 2),
+            (Answer::ExitSpeed, false) => ("best ball", "m/s", change, 3),
+            (Answer::ExitSpeed, true) => ("best ball", "mph", miles_per_hour(change), 3),
+            (Answer::ExitSpeedPlace, _) => return Some(self.moved(change)),
             _ => return None,
         };
         Some(format!("{what} {} {unit}", signed(value, decimals)))

@@ -79,9 +79,9 @@ pub struct LatheMap {
     pub check: Option<f64>,
 }
 
-/// Bands of that width (m) from the knob end to the tip; what is left over is with the last.
+/// Bands of that width (m) from the knob end to the tip; less than half a band that is left over is with the last.
 pub fn bands(length: f64, width: f64) -> Vec<[f64; 2]> {
-    let count = (length / width + 1e-9).floor().max(1.0) as usize;
+    let count = (length / width).round().max(1.0) as usize;
     let end = |k: usize| if k == count { length } else { k as f64 * width };
     (0..count).map(|k| [end(k), end(k + 1)]).collect()
 }
@@ -96,7 +96,40 @@ pub fn best_place(bat: &Bat, request: &Request, hit: &HitTerms) -> Result<Option
     Ok(piece.values()[0].map(|place| place.value))
 }
 
+/// More pieces of a profile than this make a map take long.
+const MANY: usize = 200;
+
 impl LatheMap {
+    /// A map of wide bands and few answers, for who only wants to know where a cut does most; None for a bat
+    /// of so many pieces that it would take long.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn in_short(bat: &Bat, request: &Request, hit: &HitTerms) -> Result<Option<Self>> {
+        /// 2 in (m).
+        const WIDE: f64 = 0.0508;
+        if bat.profile().pieces.len() > MANY {
+            return Ok(None);
+        }
+        let answers =
+            vec![Answer::Inertia, Answer::Frequency(1), Answer::ExitSpeed, Answer::ExitSpeedPlace];
+        let bands = bands(bat.length(), WIDE.min(bat.length()));
+        let terms = LatheTerms { bands, cut: 5e-4, exponent: 0.0, answers };
+        Self::new(bat, request, Some(hit), terms).map(Some)
+    }
+
+    /// The band where a cut changes an answer most, by that swing law's exponent, and the change per metre of
+    /// diameter that is taken off it.
+    pub fn strongest(&self, answer: Answer, exponent: f64) -> Option<(&TurnedBand, f64)> {
+        let k = self.terms.answers.iter().position(|known| *known == answer)?;
+        let all = self.bands.iter().filter_map(|band| {
+            let slopes = band.slopes.as_ref()?;
+            Some((band, slopes.by_law(exponent)[k]?.value))
+        });
+        all.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
     /// The map of a bat.
     ///
     /// ```
