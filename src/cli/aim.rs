@@ -29,7 +29,7 @@ use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::LITTLE;
 
-/// The least change of a bat that meets targets: where to cut, what it costs, what cannot be had
+/// The least change of a bat that meets a wish: where to cut, at what price
 ///
 /// Finds the smallest smooth change of the diameter by which the bat meets the targets, under limits and
 /// rules, and writes the new bat with rounded stations; every value that is told is of that file. Says what a

@@ -126,7 +126,7 @@ pub fn change(text: &str, goal: Goal) -> Said<Amount> {
 /// A tolerance.
 pub fn tolerance(text: &str, goal: Goal) -> Said<Amount> {
     match amount(text, goal)? {
-        Amount::Si(size) | Amount::Share(size) if !(size > 0.0) => {
+        Amount::Si(size) | Amount::Share(size) if size.is_nan() || size <= 0.0 => {
             Err(wrong(text, "a tolerance above 0"))
         }
         Amount::FromTip(_) => Err(wrong(text, "a tolerance, such as \"1 mm\"")),

@@ -21,8 +21,11 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("softball", include_str!("../../rules/softball.json")),
 ];
 
+/// A rule of its limit in SI.
+type Made = fn(f64) -> Rule;
+
 /// The rules with a length, a mass, or something else that has a unit.
-const MEASURED: [(&str, Quantity, fn(f64) -> Rule); 7] = [
+const MEASURED: [(&str, Quantity, Made); 7] = [
     ("diameter_at_most", Quantity::Length, Rule::DiameterAtMost),
     ("length_at_most", Quantity::Length, Rule::LengthAtMost),
     ("mass_at_most", Quantity::Mass, Rule::MassAtMost),
@@ -32,7 +35,7 @@ const MEASURED: [(&str, Quantity, fn(f64) -> Rule); 7] = [
     ("cup_diameter_at_most", Quantity::Length, Rule::CupDiameterAtMost),
 ];
 /// Those that are numbers.
-const COUNTED: [(&str, fn(f64) -> Rule); 2] =
+const COUNTED: [(&str, Made); 2] =
     [("drop_at_most", Rule::DropAtMost), ("bbcor_at_most", Rule::BbcorAtMost)];
 const WORDS: [&str; 7] = ["format", "$schema", "name", "game", "source", "date", "ask"];
 

@@ -155,7 +155,8 @@ pub struct AimFree {
     pub knob_weight: Option<Amount>,
 }
 
-/// The rules of a game, as far as they are numbers. What is computed by them certifies nothing.
+/// The rules of a game, as far as they are numbers, with their source and date. What is computed by them
+/// certifies nothing: the rules in their newest edition do, and their laboratories.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(title = "Rule file of sweetspot, sweetspot-rules/1", deny_unknown_fields)]
 pub struct RulesForm {

@@ -16,6 +16,9 @@ use crate::study::aim::stations::{Draft, Drafting, Grid, Station};
 use crate::study::aim::wish::{Band, Wish};
 use crate::study::many::answers::Answer;
 
+/// A rule, what the bat has of its matter (SI), and whether it is kept.
+pub type Ruled = (Rule, Option<f64>, Option<bool>);
+
 /// What came of a wish.
 #[derive(Debug, Clone)]
 pub struct Outcome {
@@ -57,7 +60,7 @@ pub struct Outcome {
     /// Main answers before and after.
     pub answers: Vec<(Answer, [Option<f64>; 2])>,
     /// The rules, with what the bat has, and whether it keeps them.
-    pub rules: Vec<(Rule, Option<f64>, Option<bool>)>,
+    pub rules: Vec<Ruled>,
 }
 
 /// What is told of every bat before and after.
@@ -437,7 +440,7 @@ fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<(Answer, [Option<f6
 }
 
 /// What the bat has of each rule's matter, and whether the rule is kept.
-fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<(Rule, Option<f64>, Option<bool>)>> {
+fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<Ruled>> {
     let Some(set) = &wish.rules else { return Ok(vec![]) };
     let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
     let body = bat.inertia();

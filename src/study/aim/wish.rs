@@ -319,7 +319,7 @@ impl Wish {
     fn check(&self, k: usize, bands: &[Band], bat: &Bat) -> Result<()> {
         let (band, field) = (&bands[k], format!("targets[{k}]"));
         let said = |value: f64| shown(band.goal, value);
-        if !(band.scale > 0.0) {
+        if band.scale.is_nan() || band.scale <= 0.0 {
             let expected = "a tolerance above 0";
             return Err(Error::value(format!("{field}.within"), said(band.scale), expected));
         }
