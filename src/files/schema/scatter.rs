@@ -129,7 +129,7 @@ pub struct ScatterResult {
     /// Rows as accurate as asked.
     pub met: usize,
     /// Why others have no answer, and how many.
-    pub reasons: BTreeMap<String, usize>,
+    pub reasons: Vec<ReasonCounted>,
     /// Where the ball is hit in the middle (m); null where nothing is asked of it.
     pub impact_m: Option<f64>,
     /// What differs.
@@ -142,6 +142,15 @@ pub struct ScatterResult {
 
 impl Document for ScatterResult {
     const NAME: &'static str = "scatter-result";
+}
+
+/// Why rows have no answer.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReasonCounted {
+    /// Why.
+    pub reason: String,
+    /// How many rows.
+    pub rows: usize,
 }
 
 /// Something that differs.

@@ -145,7 +145,10 @@ pub fn document(rows: &ScatterRows, found: &Scattered) -> file::ScatterResult {
         scrambles: SCRAMBLES,
         answered: found.answered(),
         met: found.met,
-        reasons: reasons(found).into_iter().collect(),
+        reasons: reasons(found)
+            .into_iter()
+            .map(|(reason, rows)| file::ReasonCounted { reason, rows })
+            .collect(),
         impact_m: asked.then_some(rows.impact),
         inputs: all
             .map(|(k, one)| file::InputSpread {

@@ -128,7 +128,7 @@ mod tests {
         let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash",
             "profile": { "unit": "in", "x": [0, 6, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.0, 1.6, 2.4, 0] } }"#;
         let bat = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
-        let turning = Turning { deviation: 1e-4, along: 0.5 };
+        let turning = Turning { deviation: 1e-4, along: 2.0 };
         let count = turning.splines(bat.length());
         assert_eq!(turning.turned(&bat, &vec![0.0; count]).unwrap(), *bat.profile());
         let by = 1e-4 / MEAN_SQUARE.sqrt();
