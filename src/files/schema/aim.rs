@@ -8,7 +8,8 @@ use crate::files::schema::amount::{Amount, Measures};
 use crate::files::schema::document::{Document, Format};
 use crate::files::schema::part::{Comment, Material};
 
-/// What somebody wants of a bat: targets, rules, what may change. Places count from the knob end.
+/// What somebody wants of a bat: targets, rules of a game, limits of the diameter, what may change and what
+/// stays. Places count from the knob end.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(title = "Aim file of sweetspot, sweetspot-aim/1", deny_unknown_fields)]
 pub struct AimForm {
