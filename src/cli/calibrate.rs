@@ -83,7 +83,7 @@ Examples:
   sweetspot calibrate r161 readings.json
       what the wood is, and how well the readings say it
 
-  sweetspot calibrate r161 readings.json --out mine.json --json mine-wood.json
+  sweetspot calibrate r161 readings.json --out found.json --json wood.json
       the bat of that wood, and the result with its covariance
 
   sweetspot calibrate r161 readings.json --regions \"42 cm\" --hold G

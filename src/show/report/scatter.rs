@@ -21,12 +21,9 @@ const REASONS: usize = 3;
 
 /// Percentiles and what spreads every output, 80 columns wide.
 pub fn text(rows: &ScatterRows, found: &Scattered) -> String {
-    let mut out = format!(
-        "{} bats like {}, {} of them as accurate as asked\n",
-        rows.count(),
-        rows.bat.name(),
-        found.met
-    );
+    let (count, name) = (rows.count(), rows.bat.name());
+    let said = format!("{count} bats like {name}, {} of them as accurate as asked", found.met);
+    let mut out = wrapped(&said, 2);
     for (why, count) in reasons(found).iter().take(REASONS) {
         out += &wrapped(&format!("  {count}: {why}"), 4);
     }
