@@ -29,7 +29,7 @@ fn the_ball_is_squeezed_as_much_as_its_force_needs() {
     for (name, wall) in scenes {
         let scene = Scene { wall, ..Scene::default() };
         let analysis = analysed(Bat::from_file(mesh(name)).unwrap(), scene);
-        let report = Report::new(&analysis, String::new(), vec![]).unwrap();
+        let report = Report::new(&analysis, String::new(), vec![], None).unwrap();
         let Analysis { bat, task, hits, .. } = &analysis;
         let hitter =
             Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort).unwrap();

@@ -138,7 +138,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let task = Task { model, scene, law, hits, proof, readings };
     let tell = |share: f64, what: &str| progress.say(share, what);
     let analysis = Analysis::telling(bat, solution, task, &tell)?;
-    let lathe = match args.full || args.plots.is_some() {
+    let lathe = match args.full || args.plots.is_some() || args.report.is_some() {
         true => lathe(args, &analysis)?,
         false => None,
     };
@@ -154,7 +154,8 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
         let us = args.output.sheet(&analysis.bat).us;
-        let report = Report { us, ..Report::new(&analysis, command_line(), inputs)? };
+        let report =
+            Report { us, ..Report::new(&analysis, command_line(), inputs, lathe.as_ref())? };
         page::file::write(path, &report)?;
     }
     let all = || AnalysisFile {

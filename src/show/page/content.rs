@@ -16,9 +16,11 @@ use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::players;
 use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
+use crate::show::plot;
 use crate::show::plot::sets::of_analysis;
-use crate::show::report::edits;
 use crate::show::report::units::Units;
+use crate::show::report::{edits, lathe};
+use crate::study::lathe::map::LatheMap;
 
 /// What a report is made from.
 #[derive(Debug, Clone)]
@@ -35,6 +37,8 @@ pub struct Report<'a> {
     pub moments: Vec<Moment>,
     /// What a tap on the tip and the hit at the sweet spot sound like; no hit where there is no force.
     pub sounds: (Sound, Option<Sound>),
+    /// Where a cut does what, a line each, in SI and in US units; none where nothing can be cut.
+    pub cuts: [Vec<String>; 2],
     /// The numbers at the top.
     pub summary: Summary,
     /// Whether US units are shown first: as in the bat's file, unless others are asked for.
@@ -51,19 +55,30 @@ const NO_FORCE: &str = "This model gives no force over time, so the moment of th
 const NO_CONTACT: &str = "This model takes a half sine of given duration as the force and does not \
                           squeeze the ball, so the moment of the hit cannot be shown; the model \
                           \"contact\" gives one.";
+const NO_CUTS: &str = "What a cut does to this bat is not known.";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
-    /// The report of an analysis, asked for by that command with those files.
+    /// The report of an analysis, asked for by that command with those files, and of what cuts do if that is
+    /// known.
     ///
     /// # Errors
     ///
     /// Those of a hit that cannot be computed, as of [`crate::collision::hitter::Hitter::new`].
-    pub fn new(analysis: &'a Analysis, command: String, inputs: Vec<Input>) -> Result<Self> {
-        let figures = Figure::all(|sheet| of_analysis(sheet, analysis))?;
+    pub fn new(
+        analysis: &'a Analysis,
+        command: String,
+        inputs: Vec<Input>,
+        map: Option<&LatheMap>,
+    ) -> Result<Self> {
+        let figures = Figure::all(|sheet| {
+            let cuts = map.and_then(|map| plot::lathe::picture(sheet, map));
+            Ok(of_analysis(sheet, analysis)?.into_iter().chain(cuts).collect())
+        })?;
+        let cuts = [Units::Si, Units::Us].map(|units| map.map_or(vec![], |map| cuts(map, units)));
         let (moments, sounds) = (moments(analysis)?, sounds(analysis)?);
         let (summary, us) = (Summary::new(analysis), analysis.bat.inches());
-        Ok(Self { analysis, command, inputs, figures, moments, sounds, summary, us })
+        Ok(Self { analysis, command, inputs, figures, moments, sounds, cuts, summary, us })
     }
 
     /// The report as one page.
@@ -98,6 +113,7 @@ impl<'a> Report<'a> {
             section(Open, "speed", "How fast the ball leaves", self.speed()),
             section(Open, "hit", "The hit, slowed down", self.hit()),
             section(Folded, "bat", "The bat", self.bat(units)),
+            section(Folded, "cuts", "Where a cut does what", self.cuts(units)),
             section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
             section(Folded, "energy", "Where the energy goes", self.energy(units)),
             section(Folded, "modes", "How the bat vibrates", self.modes(units)),
@@ -139,6 +155,15 @@ impl<'a> Report<'a> {
         let edited = (!edits.is_empty())
             .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));
         edited.into_iter().chain([facts, Part::Picture("profile")]).collect()
+    }
+
+    fn cuts(&'a self, units: Units) -> Vec<Part<'a>> {
+        let lines = &self.cuts[usize::from(units == Units::Us)];
+        if lines.is_empty() {
+            return vec![Part::Missing(NO_CUTS)];
+        }
+        let more = "`sweetspot lathe` has it inch by inch, with what is bored, cupped or filled.";
+        vec![Part::List(lines.clone()), Part::Picture("lathe"), Part::Text(more.to_owned())]
     }
 
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {
@@ -249,6 +274,12 @@ impl<'a> Report<'a> {
             Part::List(SOURCES.map(str::to_owned).to_vec()),
         ]
     }
+}
+
+/// Where a cut does most, each line with its unit of the cut.
+fn cuts(map: &LatheMap, units: Units) -> Vec<String> {
+    let per = lathe::per(map, units);
+    lathe::strongest(map, units).iter().map(|line| format!("{line}, per {per} off")).collect()
 }
 
 /// A tap on the tip, and the hit at the sweet spot where its force is known.

@@ -46,7 +46,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
     };
     let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
     let [cut, added] = outcome.largest();
-    let added = if added > 0.0 {
+    let added = if added > 1e-9 {
         format!("at most {} added", across(added, us))
     } else {
         "nothing added".into()

@@ -59,7 +59,15 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
 /// Where a cut does most, in three lines.
 pub fn in_short(map: &LatheMap, units: Units) -> String {
     let shown = TableUnits::of(units, map.piece.bat().inches());
+    let lines = strongest(map, units);
     let mut out = format!("Where a cut does most, per {} off the diameter\n", shown.per_name());
+    lines.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    if lines.is_empty() { String::new() } else { out + "  More: sweetspot lathe\n" }
+}
+
+/// Where a cut moves the sweet spot, the first frequency and the fastest ball most; a line each.
+pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
+    let shown = TableUnits::of(units, map.piece.bat().inches());
     let laws = [(0.0, "the same swing"), (0.5, "a swing of the same energy")];
     let line = |what: &str, answer: Answer, exponent: f64| {
         let (band, change) = map.strongest(answer, exponent)?;
@@ -75,8 +83,12 @@ pub fn in_short(map: &LatheMap, units: Units) -> String {
         .filter_map(|(exponent, law)| line(&format!(" for {law}"), Answer::ExitSpeed, exponent));
     let balls: Vec<String> = balls.collect();
     lines.extend((!balls.is_empty()).then(|| balls.join("; ")));
-    lines.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
-    if lines.is_empty() { String::new() } else { out + "  More: sweetspot lathe\n" }
+    lines
+}
+
+/// What [`strongest`] says of, in words for a page.
+pub fn per(map: &LatheMap, units: Units) -> &'static str {
+    TableUnits::of(units, map.piece.bat().inches()).per_name()
 }
 
 /// What stands below the tables.
