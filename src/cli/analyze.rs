@@ -16,7 +16,7 @@ use crate::show::csv;
 use crate::show::page;
 use crate::show::page::content::Report;
 use crate::show::page::inputs::Input;
-use crate::show::plot::{self, sets};
+use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::sketch::{self, SketchRow};
 use crate::show::report::text;
@@ -148,8 +148,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     if let Some(folder) = &args.plots {
         let sheet = args.output.sheet(&analysis.bat);
-        let mut pictures = sets::of_analysis(sheet, &analysis)?;
-        pictures.extend(lathe.as_ref().and_then(|map| plot::lathe::picture(sheet, map)));
+        let pictures = sets::of_analysis(sheet, &analysis, lathe.as_ref())?;
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {

@@ -16,14 +16,13 @@ use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::players;
 use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
-use crate::show::plot;
 use crate::show::plot::sets::of_analysis;
 use crate::show::report::units::Units;
 use crate::show::report::{edits, lathe};
 use crate::study::lathe::map::LatheMap;
 
 /// What a report is made from.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Report<'a> {
     /// All results.
     pub analysis: &'a Analysis,
@@ -37,8 +36,8 @@ pub struct Report<'a> {
     pub moments: Vec<Moment>,
     /// What a tap on the tip and the hit at the sweet spot sound like; no hit where there is no force.
     pub sounds: (Sound, Option<Sound>),
-    /// Where a cut does what, a line each, in SI and in US units; none where nothing can be cut.
-    pub cuts: [Vec<String>; 2],
+    /// What a cut does, where that is known.
+    pub map: Option<&'a LatheMap>,
     /// The numbers at the top.
     pub summary: Summary,
     /// Whether US units are shown first: as in the bat's file, unless others are asked for.
@@ -69,16 +68,12 @@ impl<'a> Report<'a> {
         analysis: &'a Analysis,
         command: String,
         inputs: Vec<Input>,
-        map: Option<&LatheMap>,
+        map: Option<&'a LatheMap>,
     ) -> Result<Self> {
-        let figures = Figure::all(|sheet| {
-            let cuts = map.and_then(|map| plot::lathe::picture(sheet, map));
-            Ok(of_analysis(sheet, analysis)?.into_iter().chain(cuts).collect())
-        })?;
-        let cuts = [Units::Si, Units::Us].map(|units| map.map_or(vec![], |map| cuts(map, units)));
+        let figures = Figure::all(|sheet| of_analysis(sheet, analysis, map))?;
         let (moments, sounds) = (moments(analysis)?, sounds(analysis)?);
         let (summary, us) = (Summary::new(analysis), analysis.bat.inches());
-        Ok(Self { analysis, command, inputs, figures, moments, sounds, cuts, summary, us })
+        Ok(Self { analysis, command, inputs, figures, moments, sounds, map, summary, us })
     }
 
     /// The report as one page.
@@ -158,12 +153,12 @@ impl<'a> Report<'a> {
     }
 
     fn cuts(&'a self, units: Units) -> Vec<Part<'a>> {
-        let lines = &self.cuts[usize::from(units == Units::Us)];
+        let lines = self.map.map_or(vec![], |map| cuts(map, units));
         if lines.is_empty() {
             return vec![Part::Missing(NO_CUTS)];
         }
         let more = "`sweetspot lathe` has it inch by inch, with what is bored, cupped or filled.";
-        vec![Part::List(lines.clone()), Part::Picture("lathe"), Part::Text(more.to_owned())]
+        vec![Part::List(lines), Part::Picture("lathe"), Part::Text(more.to_owned())]
     }
 
     fn spots(&'a self, units: Units) -> Vec<Part<'a>> {

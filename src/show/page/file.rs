@@ -82,7 +82,7 @@ pub fn write(path: &Path, report: &Report) -> Result<()> {
     let folder = pictures_of(path);
     let failed = |source| Error::Write { path: folder.clone(), source };
     std::fs::create_dir_all(&folder).map_err(failed)?;
-    for picture in &of_analysis(Sheet::file(us), report.analysis)? {
+    for picture in &of_analysis(Sheet::file(us), report.analysis, report.map)? {
         let path = folder.join(format!("{}.svg", picture.name));
         file::write(&path, picture.svg.as_bytes())?;
     }

@@ -11,7 +11,10 @@ use crate::modes::solve::Solution;
 use crate::show::analysis::Analysis;
 use crate::show::plot::picture::Picture;
 use crate::show::plot::sheet::Sheet;
-use crate::show::plot::{contact, exit_speed, hands, ledger, profile, shapes, spot, u_curve};
+use crate::show::plot::{
+    contact, exit_speed, hands, lathe, ledger, profile, shapes, spot, u_curve,
+};
+use crate::study::lathe::map::LatheMap;
 use crate::study::trade::u_curve::Column;
 
 /// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
@@ -71,18 +74,24 @@ impl Hits<'_> {
     }
 }
 
-/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, and its hits.
+/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, and what cuts
+/// do (`lathe`) if that is known.
 ///
 /// # Errors
 ///
 /// As [`Hits::pictures`].
-pub fn of_analysis(sheet: Sheet, analysis: &Analysis) -> Result<Vec<Picture>> {
+pub fn of_analysis(
+    sheet: Sheet,
+    analysis: &Analysis,
+    map: Option<&LatheMap>,
+) -> Result<Vec<Picture>> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
     let subject = spot::Subject { name: bat.name(), bat, spot: &figures.spot };
     let mut pictures: Vec<Picture> = spot::picture(sheet, &[subject]).into_iter().collect();
     pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
     let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
     pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(sheet, None)?);
+    pictures.extend(map.and_then(|map| lathe::picture(sheet, map)));
     Ok(pictures)
 }
 
