@@ -157,7 +157,7 @@ impl<'a> Report<'a> {
         if lines.is_empty() {
             return vec![Part::Missing(NO_CUTS)];
         }
-        let more = "`sweetspot lathe` has it inch by inch, with what is bored, cupped or filled.";
+        let more = "Inch by inch, with cups, holes and cork: the verb lathe.";
         vec![Part::List(lines), Part::Picture("lathe"), Part::Text(more.to_owned())]
     }
 
