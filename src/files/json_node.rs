@@ -316,12 +316,14 @@ impl<'a> Object<'a> {
                  get the version that it was written for",
                 env!("CARGO_PKG_VERSION")
             ),
-            ball if ball == "sweetspot-ball" => "this is a ball, not a bat".to_owned(),
-            bat if bat == "sweetspot-bat" => "this is a bat, not a ball".to_owned(),
-            result if result.starts_with("sweetspot-") => {
-                "this is a result of sweetspot, not what it was made from".to_owned()
-            }
-            _ => String::new(),
+            other => match (written_by_people(&other), written_by_people(&kind(reads))) {
+                (Some(other), Some(wanted)) => format!("this is {other}, not {wanted}"),
+                (Some(other), None) => format!("this is {other}"),
+                (None, _) if other.starts_with("sweetspot-") => {
+                    "this is a result of sweetspot, not what it was made from".to_owned()
+                }
+                (None, _) => String::new(),
+            },
         };
         let complaint = Complaint::new("", node.shown(), format!("\"{reads}\""));
         Err(node.complain(complaint.hinted(hint)))
@@ -397,6 +399,20 @@ impl<'de: 'a, 'a> Deserialize<'de> for Entries<'a> {
         }
         deserializer.deserialize_map(Members)
     }
+}
+
+/// What a file of that format without its version is, if people write such files.
+fn written_by_people(format: &str) -> Option<&'static str> {
+    Some(match format.strip_prefix("sweetspot-")? {
+        "bat" => "a bat",
+        "ball" => "a ball",
+        "study" => "a study",
+        "aim" => "a wish",
+        "rules" => "the rules of a game",
+        "readings" => "readings of a bat",
+        "scatter" => "what differs between bats",
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
