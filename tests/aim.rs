@@ -337,3 +337,25 @@ fn the_nearest_bat_is_written_with_exit_code_3() {
     assert!(text.contains("Conflict:") && text.contains("cannot"), "{text}");
     folder.json(&["modes", "near.json", "-n", "1", "--json", "-"]);
 }
+
+/// Wood comes off a bat whose radius is a formula, in several pieces, as off any other: what is kept has its own
+/// curve, and nothing is added.
+#[test]
+fn a_bat_of_a_formula_keeps_its_handle() {
+    let bat = "x * 0.01 + 0.0125 + 0.009 * (1 + tanh((x - 0.5)/0.11))";
+    let text = format!(
+        r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile": {{ "pieces": [
+           {{ "from": 0, "to": 0.84, "formula": "{bat}" }} ] }} }}"#
+    );
+    let bat = Bat::from_text("formula.json", &text, Path::new("")).unwrap();
+    let targets = vec![target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), within(1e-4)))];
+    let wish = Wish { targets, remove_only: true, ..Wish::default() };
+    let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
+    assert!(outcome.met && outcome.broken <= 1e-9, "{:e}", outcome.broken);
+    let (new, found) = written(&outcome, &[Answer::Inertia]);
+    let before = bat.inertia().about(sweetspot::bat::body::STANDARD_PIVOT);
+    assert!((found[0] / before - 0.98).abs() < 1e-3, "{found:?}");
+    let [_, added, ..] = along(&bat, &new);
+    assert!(added <= 1e-8, "{added:e}");
+    assert!(outcome.kept_within < 1e-5, "{:e}", outcome.kept_within);
+}

@@ -86,6 +86,8 @@ impl Guard {
     }
 }
 
+/// A place beside a station, as a share of the way to the next.
+const BESIDE: f64 = 1e-6;
 /// Stations farther apart are not near (m).
 const NEAR: f64 = 0.06;
 /// A smaller change than this share of the rounding is none.
@@ -150,10 +152,10 @@ impl Drafting<'_> {
         let own = &profile.stations;
         let mut places: Vec<(f64, f64)> = vec![];
         for (k, x) in own.x.iter().enumerate() {
-            // At a step the first is of the piece to its left.
+            // At a step the first is of the piece to its left; a bat that is cut has several between two stations.
             let left = k > 0 && (k + 1 == own.x.len() || own.x[k + 1] == *x);
             let to = if left { own.x[k - 1] } else { own.x[(k + 1).min(own.x.len() - 1)] };
-            places.push((*x, 0.5 * (x + to)));
+            places.push((*x, x + BESIDE * (to - x)));
         }
         let length = profile.length();
         let near = |x: f64| own.x.iter().any(|y| (y - x).abs() < 0.3 * self.grid.every);
