@@ -105,7 +105,8 @@ impl Outcome {
     ///
     /// # fn main() -> sweetspot::Result<()> {
     /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// #     "profile": { "unit": "in", "x": [0, 1.5, 3, 6, 12, 18, 24, 30, 33],
+    /// #                  "diameter": [1.8, 1.0, 0.95, 0.95, 1.1, 1.5, 2.2, 2.5, 2.5] } }"#;
     /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
     /// let request = Request { theory: Theory::Timoshenko, ..Request::default() };
     /// let hit = HitTerms { scene: Scene::default(), model: Model::Contact, exactly: false };
