@@ -6,7 +6,7 @@
 //! | [`spline`] | which smooth curves may the change of the diameter be |
 //! | [`limits`] | how much may the diameter change at a place |
 //! | [`program`] | the least change under linear wishes and limits |
-//! | [`bench`] | what does the bat become, and what are its goals then |
+//! | [`bench`](mod@bench) | what does the bat become, and what are its goals then |
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
 //! | [`stations`] | which stations is the changed bat written with |
 //! | [`outcome`], [`cuts`] | the bat that meets the wish, or comes nearest; what the lathe takes off |
