@@ -108,7 +108,7 @@ impl<'a> Report<'a> {
             section(Open, "speed", "How fast the ball leaves", self.speed()),
             section(Open, "hit", "The hit, slowed down", self.hit()),
             section(Folded, "bat", "The bat", self.bat(units)),
-            section(Folded, "cuts", "Where a cut does what", self.cuts(units)),
+            section(ScreenOnly, "cuts", "Where a cut does what", self.cuts(units)),
             section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
             section(Folded, "energy", "Where the energy goes", self.energy(units)),
             section(Folded, "modes", "How the bat vibrates", self.modes(units)),
