@@ -45,7 +45,7 @@ pub struct DiameterChange {
 }
 
 impl DiameterChange {
-    /// The same change (m of diameter) all along a stretch (m).
+    /// One change (m of diameter) all along a stretch (m).
     pub fn band([from, to]: [f64; 2], by: f64) -> Self {
         Self { stretches: vec![ChangedStretch { from, to, diameter: [by; 4] }] }
     }

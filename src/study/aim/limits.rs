@@ -58,7 +58,7 @@ impl<'a> Limits<'a> {
         Self { bat, remove_only: wish.remove_only, rule, stretches: wish.diameter.clone() }
     }
 
-    /// The same limits of another bat.
+    /// These limits, applied to another bat.
     pub fn on<'b>(&self, bat: &'b Bat) -> Limits<'b> {
         let Self { remove_only, rule, stretches, .. } = self.clone();
         Limits { bat, remove_only, rule, stretches }

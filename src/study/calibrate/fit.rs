@@ -121,7 +121,7 @@ pub struct Residual {
     pub computed: f64,
     /// `(y − y(θ))/σ`.
     pub deviations: f64,
-    /// The same from the fit to all other data, `z/√(1 − h)`.
+    /// Residual from the fit to all other data, `z/√(1 − h)`.
     pub left_out: f64,
 }
 
