@@ -167,19 +167,15 @@ impl Hoop {
     }
 
     /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there.
-    fn solved(
-        bat: &Bat,
-        [from, to]: [f64; 2],
-        cut: bool,
-        request: &HoopRequest,
-    ) -> Result<Self> {
+    fn solved(bat: &Bat, [from, to]: [f64; 2], cut: bool, request: &HoopRequest) -> Result<Self> {
         let layers = Layers::of(bat, from, to)?;
         let ends = match request.end {
             KnobSide::Free => [EndHold::Free; 2],
             KnobSide::Clamped => [EndHold::Clamped, EndHold::Free],
         };
         let climb = Climb::new(&layers, ends, cut, request);
-        let solved = threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
+        let solved =
+            threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
         let solved = solved.into_iter().collect::<Result<Vec<_>>>()?;
         let met = solved.iter().flat_map(|(_, errors)| errors).all(|error| *error <= request.tol);
         let modes = solved.iter().flat_map(|(spectrum, errors)| modes(spectrum, errors)).collect();
@@ -277,12 +273,7 @@ struct Climb<'a> {
 }
 
 impl<'a> Climb<'a> {
-    fn new(
-        layers: &'a Layers,
-        ends: [EndHold; 2],
-        cut: bool,
-        request: &'a HoopRequest,
-    ) -> Self {
+    fn new(layers: &'a Layers, ends: [EndHold; 2], cut: bool, request: &'a HoopRequest) -> Self {
         let least_kink = (0.03 * request.tol / KINK).sqrt();
         let kinks = layers.kinks();
         let graded = kinks.as_ref().is_none_or(|kinks| kinks.iter().any(|k| *k >= least_kink));
@@ -341,7 +332,8 @@ impl<'a> Climb<'a> {
                 let missing = least.saturating_sub(kept.iter().filter(|kept| **kept).count());
                 if missing > 0 && count < least + MOST_LEFT_OUT {
                     count += missing;
-                    before = Spectrum::frequencies(self.wall(k - 1)?, n, self.ends, count, residual)?;
+                    before =
+                        Spectrum::frequencies(self.wall(k - 1)?, n, self.ends, count, residual)?;
                     continue;
                 }
                 now.keep(&kept);
@@ -365,7 +357,8 @@ fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
     let motion = &spectrum.motions[mode];
     let columns = &spectrum.system.mesh.columns;
     let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
-    let middles = columns.iter().flat_map(|column| [column.from, 0.5 * (column.from + column.to), column.to]);
+    let middles =
+        columns.iter().flat_map(|column| [column.from, 0.5 * (column.from + column.to), column.to]);
     let largest = middles.map(size).fold(0.0, f64::max);
     size(columns[0].from) > 0.1 * largest
 }
