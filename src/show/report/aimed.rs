@@ -281,7 +281,7 @@ fn of_rules(outcome: &Outcome, set: &RuleSet) -> file::AimedRules {
     }
 }
 
-fn station(station: &crate::study::aim::stations::Station) -> file::AimedStation {
+fn station(station: &crate::study::aim::laying::Station) -> file::AimedStation {
     file::AimedStation { x_m: station.x, old_m: station.old, new_m: station.new }
 }
 

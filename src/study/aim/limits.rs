@@ -17,9 +17,12 @@ const EVERY: f64 = 5e-3;
 const CLOSE: f64 = 5e-4;
 /// A limit that is kept to this is kept (m).
 pub const KEPT: f64 = 1e-9;
-/// Least wall around a bore, and least diameter of a solid bat (m), where the bat is not thinner already.
+/// Least wall around a bore (m), where it is not thinner already.
 const WALL: f64 = 1e-3;
+/// Least diameter of a solid bat (m), and, where it is thinner already as at the point of a tip, the share of
+/// its diameter that must be left.
 const THINNEST: f64 = 5e-3;
+const LEFT: f64 = 0.9;
 
 /// The limits of a bat's diameter.
 #[derive(Debug, Clone)]
@@ -68,10 +71,10 @@ impl<'a> Limits<'a> {
     pub fn room(&self, x: f64, section: Section) -> Room {
         let diameter = 2.0 * section.outer;
         let least = match section.inner > 0.0 {
-            true => 2.0 * (section.inner + WALL),
-            false => THINNEST,
+            true => (2.0 * (section.inner + WALL)).min(diameter),
+            false => THINNEST.min(LEFT * diameter),
         };
-        let (mut low, mut high) = (least.min(diameter) - diameter, self.rule - diameter);
+        let (mut low, mut high) = (least - diameter, self.rule - diameter);
         let same = SAME_PLACE * self.bat.length();
         for limit in self.stretches.iter().filter(|l| x >= l.from - same && x <= l.to + same) {
             low = low.max(limit.at_least.map_or(f64::NEG_INFINITY, |least| least - diameter));
@@ -170,14 +173,16 @@ impl<'a> Limits<'a> {
     }
 
     fn every(&self, step: f64, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
-        let mut rooms = vec![];
+        let mut rooms: Vec<Room> = vec![];
         for piece in &self.bat.profile().pieces {
             let count = (piece.length / step).ceil().max(1.0) as usize;
             for k in 0..=count {
                 let s = k as f64 / count as f64;
                 let x = piece.start + s * piece.length;
-                if changes(x) {
-                    rooms.push(self.room(x, piece.at(s)));
+                let room = self.room(x, piece.at(s));
+                // Where two pieces meet without a step, once.
+                if changes(x) && rooms.last() != Some(&room) {
+                    rooms.push(room);
                 }
             }
         }

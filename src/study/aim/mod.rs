@@ -8,7 +8,7 @@
 //! | [`program`] | the least change under linear wishes and limits |
 //! | [`bench`](mod@bench) | what does the bat become, and what are its goals then |
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
-//! | [`stations`] | which stations is the changed bat written with |
+//! | [`laying`], [`stations`] | where do the stations of the changed bat stand; which diameters is it written with |
 //! | [`outcome`], [`cuts`] | the bat that meets the wish, or comes nearest; what the lathe takes off |
 
 pub mod rules;
@@ -19,6 +19,7 @@ pub mod program;
 pub mod bench;
 pub mod search;
 pub mod conflict;
+pub mod laying;
 pub mod stations;
 pub mod outcome;
 pub mod cuts;

@@ -9,10 +9,11 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::study::aim::bench::{Bench, Extra, Terms};
 use crate::study::aim::conflict::{Conflict, missed};
+use crate::study::aim::laying::{Grid, Laying, Station};
 use crate::study::aim::limits::{KEPT, Limits};
 use crate::study::aim::rules::{Rule, cup, one_piece};
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
-use crate::study::aim::stations::{Draft, Drafting, Grid, Station};
+use crate::study::aim::stations::{Draft, Drafting};
 use crate::study::aim::wish::{Band, Wish};
 use crate::study::many::answers::Answer;
 
@@ -333,13 +334,8 @@ impl Writing<'_> {
         let densities = densities(bench, &self.bands, found)?;
         let stretch = bench.stretch(&found.p);
         let change = (bench.splines(), &found.p[..n], stretch);
-        let drafting = Drafting {
-            bat: &base,
-            limits: &limits,
-            change,
-            densities: &densities,
-            grid: self.grid,
-        };
+        let laying = Laying { bat: &base, limits: &limits, change, grid: self.grid };
+        let drafting = Drafting::new(laying, &densities)?;
         let inside = self.inside(bench, &densities, found);
         let mut aside = inside.clone();
         let mut best: Option<(Drawn, Vec<f64>)> = None;
