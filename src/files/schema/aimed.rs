@@ -87,7 +87,7 @@ pub struct AimedTarget {
 pub struct AimedConflict {
     /// The targets, with how near each comes.
     pub members: Vec<AimedReach>,
-    /// The same in words.
+    /// The conflict in a sentence: the targets that cannot all be had, and how near each comes.
     pub words: String,
 }
 

@@ -9,6 +9,7 @@
 //! | [`bench`](mod@bench) | what does the bat become, and what are its goals then |
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
 //! | [`laying`], [`stations`] | where do the stations of the changed bat stand; which diameters is it written with |
+//! | [`rounding`] | which rounding leaves the goals where they are to be |
 //! | [`outcome`], [`cuts`] | the bat that meets the wish, or comes nearest; what the lathe takes off |
 
 pub mod rules;
@@ -21,5 +22,6 @@ pub mod search;
 pub mod conflict;
 pub mod laying;
 pub mod stations;
+pub mod rounding;
 pub mod outcome;
 pub mod cuts;
