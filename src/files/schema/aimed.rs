@@ -36,6 +36,9 @@ pub struct AimedFile {
     pub limits_broken_m: f64,
     /// How far the diameter moved on the stretches that are kept (m).
     pub kept_within_m: f64,
+    /// How much steeper the surface is anywhere than `slope_at_most` (radius over length); 0 where that is kept,
+    /// null without it.
+    pub steeper_by: Option<f64>,
     /// Quadratic programs of the search.
     pub iterations: usize,
     /// Bats that were computed.

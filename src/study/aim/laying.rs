@@ -12,6 +12,7 @@ use crate::bat::body::Bat;
 use crate::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Stations};
 use crate::study::aim::limits::{Limits, section};
 use crate::study::aim::spline::Splines;
+use crate::study::aim::wish::Grid;
 
 /// A station of the new bat; lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,15 +35,6 @@ pub struct Station {
     pub(super) round: f64,
     /// Whether it is in a stretch that is kept.
     pub(super) kept: bool,
-}
-
-/// How stations are laid and rounded.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Distance of the stations (m).
-    pub every: f64,
-    /// What diameters are rounded to (m).
-    pub round: f64,
 }
 
 /// A change of a bat's diameter for which stations are laid.
@@ -78,7 +70,9 @@ const BESIDE_KEPT: f64 = 1e-6;
 const CLOSEST: f64 = 5e-4;
 /// Rounds of looking where else stations are wanted: each makes the curve beside new stations another one.
 const HALVINGS: usize = 40;
-/// Diameters at stations between the even ones are rounded so many times finer.
+/// Stations nearer than this share of the even distance are near to each other: beside the bat's own there is no
+/// even one, and diameters of both are rounded so many times finer.
+const NEAR: f64 = 0.7;
 const FINER: f64 = 10.0;
 
 impl Laying<'_> {
@@ -137,6 +131,15 @@ impl Laying<'_> {
             places.extend(between);
             sort(&mut places);
         }
+        // A tenth of a millimetre makes a step between stations that are near to each other.
+        let near = NEAR * self.grid.every;
+        let gaps: Vec<f64> = places.windows(2).map(|two| two[1].x - two[0].x).collect();
+        for (k, place) in places.iter_mut().enumerate() {
+            let beside = [k.checked_sub(1), Some(k)].into_iter().flatten();
+            if beside.filter_map(|k| gaps.get(k)).any(|gap| *gap > 0.0 && *gap < near) {
+                place.finer = FINER;
+            }
+        }
         Ok(stations(&places))
     }
 
@@ -152,7 +155,7 @@ impl Laying<'_> {
             places.push(Place { x: *x, inside: x + BESIDE * (to - x), finer: 1.0 });
         }
         let length = profile.length();
-        let near = |x: f64| own.x.iter().any(|y| (y - x).abs() < 0.3 * self.grid.every);
+        let near = |x: f64| own.x.iter().any(|y| (y - x).abs() < NEAR * self.grid.every);
         let count = (length / self.grid.every).floor() as usize;
         for k in 1..=count {
             let x = k as f64 * self.grid.every;

@@ -9,6 +9,7 @@ use crate::base::golden;
 use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::profile::{Profile, SAME_PLACE, Section};
+use crate::study::aim::incline::{Incline, Steepness};
 use crate::study::aim::wish::{DiameterLimit, Wish};
 
 /// Distance of the places where the limits are asked first (m).
@@ -32,6 +33,8 @@ pub struct Limits<'a> {
     /// Greatest diameter by the rules (m).
     rule: f64,
     stretches: Vec<DiameterLimit>,
+    /// How steep the surface may become.
+    steepness: Option<Steepness>,
 }
 
 /// What the change of the diameter may be at a place (m).
@@ -58,13 +61,15 @@ impl<'a> Limits<'a> {
     /// The limits of a wish on this bat.
     pub fn new(wish: &Wish, bat: &'a Bat) -> Self {
         let rule = wish.rules.as_ref().map_or(f64::INFINITY, |rules| rules.diameter());
-        Self { bat, remove_only: wish.remove_only, rule, stretches: wish.diameter.clone() }
+        let steepness = wish.slope.map(|most| Steepness::new(most, wish.grid(bat)));
+        let (remove_only, stretches) = (wish.remove_only, wish.diameter.clone());
+        Self { bat, remove_only, rule, stretches, steepness }
     }
 
     /// These limits, applied to another bat.
     pub fn on<'b>(&self, bat: &'b Bat) -> Limits<'b> {
-        let Self { remove_only, rule, stretches, .. } = self.clone();
-        Limits { bat, remove_only, rule, stretches }
+        let Self { remove_only, rule, stretches, steepness, .. } = self.clone();
+        Limits { bat, remove_only, rule, stretches, steepness }
     }
 
     /// What the change may be at `x`, where the bat has that section.
@@ -170,6 +175,23 @@ impl<'a> Limits<'a> {
     /// The places where limits are asked first, of those where the bat may change; both sides of a step.
     pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         self.every(EVERY, changes)
+    }
+
+    /// What the slope of the change may be, of places where the bat may change; empty without a limit.
+    pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
+        self.steepness.map_or(vec![], |steepness| steepness.inclines(self.bat, changes))
+    }
+
+    /// How much steeper another bat of the same length is anywhere than it may be: radius over length.
+    pub fn steeper_by(&self, other: &Bat) -> f64 {
+        self.steepness.map_or(0.0, |steepness| steepness.broken_by(self.bat, other))
+    }
+
+    /// Keeps rounded stations so much farther inside the limit of the slope.
+    pub fn gentler_by(&mut self, by: f64) {
+        if let Some(steepness) = &mut self.steepness {
+            steepness.ripple += by;
+        }
     }
 
     fn every(&self, step: f64, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`rules`], [`wish`] | what do the rules of a game ask; what does somebody want |
 //! | [`spline`] | which smooth curves may the change of the diameter be |
-//! | [`limits`] | how much may the diameter change at a place |
+//! | [`incline`], [`limits`] | how steep may the surface become; how much may the diameter change at a place |
 //! | [`program`] | the least change under linear wishes and limits |
 //! | [`bench`](mod@bench) | what does the bat become, and what are its goals then |
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
@@ -15,6 +15,7 @@
 pub mod rules;
 pub mod wish;
 pub mod spline;
+pub mod incline;
 pub mod limits;
 pub mod program;
 pub mod bench;

@@ -9,12 +9,12 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::study::aim::bench::{Bench, Extra, Terms};
 use crate::study::aim::conflict::{Conflict, missed};
-use crate::study::aim::laying::{Grid, Station};
+use crate::study::aim::laying::Station;
 use crate::study::aim::limits::{KEPT, Limits};
 use crate::study::aim::rules::{Rule, Ruled};
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
 use crate::study::aim::rounding::{Rounded, Rounding};
-use crate::study::aim::wish::{Band, Wish};
+use crate::study::aim::wish::{Band, Grid, Wish};
 use crate::study::many::answers::Answer;
 
 /// What came of a wish.
@@ -51,6 +51,11 @@ pub struct Outcome {
     pub broken: f64,
     /// How far the diameter moved where the bat is kept (m).
     pub kept_within: f64,
+    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
+    pub slope: Option<f64>,
+    /// How much steeper the surface is anywhere than it may be, radius over length; 0 where it is not, or
+    /// nothing limits it.
+    pub steeper: f64,
     /// What else was chosen, with its value in SI.
     pub extras: Vec<(Extra, f64)>,
     /// The wood that was chosen.
@@ -150,7 +155,7 @@ impl Outcome {
                 least = tried;
             }
         }
-        Writing { wish, bands, bat, grid: grid(wish, bat) }.outcome(least)
+        Writing { wish, bands, bat, grid: wish.grid(bat) }.outcome(least)
     }
 
     /// Takes the bat as it was read from the file that was written, and computes its goals anew.
@@ -170,7 +175,7 @@ impl Outcome {
 
     fn is_met(&self) -> bool {
         let inside = self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value));
-        inside && self.broken <= KEPT
+        inside && self.broken <= KEPT && self.steeper <= KEPT
     }
 
     /// The largest amount taken off a diameter, and the largest put on (m).
@@ -178,13 +183,6 @@ impl Outcome {
         let changes = self.stations.iter().map(|station| station.new - station.old);
         changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
     }
-}
-
-/// The grid of the stations that a wish asks for.
-fn grid(wish: &Wish, bat: &Bat) -> Grid {
-    const INCH: f64 = 0.0254;
-    let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
-    Grid { every: wish.stations.unwrap_or(every), round: wish.round.unwrap_or(round) }
 }
 
 /// The least change on that bench.
@@ -230,11 +228,13 @@ impl Writing<'_> {
         let prices = self.prices(&found, norm);
         let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
         let iterations = found.iterations;
+        let (wanted, grid) = (&self.bands, self.grid);
+        let rounding = Rounding { bench: &bench, limits: &limits, bands: wanted, grid };
+        let mut gentler = limits.clone();
         for _ in 0..ANEW {
-            let norm = search.norm(&found.p);
-            let rounding = Rounding { bench: &bench, limits: &limits, bands: &self.bands, grid: self.grid };
-            let (rounded, off) = rounding.of(&found, norm)?;
+            let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
             bats += rounded.drafts;
+            gentler.gentler_by(1.2 * rounded.steeper);
             if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
                 best = Some(rounded);
             }
@@ -243,18 +243,18 @@ impl Writing<'_> {
                 break;
             }
             // The search anew, for goals that rounding then puts where they are to be.
-            for ((band, of), off) in bands.iter_mut().zip(&self.bands).zip(&off) {
+            for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
                 let by = off * of.scale;
                 let inside = (0.25 * of.scale).min(0.25 * (of.high - of.low));
                 band.low = of.low - by + inside;
                 band.high = of.high - by - inside;
             }
-            let again = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
-            bats += again.bats;
-            found = again;
+            let search = Search::new(&bench, &gentler);
+            found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
+            bats += found.bats;
         }
         let rounded = best.expect("one draft at least was made");
-        let Rounded { draft, values, p, norm: written, .. } = rounded;
+        let Rounded { draft, values, p, norm: written, steeper, .. } = rounded;
         let extras = bench.extras().iter().enumerate();
         let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
         let kept = |x: f64| !bench.splines().stretches().iter().any(|s| x > s[0] && x < s[1]);
@@ -279,6 +279,8 @@ impl Writing<'_> {
             stopped: found.stopped,
             broken,
             kept_within,
+            slope: self.wish.slope,
+            steeper,
             extras,
             wood,
         };

@@ -6,11 +6,11 @@
 use crate::base::error::Result;
 use crate::base::linear;
 use crate::study::aim::bench::Bench;
-use crate::study::aim::laying::{Grid, Laying};
+use crate::study::aim::laying::Laying;
 use crate::study::aim::limits::{KEPT, Limits};
 use crate::study::aim::search::Found;
 use crate::study::aim::stations::{Draft, Drafting};
-use crate::study::aim::wish::Band;
+use crate::study::aim::wish::{Band, Grid};
 
 /// Roundings at most.
 const DRAFTS: usize = 5;
@@ -39,6 +39,8 @@ pub struct Rounded {
     pub norm: f64,
     /// Its worst miss, in tolerances; a broken limit counts by its share of the rounding.
     pub worst: f64,
+    /// How much steeper it is than it may be: radius over length.
+    pub steeper: f64,
     /// Bats that were computed for it.
     pub drafts: usize,
 }
@@ -68,13 +70,14 @@ impl Rounding<'_> {
             let off: Vec<f64> = (0..values.len())
                 .map(|k| (values[k] - found.values[k]) / self.bands[k].scale)
                 .collect();
-            let worst = self.worst(&draft, &values);
+            let steeper = limits.steeper_by(&draft.bat);
+            let worst = self.worst(&draft, &values).max(steeper * self.grid.every / self.grid.round);
             if let Some((best, _)) = &mut best {
                 best.drafts = drafts;
             }
             if best.as_ref().is_none_or(|(best, _)| best.worst > worst) {
                 let p = found.p.clone();
-                best = Some((Rounded { draft, values, p, norm, worst, drafts }, off.clone()));
+                best = Some((Rounded { draft, values, p, norm, worst, steeper, drafts }, off.clone()));
             }
             if worst <= 1e-9 {
                 break;

@@ -6,6 +6,7 @@
 
 use crate::base::error::{Error, Result};
 use crate::study::aim::bench::{Bench, Look};
+use crate::study::aim::incline::Incline;
 use crate::study::aim::limits::{Broken, Limits, Room};
 use crate::study::aim::program::{Bounded, Elastic, Least, Program};
 use crate::study::aim::wish::Band;
@@ -83,6 +84,7 @@ pub struct Search<'a> {
     limits: &'a Limits<'a>,
     form: Vec<Vec<f64>>,
     rooms: Vec<Room>,
+    inclines: Vec<Bounded>,
 }
 
 impl<'a> Search<'a> {
@@ -98,7 +100,17 @@ impl<'a> Search<'a> {
         }
         let changes = |x: f64| bench.splines().basis().iter().any(|curve| curve.at(x) != 0.0);
         let rooms = limits.rows(&changes);
-        Self { bench, limits, form, rooms }
+        let steep = |incline: Incline| {
+            // As what is gained or lost over 5 cm, so that all rows are of a size.
+            const OVER: f64 = 0.05;
+            let curves = bench.splines().basis().iter();
+            let mut row: Vec<f64> = curves.map(|curve| OVER * curve.slope(incline.x)).collect();
+            row.resize(count, 0.0);
+            let [low, high] = [incline.low, incline.high].map(|slope| 1e3 * OVER * slope);
+            Bounded { row, low, high }
+        };
+        let inclines = limits.inclines(&changes).into_iter().map(steep).collect();
+        Self { bench, limits, form, rooms, inclines }
     }
 
     /// The size of the change of the diameter: root of `mean(d²) + ℓ⁴ mean(d″²)` (mm).
@@ -274,6 +286,7 @@ impl<'a> Search<'a> {
                 low: p[k] - trust,
                 high: p[k] + trust,
             }));
+            program.limits.extend(self.inclines.iter().cloned());
             program.limits.extend(rooms.iter().map(|room| self.row(room, p, trust)));
             let found = program.solve()?;
             let broken = self.broken(&found.p);
