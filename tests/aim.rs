@@ -407,7 +407,8 @@ fn a_limit_of_the_slope_is_kept_by_the_file() {
     let lighter = target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), None));
     let of = |slope: Option<f64>| {
         let keep = vec![[0.0, 0.03], [0.6, 0.9]];
-        let wish = Wish { targets: vec![lighter], slope, keep, remove_only: true, ..Wish::default() };
+        let wish =
+            Wish { targets: vec![lighter], slope, keep, remove_only: true, ..Wish::default() };
         let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
         (steepest(&written(&outcome, &[Answer::Inertia]).0, [0.0, 0.838]), outcome)
     };

@@ -5,6 +5,7 @@ mod common;
 
 use common::pictures::{check, number, texts};
 use resvg::usvg::roxmltree::Document;
+use sweetspot::Bat;
 use sweetspot::bat::turned::DiameterChange;
 use sweetspot::files::readings_file;
 use sweetspot::proof::bundled::bundled_bat;
@@ -17,7 +18,6 @@ use sweetspot::show::template::sheet::{Drawn, PAPERS};
 use sweetspot::study::calibrate::calibration::{Calibration, CalibrationPlan};
 use sweetspot::study::many::indices::{Indices, Kind};
 use sweetspot::study::many::sobol::Sobol;
-use sweetspot::Bat;
 
 fn bat(name: &str) -> Bat {
     bundled_bat(&format!("meshes/{name}.json")).unwrap()
@@ -54,8 +54,9 @@ fn what_readings_say_of_the_wood_is_drawn_whole() {
     };
     let few = reading(r#"{ "hz": 174.5, "mode": 1 }"#);
     // The second is of none of its modes.
-    let wrong =
-        reading(r#"{ "hz": 174.5, "mode": 1 }, { "hz": 540, "mode": 2 }, { "hz": 1187, "mode": 3 }"#);
+    let wrong = reading(
+        r#"{ "hz": 174.5, "mode": 1 }, { "hz": 540, "mode": 2 }, { "hz": 1187, "mode": 3 }"#,
+    );
     for (split, readings) in [(None, few), (Some(0.42), wrong)] {
         let plan = CalibrationPlan { split, held: vec![] };
         let found = Calibration::new(&bat("r161"), readings, &plan).unwrap();

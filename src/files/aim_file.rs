@@ -11,9 +11,7 @@ use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
 use crate::files::rules_file::{self, truth};
-use crate::study::aim::wish::{
-    Amount, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish,
-};
+use crate::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish};
 
 const KEYS: &[&str] = &[
     "format",

@@ -89,9 +89,7 @@ impl<R: BufRead> Dialogue<R> {
         let name = printed(draft);
         match (dialogue.given.len(), ours) {
             (_, false) => dialogue.tell(&format!("{name} is another file: nothing is kept.")),
-            (0, _) => {
-                dialogue.tell(&format!("Answers are kept in {name} until all is done."))
-            }
+            (0, _) => dialogue.tell(&format!("Answers are kept in {name} until all is done.")),
             (count, _) => dialogue.tell(&format!(
                 "Going on after the {count} answers in {name}; remove it to begin anew."
             )),

@@ -224,7 +224,9 @@ pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::
         largest_added_m: added,
         limits_broken_m: if outcome.broken <= 1e-9 { 0.0 } else { outcome.broken },
         kept_within_m: outcome.kept_within,
-        steeper_by: outcome.slope.map(|_| if outcome.steeper <= 1e-9 { 0.0 } else { outcome.steeper }),
+        steeper_by: outcome
+            .slope
+            .map(|_| if outcome.steeper <= 1e-9 { 0.0 } else { outcome.steeper }),
         iterations: outcome.iterations,
         bats_solved: outcome.bats,
         stopped: outcome.stopped.map(str::to_owned),

@@ -77,7 +77,8 @@ impl Steepness {
             let was = slope(before, (x - before.start) / before.length).abs();
             slope(piece, s).abs() - self.most.max(was + self.ripple)
         };
-        let all = new.profile().pieces.iter().flat_map(|piece| (0..LOOKS).map(move |k| at(piece, k)));
+        let all =
+            new.profile().pieces.iter().flat_map(|piece| (0..LOOKS).map(move |k| at(piece, k)));
         all.fold(0.0, f64::max)
     }
 

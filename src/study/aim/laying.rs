@@ -176,7 +176,8 @@ impl Laying<'_> {
                 let x = from + 0.25 * f64::from(k) * (to - from);
                 let (old, new) = (section(self.bat.profile(), x, x), section(&through, x, x));
                 let change = self.change(x);
-                let may = if change == 0.0 { BESIDE_KEPT } else { BESIDE_CHANGED * self.grid.round };
+                let may =
+                    if change == 0.0 { BESIDE_KEPT } else { BESIDE_CHANGED * self.grid.round };
                 let beside = 2.0 * (new.outer - old.outer) - change;
                 beside.abs() > may || 2.0 * (new.inner - old.inner).abs() > BESIDE_KEPT
             })

@@ -11,9 +11,9 @@ use crate::study::aim::bench::{Bench, Extra, Terms};
 use crate::study::aim::conflict::{Conflict, missed};
 use crate::study::aim::laying::Station;
 use crate::study::aim::limits::{KEPT, Limits};
+use crate::study::aim::rounding::{Rounded, Rounding};
 use crate::study::aim::rules::{Rule, Ruled};
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
-use crate::study::aim::rounding::{Rounded, Rounding};
 use crate::study::aim::wish::{Band, Grid, Wish};
 use crate::study::many::answers::Answer;
 

@@ -71,13 +71,15 @@ impl Rounding<'_> {
                 .map(|k| (values[k] - found.values[k]) / self.bands[k].scale)
                 .collect();
             let steeper = limits.steeper_by(&draft.bat);
-            let worst = self.worst(&draft, &values).max(steeper * self.grid.every / self.grid.round);
+            let worst =
+                self.worst(&draft, &values).max(steeper * self.grid.every / self.grid.round);
             if let Some((best, _)) = &mut best {
                 best.drafts = drafts;
             }
             if best.as_ref().is_none_or(|(best, _)| best.worst > worst) {
                 let p = found.p.clone();
-                best = Some((Rounded { draft, values, p, norm, worst, steeper, drafts }, off.clone()));
+                best =
+                    Some((Rounded { draft, values, p, norm, worst, steeper, drafts }, off.clone()));
             }
             if worst <= 1e-9 {
                 break;
@@ -101,8 +103,7 @@ impl Rounding<'_> {
     fn inside(&self, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
         let one = |of: &Vec<f64>| {
             let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat().length());
-            let effect =
-                places.map(|x| self.bench.splines().at(of, x).abs()).fold(0.0, f64::max);
+            let effect = places.map(|x| self.bench.splines().at(of, x).abs()).fold(0.0, f64::max);
             1e3 * self.grid.round * self.grid.every * effect
         };
         let of = |(k, density): (usize, &Vec<f64>)| {
