@@ -27,9 +27,9 @@ pub struct Station {
     pub new: f64,
     /// Inner radius.
     pub(super) inner: f64,
-    /// Least change that the limits allow, more where a curve between stations asked for it.
+    /// Least diameter that the limits allow, more where the curve beside the station asks for it.
     pub(super) low: f64,
-    /// Greatest change that the limits allow, less where a curve between stations asked for it.
+    /// Greatest diameter that the limits allow, less where the curve beside the station asks for it.
     pub(super) high: f64,
     /// What its diameter is rounded to.
     pub(super) round: f64,
