@@ -63,6 +63,13 @@ fn head(outcome: &Outcome, us: bool) -> String {
         let line = format!("a limit of the diameter is broken by {:.4} mm", 1e3 * outcome.broken);
         out += &wrapped(&line, 2);
     }
+    if let Some(slope) = outcome.slope {
+        let kept = match outcome.steeper > 1e-9 {
+            true => format!("is broken by {:.4}", outcome.steeper),
+            false => "is kept".to_owned(),
+        };
+        out += &wrapped(&format!("the limit {} of the slope {kept}", shortest(slope)), 2);
+    }
     if outcome.kept_within > 1e-9 {
         let line = format!(
             "where the bat is kept, the curve through its stations moves by {:.4} mm at most",
