@@ -7,6 +7,7 @@ use crate::bat::body::Bat;
 use crate::collision::bbcor::{Protocol, TEST_SPEED};
 use crate::collision::hit::{Model, Scene};
 use crate::collision::sweep::Trial;
+use crate::collision::wall_choice::WallChoice;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
@@ -60,6 +61,14 @@ pub struct Args {
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
           value_parser = |s: &str| PLACE.read(s))]
     to: Option<f64>,
+
+    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    ///
+    /// auto: where that changes BBCOR by more than --tol, by estimate, and not with a number of modes of
+    /// your own.
+    #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
+          value_parser = ["auto", "on", "off"], hide_possible_values = true)]
+    wall: String,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -133,8 +142,9 @@ fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
             }
             let usual = Protocol::of(bat, ball);
             let scan = [ends[0].unwrap_or(usual.scan[0]), ends[1].unwrap_or(usual.scan[1])];
-            Protocol { ball_speed: speed, cor: args.cor.unwrap_or(usual.cor), scan, ..usual }
-                .checked()
+            let cor = args.cor.unwrap_or(usual.cor);
+            let wall = WallChoice::named(&args.wall);
+            Protocol { ball_speed: speed, cor, scan, wall, ..usual }.checked()
         }
         (_, 1) => Err(wrong.remove(0)),
         _ => Err(Error::Several { shown: wrong, more: 0 }),
