@@ -1,0 +1,185 @@
+//! How does a hollow barrel ring, and how does a ball come back from it?
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::bat::fixtures::Fixtures;
+use crate::collision::ball::Ball;
+use crate::collision::bbcor::TEST_SPEED;
+use crate::collision::hit::{Model, Outcome, Scene};
+use crate::collision::sweep::{Accuracy, sweep};
+use crate::modes::hoop::{Hoop, HoopRequest, KnobSide};
+use crate::study::trampoline::pressed::{COMPRESSION, PressedWall};
+
+/// Where a ball meets a barrel if nothing else is said, from the tip: 6 in (m).
+pub const FROM_TIP: f64 = 0.1524;
+
+/// What is asked of a barrel.
+#[derive(Debug, Clone)]
+pub struct BarrelTest {
+    /// Where the ball meets the bat (m from the knob end).
+    pub at: f64,
+    /// What is shot at the bat, which is at rest and free.
+    pub ball: Ball,
+    /// Speed of the ball (m/s).
+    pub ball_speed: f64,
+    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
+    pub cor: f64,
+    /// What is asked of the hoop modes.
+    pub hoop: HoopRequest,
+    /// How accurate the exit speeds are to be.
+    pub accuracy: Accuracy,
+}
+
+impl BarrelTest {
+    /// A ball at the speed of laboratories, 6 in from the tip of that bat, to that accuracy.
+    pub fn of(bat: &Bat, ball: Ball, accuracy: Accuracy) -> Self {
+        Self {
+            at: (bat.length() - FROM_TIP).max(0.5 * bat.length()),
+            cor: ball.cor,
+            ball,
+            ball_speed: TEST_SPEED,
+            hoop: HoopRequest { tol: accuracy.exit_speed, ..HoopRequest::default() },
+            accuracy,
+        }
+    }
+}
+
+/// A barrel that was tested.
+#[derive(Debug, Clone)]
+pub struct Barrel {
+    /// What was asked.
+    pub test: BarrelTest,
+    /// The modes of the wall.
+    pub hoop: Hoop,
+    /// By how much the first mode of harmonic 2 rises where the stretch is clamped at its beginning, relative:
+    /// how far the mode is from dead there; None where that cannot be solved.
+    pub clamped_change: Option<f64>,
+    /// Relative change of the first frequency of harmonic 2 by a Poisson's ratio that is 0.05 smaller and larger;
+    /// None where the ratio is known.
+    pub by_poisson: Option<[f64; 2]>,
+    /// The wall under the ball; None where the ball does not meet the stretch that is modelled.
+    pub wall: Option<PressedWall>,
+    /// How the ball comes back; None without a wall under it and for a ball without a force law.
+    pub rebound: Option<Rebound>,
+}
+
+/// A ball that came back from a bat at rest and free.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rebound {
+    /// BBCOR of the bat if its wall did not give way.
+    pub stiff: f64,
+    /// BBCOR of the bat with its wall.
+    pub wall: f64,
+    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first.
+    pub range: [f64; 2],
+    /// How far [`Self::wall`] may be off by the program's own errors.
+    pub error: f64,
+    /// The ball's stiffness at the largest force against the stiff wall: that force over the compression (N/m).
+    pub ball_stiffness: f64,
+    /// Largest force between ball and bat (N).
+    pub peak_force: f64,
+    /// How deep that force, acting slowly, dents the wall (m).
+    pub dent: f64,
+    /// Energy that is left in the wall when the ball is gone (J).
+    pub left: f64,
+    /// Energy of the ball before (J).
+    pub initial: f64,
+}
+
+impl Barrel {
+    /// The barrel of that bat, with what is open of it: a Poisson's ratio that is not known, and an end of the
+    /// stretch where the first mode is not dead.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::struck`].
+    pub fn of(bat: &Bat, test: BarrelTest) -> Result<Self> {
+        let mut barrel = Self::struck(bat, test)?;
+        let oval = HoopRequest {
+            harmonics: vec![2],
+            least: 1,
+            up_to_hz: 0.0,
+            ..barrel.test.hoop.clone()
+        };
+        let known = barrel.first();
+        let change = |bat: &Bat, request: &HoopRequest| {
+            Some(first(&Hoop::of(bat, request).ok()?)? / known? - 1.0)
+        };
+        barrel.clamped_change = change(bat, &HoopRequest { end: KnobSide::Clamped, ..oval.clone() });
+        if !knows_poisson(bat) {
+            let other = |by: f64| change(&assuming(bat, by).ok()?, &oval);
+            barrel.by_poisson = other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]);
+        }
+        Ok(barrel)
+    }
+
+    /// The barrel of that bat and the ball that comes back from it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hoop::of`], and as [`sweep`] for a hit.
+    pub fn struck(bat: &Bat, test: BarrelTest) -> Result<Self> {
+        let hoop = Hoop::of(bat, &test.hoop)?;
+        let wall = PressedWall::under(&hoop, bat, &test.ball, (test.at, COMPRESSION));
+        let rebound = match &wall {
+            Some(wall) if test.ball.stiffness.is_some() => rebound(bat, &hoop, &test, wall)?,
+            _ => None,
+        };
+        Ok(Self { test, hoop, clamped_change: None, by_poisson: None, wall, rebound })
+    }
+
+    /// ω of the first mode of harmonic 2 (rad/s).
+    pub fn first(&self) -> Option<f64> {
+        first(&self.hoop)
+    }
+
+    /// Whether every frequency is as accurate as was asked.
+    pub fn met(&self) -> bool {
+        self.hoop.modes().iter().all(|mode| mode.error <= self.test.hoop.tol)
+    }
+
+    /// What a test of the barrel's compression takes: the deflection (m) and the force (N).
+    pub fn compressed(&self) -> Option<[f64; 2]> {
+        self.wall.as_ref().map(|wall| wall.compressed(&self.test.ball))
+    }
+}
+
+fn first(hoop: &Hoop) -> Option<f64> {
+    hoop.modes().iter().find(|mode| mode.harmonic == 2).map(|mode| mode.omega)
+}
+
+/// The ball against the bat at rest and free: without the wall, with it, and with a patch as of a ball that is
+/// squeezed twice and half as much.
+fn rebound(
+    bat: &Bat,
+    hoop: &Hoop,
+    test: &BarrelTest,
+    wall: &PressedWall,
+) -> Result<Option<Rebound>> {
+    let free = bat.with(|parts| {
+        let fixtures = parts.fixtures.without_springs();
+        parts.fixtures = Fixtures { supports: vec![], ..fixtures };
+    })?;
+    todo!()
+}
+
+/// Poisson's ratio of a metal where it is not known, and by how much it may be another.
+const USUAL: f64 = 0.33;
+const SPREAD: f64 = 0.05;
+
+/// Whether Poisson's ratio of everything in the bat is known.
+fn knows_poisson(bat: &Bat) -> bool {
+    let mut layups = bat.layups().iter();
+    layups.all(|layup| layup.materials().all(|material| material.poisson_ratio.is_some()))
+}
+
+/// The bat with Poisson's ratio where it is not known that much off the usual one.
+fn assuming(bat: &Bat, by: f64) -> Result<Bat> {
+    bat.with(|parts| {
+        let regions = parts.fixtures.regions.iter_mut();
+        let layups = regions.flat_map(|region| region.layup.materials_mut());
+        for material in std::iter::once(&mut parts.material).chain(layups) {
+            material.poisson_ratio.get_or_insert(USUAL + by);
+        }
+    })
+}
