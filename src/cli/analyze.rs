@@ -176,7 +176,10 @@ pub fn run(args: &Args) -> Result<Done> {
             let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
             table(&analysis, &args.output) + &cuts.unwrap_or_default()
         }
-        false => trust::screen(&analysis, args.output.units) + &barrel(&analysis, args.output.units) + MORE,
+        false => {
+            let barrel = analysis.barrel.as_ref().map(report::hoop::in_a_line);
+            trust::screen(&analysis, args.output.units) + &barrel.unwrap_or_default() + MORE
+        }
     };
     let table = table + &written(args);
     let text = args.output.deliver(table, all)?;
@@ -185,7 +188,7 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The barrel of a hollow bat, in short.
 fn barrel(analysis: &Analysis, units: Units) -> String {
-    let told = |barrel| report::hoop::in_short(&analysis.bat, barrel, units);
+    let told = |barrel| format!("\n{}", report::hoop::in_short(&analysis.bat, barrel, units));
     analysis.barrel.as_ref().map_or(String::new(), told)
 }
 
@@ -255,10 +258,7 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::beyond(hits, &task.scene, units),
         hit_text::figures(figures, units),
         aftermath::strengths(&analysis.strength, units)
-    ) + &match barrel(analysis, units) {
-        told if told.is_empty() => told,
-        told => format!("\n{told}"),
-    }
+    ) + &barrel(analysis, units)
 }
 
 fn modes_file(args: &Args, analysis: &Analysis) -> ModesFile {

@@ -98,9 +98,8 @@ pub fn run(args: &Args) -> Result<Done> {
 /// What is asked of that bat, all that is wrong with it at once.
 fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
     let mut mistakes = Mistakes::default();
-    let mut end = |name: &str, x: Option<f64>| {
-        mistakes.note(x.map(|x| on_the_bat(bat, name, x)).transpose())
-    };
+    let mut end =
+        |name: &str, x: Option<f64>| mistakes.note(x.map(|x| on_the_bat(bat, name, x)).transpose());
     let [from, to] = [end("--from", args.from), end("--to", args.to)];
     let shot = mistakes.and(args.cannon.shot())?;
     let usual = Protocol::of(bat, shot.ball);

@@ -144,9 +144,8 @@ pub fn run(args: &Args) -> Result<Done> {
         table += &report::sweep(&tried, args.output.units);
     }
     let samples = usize::from(args.shape_points);
-    let text = args
-        .output
-        .deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
+    let text =
+        args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
     let text = put(&args.csv, text, || Ok(hoop_json::csv(&bat, &barrel)))?;
     let text = exchanged(args, &bat, &barrel, text)?;
     let code = if barrel.met() { 0 } else { NOT_REACHED };
@@ -179,7 +178,7 @@ fn exchanged(args: &Args, bat: &Bat, barrel: &Barrel, text: String) -> Result<St
     if args.uff.is_none() && args.vtu.is_none() {
         return Ok(text);
     }
-    let grid = BarrelGrid::of(bat, &barrel.hoop, ALONG, args.around.into());
+    let grid = BarrelGrid::of(bat, barrel.hoop(), ALONG, args.around.into());
     let text = put(&args.uff, text, || {
         let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
         uff::write(&hoop_files::uff(bat.name(), &grid, &stamp))

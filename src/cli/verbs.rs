@@ -14,8 +14,8 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, aim, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help,
-    hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop, study,
-    style, trade, validate,
+    hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop,
+    study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 

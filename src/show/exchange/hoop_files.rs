@@ -1,6 +1,8 @@
 //! Hoop modes as a universal file and as a VTK file.
 
-use crate::files::uff::{Analysis, Complex, Dataset, NodalData, Node, Nodes, Stamp, TraceLine, Units};
+use crate::files::uff::{
+    Analysis, Complex, Dataset, NodalData, Node, Nodes, Stamp, TraceLine, Units,
+};
 use crate::show::exchange::barrel::{BarrelGrid, MovedBarrel};
 use crate::show::exchange::modes_uff::header;
 use crate::show::exchange::vtu::Contents;

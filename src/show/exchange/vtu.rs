@@ -73,9 +73,7 @@ fn file(
 ) -> String {
     let of = |of: fn(&SampledMode) -> f64| modes.iter().map(|mode| of(mode)).collect::<Vec<_>>();
     let scalars = ["radius_m", "inner_radius_m"].into_iter().zip(table.radii());
-    let moved = |mode: &&SampledMode| {
-        (name(mode), grid.moved(&mode.deflection, &mode.rotation))
-    };
+    let moved = |mode: &&SampledMode| (name(mode), grid.moved(&mode.deflection, &mode.rotation));
     Contents {
         about: "a bat: x along it, deflection along y",
         time,

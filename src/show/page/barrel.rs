@@ -41,9 +41,9 @@ pub const MOVING: usize = 6;
 
 /// The modes that move, with their numbers among all.
 pub fn moving(barrel: &Barrel) -> Vec<(usize, &HoopMode)> {
-    let all = barrel.hoop.modes();
+    let all = barrel.hoop().modes();
     let number = |mode: &HoopMode| all.iter().position(|one| std::ptr::eq(one, mode));
-    let lowest = barrel.hoop.lowest(MOVING).into_iter();
+    let lowest = barrel.hoop().lowest(MOVING).into_iter();
     lowest.filter_map(|mode| Some((number(mode)?, mode))).collect()
 }
 
@@ -52,7 +52,7 @@ impl RingingBarrel {
     pub fn new(bat: &Bat, barrel: &Barrel) -> Option<Self> {
         let round = |all: &[f64]| all.iter().map(|value| rounded(*value, 4)).collect();
         let ringing = |(k, mode): &(usize, &HoopMode)| {
-            let outline = barrel.hoop.outline(*k, PLACES);
+            let outline = barrel.hoop().outline(*k, PLACES);
             let mode = RingingMode {
                 harmonic: mode.harmonic,
                 order: mode.order,

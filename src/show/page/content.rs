@@ -243,7 +243,8 @@ impl<'a> Report<'a> {
         if !notes.is_empty() {
             parts.extend([Part::Heading("What was assumed of the wall"), Part::List(notes)]);
         }
-        parts.push(Part::Text("More modes, other balls and other walls: the verb hoop.".to_owned()));
+        parts
+            .push(Part::Text("More modes, other balls and other walls: the verb hoop.".to_owned()));
         parts
     }
 

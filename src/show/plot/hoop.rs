@@ -31,11 +31,11 @@ const AROUND: usize = 72;
 
 /// The lowest modes, at most so many, a row each; picture `hoop`. None where there are none.
 pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<Picture> {
-    let lowest = barrel.hoop.lowest(most);
+    let lowest = barrel.hoop().lowest(most);
     if lowest.is_empty() {
         return None;
     }
-    let stretch = [barrel.hoop.from(), barrel.hoop.to()];
+    let stretch = [barrel.hoop().from(), barrel.hoop().to()];
     let [knob, tip] = place::axes(sheet, stretch, &[(bat.name(), bat.length())]);
     let mut svg = Svg::on(sheet);
     let title = "Hoop modes of the barrel";
@@ -48,12 +48,12 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     svg.height = bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     plane.above(&mut svg, &tip);
-    let modes = barrel.hoop.modes();
+    let modes = barrel.hoop().modes();
     for (k, mode) in lowest.iter().enumerate() {
         let axis = top + ROW * (k as f64 + 0.5);
         // By its place among all: two modes may be alike in every number.
         let Some(number) = modes.iter().position(|one| std::ptr::eq(one, *mode)) else { continue };
-        let outline = barrel.hoop.outline(number, ALONG);
+        let outline = barrel.hoop().outline(number, ALONG);
         side(&mut svg, &plane, axis, (bat, mode, &outline));
         around(&mut svg, [frame.right + 16.0 + RING + MOVED, axis], (mode, &outline));
         named(&mut svg, [sheet.width() - WORDS + 4.0, axis], mode);
@@ -90,7 +90,8 @@ fn side(
         places.map(at).collect()
     };
     let (ink, pen) = (SERIES[0], Pen::new(SERIES[0], 1.5));
-    let area: Vec<Point> = line(1.0, 1.0).into_iter().chain(line(-1.0, 1.0).into_iter().rev()).collect();
+    let area: Vec<Point> =
+        line(1.0, 1.0).into_iter().chain(line(-1.0, 1.0).into_iter().rev()).collect();
     svg.area(&area, ink, TINT, None);
     for side in [1.0, -1.0] {
         svg.line(&line(side, 0.0), Pen::new(FRAME, 1.0).dashed("3 3"));

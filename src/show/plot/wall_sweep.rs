@@ -24,26 +24,28 @@ pub fn picture(sheet: Sheet, name: &str, tried: &[WallTried]) -> Option<Picture>
     let points = |of: &dyn Fn(&Rebound) -> f64| -> Vec<Option<[f64; 2]>> {
         tried.iter().map(|tried| point(tried, of)).collect()
     };
-    let wall = points(&|rebound| rebound.wall);
+    let wall = points(&|rebound| rebound.bbcor().with);
     let known: Vec<[f64; 2]> = wall.iter().flatten().copied().collect();
     let (from, to) = (known.first()?[0], known.last()?[0]);
     if from >= to {
         return None;
     }
     let curve = Series::curve("with the wall", 0, wall).units(unit.name, "");
-    let stiff = Series::curve("if the wall were stiff", 1, points(&|rebound| rebound.stiff));
+    let stiff =
+        Series::curve("if the wall were stiff", 1, points(&|rebound| rebound.bbcor().stiff));
     let stiff = stiff.units(unit.name, "");
     let thin = |name: &str, end: usize| {
         let pen = Pen::new(SERIES[0], 1.0).dashed("2 3");
-        Series::curve(name, 0, points(&|rebound| rebound.range[end])).pen(pen)
+        Series::curve(name, 0, points(&|rebound| rebound.bbcor().range[end])).pen(pen)
     };
     let [low, high] = [thin("patch of a ball squeezed twice or half as much", 0), thin("", 1)];
     let limit = Series::curve("limit", 0, vec![Some([from, LIMIT]), Some([to, LIMIT])])
         .pen(Pen::new(SERIES[5], 1.4));
     let here = tried.iter().find(|tried| tried.factor == 1.0);
-    let here = here.and_then(|tried| point(tried, &|rebound| rebound.wall));
+    let here = here.and_then(|tried| point(tried, &|rebound| rebound.bbcor().with));
     let title = "BBCOR against wall thickness";
-    let facts = "the barrel's surface where it is, the bat at rest and free; computed, not certified";
+    let facts =
+        "the barrel's surface where it is, the bat at rest and free; computed, not certified";
     let mut svg = Svg::on(sheet);
     head(&mut svg, title, [name, facts]);
     let top = legend(&mut svg, &[&curve, &low, &stiff, &limit]) + 14.0;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::base::number::{rounded, significant};
 use crate::base::units::{POUND_FORCE, inches};
 use crate::bat::body::Bat;
+use crate::collision::wall_figures::WallBbcor;
 use crate::modes::hoop::HoopMode;
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::hoop_notes::notes;
@@ -20,7 +21,7 @@ const MEGA: f64 = 1e6;
 /// Everything for the terminal, with the lowest modes, at most so many.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
     let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
-    let [from, to] = [barrel.hoop.from(), barrel.hoop.to()];
+    let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
     let stretch = format!(
         "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",
         units.inline(units.length(from)),
@@ -43,7 +44,7 @@ fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
         labels(24, "largest at, from tip"),
     ]);
     let mut out = columns.heads();
-    for mode in barrel.hoop.lowest(most) {
+    for mode in barrel.hoop().lowest(most) {
         out += &columns.row([
             mode.harmonic.to_string(),
             mode.order.to_string(),
@@ -91,8 +92,7 @@ pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
 /// How stiff the wall is.
 fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     let ball = barrel.rebound.as_ref().map_or(String::new(), |rebound| {
-        let times = wall.stiffness() / rebound.ball_stiffness;
-        format!(" ({} times the ball)", significant(times, 2))
+        format!(" ({} times the ball)", significant(rebound.figures.over_ball, 2))
     });
     let [long, wide] = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
     format!(
@@ -119,17 +119,16 @@ fn harmonics(wall: &PressedWall) -> String {
 
 /// How the ball comes back.
 fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
-    let [low, high] = rebound.range;
+    let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
     [
         format!(
-            "BBCOR there: {:.3} stiff, {:.3} with the wall; {low:.3} to {high:.3} with the patch of a ball \
-             squeezed twice or half as much.",
-            rebound.stiff, rebound.wall
+            "BBCOR there: {stiff:.3} stiff, {with:.3} with the wall; {low:.3} to {high:.3} with the patch of a \
+             ball squeezed twice or half as much."
         ),
         format!(
             "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
             units.energy(rebound.initial, 0),
-            small(units, rebound.dent),
+            small(units, rebound.figures.dent),
             units.energy(rebound.left, 1)
         ),
     ]
@@ -157,13 +156,23 @@ fn both(units: Units, si: String, us: String) -> String {
     }
 }
 
+/// The first hoop mode and the wall under the ball, in a line.
+pub fn in_a_line(barrel: &Barrel) -> String {
+    let lowest = barrel.hoop().lowest(1);
+    let Some(mode) = lowest.first() else { return String::new() };
+    let wall = barrel.wall.as_ref().map_or(String::new(), |wall| {
+        format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
+    });
+    format!("Hollow: first hoop mode {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
+}
+
 /// The first hoop modes, the wall and the rebound, as a part of more.
 pub fn in_short(bat: &Bat, barrel: &Barrel, units: Units) -> String {
     const FEW: usize = 3;
     let named = |mode: &&HoopMode| {
         format!("{:.0} Hz (n = {}, m = {})", mode.frequency(), mode.harmonic, mode.order)
     };
-    let lowest: Vec<String> = barrel.hoop.lowest(FEW).iter().map(named).collect();
+    let lowest: Vec<String> = barrel.hoop().lowest(FEW).iter().map(named).collect();
     let mut out = String::from("How the barrel rings\n");
     out += &wrapped(&format!("  hoop modes: {}", lowest.join(", ")), 4);
     for line in answers(bat, barrel, units) {
@@ -187,10 +196,10 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
     out += &columns.heads();
     for WallTried { factor, barrel, .. } in tried {
         let (Some(wall), Some(rebound)) = (&barrel.wall, &barrel.rebound) else { continue };
-        let hertz = barrel.first().map_or(String::new(), |omega| {
-            format!("{:.0} Hz", omega / std::f64::consts::TAU)
-        });
-        let [low, high] = rebound.range;
+        let hertz = barrel
+            .first()
+            .map_or(String::new(), |omega| format!("{:.0} Hz", omega / std::f64::consts::TAU));
+        let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
         let _ = write!(
             out,
             "{}",
@@ -199,8 +208,8 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
                 format!("{factor:.1}"),
                 hertz,
                 format!("{} MN/m", significant(wall.stiffness() / MEGA, 3)),
-                format!("{:.3}", rebound.stiff),
-                format!("{:.3}", rebound.wall),
+                format!("{stiff:.3}"),
+                format!("{with:.3}"),
                 format!("{low:.3} to {high:.3}"),
             ])
         );

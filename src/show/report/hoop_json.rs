@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::bat::body::Bat;
+use crate::collision::hoop_wall::COMPRESSION;
+use crate::collision::wall_figures::WallBbcor;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hoop as file;
 use crate::modes::hoop::{HoopMode, Share};
@@ -15,21 +17,16 @@ use crate::study::trampoline::pressed::PressedWall;
 use crate::study::trampoline::thickness::WallTried;
 
 /// The `sweetspot-hoop/1` document; of each mode so many samples of its shape.
-pub fn document(
-    bat: &Bat,
-    barrel: &Barrel,
-    tried: &[WallTried],
-    samples: usize,
-) -> file::HoopFile {
-    let modes = barrel.hoop.modes().iter().enumerate();
+pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize) -> file::HoopFile {
+    let modes = barrel.hoop().modes().iter().enumerate();
     file::HoopFile {
         format: Format::new(),
         generator: Generator::this(),
         bat_name: bat.name().to_owned(),
         edits: bat.edits().to_vec(),
         model: file::HoopModel {
-            from_m: barrel.hoop.from(),
-            to_m: barrel.hoop.to(),
+            from_m: barrel.hoop().from(),
+            to_m: barrel.hoop().to(),
             tolerance: barrel.test.hoop.tol,
             clamped_change: barrel.clamped_change,
         },
@@ -47,7 +44,7 @@ pub fn document(
 
 fn hoop_mode(barrel: &Barrel, (k, mode): (usize, &HoopMode), samples: usize) -> file::HoopMode {
     let shape = (samples > 0).then(|| {
-        let outline = barrel.hoop.outline(k, samples);
+        let outline = barrel.hoop().outline(k, samples);
         file::HoopShape {
             x_m: outline.x,
             radial: outline.radial,
@@ -78,8 +75,8 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::WallUnder
         radius_m: wall.radius,
         thickness_m: wall.thickness,
         stiffness_n_m: wall.stiffness(),
-        over_ball: barrel.rebound.as_ref().map(|one| wall.stiffness() / one.ball_stiffness),
-        compression_m: wall.compression,
+        over_ball: barrel.rebound.as_ref().map(|rebound| rebound.figures.over_ball),
+        compression_m: COMPRESSION,
         patch_half_length_m: wall.patch.half_length,
         patch_half_width_m: wall.patch.half_width,
         by_harmonic: wall.shares.iter().map(share).collect(),
@@ -87,16 +84,17 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::WallUnder
 }
 
 fn bbcor(barrel: &Barrel, rebound: &Rebound) -> file::BbcorOfWall {
+    let WallBbcor { stiff, with, range } = rebound.bbcor();
     file::BbcorOfWall {
         ball: ball_out(&barrel.test.ball),
         ball_speed_m_s: barrel.test.ball_speed,
         cor: barrel.test.cor,
-        stiff: rebound.stiff,
-        wall: rebound.wall,
-        range: rebound.range,
+        stiff,
+        wall: with,
+        range,
         error: rebound.error,
         peak_force_n: rebound.peak_force,
-        dent_m: rebound.dent,
+        dent_m: rebound.figures.dent,
         left_in_wall_j: rebound.left,
         initial_j: rebound.initial,
     }
@@ -104,16 +102,17 @@ fn bbcor(barrel: &Barrel, rebound: &Rebound) -> file::BbcorOfWall {
 
 fn thickness(tried: &WallTried) -> Option<file::WallThickness> {
     let (wall, rebound) = (tried.barrel.wall.as_ref()?, tried.barrel.rebound.as_ref()?);
+    let WallBbcor { stiff, with, range } = rebound.bbcor();
     Some(file::WallThickness {
         factor: tried.factor,
         thickness_m: wall.thickness,
         mass_kg: tried.mass,
         frequency_hz: tried.barrel.first()? / TAU,
         stiffness_n_m: wall.stiffness(),
-        stiff: rebound.stiff,
-        wall: rebound.wall,
-        range: rebound.range,
-        dent_m: rebound.dent,
+        stiff,
+        wall: with,
+        range,
+        dent_m: rebound.figures.dent,
     })
 }
 
@@ -121,7 +120,7 @@ fn thickness(tried: &WallTried) -> Option<file::WallThickness> {
 pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
     let names = ["harmonic", "order", "frequency_hz", "damping_ratio", "error", "largest_at_m"];
     let mut table = Csv::new(names.into_iter().chain(["largest_from_tip_m"]));
-    for mode in barrel.hoop.modes() {
+    for mode in barrel.hoop().modes() {
         table.row([
             mode.harmonic.into(),
             mode.order.into(),

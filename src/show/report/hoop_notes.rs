@@ -8,7 +8,7 @@ use crate::study::trampoline::barrel::Barrel;
 
 /// A sentence each, without a capital and a full stop at its ends.
 pub fn notes(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
-    let mut all: Vec<String> = barrel.hoop.notes().iter().map(|note| said(note, units)).collect();
+    let mut all: Vec<String> = barrel.hoop().notes().iter().map(|note| said(note, units)).collect();
     if let Some([less, more]) = barrel.by_poisson {
         let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
         all.push(format!(
@@ -41,8 +41,8 @@ fn alive(barrel: &Barrel) -> Option<String> {
 /// A dent that is too deep for small motions.
 fn dented(barrel: &Barrel) -> Option<String> {
     let (wall, rebound) = (barrel.wall.as_ref()?, barrel.rebound.as_ref()?);
-    let share = rebound.dent / wall.thickness;
-    (share > 0.5).then(|| {
+    let share = rebound.figures.dent / wall.thickness;
+    rebound.figures.is_deep().then(|| {
         format!(
             "the wall is dented by {} of its thickness: beyond half of it the dent is not small, as is \
              assumed here, and a metal may yield",

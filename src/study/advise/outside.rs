@@ -13,8 +13,8 @@ pub fn outside(bat: &Bat) -> Vec<String> {
         match hollow {
             true => {
                 "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-                 the ball (trampoline effect); sections stay round here, and a hit models that \
-                 wall by --wall-stiffness alone"
+                 the ball (trampoline effect); sections stay round in bending; the verb hoop has \
+                 the wall, and a hit counts it where it is of metal or a composite"
             }
             false => {
                 "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"

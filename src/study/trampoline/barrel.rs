@@ -1,14 +1,19 @@
 //! How does a hollow barrel ring, and how does a ball come back from it?
 
+use std::sync::Arc;
+
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Fixtures;
 use crate::collision::ball::Ball;
 use crate::collision::bbcor::TEST_SPEED;
-use crate::collision::hit::{Model, Outcome, Scene};
+use crate::collision::hit::{Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::collision::hoop_wall::{HoopInHit, HoopWall};
 use crate::collision::sweep::{Accuracy, sweep};
+use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::modes::hoop::{Hoop, HoopRequest, KnobSide};
-use crate::study::trampoline::pressed::{COMPRESSION, PressedWall};
+use crate::study::trampoline::pressed::PressedWall;
 
 /// Where a ball meets a barrel if nothing else is said, from the tip: 6 in (m).
 pub const FROM_TIP: f64 = 0.1524;
@@ -49,8 +54,8 @@ impl BarrelTest {
 pub struct Barrel {
     /// What was asked.
     pub test: BarrelTest,
-    /// The modes of the wall.
-    pub hoop: Hoop,
+    /// The wall with its modes.
+    pub solved: Arc<HoopWall>,
     /// By how much the first mode of harmonic 2 rises where the stretch is clamped at its beginning, relative:
     /// how far the mode is from dead there; None where that cannot be solved.
     pub clamped_change: Option<f64>,
@@ -66,24 +71,25 @@ pub struct Barrel {
 /// A ball that came back from a bat at rest and free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rebound {
-    /// BBCOR of the bat if its wall did not give way.
-    pub stiff: f64,
-    /// BBCOR of the bat with its wall.
-    pub wall: f64,
-    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first.
-    pub range: [f64; 2],
-    /// How far [`Self::wall`] may be off by the program's own errors.
+    /// BBCOR without and with the wall, the wall's stiffness over the ball's, and the dent.
+    pub figures: WallFigures,
+    /// How far BBCOR with the wall may be off by the program's own errors.
     pub error: f64,
-    /// The ball's stiffness at the largest force against the stiff wall: that force over the compression (N/m).
-    pub ball_stiffness: f64,
+    /// Whether that is as accurate as was asked.
+    pub met: bool,
     /// Largest force between ball and bat (N).
     pub peak_force: f64,
-    /// How deep that force, acting slowly, dents the wall (m).
-    pub dent: f64,
     /// Energy that is left in the wall when the ball is gone (J).
     pub left: f64,
     /// Energy of the ball before (J).
     pub initial: f64,
+}
+
+impl Rebound {
+    /// BBCOR of the free bat, without the wall and with it.
+    pub fn bbcor(&self) -> WallBbcor {
+        self.figures.bbcor
+    }
 }
 
 impl Barrel {
@@ -95,17 +101,14 @@ impl Barrel {
     /// As [`Self::struck`].
     pub fn of(bat: &Bat, test: BarrelTest) -> Result<Self> {
         let mut barrel = Self::struck(bat, test)?;
-        let oval = HoopRequest {
-            harmonics: vec![2],
-            least: 1,
-            up_to_hz: 0.0,
-            ..barrel.test.hoop.clone()
-        };
+        let oval =
+            HoopRequest { harmonics: vec![2], least: 1, up_to_hz: 0.0, ..barrel.test.hoop.clone() };
         let known = barrel.first();
         let change = |bat: &Bat, request: &HoopRequest| {
             Some(first(&Hoop::of(bat, request).ok()?)? / known? - 1.0)
         };
-        barrel.clamped_change = change(bat, &HoopRequest { end: KnobSide::Clamped, ..oval.clone() });
+        barrel.clamped_change =
+            change(bat, &HoopRequest { end: KnobSide::Clamped, ..oval.clone() });
         if !knows_poisson(bat) {
             let other = |by: f64| change(&assuming(bat, by).ok()?, &oval);
             barrel.by_poisson = other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]);
@@ -117,25 +120,31 @@ impl Barrel {
     ///
     /// # Errors
     ///
-    /// As [`Hoop::of`], and as [`sweep`] for a hit.
+    /// As [`HoopWall::of`], and as [`sweep`] for a hit.
     pub fn struck(bat: &Bat, test: BarrelTest) -> Result<Self> {
-        let hoop = Hoop::of(bat, &test.hoop)?;
-        let wall = PressedWall::under(&hoop, bat, &test.ball, (test.at, COMPRESSION));
-        let rebound = match &wall {
-            Some(wall) if test.ball.stiffness.is_some() => rebound(bat, &hoop, &test, wall)?,
+        let solved = HoopWall::of(bat, test.ball.radius, &test.hoop)?;
+        let wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
+        let rebound = match (&wall, test.ball.stiffness) {
+            (Some(_), Some(_)) => rebound(bat, &solved, &test)?,
             _ => None,
         };
-        Ok(Self { test, hoop, clamped_change: None, by_poisson: None, wall, rebound })
+        Ok(Self { test, solved, clamped_change: None, by_poisson: None, wall, rebound })
+    }
+
+    /// The modes of the wall.
+    pub fn hoop(&self) -> &Hoop {
+        self.solved.hoop()
     }
 
     /// ω of the first mode of harmonic 2 (rad/s).
     pub fn first(&self) -> Option<f64> {
-        first(&self.hoop)
+        first(self.hoop())
     }
 
-    /// Whether every frequency is as accurate as was asked.
+    /// Whether every frequency, and the rebound, is as accurate as was asked.
     pub fn met(&self) -> bool {
-        self.hoop.modes().iter().all(|mode| mode.error <= self.test.hoop.tol)
+        let modes = self.hoop().modes().iter().all(|mode| mode.error <= self.test.hoop.tol);
+        modes && self.rebound.as_ref().is_none_or(|rebound| rebound.met)
     }
 
     /// What a test of the barrel's compression takes: the deflection (m) and the force (N).
@@ -148,19 +157,33 @@ fn first(hoop: &Hoop) -> Option<f64> {
     hoop.modes().iter().find(|mode| mode.harmonic == 2).map(|mode| mode.omega)
 }
 
-/// The ball against the bat at rest and free: without the wall, with it, and with a patch as of a ball that is
-/// squeezed twice and half as much.
-fn rebound(
-    bat: &Bat,
-    hoop: &Hoop,
-    test: &BarrelTest,
-    wall: &PressedWall,
-) -> Result<Option<Rebound>> {
+/// The ball against the bat at rest and free; None where they do not meet.
+fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<Rebound>> {
     let free = bat.with(|parts| {
         let fixtures = parts.fixtures.without_springs();
         parts.fixtures = Fixtures { supports: vec![], ..fixtures };
     })?;
-    todo!()
+    let scene = Scene {
+        swing: 0.0,
+        ball: test.ball.clone(),
+        ball_speed: test.ball_speed,
+        cor: test.cor,
+        hoop: HoopInHit::Counted(Arc::clone(wall)),
+        ..Scene::default()
+    };
+    let hits = sweep(&free, Model::Contact, &scene, &test.accuracy, &[test.at])?;
+    let hitter = Hitter::new(Model::Contact, &scene, &free, &hits.solution, hits.effort)?;
+    let outcome = hits.impacts.first().and_then(|impact| impact.outcome.as_ref());
+    let both = outcome.zip(hitter.wall_figures(test.at));
+    // BBCOR is `e_A (1 + r) + r`, and `outcome.error` that of `e_A`.
+    Ok(both.map(|(outcome, figures)| Rebound {
+        error: (1.0 + outcome.bbcor) / (1.0 + outcome.collision_efficiency) * outcome.error,
+        met: hits.met,
+        peak_force: outcome.peak_force.unwrap_or(f64::NAN),
+        left: outcome.energy.wall,
+        initial: outcome.energy.initial,
+        figures,
+    }))
 }
 
 /// Poisson's ratio of a metal where it is not known, and by how much it may be another.

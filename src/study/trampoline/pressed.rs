@@ -2,10 +2,8 @@
 
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
+use crate::collision::hoop_wall::COMPRESSION;
 use crate::modes::hoop::{Hoop, Patch, Share};
-
-/// Compression of a ball (m) for which its patch is taken: half of the largest, 16 mm of a baseball at 60 m/s.
-pub const COMPRESSION: f64 = 8e-3;
 
 /// By how much a barrel is pressed in by the test of its compression (m): 0.04 in for baseball bats, 0.07 in
 /// for softball bats.
@@ -25,8 +23,6 @@ pub struct PressedWall {
     pub radius: f64,
     /// Thickness of the wall there, sleeves included (m).
     pub thickness: f64,
-    /// Compression of the ball for which the patch is as large as it is (m).
-    pub compression: f64,
     /// Where the ball presses, and how large its patch is.
     pub patch: Patch,
     /// What each harmonic has of the wall's giving way.
@@ -34,15 +30,14 @@ pub struct PressedWall {
 }
 
 impl PressedWall {
-    /// The wall at `x` (m) under a ball that is compressed by that much (m); None where the patch is not on
+    /// The wall at `x` (m) under a ball that is compressed by [`COMPRESSION`]; None where the patch is not on
     /// the stretch that is modelled.
-    pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, (x, compression): (f64, f64)) -> Option<Self> {
+    pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
-        let patch = Patch::under(x, ball.radius, section.outer, compression);
+        let patch = Patch::under(x, ball.radius, section.outer, COMPRESSION);
         (section.inner > 0.0 && hoop.covers(&patch)).then(|| Self {
             radius: section.outer,
             thickness: section.outer - section.inner,
-            compression,
             patch,
             shares: hoop.under(&patch),
         })

@@ -42,7 +42,7 @@ pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTrie
 ///
 /// As [`Bat::bored`].
 pub fn with_wall(bat: &Bat, known: &Barrel, factor: f64) -> Result<Bat> {
-    let (from, to) = (known.hoop.from(), bat.length());
+    let (from, to) = (known.hoop().from(), bat.length());
     let section = bat.profile().at(known.test.at);
     let full = full_barrel(bat, [from, known.test.at]);
     // What the wall gains the bore's diameter loses, on both sides.
