@@ -125,7 +125,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve_for(bat, &args.solve, &args.output)?;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let modes = args.solve.modes_within(10, bat.profile().pieces.len());

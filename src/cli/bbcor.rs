@@ -8,6 +8,7 @@ use crate::bat::body::Bat;
 use crate::collision::bbcor::Protocol;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::sweep::Trial;
+use crate::collision::wall_choice::WallChoice;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
@@ -45,6 +46,14 @@ pub struct Args {
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
           value_parser = |s: &str| PLACE.read(s))]
     to: Option<f64>,
+
+    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    ///
+    /// auto: where that changes BBCOR by more than --tol, by estimate, and not with a number of modes of
+    /// your own.
+    #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
+          value_parser = ["auto", "on", "off"], hide_possible_values = true)]
+    wall: String,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -104,5 +113,6 @@ fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
     let shot = mistakes.and(args.cannon.shot())?;
     let usual = Protocol::of(bat, shot.ball);
     let scan = [from.unwrap_or(usual.scan[0]), to.unwrap_or(usual.scan[1])];
-    Protocol { ball_speed: shot.speed, cor: shot.cor.unwrap_or(usual.cor), scan, ..usual }.checked()
+    let (cor, wall) = (shot.cor.unwrap_or(usual.cor), WallChoice::named(&args.wall));
+    Protocol { ball_speed: shot.speed, cor, scan, wall, ..usual }.checked()
 }

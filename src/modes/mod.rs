@@ -16,6 +16,7 @@
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`compliance`] | how the bat gives way at a place |
 //! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
+//! | [`hoop`] | how the wall of a hollow bat rings |
 
 pub mod shape;
 pub(crate) mod landmarks;
@@ -50,3 +51,4 @@ pub mod task;
 pub mod solve;
 pub mod up_to;
 pub mod batch;
+pub mod hoop;

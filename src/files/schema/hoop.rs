@@ -27,7 +27,7 @@ pub struct HoopFile {
     /// Every mode that was found, by rising harmonic, of a harmonic by rising frequency.
     pub modes: Vec<HoopMode>,
     /// The wall under the ball; null where the ball does not meet the stretch that is modelled.
-    pub wall: Option<WallUnderBall>,
+    pub wall: Option<PressedWall>,
     /// How fast the ball comes back; null without a wall under it and for a ball without a force law.
     pub bbcor: Option<BbcorOfWall>,
     /// What a test of the barrel's compression would show; null where there is no wall under the ball.
@@ -94,7 +94,7 @@ pub struct HoopShape {
 
 /// The wall under a ball at one place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WallUnderBall {
+pub struct PressedWall {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
     /// Distance of that from the tip (m).

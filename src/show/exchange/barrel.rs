@@ -27,6 +27,8 @@ pub struct BarrelGrid {
 pub struct MovedBarrel {
     /// What it is.
     pub mode: HoopMode,
+    /// Modal mass (kg), the largest motion across the surface being 1.
+    pub modal_mass: f64,
     /// How it moves every point, the largest motion across the surface being 1.
     pub motion: Vec<[f64; 3]>,
 }
@@ -34,14 +36,14 @@ pub struct MovedBarrel {
 impl BarrelGrid {
     /// The stretch of a bat that its hoop modes are of, at so many places with so many points around.
     pub fn of(bat: &Bat, hoop: &Hoop, places: usize, around: usize) -> Self {
-        let all = hoop.modes().iter().enumerate();
-        let outlines: Vec<(HoopMode, Outline)> =
-            all.map(|(k, mode)| (mode.clone(), hoop.outline(k, places))).collect();
-        let x = outlines.first().map_or(vec![], |(_, outline)| outline.x.clone());
+        let (from, to) = (hoop.from(), hoop.to());
+        let ring = |k: usize| from + (to - from) * k as f64 / (places.max(2) - 1) as f64;
+        let x: Vec<f64> = (0..places).map(ring).collect();
         let radius: Vec<f64> = x.iter().map(|x| bat.profile().at(*x).outer).collect();
-        let modes = outlines.into_iter().map(|(mode, outline)| MovedBarrel {
-            motion: moved(mode.harmonic, &outline, around),
-            mode,
+        let modes = hoop.modes().iter().enumerate().map(|(k, mode)| MovedBarrel {
+            mode: mode.clone(),
+            modal_mass: hoop.modal_mass(k),
+            motion: moved(mode.harmonic, &hoop.outline(k, places), around),
         });
         Self { grid: Grid::tube(&x, &radius, around), modes: modes.collect(), x, radius, around }
     }

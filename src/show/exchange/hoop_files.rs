@@ -45,7 +45,8 @@ fn lines(barrel: &BarrelGrid) -> impl Iterator<Item = TraceLine> {
     })
 }
 
-fn shape(name: &str, number: i64, MovedBarrel { mode, motion }: &MovedBarrel) -> NodalData {
+fn shape(name: &str, number: i64, moved: &MovedBarrel) -> NodalData {
+    let MovedBarrel { mode, modal_mass, motion } = moved;
     let values = |at: &[f64; 3]| -> Vec<Complex> { at.map(|value| [value, 0.0]).to_vec() };
     NodalData {
         ids: [
@@ -60,7 +61,7 @@ fn shape(name: &str, number: i64, MovedBarrel { mode, motion }: &MovedBarrel) ->
             load_case: 1,
             mode: number,
             frequency: mode.frequency(),
-            modal_mass: mode.modal_mass,
+            modal_mass: *modal_mass,
             viscous: mode.damping_ratio,
             hysteretic: 0.0,
         },
@@ -84,7 +85,7 @@ pub fn vtu(barrel: &BarrelGrid) -> String {
         time: None,
         fields: vec![
             ("frequency_hz", of(|moved| moved.mode.frequency())),
-            ("modal_mass_kg", of(|moved| moved.mode.modal_mass)),
+            ("modal_mass_kg", of(|moved| moved.modal_mass)),
             ("damping_ratio", of(|moved| moved.mode.damping_ratio)),
         ],
         scalars: vec![("radius_m", barrel.radius.clone())],

@@ -63,7 +63,7 @@ fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
     for line in answers(bat, barrel, units) {
         out += &wrapped(&line, 2);
     }
-    for note in notes(bat, barrel, units) {
+    for note in notes(barrel, units) {
         out += &wrapped(&format!("note: {note}"), 2);
     }
     out

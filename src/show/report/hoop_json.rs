@@ -37,7 +37,7 @@ pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize)
             .compressed()
             .map(|[deflection_m, force_n]| file::BarrelCompression { deflection_m, force_n }),
         wall_sweep: tried.iter().filter_map(thickness).collect(),
-        notes: notes(bat, barrel, Units::Si),
+        notes: notes(barrel, Units::Si),
         tolerance_met: barrel.met(),
     }
 }
@@ -63,13 +63,13 @@ fn hoop_mode(barrel: &Barrel, (k, mode): (usize, &HoopMode), samples: usize) -> 
     }
 }
 
-fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::WallUnderBall {
+fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::PressedWall {
     let share = |share: &Share| file::HarmonicShare {
         harmonic: share.harmonic,
         flexibility_m_n: share.flexibility,
         modes: share.gains.len(),
     };
-    file::WallUnderBall {
+    file::PressedWall {
         x_m: wall.patch.x,
         from_tip_m: bat.length() - wall.patch.x,
         radius_m: wall.radius,

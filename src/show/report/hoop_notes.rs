@@ -1,18 +1,17 @@
 //! What was assumed of a barrel and where its model ends, in sentences.
 
 use crate::base::number::significant;
-use crate::bat::body::Bat;
 use crate::modes::hoop::Note;
 use crate::show::report::units::Units;
-use crate::study::trampoline::barrel::Barrel;
+use crate::study::trampoline::barrel::{Barrel, USUAL_POISSON};
 
 /// A sentence each, without a capital and a full stop at its ends.
-pub fn notes(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
+pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     let mut all: Vec<String> = barrel.hoop().notes().iter().map(|note| said(note, units)).collect();
     if let Some([less, more]) = barrel.by_poisson {
         let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
         all.push(format!(
-            "a Poisson's ratio that is 0.05 smaller or larger changes the first hoop mode by {less} or \
+            "Poisson's ratio is not known and taken as {USUAL_POISSON}; one that is 0.05 smaller or larger changes the first hoop mode by {less} or \
              {more} % (\"poisson_ratio\" in the bat file)"
         ));
     }
@@ -24,7 +23,6 @@ pub fn notes(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
             units.inline(units.length(barrel.test.at))
         ));
     }
-    all.extend(open_tip(bat, barrel));
     all
 }
 
@@ -51,15 +49,28 @@ fn dented(barrel: &Barrel) -> Option<String> {
     })
 }
 
-/// A barrel that is open at its tip.
-fn open_tip(bat: &Bat, barrel: &Barrel) -> Option<String> {
-    let pieces = &bat.profile().pieces;
-    let last = pieces.last()?;
-    let open = last.at(1.0).inner > 0.0 && bat.layup(last).core.is_none();
-    open.then(|| {
-        let _ = barrel;
-        "the tip is open: a plug in it (a \"core\" in a region of the last 12 mm) raises the first hoop mode \
-         by about 5 % and moves its largest motion from the tip to the barrel"
-            .to_owned()
-    })
+/// What the solver of the modes noted.
+fn said(note: &Note, units: Units) -> String {
+    let place = |x: f64| units.inline(units.length(x));
+    match note {
+        Note::ThinWall { at, thickness, radius } => format!(
+            "the wall is {} mm thin on a radius of {} mm, {} from the knob end: below 1/300 of the radius \
+             digits are lost",
+            significant(1e3 * thickness, 2),
+            significant(1e3 * radius, 3),
+            place(*at)
+        ),
+        Note::BeginsBeyondStep { at } => format!(
+            "the model begins at {} from the knob end: the walls on both sides of the step there do not meet",
+            place(*at)
+        ),
+        Note::BeginsBeyondWood { at } => format!(
+            "the model begins at {} from the knob end, where the wood ends: in its grain it is no solid of \
+             revolution",
+            place(*at)
+        ),
+        Note::OpenTip => "the tip is open: a plug in it (a \"core\" in a region of the last 12 mm) raises the \
+                          first hoop mode by about 5 % and moves its largest motion from the tip to the barrel"
+            .to_owned(),
+    }
 }

@@ -186,8 +186,9 @@ fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<
     }))
 }
 
-/// Poisson's ratio of a metal where it is not known, and by how much it may be another.
-const USUAL: f64 = 0.33;
+/// Poisson's ratio that is taken where none is known: that of aluminium alloys.
+pub const USUAL_POISSON: f64 = 0.33;
+/// By how much it may be another.
 const SPREAD: f64 = 0.05;
 
 /// Whether Poisson's ratio of everything in the bat is known.
@@ -202,7 +203,7 @@ fn assuming(bat: &Bat, by: f64) -> Result<Bat> {
         let regions = parts.fixtures.regions.iter_mut();
         let layups = regions.flat_map(|region| region.layup.materials_mut());
         for material in std::iter::once(&mut parts.material).chain(layups) {
-            material.poisson_ratio.get_or_insert(USUAL + by);
+            material.poisson_ratio.get_or_insert(USUAL_POISSON + by);
         }
     })
 }

@@ -1,0 +1,46 @@
+//! How does a material resist when it is stretched and sheared in all directions?
+
+use crate::bat::material::Material;
+
+/// Poisson's ratio of a metal whose own is not known.
+pub const ASSUMED_POISSON_RATIO: f64 = 0.33;
+
+/// Stiffness of a material in the directions of a bat: r across the wall, θ around, x along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// Stress for a strain, in the order rr, θθ, xx (Pa).
+    pub normal: [[f64; 3]; 3],
+    /// Shear modulus between x and r (Pa).
+    pub shear_xr: f64,
+    /// Shear modulus between r and θ (Pa).
+    pub shear_rt: f64,
+    /// Shear modulus between x and θ (Pa).
+    pub shear_xt: f64,
+    /// Density ρ (kg/m³).
+    pub density: f64,
+    /// Loss factor η.
+    pub loss_factor: f64,
+}
+
+/// Poisson's ratio of a material that is equal in all directions: its own, else the one that E and G have
+/// together if it is possible, `ν = E/2G − 1`, else None.
+pub fn poisson_ratio(material: &Material) -> Option<f64> {
+    let of_shear = |shear: f64| 0.5 * material.youngs_modulus / shear - 1.0;
+    let possible = |ratio: &f64| (0.0..0.5).contains(ratio);
+    material.poisson_ratio.or_else(|| material.shear_modulus.map(of_shear).filter(possible))
+}
+
+impl Elastic {
+    /// A material that is equal in all directions, by Lamé's constants of E and ν:
+    /// `λ = Eν/((1 + ν)(1 − 2ν))`, `μ = E/(2(1 + ν))`.
+    pub fn isotropic(material: &Material, poisson_ratio: f64) -> Self {
+        let (e, nu) = (material.youngs_modulus, poisson_ratio);
+        let shear = 0.5 * e / (1.0 + nu);
+        let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        let normal = std::array::from_fn(|i| {
+            std::array::from_fn(|j| lambda + if i == j { 2.0 * shear } else { 0.0 })
+        });
+        let (density, loss_factor) = (material.density, material.loss_factor);
+        Self { normal, shear_xr: shear, shear_rt: shear, shear_xt: shear, density, loss_factor }
+    }
+}
