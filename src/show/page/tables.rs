@@ -52,7 +52,7 @@ pub fn hoop_modes(bat: &Bat, barrel: &Barrel, units: Units) -> Table {
     let largest = format!("Largest, from the tip, {}", length_unit(units));
     let head = ["n around", "m along", "Frequency, Hz", "Relative error", &largest];
     let mut table = Table::new("Hoop modes: the wall as an elastic solid", &head);
-    for mode in barrel.hoop.lowest(MOST) {
+    for mode in barrel.hoop().lowest(MOST) {
         table.row([
             mode.harmonic.to_string(),
             mode.order.to_string(),
