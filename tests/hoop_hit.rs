@@ -19,7 +19,7 @@ use sweetspot::collision::hoop_wall::{COMPRESSION, HoopInHit, HoopWall, WallSeri
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::collision::{Ball, Hitter, Model, Scene};
-use sweetspot::modes::hoop::request::HoopRequest;
+use sweetspot::modes::hoop::HoopRequest;
 use sweetspot::proof::bundled::bundled_bat;
 
 const ALUMINIUM: &str = r#"{ "density": 2810, "youngs_modulus": 71e9, "poisson_ratio": 0.33, "shear_modulus": 26.691729323308e9 }"#;

@@ -21,9 +21,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::Felt;
-use crate::collision::struck::{complete, taken};
-use crate::modes::hoop::request::HoopRequest;
-use crate::modes::hoop::{Hoop, HoopMode, Patch};
+use crate::collision::struck::complete;
+use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch};
 
 /// Compression δ of the ball (m) by which it presses on the wall as a patch: half of the largest at game
 /// speed. Half and twice as much say what that choice does to BBCOR.
@@ -177,8 +176,7 @@ impl HoopWall {
             felt.soft += share.flexibility;
             felt.slow += share.slowness;
         }
-        let angle = patch.half_width / self.bat.profile().at(x).outer;
-        felt.unsure += beyond(&felt.flexibility, angle);
+        felt.unsure += beyond(&felt.flexibility, &patch, self.hoop.radius(x));
         felt
     }
 }
@@ -211,20 +209,13 @@ impl PartialEq for HoopWall {
     }
 }
 
-/// `P(k) = 3 (sin k − k cos k)/k³`: how much of a parabolic pressure of half width a_t a motion `cos nθ`
-/// takes, k = n a_t/r; 1 for a slow one.
-fn taken_share(k: f64) -> f64 {
-    if k < 1e-3 { 1.0 - k * k / 10.0 } else { 3.0 * (k.sin() - k * k.cos()) / (k * k * k) }
-}
-
 /// Flexibility (m/N) of the harmonics above the last that is counted, by an estimate from above: what a
 /// wall gives way to `cos nθ` falls at least as `1/n³` (a ring bends as `1/n⁴`), times the share `g_n²`
 /// that a patch of that half width over the radius has in it.
-fn beyond(flexibility: &[(usize, f64)], angle: f64) -> f64 {
+fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
     const FALL: i32 = 3;
     const FAR: usize = 60;
-    let whole = taken_share(angle);
-    let share = |n: usize| (taken_share(n as f64 * angle) / whole).powi(2);
+    let share = |n: usize| patch.share(n, radius).powi(2);
     let last = flexibility.iter().map(|(n, _)| *n).max().unwrap_or(0);
     // Of the last two, since one may lie where the patch takes nothing.
     let known = flexibility.iter().filter(|(n, _)| *n > 0 && n + 2 > last);
@@ -317,18 +308,6 @@ impl HoopInHit {
 mod tests {
     use super::*;
 
-    /// `3 (sin k − k cos k)/k³ = ∫(1 − t²) cos kt dt / ∫(1 − t²) dt` over −1 to 1.
-    #[test]
-    fn a_patch_takes_the_mean_of_a_cosine_over_its_pressure() {
-        for k in [1e-4, 0.02, 0.7, 3.0, 4.493_409_457_909_064, 9.0] {
-            let points = 20_000;
-            let at = |i: usize| -1.0 + 2.0 * (i as f64 + 0.5) / points as f64;
-            let mean: f64 = (0..points).map(|i| (1.0 - at(i).powi(2)) * (k * at(i)).cos()).sum();
-            let mean = mean * 2.0 / points as f64 * 0.75;
-            assert!((taken_share(k) - mean).abs() < 1e-8, "{k} {} {mean}", taken_share(k));
-        }
-    }
-
     /// A limit: a stiff wall changes nothing, one that stores all gives all back.
     #[test]
     fn a_wall_returns_what_it_stores() {
@@ -339,13 +318,12 @@ mod tests {
     /// Of harmonics that fall as the estimate assumes, what is beyond is stated within a few per cent.
     #[test]
     fn harmonics_left_out_are_estimated_from_the_last() {
-        let angle: f64 = 0.3547;
-        let share = |n: usize| (taken_share(n as f64 * angle) / taken_share(angle)).powi(2);
-        let soft = |n: usize| 1e-8 * share(n) * (n as f64).powi(-3);
+        let (patch, radius) = (Patch::under(0.7, 0.0366, 0.0333, COMPRESSION), 0.0333);
+        let soft = |n: usize| 1e-8 * patch.share(n, radius).powi(2) * (n as f64).powi(-3);
         for last in [6, 8, 11] {
             let counted: Vec<(usize, f64)> = (2..=last).map(|n| (n, soft(n))).collect();
             let true_rest: f64 = (last + 1..400).map(soft).sum();
-            let stated = beyond(&counted, angle);
+            let stated = beyond(&counted, &patch, radius);
             assert!((stated / true_rest - 1.0).abs() < 0.05, "{last} {stated:e} {true_rest:e}");
         }
     }

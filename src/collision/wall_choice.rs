@@ -10,8 +10,7 @@ use crate::collision::hit::{Model, Scene};
 use crate::collision::hoop_wall::{
     HoopInHit, HoopWall, WhyRigid, restitution_with_wall, rough_stiffness,
 };
-use crate::modes::hoop::request::HoopRequest;
-use crate::modes::hoop::rings;
+use crate::modes::hoop::{HoopRequest, rings};
 
 /// Whether a hollow barrel's wall gives way by its own hoop modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -57,7 +56,7 @@ impl Scene {
             // What a person says of a wall overrides what its shape says.
             _ if self.wall.is_some() => HoopInHit::None,
             (WallChoice::On, Model::Contact) => {
-                let request = request(tolerance.unwrap_or(USUAL));
+                let request = hoop_request(tolerance.unwrap_or(USUAL));
                 HoopInHit::Counted(HoopWall::of(bat, self.ball.radius, &request)?)
             }
             (WallChoice::On, _) => {
@@ -82,7 +81,7 @@ impl Scene {
         if gain <= tolerance {
             return HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance });
         }
-        match HoopWall::of(bat, self.ball.radius, &request(tolerance)) {
+        match HoopWall::of(bat, self.ball.radius, &hoop_request(tolerance)) {
             Ok(wall) => HoopInHit::Counted(wall),
             Err(error) => HoopInHit::LeftOut(WhyRigid::Unsolved(error.to_string())),
         }
@@ -112,7 +111,7 @@ const USUAL: f64 = 1e-4;
 
 /// The hoop modes that exit speeds of that tolerance need: the frequencies as well as these, and as many
 /// harmonics as leave less than that of the flexibility out (see [`crate::collision::hoop_wall`]).
-fn request(tolerance: f64) -> HoopRequest {
+pub fn hoop_request(tolerance: f64) -> HoopRequest {
     let last = match tolerance {
         t if t >= 1e-3 => 8,
         t if t >= 1e-4 => 12,

@@ -68,7 +68,8 @@ impl Fronts {
         }
         let rest = size - eliminated;
         if rest > 0 {
-            let rows = (eliminated..size).flat_map(|i| &matrix[i * size + eliminated..(i + 1) * size]);
+            let rows =
+                (eliminated..size).flat_map(|i| &matrix[i * size + eliminated..(i + 1) * size]);
             self.left.push((unknowns[eliminated..].to_vec(), rows.copied().collect()));
         }
         matrix.truncate(eliminated * size);
@@ -154,7 +155,8 @@ fn eliminate(matrix: &mut [f64], size: usize, eliminated: usize) -> Vec<f64> {
             let inverse: [f64; TOGETHER] = std::array::from_fn(|k| 1.0 / pivots[first + k]);
             for (m, row) in below.chunks_exact_mut(size).enumerate() {
                 let i = last + m;
-                let f = [a[i] * inverse[0], b[i] * inverse[1], c[i] * inverse[2], d[i] * inverse[3]];
+                let f =
+                    [a[i] * inverse[0], b[i] * inverse[1], c[i] * inverse[2], d[i] * inverse[3]];
                 let rows = a[i..].iter().zip(&b[i..]).zip(&c[i..]).zip(&d[i..]);
                 for (x, (((a, b), c), d)) in row[i..].iter_mut().zip(rows) {
                     *x = *x - f[0] * a - f[1] * b - f[2] * c - f[3] * d;

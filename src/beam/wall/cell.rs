@@ -119,8 +119,18 @@ impl Cell {
                         let n_j = values[j];
                         let (o_j, r_j) = (n_j / at.radius, at.across * slopes[j]);
                         let t_j = -at.slope * r_j;
-                        let terms =
-                            [o * o_j, o * r_j, r * r_j, t * t_j, r * t_j, o * t_j, t * n_j, r * n_j, o * n_j, n * n_j];
+                        let terms = [
+                            o * o_j,
+                            o * r_j,
+                            r * r_j,
+                            t * t_j,
+                            r * t_j,
+                            o * t_j,
+                            t * n_j,
+                            r * n_j,
+                            o * n_j,
+                            n * n_j,
+                        ];
                         for (m, term) in terms.into_iter().enumerate() {
                             sums[m * square + i * q + j] += term;
                         }
@@ -179,11 +189,8 @@ impl Cell {
                     self.qd[across],
                 );
                 let (u, v, w) = (i * width, (count + i) * width, (2 * count + i) * width);
-                k[u + j] = c_rr * rr
-                    + c_rt * (qr + rq)
-                    + (c_tt + n * n * rt) * qq
-                    + xr * dd
-                    + mass * nn;
+                k[u + j] =
+                    c_rr * rr + c_rt * (qr + rq) + (c_tt + n * n * rt) * qq + xr * dd + mass * nn;
                 let uv = n * (c_rt * rq + (c_tt + rt) * qq - rt * qr);
                 let uw = c_rx * rd + c_tx * qd + xr * dr;
                 let vw = n * (c_tx * qd - xt * dq);

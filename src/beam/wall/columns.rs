@@ -158,9 +158,8 @@ fn divide(stretch: &Stretch, [left, right]: [&Border; 2], columns: &mut Vec<Colu
     };
     let both = count < 1.5 && left.steps > 0 && right.steps > 0;
     let reach = if both { 0.5 * reach } else { reach };
-    let mut places: Vec<f64> = (0..=count as usize)
-        .map(|k| stretch.from + length * k as f64 / count)
-        .collect();
+    let mut places: Vec<f64> =
+        (0..=count as usize).map(|k| stretch.from + length * k as f64 / count).collect();
     if both {
         places.insert(1, stretch.from + 0.5 * length);
     }
@@ -232,7 +231,9 @@ fn cut(radii: &[f64], border: &Border, far: f64, innermost: bool, cuts: &mut [Ve
     let fine = innermost || ACROSS * far <= thickness;
     let mut borders: Vec<f64> = radii.to_vec();
     if fine {
-        borders.extend(places.filter(|radius| **radius > radii[0] && **radius < radii[radii.len() - 1]));
+        borders.extend(
+            places.filter(|radius| **radius > radii[0] && **radius < radii[radii.len() - 1]),
+        );
     }
     borders.sort_by(f64::total_cmp);
     borders.dedup_by(|a, b| (*a - *b).abs() <= same);

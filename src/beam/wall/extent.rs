@@ -60,7 +60,9 @@ impl Extent {
     /// [`Error::Value`] for a bat that is solid, or whose wall is of wood.
     pub fn of(bat: &Bat, lead: f64) -> Result<Self> {
         let pieces = &bat.profile().pieces;
-        let widest = |piece: &Piece| [0.0, 0.5, 1.0].map(|s| piece.at(s).outer).into_iter().fold(0.0, f64::max);
+        let widest = |piece: &Piece| {
+            [0.0, 0.5, 1.0].map(|s| piece.at(s).outer).into_iter().fold(0.0, f64::max)
+        };
         let walls = pieces.iter().enumerate().filter(|(_, piece)| is_wall(bat, piece));
         let barrel = walls.max_by(|(_, a), (_, b)| widest(a).total_cmp(&widest(b)));
         let Some((barrel, _)) = barrel else {
@@ -70,13 +72,18 @@ impl Extent {
                                     of its grain, so that its wall is no solid of revolution";
                     Error::value("material", "a hollow bat of wood", expected)
                 }
-                false => Error::value("profile", "a solid bat", "a hollow one: only a wall has hoop modes"),
+                false => Error::value(
+                    "profile",
+                    "a solid bat",
+                    "a hollow one: only a wall has hoop modes",
+                ),
             });
         };
         let (mut first, mut limit) = (0, Limit::Knob);
         for k in (0..barrel).rev() {
             let (left, right) = (pieces[k].at(1.0), pieces[k + 1].at(0.0));
-            let (a, b) = (inside(bat, &pieces[k], left.inner), inside(bat, &pieces[k + 1], right.inner));
+            let (a, b) =
+                (inside(bat, &pieces[k], left.inner), inside(bat, &pieces[k + 1], right.inner));
             let common = left.outer.min(right.outer) - a.max(b);
             let parted = common <= 1e-3 * (left.outer - a).min(right.outer - b);
             let wood = bat.layup(&pieces[k]).materials().any(is_wood);

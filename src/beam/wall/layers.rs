@@ -241,7 +241,8 @@ impl Layers {
         for pair in self.stretches.windows(2) {
             let (left, right) = (pair[0].radii(pair[0].to), pair[1].radii(pair[1].from));
             if !meet(&left, &right) {
-                let [a, b, c, d] = [left[0], left[left.len() - 1], right[0], right[right.len() - 1]];
+                let [a, b, c, d] =
+                    [left[0], left[left.len() - 1], right[0], right[right.len() - 1]];
                 let found = format!(
                     "walls from {:.2} to {:.2} mm and from {:.2} to {:.2} mm of radius at {} m",
                     1e3 * a,

@@ -148,7 +148,8 @@ impl Hoop {
             KnobSide::Clamped => [EndHold::Clamped, EndHold::Free],
         };
         let climb = Climb::new(&layers, ends, request);
-        let solved = threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
+        let solved =
+            threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
         let solved = solved.into_iter().collect::<Result<Vec<_>>>()?;
         let met = solved.iter().flat_map(|(_, errors)| errors).all(|error| *error <= request.tol);
         let modes = solved.iter().flat_map(|(spectrum, errors)| modes(spectrum, errors)).collect();

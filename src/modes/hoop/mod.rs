@@ -18,7 +18,7 @@ pub mod spectrum;
 pub mod patch;
 pub mod hoop;
 
+pub use crate::beam::wall::extent::rings;
 pub use hoop::{Hoop, HoopMode, Note, Outline};
 pub use patch::{Patch, Share};
 pub use request::{HoopRequest, KnobSide};
-pub use crate::beam::wall::extent::rings;

@@ -103,7 +103,8 @@ impl System {
             for k in 0..parts {
                 let mut unknowns = self.numbers(inside[k].clone());
                 let eliminated = unknowns.len();
-                let mut touched: Vec<usize> = self.links[c][k].entries.iter().map(|e| e.0).collect();
+                let mut touched: Vec<usize> =
+                    self.links[c][k].entries.iter().map(|e| e.0).collect();
                 touched.retain(|u| *u < self.unknowns.count && !unknowns.contains(u));
                 touched.sort_unstable();
                 touched.dedup();
@@ -180,8 +181,7 @@ impl System {
                         if to.is_empty() {
                             continue;
                         }
-                        let product: f64 =
-                            density * dot(row, motion);
+                        let product: f64 = density * dot(row, motion);
                         for (unknown, share) in to {
                             y[*unknown] += share * product;
                         }
