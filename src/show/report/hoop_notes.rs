@@ -1,9 +1,10 @@
 //! What was assumed of a barrel and where its model ends, in sentences.
 
 use crate::base::number::significant;
+use crate::beam::wall::elastic::ASSUMED_POISSON_RATIO;
 use crate::modes::hoop::Note;
 use crate::show::report::units::Units;
-use crate::study::trampoline::barrel::{Barrel, USUAL_POISSON};
+use crate::study::trampoline::barrel::Barrel;
 
 /// A sentence each, without a capital and a full stop at its ends.
 pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
@@ -11,7 +12,7 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     if let Some([less, more]) = barrel.by_poisson {
         let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
         all.push(format!(
-            "Poisson's ratio is not known and taken as {USUAL_POISSON}; one that is 0.05 smaller or larger changes the first hoop mode by {less} or \
+            "Poisson's ratio is not known and taken as {ASSUMED_POISSON_RATIO}; one that is 0.05 smaller or larger changes the first hoop mode by {less} or \
              {more} % (\"poisson_ratio\" in the bat file)"
         ));
     }

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Fixtures;
+use crate::beam::wall::elastic::{ASSUMED_POISSON_RATIO, poisson_ratio};
 use crate::collision::ball::Ball;
 use crate::collision::bbcor::TEST_SPEED;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::hoop_wall::{HoopInHit, HoopWall};
 use crate::collision::sweep::{Accuracy, sweep};
+use crate::collision::wall_choice::hoop_request;
 use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::modes::hoop::{Hoop, HoopRequest, KnobSide};
 use crate::study::trampoline::pressed::PressedWall;
@@ -36,14 +38,18 @@ pub struct BarrelTest {
 }
 
 impl BarrelTest {
-    /// A ball at the speed of laboratories, 6 in from the tip of that bat, to that accuracy.
+    /// A ball at the speed of laboratories, 6 in from the tip of that bat, every frequency to that accuracy; exit
+    /// speeds to 1e-4 at best, for the patch leaves far more open.
     pub fn of(bat: &Bat, ball: Ball, accuracy: Accuracy) -> Self {
+        const FINEST: f64 = 1e-4;
+        let tol = accuracy.exit_speed;
+        let accuracy = Accuracy { exit_speed: tol.max(FINEST), ..accuracy };
         Self {
             at: (bat.length() - FROM_TIP).max(0.5 * bat.length()),
             cor: ball.cor,
             ball,
             ball_speed: TEST_SPEED,
-            hoop: HoopRequest { tol: accuracy.exit_speed, ..HoopRequest::default() },
+            hoop: HoopRequest { tol, least: 3, ..hoop_request(accuracy.exit_speed) },
             accuracy,
         }
     }
@@ -186,15 +192,13 @@ fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<
     }))
 }
 
-/// Poisson's ratio that is taken where none is known: that of aluminium alloys.
-pub const USUAL_POISSON: f64 = 0.33;
-/// By how much it may be another.
+/// By how much Poisson's ratio may be another than the one that is assumed.
 const SPREAD: f64 = 0.05;
 
 /// Whether Poisson's ratio of everything in the bat is known.
 fn knows_poisson(bat: &Bat) -> bool {
     let mut layups = bat.layups().iter();
-    layups.all(|layup| layup.materials().all(|material| material.poisson_ratio.is_some()))
+    layups.all(|layup| layup.materials().all(|material| poisson_ratio(material).is_some()))
 }
 
 /// The bat with Poisson's ratio where it is not known that much off the usual one.
@@ -202,8 +206,9 @@ fn assuming(bat: &Bat, by: f64) -> Result<Bat> {
     bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();
         let layups = regions.flat_map(|region| region.layup.materials_mut());
-        for material in std::iter::once(&mut parts.material).chain(layups) {
-            material.poisson_ratio.get_or_insert(USUAL_POISSON + by);
+        let all = std::iter::once(&mut parts.material).chain(layups);
+        for material in all.filter(|material| poisson_ratio(material).is_none()) {
+            material.poisson_ratio.get_or_insert(ASSUMED_POISSON_RATIO + by);
         }
     })
 }
