@@ -174,7 +174,9 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
-        Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),
+        Some(_) => {
+            "hoop modes of this hollow barrel: not a beam's; sweetspot hoop has them".to_owned()
+        }
         None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
     });
     ignored

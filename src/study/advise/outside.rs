@@ -14,7 +14,7 @@ pub fn outside(bat: &Bat) -> Vec<String> {
             true => {
                 "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
                  the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
-                 these modes (--wall)"
+                 these modes (--wall) and sweetspot hoop shows them"
             }
             false => {
                 "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
