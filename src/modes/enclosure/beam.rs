@@ -10,7 +10,7 @@ use crate::bat::body::Bat;
 use crate::bat::fixtures::Attachment;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
-use crate::modes::enclosure::radii::{Curved, SHARE, curved, place};
+use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::modes::enclosure::sections::Rings;
 
 /// Points of the energies: they tell polynomials of degree 23 apart and integrate those of degree 47.
@@ -115,7 +115,7 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
     if !bat.edits().is_empty() {
         return refuse("edits", "a bat with edits", "a bat as it stands in its file");
     }
-    if bat.factors()[1] != 1.0 {
+    if bat.factors()[1] != 1.0 || bat.weighed().first_bending.is_some() {
         let expected = "moduli that stand in the file";
         return refuse("weighed.first_bending_hz", "moduli that follow from a tap", expected);
     }
@@ -145,7 +145,7 @@ pub struct Layout {
 }
 
 fn data(value: f64) -> Interval {
-    Interval::around(value, SHARE)
+    Interval::around(value, NUMBER)
 }
 
 impl Layout {
@@ -164,13 +164,14 @@ impl Layout {
             let near = |k: &usize| (borders[*k] - attachment.x).abs();
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
             let offset = data(attachment.offset);
-            let centre = place(attachment.x, length) + offset;
+            let centre = place(attachment.x, None) + offset;
             let numbers = [data(attachment.mass), data(attachment.rotary_inertia), centre, offset];
             (border.expect("a bat has borders"), numbers)
         };
         let mut masses: Vec<_> = bat.fixtures().attachments.iter().map(mass).collect();
         masses.sort_by_key(|(border, _)| *border);
-        Ok(Self { curves, heavier, masses, length: place(length, length) })
+        let whole = place(length, bat.profile().turned.then_some(length));
+        Ok(Self { curves, heavier, masses, length: whole })
     }
 }
 

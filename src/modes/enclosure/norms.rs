@@ -41,6 +41,8 @@ pub struct Norms {
     pub trace: f64,
     /// `Σ τ_n²`, at most.
     pub square: f64,
+    /// Γ (m²/J) of [`super::nodes`]: the square of how far a strain of unit energy moves any place, at most.
+    pub reach: f64,
     /// The largest share by which 1/EI and 1/κGA were taken to be larger.
     pub above: f64,
     /// Number of stretches that it took.
@@ -134,7 +136,7 @@ impl Norms {
         ];
         let right = inverse_of(turned).ok_or_else(unbounded)?;
         let knob: Vec<Met> = masses.iter().filter(|mass| mass.before <= split).copied().collect();
-        let (trace_l, square_l, outer_l) = from_end(&stretches[..split], &knob, &left);
+        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &left, length);
         let count = stretches.len();
         let mirrored: Vec<Stretch> =
             stretches.drain(split..).rev().map(|stretch| stretch.mirrored(length)).collect();
@@ -144,7 +146,8 @@ impl Norms {
             .map(|mass| Met { before: count - mass.before, centre: length - mass.centre, ..*mass })
             .rev()
             .collect();
-        let (trace_r, square_r, outer_r) = from_end(&mirrored, &tip, &right);
+        let (parts_r, outer_r) = from_end(&mirrored, &tip, &right, length);
+        let [trace, square, reach] = std::array::from_fn(|k| parts_l[k] + parts_r[k]);
         // U_r in the left end's coordinates: `⟨φ, x⟩ = L ⟨φ, 1⟩ − ⟨φ, x′⟩`.
         let [a, b, c] = outer_r;
         let outer_r =
@@ -153,8 +156,9 @@ impl Norms {
         let across = both[0][0] + both[1][1];
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
         Ok(Self {
-            trace: (trace_l + trace_r).high,
-            square: (square_l + square_r + across + across).high,
+            trace: trace.high,
+            square: (square + square + across + across).high,
+            reach: reach.high,
             above: shares.fold(0.0, f64::max),
             stretches: count,
         })
@@ -292,13 +296,14 @@ impl Stretch {
     }
 }
 
-/// Trace, square of the norm, and U at the inner end, over stretches from an end of the bat.
+/// Trace, half the square of the norm, Γ, and U at the inner end, over stretches from an end of the bat.
 fn from_end(
     stretches: &[Stretch],
     masses: &[Met],
     inverse: &[Interval; 3],
-) -> (Interval, Interval, [Interval; 3]) {
-    let (mut trace, mut square) = (ZERO, ZERO);
+    length: Interval,
+) -> ([Interval; 3], [Interval; 3]) {
+    let mut parts = [ZERO; 3];
     let mut sums = Sums { line: [ZERO; 2], kink: [ZERO; 2], outer: [ZERO; 3] };
     // Masses that were passed, as `u` of a strain beyond them has them: `Σμ`, `Σμc`, `Σμc² + J`.
     let mut masses = masses.iter().peekable();
@@ -312,16 +317,20 @@ fn from_end(
             sums.line[0] = sums.line[0] + met.mass;
             sums.line[1] = sums.line[1] + met.mass * met.centre;
         }
-        let [own, squares] = sums.over(stretch, inverse);
-        trace = trace + own;
-        square = square + squares + squares;
+        let own = sums.over(stretch, inverse, length);
+        parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
     }
-    (trace, square, sums.outer)
+    (parts, sums.outer)
 }
 
 impl Sums {
-    /// Goes over a stretch: its parts of `∫Σ u·v/C` and `∫Σ vᵀUv/C`.
-    fn over(&mut self, stretch: &Stretch, [g11, g12, g22]: &[Interval; 3]) -> [Interval; 2] {
+    /// Goes over a stretch: its parts of `∫Σ u·v/C`, `∫Σ vᵀUv/C` and Γ.
+    fn over(
+        &mut self,
+        stretch: &Stretch,
+        [g11, g12, g22]: &[Interval; 3],
+        length: Interval,
+    ) -> [Interval; 3] {
         let gauss = &GAUSS_40;
         let half = stretch.half;
         let x = stretch.places();
@@ -373,7 +382,24 @@ impl Sums {
             let form = o11.product(v1).product(v1).sum(&twice).sum(&o22.product(v2).product(v2));
             square = square.sum(&form.product(soft));
         }
+        let mut reach = Values::constant(ZERO);
+        for ((_, [v1, v2], soft), kinks) in strains.iter().zip([true, false]) {
+            // Beyond the strain the bat lies on the other line, which differs by the unit strain's own motion.
+            let [w1, w2] = match kinks {
+                true => [v1.difference(&x), v2.sum(&one)],
+                false => [v1.sum(&one), *v2],
+            };
+            let ends = [
+                *v1,
+                v1.sum(&v2.product(&x)),
+                w1.sum(&w2.product(&x)),
+                w1.sum(&w2.times(length)),
+            ];
+            let squares = ends.map(|end| end.product(&end));
+            let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
+            reach = reach.sum(&sum.product(soft));
+        }
         *self = Self { line: [a_end, b_end], kink: [u1_end, u2_end], outer: [e11, e12, e22] };
-        [half * trace.integral(gauss), half * square.integral(gauss)]
+        [trace, square, reach].map(|of| half * of.integral(gauss))
     }
 }

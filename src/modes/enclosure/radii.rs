@@ -1,18 +1,23 @@
 //! What are the radii along the bat, as intervals that hold those of the bat in the file?
 //!
-//! A bat's doubles are decimals of its file times a unit, each off by some `u` of itself; [`SHARE`] holds all
-//! of that. Curves are laid anew through such intervals by the formulas of [`crate::bat::pchip`]: slopes are
-//! continuous functions of the stations, so that where an interval leaves a branch open the hull of both is
-//! right.
+//! A bat's doubles are decimals of its file times units, each off by some `u` of itself, and what is proven is
+//! proven of the decimals: [`LENGTH`], [`NUMBER`] and [`BORE`] hold all that reading may have rounded. Curves are
+//! laid anew through such intervals by the formulas of [`crate::bat::pchip`]: slopes are continuous functions
+//! of the stations, so that where an interval leaves a branch open the hull of both is right.
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::{Interval, UNIT};
+use crate::base::interval::{Interval, UNIT, up};
 use crate::bat::body::Bat;
 use crate::bat::profile::{Interpolation, Piece, Radii, SAME_PLACE, Stations};
 
-/// A number of a bat is within this share of what its file writes: the decimal, a unit's factor and the
-/// product of both are rounded once each, a half is exact, and a difference is rounded once more.
-pub const SHARE: f64 = 8.0 * UNIT;
+/// A length is within this share of what its file writes. A fraction of an inch takes a quotient and a sum, the
+/// unit a factor and a product, feet and inches another sum: `5u`, and a half is exact.
+pub const LENGTH: f64 = 6.0 * UNIT;
+/// An inner radius is within this share of the outer one: outer radius less wall, each a length.
+pub const BORE: f64 = 13.0 * UNIT;
+/// Any other number is within this share of what its file writes: a unit such as `lb/in^3` is a quotient of powers
+/// of factors that are products themselves, which rounds fewer than twenty times.
+pub const NUMBER: f64 = 32.0 * UNIT;
 /// Curves laid in plain numbers are nearer than this to those laid in intervals, as a share of the radius.
 const ALIKE: f64 = 1e-9;
 
@@ -48,12 +53,14 @@ impl Curved {
     }
 }
 
-/// The place `x` (m) of a bat of that length, as an interval.
-pub fn place(x: f64, length: f64) -> Interval {
+/// The place `x` (m) from the knob end; of a profile that was turned places are differences from `length`.
+pub fn place(x: f64, turned: Option<f64>) -> Interval {
     match x == 0.0 {
         true => Interval::point(0.0),
-        // One counted from the tip is a difference from the length.
-        false => Interval::point(x) + Interval::within(0.5 * SHARE * length),
+        false => {
+            let off = LENGTH * x.abs() + turned.map_or(0.0, |length| 2.0 * LENGTH * length);
+            Interval::point(x) + Interval::within(up(off))
+        }
     }
 }
 
@@ -64,16 +71,17 @@ pub fn place(x: f64, length: f64) -> Interval {
 /// [`Error::Value`] for formulas, and for curves that are not those through the stations.
 pub fn curved(bat: &Bat) -> Result<Vec<Curved>> {
     let profile = bat.profile();
-    let (stations, length) = (&profile.stations, profile.length());
-    let x: Vec<Interval> = stations.x.iter().map(|x| place(*x, length)).collect();
-    let around = |(r, outer): (&f64, &f64)| match *r == 0.0 {
+    let stations = &profile.stations;
+    let turned = profile.turned.then(|| profile.length());
+    let x: Vec<Interval> = stations.x.iter().map(|x| place(*x, turned)).collect();
+    let around = |r: f64, off: f64| match r == 0.0 {
         true => Interval::point(0.0),
-        false => Interval::point(*r) + Interval::within(SHARE * outer),
+        false => Interval::point(r) + Interval::within(up(off)),
     };
-    let laid = [&stations.outer, &stations.inner].map(|radii| {
-        let radii: Vec<Interval> = radii.iter().zip(&stations.outer).map(around).collect();
-        cubics(stations, &x, &radii)
-    });
+    let outer: Vec<_> = stations.outer.iter().map(|r| around(*r, LENGTH * r)).collect();
+    let both = stations.inner.iter().zip(&stations.outer);
+    let inner: Vec<_> = both.map(|(r, outer)| around(*r, BORE * outer)).collect();
+    let laid = [outer, inner].map(|radii| cubics(stations, &x, &radii));
     profile.pieces.iter().map(|piece| on_piece(piece, stations, &x, &laid)).collect()
 }
 
@@ -96,7 +104,8 @@ fn on_piece(
         (true, _) => (x[k], Interval::point(0.0)),
         (_, true) => (x[k + 1], Interval::point(1.0)),
         _ => {
-            let place = place(at, length);
+            // A region's border counts from the knob end.
+            let place = place(at, None);
             let all = Interval { low: 0.0, high: 1.0 };
             let part = (x[k + 1] - x[k]).reciprocal().map(|over| (place - x[k]) * over);
             (place, part.map_or(all, |part| part.and(all)))

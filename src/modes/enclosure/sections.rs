@@ -5,7 +5,7 @@ use crate::base::interval::tables::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::layup::Layup;
 use crate::bat::material::Material;
-use crate::modes::enclosure::radii::{Cubic, Curved, SHARE};
+use crate::modes::enclosure::radii::{Cubic, Curved, NUMBER};
 
 /// Degree of the polynomials that stand for 1/EI, κGA of a tube and 1/κGA.
 const DEGREE: usize = 12;
@@ -37,8 +37,8 @@ struct Ring<'a> {
 #[derive(Debug, Clone, Copy)]
 struct Border {
     series: Series,
-    /// Between these at every place.
-    range: Interval,
+    /// Its Bernstein coefficients, between which it stays.
+    cubic: Cubic,
 }
 
 /// A function along a cell that is a polynomial, or nearly one.
@@ -52,7 +52,7 @@ pub struct Nearly {
 
 /// A number of a bat's file.
 fn data(value: f64) -> Interval {
-    Interval::around(value, SHARE)
+    Interval::around(value, NUMBER)
 }
 
 fn number(value: f64) -> Interval {
@@ -71,12 +71,17 @@ impl Border {
             part((b3 - b0) - number(3.0) * (b2 - b1), 20.0),
         ];
         let terms = &terms[..=degree.min(3)];
-        let range = cubic.iter().copied().reduce(Interval::hull).expect("four coefficients");
-        Self { series: Series::of(terms), range }
+        Self { series: Series::of(terms), cubic: *cubic }
     }
 
     fn less(self, thickness: Interval) -> Self {
-        Self { series: self.series.plus(-thickness), range: self.range - thickness }
+        let cubic = self.cubic.map(|radius| radius - thickness);
+        Self { series: self.series.plus(-thickness), cubic }
+    }
+
+    /// Between these at every place.
+    fn range(&self) -> Interval {
+        self.cubic.into_iter().reduce(Interval::hull).expect("four coefficients")
     }
 }
 
@@ -98,20 +103,16 @@ impl<'a> Ring<'a> {
         self.squares(gauss).product(&b.sum(&a.product(&a)))
     }
 
-    /// `b − a` and `b + a` at least.
-    fn least(&self) -> [Interval; 2] {
-        let b = self.outside.range;
-        let a = self.inside.as_ref().map_or(number(0.0), |inside| inside.range);
-        [b - a, b + a]
-    }
-
-    /// `b² − a²` and `b⁴ − a⁴` at least.
-    fn least_powers(&self) -> [Interval; 2] {
-        let [difference, sum] = self.least();
-        let positive = |of: Interval| Interval { low: of.low.max(0.0), ..of };
-        let squares = positive(difference) * positive(sum);
-        let a = self.inside.as_ref().map_or(number(0.0), |inside| inside.range);
-        [squares, squares * (self.outside.range.square() + a.square())]
+    /// `b² − a²` and `b⁴ − a⁴` at least: each factor by the least of its Bernstein coefficients.
+    fn least_powers(&self) -> [f64; 2] {
+        let b = &self.outside.cubic;
+        let a = self.inside.as_ref().map_or([number(0.0); 4], |inside| inside.cubic);
+        let least = |of: [Interval; 4]| of.iter().fold(f64::INFINITY, |least, of| least.min(of.low));
+        let difference = least(std::array::from_fn(|k| b[k] - a[k])).max(0.0);
+        let sum = least(std::array::from_fn(|k| b[k] + a[k])).max(0.0);
+        let squares = number(difference) * number(sum);
+        let own = number(least(*b).max(0.0)).square() + number(least(a).max(0.0)).square();
+        [squares.low.max(0.0), (squares * own).low.max(0.0)]
     }
 
     /// Whether κ does not depend on the place.
@@ -186,7 +187,7 @@ impl<'a> Rings<'a> {
     /// What EI (N m²) is at least on the cell.
     pub fn bending_at_least(&self) -> f64 {
         let quarter = Interval::pi() * number(0.25);
-        let of = |ring: &Ring| data(ring.material.youngs_modulus) * ring.least_powers()[1];
+        let of = |ring: &Ring| data(ring.material.youngs_modulus) * number(ring.least_powers()[1]);
         (quarter * self.all().map(of).sum::<Interval>()).low
     }
 
@@ -241,14 +242,14 @@ impl<'a> Rings<'a> {
             let [squares, _] = ring.least_powers();
             let hole = match (&ring.inside, ring.even()) {
                 (Some(inside), false) => {
-                    let over = ring.outside.range.reciprocal()?;
-                    let most = (ring.empty * (inside.range * over).square()).high;
+                    let over = ring.outside.range().reciprocal()?;
+                    let most = (ring.empty * (inside.range() * over).square()).high;
                     Interval { low: 0.0, high: most.min(1.0) }
                 }
                 _ => number(0.0),
             };
             let modulus = data(ring.material.shear_modulus?) * Interval::pi();
-            least = least + kappa(ring.material, hole) * modulus * squares;
+            least = least + kappa(ring.material, hole) * modulus * number(squares);
         }
         Some(least.low)
     }
