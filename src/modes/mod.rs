@@ -14,6 +14,7 @@
 //! | [`pairs`] | the lowest motions whatever the degree of the elements |
 //! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
+//! | [`enclosure`] | between which numbers do frequencies lie, proven |
 //! | [`compliance`] | how the bat gives way at a place |
 //! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
 
@@ -50,3 +51,4 @@ pub mod task;
 pub mod solve;
 pub mod up_to;
 pub mod batch;
+pub mod enclosure;

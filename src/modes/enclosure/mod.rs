@@ -13,6 +13,7 @@
 //! | [`conclude`](mod@conclude) | which eigenvalues follow, none missing |
 //! | [`nodes`] | where is a node, proven |
 //! | [`trials`](mod@trials), [`guarantee`](mod@guarantee) | which motions are tried; as narrow as asked |
+//! | [`within`] | every bat within so much of this one |
 
 pub mod radii;
 pub mod sections;
@@ -23,3 +24,4 @@ pub mod conclude;
 pub mod nodes;
 pub mod trials;
 pub mod guarantee;
+pub mod within;

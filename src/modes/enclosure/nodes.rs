@@ -36,9 +36,9 @@ pub struct Nodes<'a> {
 }
 
 /// Places on a cell at which the sign of a deflection is looked for first.
-const LOOKS: usize = 16;
+const LOOKS: usize = 6;
 /// Halvings of the way to a node.
-const MOST_HALVINGS: usize = 60;
+const MOST_HALVINGS: usize = 40;
 
 impl Nodes<'_> {
     /// Intervals (m) with a node of mode `k`, counted from 0, in each, whose trial that is.

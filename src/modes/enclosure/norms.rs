@@ -54,6 +54,10 @@ const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 const ABOVE: f64 = 1e-11;
 /// Halvings of a piece of the profile.
 const MOST_HALVINGS: usize = 40;
+/// Halving brings the polynomial nearer by 2¹³, unless it is rounding that is left.
+const STALLED: f64 = 0.1;
+/// A bat that takes more stretches is refused.
+const MOST_STRETCHES: usize = 20_000;
 /// A polynomial for 1/EI that is farther above it than this is of no use.
 const USELESS: f64 = 1e-3;
 
@@ -102,7 +106,9 @@ impl Norms {
         let (mut stretches, mut borders) = (vec![], vec![]);
         for (piece, curve) in layout.curves.iter().enumerate() {
             borders.push(stretches.len());
-            halved(bat, layout, theory, (piece, curve, [0.0, 1.0]), 0, &mut stretches)?;
+            let before = f64::INFINITY;
+            let part = Part { piece, curve, of_piece: [0.0, 1.0], halvings: 0, before };
+            halved(bat, layout, theory, part, &mut stretches)?;
         }
         borders.push(stretches.len());
         let masses: Vec<Met> = layout
@@ -218,30 +224,45 @@ fn times(a: [[Interval; 2]; 2], b: [[Interval; 2]; 2]) -> [[Interval; 2]; 2] {
     [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
 }
 
-/// A stretch of a piece, halved until polynomials are near 1/EI and 1/κGA.
+/// A part of a piece of the profile.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    piece: usize,
+    curve: &'a Curved,
+    /// Where in the piece it begins and ends, in [0, 1].
+    of_piece: [f64; 2],
+    /// How often the piece was halved for it.
+    halvings: usize,
+    /// How far above 1/EI the polynomial on twice its length is.
+    before: f64,
+}
+
+/// A part of a piece, halved until polynomials are near 1/EI and 1/κGA or nothing is gained.
 fn halved(
     bat: &Bat,
     layout: &Layout,
     theory: Theory,
-    (piece, curve, [from, to]): (usize, &Curved, [f64; 2]),
-    depth: usize,
+    part: Part,
     all: &mut Vec<Stretch>,
 ) -> Result<()> {
+    let Part { piece, curve, of_piece: [from, to], halvings, before } = part;
     let stretch = Stretch::of(bat, layout, theory, piece, &curve.part(from, to));
-    match stretch {
-        Some(stretch) if stretch.above < ABOVE || depth == MOST_HALVINGS => all.push(stretch),
-        _ if depth == MOST_HALVINGS => {
-            let found = format!("sections near {:.4} m that nothing bounds", curve.start.middle());
-            return Err(Error::value("profile", found, "a wall that is not thinner than round-off"));
-        }
-        _ => {
-            let middle = 0.5 * (from + to);
-            for part in [[from, middle], [middle, to]] {
-                halved(bat, layout, theory, (piece, curve, part), depth + 1, all)?;
-            }
-        }
+    let above = stretch.as_ref().map_or(f64::INFINITY, |stretch| stretch.above);
+    if let Some(stretch) = stretch
+        && (above < ABOVE || above > STALLED * before)
+    {
+        all.push(stretch);
+        return Ok(());
     }
-    Ok(())
+    if halvings == MOST_HALVINGS || all.len() >= MOST_STRETCHES {
+        let found = format!("sections near {:.4} m that nothing bounds", curve.start.middle());
+        return Err(Error::value("profile", found, "a wall that is not thinner than round-off"));
+    }
+    let middle = 0.5 * (from + to);
+    [[from, middle], [middle, to]].into_iter().try_for_each(|of_piece| {
+        let part = Part { of_piece, halvings: halvings + 1, before: above, ..part };
+        halved(bat, layout, theory, part, all)
+    })
 }
 
 impl Stretch {
