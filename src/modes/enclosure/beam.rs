@@ -91,7 +91,8 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
         Err(Error::value(field, found.to_owned(), expected.to_owned()))
     };
     let fixtures = bat.fixtures();
-    let springs = fixtures.attachments.iter().any(|a| a.stiffness > 0.0 || a.rotational_stiffness > 0.0);
+    let springs =
+        fixtures.attachments.iter().any(|a| a.stiffness > 0.0 || a.rotational_stiffness > 0.0);
     let bare = "a free bat with masses on it at most: nothing is proven of the others yet";
     if !fixtures.supports.is_empty() {
         return refuse("supports", "a held bat", bare);
@@ -205,7 +206,8 @@ impl Proven {
     pub fn of(bat: &Bat, layout: &Layout, mesh: &Mesh, theory: Theory) -> Result<Self> {
         let origin = bat.inertia().balance_point;
         let gauss = &GAUSS_24;
-        let (mut cells, mut begin) = (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
+        let (mut cells, mut begin) =
+            (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
         for part in mesh.elements.iter().flat_map(|element| element.parts(bat)) {
             let [from, to] = part.of_piece;
             begin[part.piece] = begin[part.piece].min(cells.len());
@@ -264,8 +266,7 @@ fn cell(
     let middle = curve.start + half - Interval::point(origin);
     let mass = rings.mass(gauss);
     let arm = Series::of(&[middle, half]).values(gauss);
-    let mass_series =
-        [Series::through(gauss, &mass), Series::through(gauss, &mass.product(&arm))];
+    let mass_series = [Series::through(gauss, &mass), Series::through(gauss, &mass.product(&arm))];
     let turning = theory.turns().then(|| {
         let turning = rings.turning(gauss);
         (turning, Series::through(gauss, &turning))

@@ -294,13 +294,7 @@ impl Proven {
 
     /// Steps of V and m over the masses at a border, `V` by `μ w_a`, `m` by `−(d μ w_a + J θ)`; returns what kink
     /// and jump there are worth at most, on either side of the masses.
-    fn cross(
-        &self,
-        moved: &Moved,
-        border: usize,
-        sign: f64,
-        at: &mut [Interval; 2],
-    ) -> f64 {
+    fn cross(&self, moved: &Moved, border: usize, sign: f64, at: &mut [Interval; 2]) -> f64 {
         let [jump, kink] = moved.steps[border];
         let worth = |[force, moment]: &[Interval; 2]| {
             up(up(kink * moment.largest()) + up(jump * force.largest()))

@@ -8,9 +8,9 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::modes::enclosure::beam::{Layout, Proven, carried};
-use crate::modes::enclosure::conclude::{Conclusion, Eigenvalue, conclude};
-use crate::modes::enclosure::energies::{Energies, Trial};
-use crate::modes::enclosure::nodes::{self, Nodes};
+use crate::modes::enclosure::conclude::{Eigenvalue, conclude};
+use crate::modes::enclosure::energies::Energies;
+use crate::modes::enclosure::nodes::Nodes;
 use crate::modes::enclosure::norms::Norms;
 use crate::modes::enclosure::trials::trials;
 use crate::modes::plan::Plan;
@@ -81,7 +81,8 @@ impl Guarantee {
 
     /// Whether another has more modes, or as many and is narrower.
     fn is_worse_than(&self, other: &Self) -> bool {
-        let widest = |of: &Self| of.modes.iter().map(|mode| mode.eigenvalue.width()).fold(0.0, f64::max);
+        let widest =
+            |of: &Self| of.modes.iter().map(|mode| mode.eigenvalue.width()).fold(0.0, f64::max);
         let more = other.modes.len().cmp(&self.modes.len());
         more.is_gt() || more.is_eq() && widest(other) < widest(self)
     }

@@ -138,7 +138,9 @@ fn halfway((a, xi): Place, (b, eta): Place) -> Option<Place> {
             (middle != xi && middle != eta).then_some((a, middle))
         }
         // The border between two cells is the end of the one that is sure.
-        false if a < b && xi < 1.0 => Some((a, if xi > 1.0 - 1e-9 { 1.0 } else { 0.5 * (xi + 1.0) })),
+        false if a < b && xi < 1.0 => {
+            Some((a, if xi > 1.0 - 1e-9 { 1.0 } else { 0.5 * (xi + 1.0) }))
+        }
         false if a > b && xi > -1.0 => {
             Some((a, if xi < -1.0 + 1e-9 { -1.0 } else { 0.5 * (xi - 1.0) }))
         }

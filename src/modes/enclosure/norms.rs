@@ -156,8 +156,7 @@ impl Norms {
         let [trace, square, reach] = std::array::from_fn(|k| parts_l[k] + parts_r[k]);
         // U_r in the left end's coordinates: `⟨φ, x⟩ = L ⟨φ, 1⟩ − ⟨φ, x′⟩`.
         let [a, b, c] = outer_r;
-        let outer_r =
-            [a, length * a - b, length.square() * a - length * (b + b) + c];
+        let outer_r = [a, length * a - b, length.square() * a - length * (b + b) + c];
         let both = times(times(full(outer_l), full(left)), times(full(outer_r), full(left)));
         let across = both[0][0] + both[1][1];
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
@@ -175,10 +174,7 @@ impl Norms {
         let sum: Interval = known.iter().map(|tau| point(*tau)).sum();
         let squares: Interval = known.iter().map(|tau| point(*tau).square()).sum();
         let positive = |of: Interval| Interval { low: 0.0, high: of.high.max(0.0) };
-        [
-            positive(point(self.trace) - sum).high,
-            positive(point(self.square) - squares).sqrt().high,
-        ]
+        [positive(point(self.trace) - sum).high, positive(point(self.square) - squares).sqrt().high]
     }
 }
 
@@ -311,7 +307,8 @@ impl Stretch {
     /// The stretch as it is seen from the other end of a bat of that length.
     fn mirrored(mut self, length: Interval) -> Self {
         self.middle = length - self.middle;
-        let all = [Some(&mut self.mass), self.turning.as_mut(), Some(&mut self.soft), self.slip.as_mut()];
+        let all =
+            [Some(&mut self.mass), self.turning.as_mut(), Some(&mut self.soft), self.slip.as_mut()];
         all.into_iter().flatten().for_each(|values| values.at.reverse());
         self
     }
@@ -393,9 +390,8 @@ impl Sums {
             let parts = [s1.product(u1), s1.product(u2), s2.product(u2)];
             slopes.iter_mut().zip(parts).for_each(|(sum, part)| *sum = sum.sum(&part));
         }
-        let [(o11, e11), (o12, e12), (o22, e22)] = std::array::from_fn(|k| {
-            run(&Series::through(gauss, &slopes[k]), self.outer[k])
-        });
+        let [(o11, e11), (o12, e12), (o22, e22)] =
+            std::array::from_fn(|k| run(&Series::through(gauss, &slopes[k]), self.outer[k]));
         let [o11, o12, o22] = [o11, o12, o22].map(|series| series.values(gauss));
         let mut square = Values::constant(ZERO);
         for (_, [v1, v2], soft) in &strains {
@@ -410,12 +406,8 @@ impl Sums {
                 true => [v1.difference(&x), v2.sum(&one)],
                 false => [v1.sum(&one), *v2],
             };
-            let ends = [
-                *v1,
-                v1.sum(&v2.product(&x)),
-                w1.sum(&w2.product(&x)),
-                w1.sum(&w2.times(length)),
-            ];
+            let ends =
+                [*v1, v1.sum(&v2.product(&x)), w1.sum(&w2.product(&x)), w1.sum(&w2.times(length))];
             let squares = ends.map(|end| end.product(&end));
             let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
             reach = reach.sum(&sum.product(soft));

@@ -107,7 +107,8 @@ impl<'a> Ring<'a> {
     fn least_powers(&self) -> [f64; 2] {
         let b = &self.outside.cubic;
         let a = self.inside.as_ref().map_or([number(0.0); 4], |inside| inside.cubic);
-        let least = |of: [Interval; 4]| of.iter().fold(f64::INFINITY, |least, of| least.min(of.low));
+        let least =
+            |of: [Interval; 4]| of.iter().fold(f64::INFINITY, |least, of| least.min(of.low));
         let difference = least(std::array::from_fn(|k| b[k] - a[k])).max(0.0);
         let sum = least(std::array::from_fn(|k| b[k] + a[k])).max(0.0);
         let squares = number(difference) * number(sum);
@@ -172,10 +173,7 @@ impl<'a> Rings<'a> {
         self.core.iter().chain(&self.walls)
     }
 
-    fn summed<const N: usize>(
-        &self,
-        of: impl Fn(&Ring<'a>) -> Values<N>,
-    ) -> Values<N> {
+    fn summed<const N: usize>(&self, of: impl Fn(&Ring<'a>) -> Values<N>) -> Values<N> {
         let parts = self.all().map(of);
         parts.reduce(|sum, part| sum.sum(&part)).expect("there is a wall")
     }
@@ -296,7 +294,11 @@ fn of_tube(ring: &Ring, area: &Values<40>) -> Option<Nearly> {
 }
 
 /// A polynomial near these values of `N/D`, and by what share of itself it may be off.
-fn stands_for(values: &[f64; 40], denominator: &Values<40>, numerator: &Values<40>) -> Option<Nearly> {
+fn stands_for(
+    values: &[f64; 40],
+    denominator: &Values<40>,
+    numerator: &Values<40>,
+) -> Option<Nearly> {
     let gauss = &GAUSS_40;
     let near = Series::near(gauss, values, DEGREE, 0.0);
     let coefficients: Vec<f64> = (0..=DEGREE).map(|j| near.coefficient(j)).collect();
