@@ -8,6 +8,7 @@ pub mod curve;
 pub mod resolved;
 pub mod damped;
 pub mod json;
+pub mod proven;
 pub mod units;
 pub mod edits;
 pub mod text;
