@@ -151,9 +151,12 @@ fn a_stiffer_bat_grows_where_it_may() {
     assert!((found[0] - 180.0).abs() <= 0.05, "{found:?}");
     assert!((inches(bat.length() - found[1]) - 6.5).abs() <= 0.01);
     assert!(ounce_square_inches(found[2]) <= 10_421.02 && ounces(new.inertia().mass) <= 31.0);
-    assert!((found[3] - 581.252 - 6.96).abs() < 0.2, "{found:?}");
     let [.., least, most] = along(&bat, &new);
     assert!(least >= 0.024 - 1e-9 && most <= 0.066_294 + 1e-9, "{least} {most}");
+    // Nothing is asked of f2, which rounding to 0.1 mm moves by some tenths: in finer digits it is the prototype's.
+    let fine = Outcome::of(&bat, &Wish { round: Some(1e-5), ..wish }, &terms()).unwrap();
+    let (_, found) = written(&fine, &answers);
+    assert!((found[3] - 581.252 - 6.96).abs() < 0.02, "{found:?}");
 }
 
 /// Task E: 4 oz less and the swing weight kept cannot both be had by turning. The best mass is 0.003 oz above

@@ -27,7 +27,7 @@ fn bat(name: &str) -> Bat {
 fn a_change_of_the_diameter_is_whole_in_every_form() {
     for name in ["r161", "house", "tanh"] {
         let old = bat(name);
-        let change = DiameterChange::through(&[0.5, 0.6, 0.7], |x| -10.0 * (x - 0.5) * (0.7 - x));
+        let change = DiameterChange::through(&[0.5, 0.6, 0.7], |x| -0.01 * (x - 0.5) * (0.7 - x));
         let new = old.turned(&change).unwrap();
         for (us, paper) in [(false, Paper::File), (true, Paper::Page), (true, Paper::Narrow)] {
             let sheet = Sheet { us, paper };

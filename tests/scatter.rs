@@ -215,6 +215,10 @@ fn without_a_file_bats_differ_as_analyze_says_beside_the_sweet_spot() {
         let sd = output(&drawn, name)["sd"].as_f64().unwrap();
         assert!((sd / first_order - 1.0).abs() < 0.03, "{name} {sd} {first_order}");
     }
+    // A node is where it is whatever the wood is, as G goes with E: round-off has no shares.
+    assert!(output(&drawn, "node_mode_1_m")["shares"].is_null());
+    let words = drawn["words"].as_array().unwrap();
+    assert!(words.iter().any(|one| one == "node_mode_1_m is the same of all bats."), "{words:?}");
     // Of what is no wood nothing is known.
     folder.write("tube.json", include_str!("../meshes/northwestern_aluminium.json"));
     let output = folder.run(&["scatter", "tube.json"]);
