@@ -71,7 +71,8 @@ impl Fronts {
         }
         let rest = size - eliminated;
         if rest > 0 {
-            let rows = (eliminated..size).flat_map(|i| &matrix[i * size + eliminated..(i + 1) * size]);
+            let rows =
+                (eliminated..size).flat_map(|i| &matrix[i * size + eliminated..(i + 1) * size]);
             self.left.push((unknowns[eliminated..].to_vec(), rows.copied().collect()));
         }
         matrix.truncate(eliminated * size);
@@ -256,7 +257,9 @@ mod tests {
     /// Two overlapping blocks of whole numbers, and the same matrix in one front.
     #[test]
     fn fronts_solve_and_count_as_one_block_does() {
-        let entry = |i: usize, j: usize| if i == j { 20.0 + i as f64 } else { ((3 * i + 5 * j) % 4) as f64 };
+        let entry = |i: usize, j: usize| {
+            if i == j { 20.0 + i as f64 } else { ((3 * i + 5 * j) % 4) as f64 }
+        };
         let block = |i: usize, j: usize| (i < 13 && j < 13) || (i >= 9 && j >= 9);
         for shift in [0.0, 25.0] {
             let value = |i: usize, j: usize| {

@@ -127,11 +127,8 @@ impl Cell {
                     self.qd[across],
                 );
                 let (u, v, w) = (i * width, (count + i) * width, (2 * count + i) * width);
-                k[u + j] = c_rr * rr
-                    + c_rt * (qr + rq)
-                    + (c_tt + n * n * rt) * qq
-                    + xr * dd
-                    + mass * nn;
+                k[u + j] =
+                    c_rr * rr + c_rt * (qr + rq) + (c_tt + n * n * rt) * qq + xr * dd + mass * nn;
                 let uv = n * (c_rt * rq + (c_tt + rt) * qq - rt * qr);
                 let uw = c_rx * rd + c_tx * qd + xr * dr;
                 let vw = n * (c_tx * qd - xt * dq);
