@@ -17,6 +17,9 @@
 //! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads that are no function of
 //! revolution, one Fourier term after the other.
 
+use pulp::{Simd, WithSimd};
+
+use crate::base::lanes::widest;
 use crate::beam::wall::columns::Part;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;
@@ -57,24 +60,20 @@ impl Rule {
 
 /// A point of an element: weight with `r dr dx`, radius, `∂η/∂r`, and `−∂r/∂x` of the fibre.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+struct Point {
     /// Weight of the point (m³).
-    pub weight: f64,
+    weight: f64,
     /// Radius (m).
-    pub radius: f64,
+    radius: f64,
     /// `2/(r_b − r_a)` (1/m).
-    pub across: f64,
+    across: f64,
     /// Slope of the fibre through the point.
-    pub slope: f64,
+    slope: f64,
 }
 
-/// The point of an element at Gauss points `k` along and `l` across; `h` is the element's length.
-pub fn point(part: &Part, rule: &Rule, h: f64, k: usize, l: usize) -> Point {
-    let xi = rule.along.places[k];
-    let ([a, da], [b, db]) = (part.inner.at(xi), part.outer.at(xi));
-    point_between([a, da * 2.0 / h], [b, db * 2.0 / h], rule, h, k, l)
-}
-
+/// The point at Gauss points `k` along and `l` across an element of length `h` (m), between radii and slopes
+/// `[r, dr/dx]` of its sides there.
+#[inline(always)]
 fn point_between(
     [a, da]: [f64; 2],
     [b, db]: [f64; 2],
@@ -94,77 +93,16 @@ fn point_between(
     }
 }
 
+/// Kinds of products of functions across: `Q Q`, `Q R`, `R R`, `T T`, `R T`, `Q T`, `T N`, `N T`, `R N`, `Q N` and
+/// `N N`, with `Q = χ/r`, `R = χ_r`, `T = −r′ χ_r` along the fibre, `N = χ`.
+const KINDS: usize = 11;
+/// Matrices of an element: `qq`, `qr`, `rr`, `dd`, `rd`, `qd`, `nn`.
+const MATRICES: usize = 7;
+
 impl Cell {
     /// The integrals over a part of a column of length `h` (m).
     pub fn new(part: &Part, rule: &Rule, h: f64) -> Self {
-        let (p, q) = (rule.along.count, rule.across.count);
-        let count = p * q;
-        let [mut qq, mut qr, mut rr, mut dd, mut rd, mut qd, mut nn] =
-            std::array::from_fn(|_| vec![0.0; count * count]);
-        let square = q * q;
-        let mut sums = vec![0.0; 10 * square];
-        for k in 0..rule.along.places.len() {
-            let xi = rule.along.places[k];
-            let ([a, da], [b, db]) = (part.inner.at(xi), part.outer.at(xi));
-            let (a, b) = ([a, da * 2.0 / h], [b, db * 2.0 / h]);
-            sums.fill(0.0);
-            for l in 0..rule.across.places.len() {
-                let at = point_between(a, b, rule, h, k, l);
-                let (values, slopes) = (rule.across.value(l), rule.across.slope(l));
-                for i in 0..q {
-                    let n = at.weight * values[i];
-                    let (o, r) = (n / at.radius, at.weight * at.across * slopes[i]);
-                    let t = -at.slope * r;
-                    for j in 0..q {
-                        let n_j = values[j];
-                        let (o_j, r_j) = (n_j / at.radius, at.across * slopes[j]);
-                        let t_j = -at.slope * r_j;
-                        let terms = [
-                            o * o_j,
-                            o * r_j,
-                            r * r_j,
-                            t * t_j,
-                            r * t_j,
-                            o * t_j,
-                            t * n_j,
-                            r * n_j,
-                            o * n_j,
-                            n * n_j,
-                        ];
-                        for (m, term) in terms.into_iter().enumerate() {
-                            sums[m * square + i * q + j] += term;
-                        }
-                    }
-                }
-            }
-            let sum: Vec<&[f64]> = sums.chunks_exact(square).collect();
-            let (values, slopes) = (rule.along.value(k), rule.along.slope(k));
-            for i in 0..p {
-                let (f, g) = (values[i], slopes[i] * 2.0 / h);
-                for j in 0..p {
-                    let (f_j, g_j) = (values[j], slopes[j] * 2.0 / h);
-                    let (ff, fg, gf, gg) = (f * f_j, f * g_j, g * f_j, g * g_j);
-                    for a in 0..q {
-                        let to = (i * q + a) * count + j * q;
-                        let from = a * q;
-                        for b in 0..q {
-                            let (to, m) = (to + b, from + b);
-                            qq[to] += ff * sum[0][m];
-                            qr[to] += ff * sum[1][m];
-                            rr[to] += ff * sum[2][m];
-                            dd[to] += ff * sum[3][m]
-                                + fg * sum[6][m]
-                                + gf * sum[6][b * q + a]
-                                + gg * sum[9][m];
-                            rd[to] += ff * sum[4][m] + fg * sum[7][m];
-                            qd[to] += ff * sum[5][m] + fg * sum[8][m];
-                            nn[to] += ff * sum[9][m];
-                        }
-                    }
-                }
-            }
-        }
-        Self { count, qq, qr, rr, dd, rd, qd, nn }
+        widest(Integration { part, rule, h })
     }
 
     /// Stiffness and `shift` times the mass in harmonic n, without the factor π: unknowns all of U, then of
@@ -212,6 +150,102 @@ impl Cell {
     /// `ρ∫∫N_i N_j r dr dx`, row by row, without the density.
     pub fn mass(&self) -> &[f64] {
         &self.nn
+    }
+}
+
+/// The integrals over one part.
+struct Integration<'a> {
+    part: &'a Part,
+    rule: &'a Rule,
+    h: f64,
+}
+
+impl WithSimd for Integration<'_> {
+    type Output = Cell;
+
+    /// Sums across the wall at each point along it, times products of functions along it. In between the
+    /// sums of all pairs across stand side by side for each pair along.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Cell {
+        let Self { part, rule, h } = self;
+        let (p, q) = (rule.along.count, rule.across.count);
+        let square = q * q;
+        let mut kinds = vec![0.0; KINDS * square];
+        let mut sums = vec![0.0; MATRICES * p * p * square];
+        for k in 0..rule.along.places.len() {
+            across(part, rule, h, k, &mut kinds);
+            let kind: [&[f64]; KINDS] =
+                std::array::from_fn(|m| &kinds[m * square..(m + 1) * square]);
+            let [qq, qr, rr, tt, rt, qt, tn, nt, rn, qn, nn] = kind;
+            let (values, slopes) = (rule.along.value(k), rule.along.slope(k));
+            for i in 0..p {
+                let (f, g) = (values[i], slopes[i] * 2.0 / h);
+                for j in 0..p {
+                    let (f_j, g_j) = (values[j], slopes[j] * 2.0 / h);
+                    let (ff, fg, gf, gg) = (f * f_j, f * g_j, g * f_j, g * g_j);
+                    let at = (i * p + j) * MATRICES * square;
+                    let to = &mut sums[at..at + MATRICES * square];
+                    for m in 0..square {
+                        to[m] += ff * qq[m];
+                        to[square + m] += ff * qr[m];
+                        to[2 * square + m] += ff * rr[m];
+                        to[3 * square + m] += ff * tt[m] + fg * tn[m] + gf * nt[m] + gg * nn[m];
+                        to[4 * square + m] += ff * rt[m] + fg * rn[m];
+                        to[5 * square + m] += ff * qt[m] + fg * qn[m];
+                        to[6 * square + m] += ff * nn[m];
+                    }
+                }
+            }
+        }
+        let count = p * q;
+        let mut matrices: [Vec<f64>; MATRICES] = std::array::from_fn(|_| vec![0.0; count * count]);
+        for (pair, sums) in sums.chunks_exact(MATRICES * square).enumerate() {
+            let (i, j) = (pair / p, pair % p);
+            for (matrix, sums) in matrices.iter_mut().zip(sums.chunks_exact(square)) {
+                for (a, row) in sums.chunks_exact(q).enumerate() {
+                    let at = (i * q + a) * count + j * q;
+                    matrix[at..at + q].copy_from_slice(row);
+                }
+            }
+        }
+        let [qq, qr, rr, dd, rd, qd, nn] = matrices;
+        Cell { count, qq, qr, rr, dd, rd, qd, nn }
+    }
+}
+
+/// The sums across at point `k` along, for all pairs of functions across.
+#[inline(always)]
+fn across(part: &Part, rule: &Rule, h: f64, k: usize, kinds: &mut [f64]) {
+    let q = rule.across.count;
+    let square = q * q;
+    let xi = rule.along.places[k];
+    let ([a, da], [b, db]) = (part.inner.at(xi), part.outer.at(xi));
+    let (a, b) = ([a, da * 2.0 / h], [b, db * 2.0 / h]);
+    kinds.fill(0.0);
+    for l in 0..rule.across.places.len() {
+        let at = point_between(a, b, rule, h, k, l);
+        let (values, slopes) = (rule.across.value(l), rule.across.slope(l));
+        for i in 0..q {
+            let n_i = at.weight * values[i];
+            let (q_i, r_i) = (n_i / at.radius, at.weight * at.across * slopes[i]);
+            let t_i = -at.slope * r_i;
+            for j in 0..q {
+                let (n, r) = (values[j], at.across * slopes[j]);
+                let (o, t) = (n / at.radius, -at.slope * r);
+                let to = &mut kinds[i * q + j..];
+                to[0] += q_i * o;
+                to[square] += q_i * r;
+                to[2 * square] += r_i * r;
+                to[3 * square] += t_i * t;
+                to[4 * square] += r_i * t;
+                to[5 * square] += q_i * t;
+                to[6 * square] += t_i * n;
+                to[7 * square] += n_i * t;
+                to[8 * square] += r_i * n;
+                to[9 * square] += q_i * n;
+                to[10 * square] += n_i * n;
+            }
+        }
     }
 }
 

@@ -17,15 +17,19 @@ const LENGTH: f64 = 1.8;
 const THICKNESS: f64 = 0.3;
 /// A layer is cut at this distance from a corner if that is no less than so many times the distance of the
 /// column's far end.
-const ACROSS: f64 = 0.5;
+const ACROSS: f64 = 0.05;
 
 /// How many geometric steps are taken towards what.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grading {
-    /// Towards a free end.
-    pub end: usize,
+    /// Towards the knob end, if the wall ends there.
+    pub knob: usize,
+    /// Towards the tip.
+    pub tip: usize,
     /// Towards a kink of the profile.
     pub kink: usize,
+    /// Least change of slope that counts as a kink.
+    pub least_kink: f64,
     /// Towards a corner of layers.
     pub corner: usize,
 }
@@ -76,7 +80,7 @@ struct Border {
 pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     let stretches = &layers.stretches;
     let first = &stretches[0];
-    let mut lefts = vec![end(first, &first.radii(first.from), grading)];
+    let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, grading)];
     let mut rights = vec![];
     for pair in stretches.windows(2) {
         let [left, right] = between(&pair[0], &pair[1], grading);
@@ -84,7 +88,7 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
         lefts.push(right);
     }
     let last = &stretches[stretches.len() - 1];
-    rights.push(end(last, &last.radii(last.to), grading));
+    rights.push(end(last, &last.radii(last.to), grading.tip, grading));
     let mut columns = vec![];
     for ((stretch, left), right) in stretches.iter().zip(&lefts).zip(&rights) {
         divide(stretch, [left, right], &mut columns);
@@ -93,11 +97,11 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
 }
 
 /// What lies at a free end, where layers of different materials make corners.
-fn end(stretch: &Stretch, radii: &[f64], grading: Grading) -> Border {
+fn end(stretch: &Stretch, radii: &[f64], usual: usize, grading: Grading) -> Border {
     let pairs = stretch.materials.windows(2).zip(&radii[1..]);
     let corners: Vec<f64> =
         pairs.filter(|(pair, _)| pair[0] != pair[1]).map(|(_, radius)| *radius).collect();
-    let steps = if corners.is_empty() { grading.end } else { grading.end.max(grading.corner) };
+    let steps = if corners.is_empty() { usual } else { usual.max(grading.corner) };
     Border { steps, corners, matched: vec![] }
 }
 
@@ -105,13 +109,12 @@ fn end(stretch: &Stretch, radii: &[f64], grading: Grading) -> Border {
 fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [Border; 2] {
     let (inside, beyond) = (left.radii(left.to), right.radii(right.from));
     let same = SAME_RADIUS * inside[inside.len() - 1];
-    match left.goes_on(right) {
-        Some(false) => [Border::default(), Border::default()],
-        Some(true) => {
-            let slopes = left.slopes(true).into_iter().zip(right.slopes(false));
-            let kinks = slopes.zip(&inside).filter(|((a, b), _)| (a - b).abs() > 1e-7);
-            let corners: Vec<f64> = kinks.map(|(_, radius)| *radius).collect();
-            let border = Border { steps: grading.kink, corners, matched: vec![] };
+    match left.kinks(right) {
+        Some(kinks) => {
+            let at = kinks.iter().zip(&inside).filter(|(kink, _)| **kink >= grading.least_kink);
+            let corners: Vec<f64> = at.map(|(_, radius)| *radius).collect();
+            let steps = if corners.is_empty() { 0 } else { grading.kink };
+            let border = Border { steps, corners, matched: vec![] };
             [border.clone(), border]
         }
         None => {

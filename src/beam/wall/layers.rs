@@ -10,7 +10,7 @@ use crate::beam::wall::extent::is_wood;
 
 /// Radii that differ by less, as a share of the largest, are one.
 pub const SAME_RADIUS: f64 = 1e-9;
-/// Slopes of a radius that differ by less are one: there is no kink.
+/// Slopes of a radius that differ by less are one: a formula goes on.
 const SAME_SLOPE: f64 = 1e-7;
 /// Points at which a formula becomes a polynomial on one column of elements.
 const FORMULA_POINTS: usize = 16;
@@ -135,8 +135,9 @@ impl Stretch {
         (0..=10).map(outer).fold(0.0, f64::max)
     }
 
-    /// Whether the next stretch goes on with the same layers; and then, whether any border has a kink.
-    pub fn goes_on(&self, next: &Self) -> Option<bool> {
+    /// By how much the slope of each border changes where the next stretch goes on with the same layers; None
+    /// where it does not.
+    pub fn kinks(&self, next: &Self) -> Option<Vec<f64>> {
         if self.materials != next.materials {
             return None;
         }
@@ -146,8 +147,8 @@ impl Stretch {
         if !left.iter().zip(&right).all(same) {
             return None;
         }
-        let (left, right) = (self.slopes(true), next.slopes(false));
-        Some(left.iter().zip(&right).any(|(a, b)| (a - b).abs() > SAME_SLOPE))
+        let slopes = self.slopes(true).into_iter().zip(next.slopes(false));
+        Some(slopes.map(|(a, b)| (a - b).abs()).collect())
     }
 }
 
@@ -190,12 +191,16 @@ impl Layers {
         Ok(layers)
     }
 
-    /// Whether there are neither kinks nor corners.
-    pub fn smooth(&self) -> bool {
+    /// The changes of slope at all places where the layers go on; None if there is a corner of layers.
+    pub fn kinks(&self) -> Option<Vec<f64>> {
         let one = |stretch: &Stretch| stretch.materials.windows(2).all(|pair| pair[0] == pair[1]);
         let ends = [&self.stretches[0], &self.stretches[self.stretches.len() - 1]];
-        let mut pairs = self.stretches.windows(2);
-        ends.into_iter().all(one) && pairs.all(|pair| pair[0].goes_on(&pair[1]) == Some(false))
+        if !ends.into_iter().all(one) {
+            return None;
+        }
+        let each: Option<Vec<Vec<f64>>> =
+            self.stretches.windows(2).map(|pair| pair[0].kinks(&pair[1])).collect();
+        Some(each?.concat())
     }
 
     /// The index of a material.
@@ -227,7 +232,7 @@ impl Layers {
             && let (Radii::Formula(a), Radii::Formula(b)) = (&before.radii, &after.radii)
             && a.outer == b.outer
             && a.inner == b.inner
-            && last.goes_on(&next) == Some(false)
+            && last.kinks(&next).is_some_and(|kinks| kinks.iter().all(|kink| *kink < SAME_SLOPE))
         {
             last.to = next.to;
             last.pieces.extend(next.pieces);

@@ -46,6 +46,32 @@ impl Spectrum {
         count: usize,
         residual: f64,
     ) -> Result<Self> {
+        Self::solved(wall, n, ends, count, residual, false)
+    }
+
+    /// The frequencies alone, as the iteration has them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`].
+    pub fn frequencies(
+        wall: &Wall,
+        n: usize,
+        ends: [EndHold; 2],
+        count: usize,
+        residual: f64,
+    ) -> Result<Vec<f64>> {
+        Ok(Self::solved(wall, n, ends, count, residual, true)?.omegas)
+    }
+
+    fn solved(
+        wall: &Wall,
+        n: usize,
+        ends: [EndHold; 2],
+        count: usize,
+        residual: f64,
+        quick: bool,
+    ) -> Result<Self> {
         let system = System::new(wall, n, ends);
         let shift = if n == 1 { SHIFT } else { 0.0 };
         let factors = system.factors(shift);
@@ -80,7 +106,12 @@ impl Spectrum {
             image.iter_mut().zip(&y).zip(&scale).for_each(|((image, y), s)| *image = y * s);
         })?;
         let (mut omegas, mut motions, mut losses) = (vec![], vec![], vec![]);
-        for z in lanczos.vectors.chunks_exact(size).skip(skipped) {
+        let pairs = lanczos.vectors.chunks_exact(size).zip(&lanczos.values);
+        for (z, value) in pairs.skip(skipped) {
+            if quick {
+                omegas.push((1.0 / value - shift).sqrt());
+                continue;
+            }
             back(z, &mut x);
             let (strain, mass) = system.energies(&x);
             let stored: f64 = strain.iter().sum();
@@ -93,6 +124,18 @@ impl Spectrum {
         }
         let (rigid, steps) = (rigid.map(|(motion, _)| motion), lanczos.steps);
         Ok(Self { system, factors, omegas, motions, losses, rigid, steps })
+    }
+}
+
+impl Spectrum {
+    /// Keeps some of the modes.
+    pub fn keep(&mut self, kept: &[bool]) {
+        let mut each = kept.iter();
+        self.omegas.retain(|_| each.next() == Some(&true));
+        let mut each = kept.iter();
+        self.motions.retain(|_| each.next() == Some(&true));
+        let mut each = kept.iter();
+        self.losses.retain(|_| each.next() == Some(&true));
     }
 }
 

@@ -138,6 +138,19 @@ impl System {
         let width = 3 * cell.count;
         let size = matrix.len().isqrt();
         let free = self.unknowns.count;
+        let plain = |slot: &usize| matches!(links.of(*slot), [] | [(_, 1.0)]);
+        if (0..width).all(|slot| plain(&slot)) {
+            let of = |slot| links.of(slot).first().filter(|(unknown, _)| *unknown < free);
+            let slots = (0..width).filter_map(|slot| Some((slot, places[of(slot)?.0])));
+            let slots: Vec<(usize, usize)> = slots.collect();
+            for (i, a) in &slots {
+                let (row, to) = (&k[i * width..], &mut matrix[a * size..(a + 1) * size]);
+                for (j, b) in slots.iter().filter(|(_, b)| b >= a) {
+                    to[*b] += row[*j];
+                }
+            }
+            return;
+        }
         for i in 0..width {
             for (a, a_share) in links.of(i) {
                 if *a >= free {
