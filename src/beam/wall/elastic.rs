@@ -1,6 +1,8 @@
 //! How does a material resist when it is stretched and sheared in all directions?
 
-use crate::bat::material::Material;
+use crate::base::error::{Error, Result};
+use crate::base::linear::inverse;
+use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 
 /// Poisson's ratio of a metal whose own is not known.
 pub const ASSUMED_POISSON_RATIO: f64 = 0.33;
@@ -42,5 +44,38 @@ impl Elastic {
         });
         let (density, loss_factor) = (material.density, material.loss_factor);
         Self { normal, shear_xr: shear, shear_rt: shear, shear_xt: shear, density, loss_factor }
+    }
+
+    /// A composite that differs in its three directions: the inverse of the compliance, whose diagonal is `1/E_r`,
+    /// `1/E_θ`, `1/E_x` and which has `−ν_xθ/E_x`, `−ν_xr/E_x`, `−ν_θr/E_θ` beside it. None for a material that is
+    /// not told to differ.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where the compliance is not positive: the ratios are too large for these moduli.
+    ///
+    /// # Source
+    ///
+    /// R. M. Jones, Mechanics of Composite Materials (2nd ed., 1999), section 2.3.
+    pub fn orthotropic(material: &Material) -> Result<Option<Self>> {
+        let Material { hoop_modulus, radial_modulus, shear_moduli, poisson_ratios, .. } = material;
+        let (Some(around), Some(across)) = (*hoop_modulus, *radial_modulus) else { return Ok(None) };
+        let (Some(shear), Some(ratios)) = (*shear_moduli, *poisson_ratios) else { return Ok(None) };
+        let along = material.youngs_modulus;
+        let ShearModuli { along_around, along_across, around_across } = shear;
+        let (shear_xt, shear_xr, shear_rt) = (along_around, along_across, around_across);
+        let PoissonRatios { along_around, along_across, around_across } = ratios;
+        let (rt, rx, tx) = (-around_across / around, -along_across / along, -along_around / along);
+        let compliance =
+            [vec![1.0 / across, rt, rx], vec![rt, 1.0 / around, tx], vec![rx, tx, 1.0 / along]];
+        let Some(stiffness) = inverse(&compliance) else {
+            let found = format!("{along_around}, {along_across}, {around_across}");
+            let expected = "ratios that leave a positive stiffness with these moduli: the square of each \
+                            below its first modulus over its second";
+            return Err(Error::value("poisson_ratios", found, expected));
+        };
+        let normal = std::array::from_fn(|i| std::array::from_fn(|j| stiffness[i][j]));
+        let (density, loss_factor) = (material.density, material.loss_factor);
+        Ok(Some(Self { normal, shear_xr, shear_rt, shear_xt, density, loss_factor }))
     }
 }

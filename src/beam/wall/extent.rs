@@ -45,7 +45,7 @@ fn is_hollow(piece: &Piece) -> bool {
 
 /// Whether it is taken for wood and nothing is known of it in other directions.
 pub fn is_wood(material: &Material) -> bool {
-    material.scatter().is_some()
+    material.scatter().is_some() && material.hoop_modulus.is_none()
 }
 
 fn is_wall(bat: &Bat, piece: &Piece) -> bool {

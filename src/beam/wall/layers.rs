@@ -216,10 +216,14 @@ impl Layers {
         }
         let ratio = poisson_ratio(material);
         let index = known.len();
+        known.push(material.clone());
+        if let Some(elastic) = Elastic::orthotropic(material)? {
+            self.materials.push(elastic);
+            return Ok(index);
+        }
         if ratio.is_none() {
             self.assumed.push(index);
         }
-        known.push(material.clone());
         let ratio = ratio.unwrap_or(ASSUMED_POISSON_RATIO);
         self.materials.push(Elastic::isotropic(material, ratio));
         Ok(index)
