@@ -139,7 +139,8 @@ fn published_cylinders_come_out() {
     let found = frequencies(&tube(10.0, 2.0, 0.4, steel.clone()), 0.0, [8, 4], ends(1), 0, FREE, 5);
     close(&found, &[243.53, 377.41, 394.11, 397.72, 405.28], 4e-4);
     let inch = 0.0254;
-    let mut thin = Material::new(0.282_072 * 0.453_592_37 / inch.powi(3), 30e6 * 6_894.757_293_17).unwrap();
+    let mut thin =
+        Material::new(0.282_072 * 0.453_592_37 / inch.powi(3), 30e6 * 6_894.757_293_17).unwrap();
     thin.poisson_ratio = Some(0.3);
     let cylinder = tube(12.0 * inch, 3.0 * inch, 0.01 * inch, thin);
     for (n, published) in [(6, 536.0), (8, 720.0), (4, 768.0)] {
@@ -234,9 +235,7 @@ fn frequencies_fall_with_every_degree() {
 fn a_free_knob_side_bounds_from_below_and_a_clamped_one_from_above() {
     let bat = open_barrel(0.0030);
     let grading = Grading { tip: 1, ..EVEN };
-    let of = |from, hold| {
-        frequencies(&bat, from, [8, 4], grading, 2, [hold, EndHold::Free], 4)
-    };
+    let of = |from, hold| frequencies(&bat, from, [8, 4], grading, 2, [hold, EndHold::Free], 4);
     let whole = of(0.0, EndHold::Free);
     for from in [0.30, 0.35] {
         let (low, high) = (of(from, EndHold::Free), of(from, EndHold::Clamped));

@@ -226,7 +226,8 @@ impl Layup {
         for material in self.materials_mut() {
             material.density *= density;
             material.youngs_modulus *= modulus;
-            let Material { shear_modulus, hoop_modulus, radial_modulus, shear_moduli, .. } = material;
+            let Material { shear_modulus, hoop_modulus, radial_modulus, shear_moduli, .. } =
+                material;
             let single = [shear_modulus, hoop_modulus, radial_modulus];
             single.into_iter().flatten().for_each(|own| *own *= modulus);
             if let Some(ShearModuli { along_around, along_across, around_across }) = shear_moduli {

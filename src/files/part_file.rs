@@ -142,7 +142,9 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
         Slot::Held(held) => *held = node.word(&HELD)?,
         Slot::Material(outer) => *outer = whole_material(node)?,
         Slot::Core(core) => *core = Some(whole_material(node)?),
-        Slot::ShearModuli(moduli) => *moduli = Some(self::part(node, ShearModuli::default(), None)?),
+        Slot::ShearModuli(moduli) => {
+            *moduli = Some(self::part(node, ShearModuli::default(), None)?)
+        }
         Slot::PoissonRatios(ratios) => {
             *ratios = Some(self::part(node, PoissonRatios::default(), None)?);
         }

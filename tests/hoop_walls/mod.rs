@@ -59,7 +59,9 @@ pub fn plugged_barrel(wall: f64) -> Bat {
     plug.poisson_ratio = Some(0.40);
     let layup = Layup { core: Some(plug), ..Layup::of(aluminium()) };
     let regions = vec![Region { from: 0.8262, to: 0.8382, layup }];
-    open_barrel(wall).with(|parts| parts.fixtures = Fixtures { regions, ..Fixtures::default() }).unwrap()
+    open_barrel(wall)
+        .with(|parts| parts.fixtures = Fixtures { regions, ..Fixtures::default() })
+        .unwrap()
 }
 
 /// The bat of a students' project, with kinks where its taper begins and ends.

@@ -59,7 +59,9 @@ impl Elastic {
     /// R. M. Jones, Mechanics of Composite Materials (2nd ed., 1999), section 2.3.
     pub fn orthotropic(material: &Material) -> Result<Option<Self>> {
         let Material { hoop_modulus, radial_modulus, shear_moduli, poisson_ratios, .. } = material;
-        let (Some(around), Some(across)) = (*hoop_modulus, *radial_modulus) else { return Ok(None) };
+        let (Some(around), Some(across)) = (*hoop_modulus, *radial_modulus) else {
+            return Ok(None);
+        };
         let (Some(shear), Some(ratios)) = (*shear_moduli, *poisson_ratios) else { return Ok(None) };
         let along = material.youngs_modulus;
         let ShearModuli { along_around, along_across, around_across } = shear;
