@@ -23,8 +23,8 @@ const THICK: f64 = 22.0;
 /// What the name of a mode takes at the right edge (px).
 const WORDS: f64 = 96.0;
 /// Places along a mode and around a ring.
-const ALONG: usize = 81;
-const AROUND: usize = 72;
+const ALONG: usize = 45;
+const AROUND: usize = 48;
 
 /// The lowest modes, at most so many, a row each; picture `hoop`. None where there are none.
 pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<Picture> {

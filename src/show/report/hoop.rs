@@ -174,7 +174,7 @@ pub fn in_a_line(barrel: &Barrel) -> String {
     let wall = barrel.wall.as_ref().map_or(String::new(), |wall| {
         format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
     });
-    format!("Hollow: first hoop mode {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
+    format!("Hoop modes from {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
 }
 
 /// The first hoop modes, the wall and the rebound, as a part of more.
