@@ -231,7 +231,9 @@ impl Layup {
             let single = [shear_modulus, hoop_modulus, radial_modulus];
             single.into_iter().flatten().for_each(|own| *own *= modulus);
             if let Some(ShearModuli { along_around, along_across, around_across }) = shear_moduli {
-                [along_around, along_across, around_across].map(|own| *own *= modulus);
+                for own in [along_around, along_across, around_across] {
+                    *own *= modulus;
+                }
             }
         }
     }
