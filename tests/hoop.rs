@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 
 use hoop_walls::exact::{Ring, roots_near};
 use hoop_walls::{
-    FREE, aluminium, frequencies, northwestern, open_barrel, plugged_barrel, spectrum, tube,
+    FREE, aluminium, barrel_in_parts, frequencies, northwestern, open_barrel, plugged_barrel,
+    spectrum, tube,
 };
 use sweetspot::bat::edit::{Change, Edit, Sleeve};
 use sweetspot::bat::material::{PoissonRatios, ShearModuli};
@@ -319,13 +320,15 @@ fn as_many_modes_are_found_as_are_below_a_frequency() {
     }
 }
 
+/// With columns that begin where the pressure does.
 #[test]
 fn the_wall_gives_way_under_a_ball_as_published() {
-    let bat = open_barrel(0.0030);
-    let harmonics = vec![0, 2, 3, 4, 5, 6];
-    let request = HoopRequest { tol: 1e-8, harmonics, up_to_hz: 7000.0, ..HoopRequest::default() };
-    let hoop = Hoop::of(&bat, &request).unwrap();
     let patch = Patch::under(0.6858, 0.0366, 0.0333, 0.008);
+    let ends = [patch.x - patch.half_length, patch.x + patch.half_length];
+    let bat = barrel_in_parts(0.0030, &[0.58, ends[0], ends[1], 0.8382]);
+    let harmonics = vec![0, 2, 3, 4, 5, 6];
+    let request = HoopRequest { tol: 2e-8, harmonics, up_to_hz: 3000.0, ..HoopRequest::default() };
+    let hoop = Hoop::of(&bat, &request).unwrap();
     let under = hoop.under(&patch);
     let found: Vec<f64> = under.iter().map(|share| share.flexibility).collect();
     let published = [
@@ -336,12 +339,7 @@ fn the_wall_gives_way_under_a_ball_as_published() {
         1.320_915_5e-9,
         5.104_258_1e-10,
     ];
-    // What patch and elements leave: the pressure has edges inside elements.
-    for (found, published) in found.iter().zip(published) {
-        println!("{found:.8e} {published:.8e} {:.1e}", found / published - 1.0);
-    }
-    close(&found[1..2], &published[1..2], 5e-6);
-    close(&found, &published, 1e-4);
+    close(&found, &published, 5e-7);
     close(&under[1].gains, &[2.217_415_5, 2.263_246_1, 2.378_587_1], 5e-6);
     for share in &under {
         let modes = hoop.modes().iter().filter(|mode| mode.harmonic == share.harmonic);

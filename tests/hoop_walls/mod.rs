@@ -37,6 +37,12 @@ pub fn tube(length: f64, radius: f64, thickness: f64, material: Material) -> Bat
 
 /// A made-up baseball bat with that wall (m) in its barrel, open at the tip.
 pub fn open_barrel(wall: f64) -> Bat {
+    barrel_in_parts(wall, &[0.58, 0.8382])
+}
+
+/// The same, the formula of its barrel written anew between these places (m), where columns of elements then
+/// begin.
+pub fn barrel_in_parts(wall: f64, places: &[f64]) -> Bat {
     let taper = "0.0115 + 0.0218*(3*((x - 0.28)/0.3)^2 - 2*((x - 0.28)/0.3)^3)";
     let bore = format!("{taper} - (0.0026 + {}*(x - 0.28)/0.3)", wall - 0.0026);
     let piece = |from, to, outer: &str, inner: &str| FormulaPiece {
@@ -45,11 +51,13 @@ pub fn open_barrel(wall: f64) -> Bat {
         outer: Formula::parse(outer).unwrap(),
         inner: Some(Formula::parse(inner).unwrap()),
     };
-    let pieces = vec![
-        piece(0.0, 0.28, "0.0115", "0.0115 - 0.0026"),
-        piece(0.28, 0.58, taper, &bore),
-        piece(0.58, 0.8382, "0.0333", &format!("0.0333 - {wall}")),
-    ];
+    let mut pieces =
+        vec![piece(0.0, 0.28, "0.0115", "0.0115 - 0.0026"), piece(0.28, 0.58, taper, &bore)];
+    for (k, pair) in places.windows(2).enumerate() {
+        // A formula goes on beyond a border; another one, of the same values, does not.
+        let outer = format!("0.0333 + {k}*0*x");
+        pieces.push(piece(pair[0], pair[1], &outer, &format!("0.0333 - {wall}")));
+    }
     Bat::builder(Profile::from_formulas(pieces).unwrap(), aluminium()).build().unwrap()
 }
 

@@ -9,6 +9,8 @@
 
 use crate::beam::wall::layers::{Layers, Radius, SAME_RADIUS, Stretch};
 
+/// Columns of equal length are no shorter than one over this of the wall.
+const MOST: f64 = 400.0;
 /// Ratio of the lengths of neighbours towards a place where the motion is not smooth.
 const STEP: f64 = 0.15;
 /// Length of a column as a multiple of the radius there, where nothing asks for a shorter one.
@@ -90,8 +92,9 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     let last = &stretches[stretches.len() - 1];
     rights.push(end(last, &last.radii(last.to), grading.tip, grading));
     let mut columns = vec![];
+    let shortest = (last.to - first.from) / MOST;
     for ((stretch, left), right) in stretches.iter().zip(&lefts).zip(&rights) {
-        divide(stretch, [left, right], &mut columns);
+        divide(stretch, [left, right], shortest, &mut columns);
     }
     columns
 }
@@ -149,9 +152,14 @@ fn around(stretch: &Stretch, radii: &[f64], radius: f64, same: f64) -> [Option<u
 }
 
 /// The columns of one stretch.
-fn divide(stretch: &Stretch, [left, right]: [&Border; 2], columns: &mut Vec<Column>) {
+fn divide(
+    stretch: &Stretch,
+    [left, right]: [&Border; 2],
+    shortest: f64,
+    columns: &mut Vec<Column>,
+) {
     let length = stretch.to - stretch.from;
-    let usual = LENGTH * stretch.widest();
+    let usual = (LENGTH * stretch.widest()).max(shortest);
     let count = (length / usual).ceil().max(1.0);
     let reach = length / count;
     // Steps so that the shortest is as long as beside a usual column.

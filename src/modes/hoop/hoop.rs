@@ -1,21 +1,18 @@
 //! What are the hoop modes of a bat, as accurately as asked?
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, OnceLock};
 
 use crate::base::error::{Error, Result};
 use crate::base::golden;
 use crate::base::threads;
 use crate::bat::body::Bat;
-use crate::beam::wall::columns::{Grading, columns};
-use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::extent::{Extent, Limit};
 use crate::beam::wall::layers::Layers;
-use crate::beam::wall::unknowns::{EndHold, WallMesh};
+use crate::beam::wall::unknowns::EndHold;
+use crate::modes::hoop::climb::{Climb, thinnest};
 use crate::modes::hoop::patch::{Patch, Share, share};
 use crate::modes::hoop::request::{HoopRequest, KnobSide};
-use crate::modes::hoop::spectrum::{Spectrum, count_below};
-use crate::modes::hoop::system::Wall;
+use crate::modes::hoop::spectrum::Spectrum;
 
 /// One hoop mode.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,34 +89,20 @@ pub struct Hoop {
     met: bool,
 }
 
-/// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
-/// and corners.
-const LADDER: [([usize; 2], [usize; 3]); 7] = [
-    ([4, 2], [0, 0, 1]),
-    ([5, 3], [1, 0, 1]),
-    ([6, 4], [2, 1, 2]),
-    ([8, 5], [3, 2, 3]),
-    ([9, 6], [4, 3, 4]),
-    ([10, 7], [5, 4, 5]),
-    ([12, 8], [6, 5, 6]),
-];
-/// Of a smooth wall this share of the difference of two meshes is stated as the error of the finer: the
-/// error falls at least to 0.47 of itself from one mesh to the next, and a true error may be three times as
-/// large as the stated one.
-const SMOOTH: f64 = 0.3;
-/// A kink where the slope changes by k costs a frequency about this times k², relative, if the elements beside it
-/// are not graded: measured on cones of 2 mm wall at degrees 6 along and 3 across, with kinks of 0.02 to 0.2.
-const KINK: f64 = 2.5e-4;
+/// Highest frequency up to which modes may be asked for (Hz).
+const MOST_HZ: f64 = 1e6;
+/// Farthest before the taper that the model begins, in radii of the handle.
+const MOST_LEAD: f64 = 40.0;
 /// Walls thinner than this share of their radius get a warning.
 const THIN: f64 = 1.0 / 300.0;
 
 impl Hoop {
     /// The hoop modes of a hollow bat.
     ///
-    /// The stretch from the handle to the tip is a solid of revolution; its modes in the handle, which depend on where
-    /// that is cut off, are left out. Every harmonic is solved on two meshes, the second with a higher degree along and across and finer towards
-    /// ends, kinks and corners; the answer is the second, and their difference is its stated error. While that
-    /// is above the tolerance both get finer.
+    /// The stretch from the handle to the tip is a solid of revolution; its modes in the handle, which depend on
+    /// where that is cut off, are left out. Every harmonic is solved on two meshes, the second with a higher
+    /// degree along and across and finer towards ends, kinks and corners; the answer is the second, and their
+    /// difference its stated error. While that is above the tolerance both get finer.
     ///
     /// # Errors
     ///
@@ -130,11 +113,21 @@ impl Hoop {
         if !(tol > 0.0 && tol < 1.0) {
             return Err(Error::value("tol", tol, "a number above 0 and below 1"));
         }
-        // A harmonic motion dies out in the handle by a factor ten over two or three radii.
-        let lead = 2.5 * (1e-5 / tol).log10().max(0.0);
-        let extent = Extent::of(bat, lead)?;
-        let cut = extent.limit == Limit::Handle;
-        let mut hoop = Self::solved(bat, [extent.from, extent.to], cut, request)?;
+        if !(0.0..=MOST_HZ).contains(&request.up_to_hz) {
+            let expected = format!("0 to {MOST_HZ:e} Hz");
+            return Err(Error::value("up_to_hz", request.up_to_hz, expected));
+        }
+        // What is cut off in the handle costs a tenth with every two radii or so.
+        let mut lead = 2.5 * (1e-4 / tol).log10().max(0.0);
+        let (mut hoop, extent) = loop {
+            let extent = Extent::of(bat, lead)?;
+            let cut = extent.limit == Limit::Handle;
+            let (hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
+            if !cut || cut_off < 0.3 * tol || lead > MOST_LEAD {
+                break (hoop, extent);
+            }
+            lead += 5.0;
+        };
         match extent.limit {
             Limit::Step => hoop.notes.push(Note::BeginsBeyondStep { at: extent.from }),
             Limit::Wood => hoop.notes.push(Note::BeginsBeyondWood { at: extent.from }),
@@ -149,11 +142,17 @@ impl Hoop {
     ///
     /// As [`Self::of`].
     pub fn between(bat: &Bat, stretch: [f64; 2], request: &HoopRequest) -> Result<Self> {
-        Self::solved(bat, stretch, stretch[0] > 0.0, request)
+        Ok(Self::solved(bat, stretch, stretch[0] > 0.0, request)?.0)
     }
 
-    /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there.
-    fn solved(bat: &Bat, [from, to]: [f64; 2], cut: bool, request: &HoopRequest) -> Result<Self> {
+    /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there. Besides, what the
+    /// cut costs.
+    fn solved(
+        bat: &Bat,
+        [from, to]: [f64; 2],
+        cut: bool,
+        request: &HoopRequest,
+    ) -> Result<(Self, f64)> {
         let layers = Layers::of(bat, from, to)?;
         let ends = match request.end {
             KnobSide::Free => [EndHold::Free; 2],
@@ -163,11 +162,12 @@ impl Hoop {
         let solved =
             threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
         let solved = solved.into_iter().collect::<Result<Vec<_>>>()?;
-        let met = solved.iter().flat_map(|(_, errors)| errors).all(|error| *error <= request.tol);
-        let modes = solved.iter().flat_map(|(spectrum, errors)| modes(spectrum, errors)).collect();
+        let met = solved.iter().flat_map(|of| &of.errors).all(|error| *error <= request.tol);
+        let modes = solved.iter().flat_map(|of| modes(&of.spectrum, &of.errors)).collect();
+        let cut_off = solved.iter().map(|of| of.cut).fold(0.0, f64::max);
         let notes = notes(&layers);
-        let spectra = solved.into_iter().map(|(spectrum, _)| spectrum).collect();
-        Ok(Self { from, to, spectra, modes, notes, met })
+        let spectra = solved.into_iter().map(|of| of.spectrum).collect();
+        Ok((Self { from, to, spectra, modes, notes, met }, cut_off))
     }
 
     /// All modes that were kept, by harmonic, then order.
@@ -251,135 +251,6 @@ impl Hoop {
         }
         outline
     }
-}
-
-/// Harmonics on meshes that get finer.
-struct Climb<'a> {
-    request: &'a HoopRequest,
-    layers: &'a Layers,
-    ends: [EndHold; 2],
-    /// Whether the handle is cut off where the stretch begins.
-    cut: bool,
-    materials: Arc<[Elastic]>,
-    walls: [OnceLock<std::result::Result<Wall, String>>; LADDER.len()],
-    round_off: f64,
-    least_kink: f64,
-    /// Share of the difference of two meshes that is stated as the error of the finer.
-    stated: f64,
-    /// What kinks cost that are left as they are, relative.
-    left_kinks: f64,
-}
-
-impl<'a> Climb<'a> {
-    fn new(layers: &'a Layers, ends: [EndHold; 2], cut: bool, request: &'a HoopRequest) -> Self {
-        let least_kink = (0.03 * request.tol / KINK).sqrt();
-        let kinks = layers.kinks();
-        let graded = kinks.as_ref().is_none_or(|kinks| kinks.iter().any(|k| *k >= least_kink));
-        let stated = if graded { 1.0 } else { SMOOTH };
-        let left = kinks.iter().flatten().filter(|kink| **kink < least_kink);
-        let left_kinks = left.map(|kink| KINK * kink * kink).sum();
-        Self {
-            least_kink,
-            left_kinks,
-            request,
-            layers,
-            ends,
-            cut,
-            materials: layers.materials.clone().into(),
-            walls: Default::default(),
-            round_off: round_off(layers),
-            stated,
-        }
-    }
-
-    /// The wall on mesh `k`.
-    fn wall(&self, k: usize) -> Result<&Wall> {
-        let made = self.walls[k].get_or_init(|| {
-            let (degrees, [end, kink, corner]) = LADDER[k];
-            // A free end at the knob is one of the bat; elsewhere the motion has died out.
-            let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
-            let least_kink = self.least_kink;
-            let grading = Grading { knob, tip: end, kink, least_kink, corner };
-            let mesh = WallMesh::new(columns(self.layers, grading), degrees);
-            let mesh = Arc::new(mesh.map_err(|error| error.to_string())?);
-            Ok(Wall { mesh, materials: self.materials.clone() })
-        });
-        made.as_ref().map_err(|said| Error::value("profile", said, "walls that meet"))
-    }
-
-    /// The modes of harmonic n on the first mesh that is fine enough, and their stated errors.
-    ///
-    /// Where the handle is cut off, modes of the handle depend on the cut and are no modes of the barrel: those
-    /// that move there by more than a tenth of their largest motion are left out.
-    fn harmonic(&self, n: usize) -> Result<(Spectrum, Vec<f64>)> {
-        let HoopRequest { tol, least, up_to_hz, .. } = *self.request;
-        let first = usize::from(tol < 3e-3);
-        let coarse = self.wall(first)?;
-        let mut count = count_below(coarse, n, self.ends, TAU * up_to_hz).max(least);
-        let residual = (0.03 * tol).clamp(1e-12, 1e-4);
-        let mut before = Spectrum::frequencies(coarse, n, self.ends, count, residual)?;
-        let mut k = first + 1;
-        loop {
-            let mut now = Spectrum::of(self.wall(k)?, n, self.ends, count, residual)?;
-            let omegas = now.omegas.clone();
-            let others = self.left_kinks + self.round_off;
-            let stated = |(a, b): (&f64, &f64)| self.stated * (a / b - 1.0).abs() + others;
-            let mut errors: Vec<f64> = before.iter().zip(&omegas).map(stated).collect();
-            if self.cut {
-                let kept: Vec<bool> = (0..count).map(|mode| !in_handle(&now, mode)).collect();
-                let missing = least.saturating_sub(kept.iter().filter(|kept| **kept).count());
-                if missing > 0 && count < least + MOST_LEFT_OUT {
-                    count += missing;
-                    before =
-                        Spectrum::frequencies(self.wall(k - 1)?, n, self.ends, count, residual)?;
-                    continue;
-                }
-                now.keep(&kept);
-                let mut kept = kept.into_iter();
-                errors.retain(|_| kept.next() == Some(true));
-            }
-            if k + 1 == LADDER.len() || errors.iter().all(|error| *error <= tol) {
-                return Ok((now, errors));
-            }
-            before = omegas;
-            k += 1;
-        }
-    }
-}
-
-/// Modes of the handle, at most, beside those of the barrel that are wanted at least.
-const MOST_LEFT_OUT: usize = 40;
-
-/// Whether a mode moves where the stretch begins by more than a tenth of its largest motion.
-fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
-    let motion = &spectrum.motions[mode];
-    let columns = &spectrum.system.mesh.columns;
-    let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
-    let middles =
-        columns.iter().flat_map(|column| [column.from, 0.5 * (column.from + column.to), column.to]);
-    let largest = middles.map(size).fold(0.0, f64::max);
-    size(columns[0].from) > 0.1 * largest
-}
-
-/// Round-off of a frequency, relative: 1e-9 where the wall is a hundredth of the radius, and growing as
-/// `(R/h)^3.5` (measured on tubes of h/R from 0.01 to 1e-4).
-fn round_off(layers: &Layers) -> f64 {
-    let (_, thickness, radius) = thinnest(layers);
-    1e-9 * (0.01 * radius / thickness).powf(3.5)
-}
-
-/// Where the wall is thinnest against its radius: place, thickness, radius (m).
-fn thinnest(layers: &Layers) -> (f64, f64, f64) {
-    let places = layers.stretches.iter().flat_map(|stretch| {
-        (0..=8).map(|k| {
-            let x = stretch.from + (stretch.to - stretch.from) * f64::from(k) / 8.0;
-            let radii = stretch.radii(x);
-            let outer = radii[radii.len() - 1];
-            (x, outer - radii[0], outer)
-        })
-    });
-    let share = |place: &(f64, f64, f64)| place.1 / place.2;
-    places.min_by(|a, b| share(a).total_cmp(&share(b))).expect("a wall has a place")
 }
 
 /// The modes of a harmonic with their stated errors.

@@ -8,6 +8,7 @@
 //! | [`request`] | what is asked |
 //! | [`system`], [`spectrum`] | stiffness and mass of one harmonic; its lowest modes on one mesh |
 //! | [`patch`] | how does the wall give way where a ball presses |
+//! | `climb` | how fine must the elements be for a tolerance |
 //! | [`hoop`] | the modes to a tolerance, with an error for each |
 
 pub mod request;
@@ -16,6 +17,7 @@ pub mod system;
 #[doc(hidden)]
 pub mod spectrum;
 pub mod patch;
+pub(crate) mod climb;
 pub mod hoop;
 
 pub use crate::beam::wall::extent::rings;

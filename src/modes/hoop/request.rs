@@ -17,7 +17,7 @@ pub struct HoopRequest {
     pub tol: f64,
     /// The harmonics.
     pub harmonics: Vec<usize>,
-    /// Every mode below this frequency is kept (Hz).
+    /// Every mode below this frequency is kept (Hz), up to 200 of a harmonic.
     pub up_to_hz: f64,
     /// At least so many modes of every harmonic are kept.
     pub least: usize,

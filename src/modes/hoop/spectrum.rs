@@ -1,6 +1,6 @@
 //! What are the lowest modes of the wall in one harmonic, on one mesh?
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::golden;
 use crate::base::linear::dot;
 use crate::beam::wall::unknowns::{EndHold, Unknowns};
@@ -27,6 +27,10 @@ pub struct Spectrum {
     pub steps: usize,
 }
 
+/// Why a wall cannot be solved.
+const TOO_THIN: &str = "round-off makes it indefinite; the wall is too thin for its radius, or \
+                        a layer far softer than the others";
+
 /// Shift of harmonic 1 (1/s²), which has rigid motions: about 100 Hz.
 const SHIFT: f64 = 4e5;
 
@@ -38,7 +42,8 @@ impl Spectrum {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::NotConverged`] if a mode does not converge.
+    /// [`Error::NotConverged`] if a mode does not converge; [`Error::Factorization`] where round-off makes the
+    /// stiffness indefinite.
     pub fn of(
         wall: &Wall,
         n: usize,
@@ -79,6 +84,9 @@ impl Spectrum {
         let (size, all) = (unknowns.count, unknowns.all());
         let rigid = (unknowns.held > 0).then(|| rigid_along(&system));
         let skipped = if n == 1 { rigid_motions(n, ends) } else { 0 };
+        if !factors.pivots().iter().all(|pivot| *pivot > 0.0 && pivot.is_finite()) {
+            return Err(Error::Factorization { unknowns: size, reason: TOO_THIN });
+        }
         let scale: Vec<f64> = factors.pivots().iter().map(|d| 1.0 / d.sqrt()).collect();
         let back = |z: &[f64], x: &mut [f64]| {
             x[..size].iter_mut().zip(z).zip(&scale).for_each(|((x, z), s)| *x = z * s);
