@@ -111,6 +111,8 @@ Examples:
   sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel
       to look at: in ParaView Warp By Vector with hoop_2_1, and pictures";
 
+/// Modes in a picture: more would be too long to look at.
+const MOST_DRAWN: usize = 12;
 /// Places along the barrel in the files of other programs.
 const ALONG: usize = 61;
 
@@ -135,7 +137,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let count = usize::from(args.count);
     if let Some(folder) = &args.plots {
         let sheet = args.output.sheet(&bat);
-        let mut all: Vec<_> = plot::picture(sheet, &bat, &barrel, count).into_iter().collect();
+        let mut all: Vec<_> =
+            plot::picture(sheet, &bat, &barrel, count.min(MOST_DRAWN)).into_iter().collect();
         all.extend(wall_sweep::picture(sheet, bat.name(), &tried));
         pictures::write(folder, &all, args.output.quiet)?;
     }

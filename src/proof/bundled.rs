@@ -139,6 +139,7 @@ pub const CASES: &[(&str, &str)] = &[
 pub const BATS: &[(&str, &str)] = &[
     ("meshes/bbcor_made_up.json", include_str!("../../meshes/bbcor_made_up.json")),
     ("meshes/bbcor_made_up_open.json", include_str!("../../meshes/bbcor_made_up_open.json")),
+    ("meshes/composite_made_up.json", include_str!("../../meshes/composite_made_up.json")),
     ("meshes/cone.json", include_str!("../../meshes/cone.json")),
     ("meshes/corked.json", include_str!("../../meshes/corked.json")),
     ("meshes/dowel.json", include_str!("../../meshes/dowel.json")),

@@ -36,7 +36,7 @@ pub fn hoop(barrel: &Barrel) -> String {
     let choice = choice("hoop", "Hoop mode", &names, 0);
     let note = "The barrel from the side, and from the tip where it moves most; the motion is drawn much \
                 larger and slower than it is.";
-    let told = ["from the handle to the tip", "seen from the tip", note];
+    let told = ["from the side", "from the tip", note];
     player("hoop-player", "The barrel ringing in the chosen mode", &choice, told)
 }
 

@@ -182,8 +182,8 @@
       seconds: 2, round: true, first: 0.25,
       draw: (share) => { show(rest, 0); show(walls, size * Math.sin(2 * Math.PI * share)); },
       say: (share, seconds) => `${mode.harmonic} waves around, ${mode.order} along: ` +
-        `${mode.frequency_hz.toFixed(1)} Hz, ${(1000 * share / mode.frequency_hz).toFixed(2)} of ` +
-        `${(1000 / mode.frequency_hz).toFixed(2)} ms, shown ${Math.round(seconds * mode.frequency_hz)} times slower`,
+        `${mode.frequency_hz.toFixed(1)} Hz, ${(1000 * share / mode.frequency_hz).toFixed(3)} of ` +
+        `${(1000 / mode.frequency_hz).toFixed(3)} ms, shown ${Math.round(seconds * mode.frequency_hz)} times slower`,
     });
     chosen(root, "hoop", (k) => { mode = all[k]; film.show(); });
     once(stage, film);

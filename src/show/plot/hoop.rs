@@ -17,17 +17,14 @@ use crate::study::trampoline::barrel::Barrel;
 
 /// Modes of a usual picture.
 pub const MODES: usize = 5;
-/// Height of a mode (px), half of the barrel's, radius of a ring, and the largest motion of either.
+/// Height of a mode (px), and half of the barrel's.
 const ROW: f64 = 88.0;
 const THICK: f64 = 22.0;
-const RING: f64 = 24.0;
-const MOVED: f64 = 9.0;
-/// Right of the frame: the ring, and what the mode is called.
-const RIGHT: f64 = 176.0;
-const WORDS: f64 = 104.0;
+/// What the name of a mode takes at the right edge (px).
+const WORDS: f64 = 96.0;
 /// Places along a mode and around a ring.
-const ALONG: usize = 81;
-const AROUND: usize = 72;
+const ALONG: usize = 45;
+const AROUND: usize = 48;
 
 /// The lowest modes, at most so many, a row each; picture `hoop`. None where there are none.
 pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<Picture> {
@@ -43,8 +40,11 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     head(&mut svg, title, [bat.name(), facts]);
     let top = sheet.head() + NUMBERS;
     let bottom = top + ROW * lowest.len() as f64;
-    let right = if sheet.narrow() { RIGHT - 12.0 } else { RIGHT };
-    let frame = Frame { right: sheet.width() - right, ..Frame::across(sheet, [top, bottom]) };
+    let size = Size::on(sheet);
+    let frame = Frame {
+        right: sheet.width() - WORDS - size.across() - 20.0,
+        ..Frame::across(sheet, [top, bottom])
+    };
     svg.height = bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
     plane.above(&mut svg, &tip);
@@ -54,9 +54,9 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
         // By its place among all: two modes may be alike in every number.
         let Some(number) = modes.iter().position(|one| std::ptr::eq(one, *mode)) else { continue };
         let outline = barrel.hoop().outline(number, ALONG);
-        side(&mut svg, &plane, axis, (bat, mode, &outline));
-        around(&mut svg, [frame.right + 16.0 + RING + MOVED, axis], (mode, &outline));
-        named(&mut svg, [sheet.width() - WORDS + 4.0, axis], mode);
+        side(&mut svg, &plane, (axis, size.moved), (bat, mode, &outline));
+        around(&mut svg, [frame.right + 12.0 + 0.5 * size.across(), axis], size, (mode, &outline));
+        named(&mut svg, [sheet.width() - WORDS, axis], mode);
     }
     plane.below(&mut svg);
     let told = |mode: &&HoopMode| {
@@ -69,11 +69,35 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     Some(Picture::new("hoop", title, &alt, svg))
 }
 
+/// How large a ring is drawn.
+#[derive(Clone, Copy)]
+struct Size {
+    /// Its radius (px).
+    ring: f64,
+    /// The largest motion of it and of the barrel beside it (px).
+    moved: f64,
+}
+
+impl Size {
+    fn on(sheet: Sheet) -> Self {
+        if sheet.narrow() {
+            Self { ring: 17.0, moved: 6.0 }
+        } else {
+            Self { ring: 24.0, moved: 9.0 }
+        }
+    }
+
+    /// What a ring takes across (px).
+    fn across(self) -> f64 {
+        2.0 * (self.ring + self.moved)
+    }
+}
+
 /// The barrel from the side: its upper and its lower line, at rest and at one end of the motion.
 fn side(
     svg: &mut Svg,
     plane: &Plane,
-    axis: f64,
+    (axis, most): (f64, f64),
     (bat, mode, outline): (&Bat, &HoopMode, &Outline),
 ) {
     let radius = |x: f64| bat.profile().at(x).outer;
@@ -84,7 +108,7 @@ fn side(
         let sign = if side < 0.0 { below } else { 1.0 };
         let places = outline.x.iter().zip(&outline.radial);
         let at = |(x, radial): (&f64, &f64)| {
-            let out = THICK * radius(*x) / widest + MOVED * moved * sign * radial;
+            let out = THICK * radius(*x) / widest + most * moved * sign * radial;
             [plane.across(*x), axis - side * out]
         };
         places.map(at).collect()
@@ -102,7 +126,7 @@ fn side(
 /// The barrel from the tip, at the place where it moves most.
 ///
 /// A point at θ moves by `U cos nθ` outwards and `V sin nθ` around.
-fn around(svg: &mut Svg, [x, y]: Point, (mode, outline): (&HoopMode, &Outline)) {
+fn around(svg: &mut Svg, [x, y]: Point, size: Size, (mode, outline): (&HoopMode, &Outline)) {
     let most = (0..outline.x.len())
         .max_by(|a, b| outline.radial[*a].abs().total_cmp(&outline.radial[*b].abs()))
         .unwrap_or(0);
@@ -111,16 +135,16 @@ fn around(svg: &mut Svg, [x, y]: Point, (mode, outline): (&HoopMode, &Outline)) 
         let at = |k: usize| {
             let theta = TAU * k as f64 / AROUND as f64;
             let (sin_n, cos_n) = (mode.harmonic as f64 * theta).sin_cos();
-            let radius = RING + moved * out * cos_n;
+            let radius = size.ring + moved * out * cos_n;
             let along = moved * turn * sin_n;
             let (sine, cosine) = theta.sin_cos();
             [x + radius * sine + along * cosine, y - radius * cosine + along * sine]
         };
         (0..=AROUND).map(at).collect()
     };
-    svg.ring([x, y], RING, Pen::new(FRAME, 1.0).dashed("3 3"));
-    svg.line(&ring(-MOVED), Pen::new(SERIES[0], 0.8));
-    svg.line(&ring(MOVED), Pen::new(SERIES[0], 1.5));
+    svg.ring([x, y], size.ring, Pen::new(FRAME, 1.0).dashed("3 3"));
+    svg.line(&ring(-size.moved), Pen::new(SERIES[0], 0.8));
+    svg.line(&ring(size.moved), Pen::new(SERIES[0], 1.5));
 }
 
 fn named(svg: &mut Svg, [x, y]: Point, mode: &HoopMode) {

@@ -6,7 +6,7 @@ use crate::base::number::{rounded, significant};
 use crate::base::units::{POUND_FORCE, inches};
 use crate::bat::body::Bat;
 use crate::collision::wall_figures::WallBbcor;
-use crate::modes::hoop::HoopMode;
+use crate::modes::hoop::{HoopMode, Share};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::hoop_notes::notes;
 use crate::show::report::text::{edited, wrapped};
@@ -94,27 +94,30 @@ fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> Stri
     let ball = barrel.rebound.as_ref().map_or(String::new(), |rebound| {
         format!(" ({} times the ball)", significant(rebound.figures.over_ball, 2))
     });
-    let [long, wide] = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
     format!(
-        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {} by {}.",
+        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
         barrel.test.ball.name,
         units.inline(units.length(bat.length() - wall.patch.x)),
         significant(wall.stiffness() / MEGA, 3),
         small(units, wall.thickness),
-        small(units, long),
-        small(units, wide),
+        patch(units, wall),
     )
 }
 
-/// What the harmonics have of the wall's giving way.
+/// What the harmonics have of the wall's giving way, those with half a per cent and more by name.
 fn harmonics(wall: &PressedWall) -> String {
-    let whole = wall.flexibility();
-    let share = |share: &crate::modes::hoop::Share| {
-        let percent = 100.0 * share.flexibility / whole;
-        format!("n = {} {} %", share.harmonic, significant(percent, 2))
-    };
-    let all: Vec<String> = wall.shares.iter().map(share).collect();
-    format!("It gives way by {}.", all.join(", "))
+    const LEAST: f64 = 0.5;
+    let percent = |share: &Share| 100.0 * share.flexibility / wall.flexibility();
+    let (named, others): (Vec<&Share>, Vec<&Share>) =
+        wall.shares.iter().partition(|share| percent(share) >= LEAST);
+    let told =
+        |share: &&Share| format!("n = {} has {} %", share.harmonic, significant(percent(share), 2));
+    let mut all: Vec<String> = named.iter().map(told).collect();
+    if !others.is_empty() {
+        let rest: f64 = others.into_iter().map(percent).sum();
+        all.push(format!("all others {} %", significant(rest, 1)));
+    }
+    format!("Of how far it gives way {}.", all.join(", "))
 }
 
 /// How the ball comes back.
@@ -132,6 +135,14 @@ fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
             units.energy(rebound.left, 1)
         ),
     ]
+}
+
+/// Length and width of the patch.
+fn patch(units: Units, wall: &PressedWall) -> String {
+    let sides = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
+    let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
+    let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
+    both(units, format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
 }
 
 /// A small length (m).
@@ -163,7 +174,7 @@ pub fn in_a_line(barrel: &Barrel) -> String {
     let wall = barrel.wall.as_ref().map_or(String::new(), |wall| {
         format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
     });
-    format!("Hollow: first hoop mode {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
+    format!("Hoop modes from {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
 }
 
 /// The first hoop modes, the wall and the rebound, as a part of more.

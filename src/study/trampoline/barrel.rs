@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Fixtures;
+use crate::bat::material::Material;
 use crate::beam::wall::elastic::{ASSUMED_POISSON_RATIO, poisson_ratio};
 use crate::collision::ball::Ball;
 use crate::collision::bbcor::TEST_SPEED;
@@ -197,8 +198,12 @@ const SPREAD: f64 = 0.05;
 
 /// Whether Poisson's ratio of everything in the bat is known.
 fn knows_poisson(bat: &Bat) -> bool {
-    let mut layups = bat.layups().iter();
-    layups.all(|layup| layup.materials().all(|material| poisson_ratio(material).is_some()))
+    bat.layups().iter().all(|layup| layup.materials().all(has_poisson))
+}
+
+/// Whether a material has a Poisson's ratio, or those of a composite.
+fn has_poisson(material: &Material) -> bool {
+    material.poisson_ratios.is_some() || poisson_ratio(material).is_some()
 }
 
 /// The bat with Poisson's ratio where it is not known that much off the usual one.
@@ -207,8 +212,8 @@ fn assuming(bat: &Bat, by: f64) -> Result<Bat> {
         let regions = parts.fixtures.regions.iter_mut();
         let layups = regions.flat_map(|region| region.layup.materials_mut());
         let all = std::iter::once(&mut parts.material).chain(layups);
-        for material in all.filter(|material| poisson_ratio(material).is_none()) {
-            material.poisson_ratio.get_or_insert(ASSUMED_POISSON_RATIO + by);
+        for material in all.filter(|material| !has_poisson(material)) {
+            material.poisson_ratio = Some(ASSUMED_POISSON_RATIO + by);
         }
     })
 }
