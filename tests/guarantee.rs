@@ -37,7 +37,8 @@ fn every_known_frequency_is_between_its_bounds() {
     for (name, cases) in BATS.iter().filter(|(_, cases)| !cases.is_empty()) {
         let truth = Truth::of_cases(cases).unwrap();
         let modes = truth.frequencies.len().min(10);
-        let request = Request { modes, tolerance: 1e-11, theory: truth.theory, ..Request::default() };
+        let request =
+            Request { modes, tolerance: 1e-11, theory: truth.theory, ..Request::default() };
         let found = match guarantee(&truth.bat, &request) {
             Ok((_, found)) => found,
             Err(said) => {
@@ -50,7 +51,9 @@ fn every_known_frequency_is_between_its_bounds() {
             assert!(holds(mode.hertz, *known), "{name}: {:?} {known:?}", mode.hertz);
             held += 1;
         }
-        for (mode, nodes) in found.modes.iter().zip(&truth.nodes).filter(|(_, nodes)| !nodes.is_empty()) {
+        for (mode, nodes) in
+            found.modes.iter().zip(&truth.nodes).filter(|(_, nodes)| !nodes.is_empty())
+        {
             for [from, to] in &mode.nodes {
                 let inside = nodes.iter().filter(|x| *from - 1e-15 <= **x && **x <= *to + 1e-15);
                 let beside = *from < 1e-4 || *to > truth.bat.length() - 1e-4;
@@ -121,7 +124,7 @@ fn what_is_proven_is_the_decimals_of_the_file() {
 }
 
 #[test]
-fn a_band_holds_the_frequencies_of_bats_within_it_and_no_bats_make_it_much_wider() {
+fn a_band_holds_the_frequencies_of_bats_within_it() {
     let bat = mesh_bat("r161");
     let request = Request { modes: 4, tolerance: 1e-9, ..Request::default() };
     let within = Within { radius: 1e-4, modulus: 0.02 };

@@ -6,6 +6,7 @@
 //! | [`validation`] | is it reproduced |
 //! | [`published`] | are published figures reproduced |
 //! | [`promise`], [`hit_promise`] | do stated errors hold, of modes and of hits |
+//! | [`proven_promise`] | do they hold where every frequency is proven |
 //! | [`extremes`] | does what no bat is stay right |
 
 pub mod bundled;
@@ -15,4 +16,5 @@ pub mod validation;
 pub mod published;
 pub mod promise;
 pub mod hit_promise;
+pub mod proven_promise;
 pub mod extremes;

@@ -53,14 +53,18 @@ fn norms_are_above_the_sums_over_known_modes_and_near_them() {
         let truth = Truth::of_cases(cases).unwrap();
         let taus: Vec<f64> = truth.frequencies.iter().map(|f| (TAU * f).powi(-2)).collect();
         let found = norms(&truth.bat, truth.theory);
-        let [sum, squares] = [1, 2].map(|power| taus.iter().map(|tau| tau.powi(power)).sum::<f64>());
+        let [sum, squares] =
+            [1, 2].map(|power| taus.iter().map(|tau| tau.powi(power)).sum::<f64>());
         let last = taus.last().unwrap();
         // Beyond mode n of a plain beam τ falls as n⁻⁴, of one that shears as n⁻²; steps make it uneven.
         let rest = if truth.theory.shears() { 1.6 } else { 0.5 } * taus.len() as f64 * last;
         let above = (found.trace - sum) / rest;
         assert!(above > 0.2 && above < 1.5, "{cases:?} {above}");
         let above = found.square / squares - 1.0;
-        assert!(above > -1e-14 && above < 1e-9 + 2.0 * rest * last / squares, "{cases:?} {above:e}");
+        assert!(
+            above > -1e-14 && above < 1e-9 + 2.0 * rest * last / squares,
+            "{cases:?} {above:e}"
+        );
     }
 }
 
@@ -118,11 +122,8 @@ fn sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least
         let curves = curved(&bat).unwrap();
         for (curve, piece) in curves.iter().zip(&bat.profile().pieces) {
             let rings = Rings::of(bat.layup(piece), curve, Interval::point(1.0));
-            let [bending, mass, turning]: [Values<24>; 3] = [
-                rings.bending(&GAUSS_24),
-                rings.mass(&GAUSS_24),
-                rings.turning(&GAUSS_24),
-            ];
+            let [bending, mass, turning]: [Values<24>; 3] =
+                [rings.bending(&GAUSS_24), rings.mass(&GAUSS_24), rings.turning(&GAUSS_24)];
             let (least, mut softest) = (rings.bending_at_least(), f64::INFINITY);
             let shear = rings.shear();
             let sheared: Option<Values<24>> =

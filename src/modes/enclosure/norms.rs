@@ -429,13 +429,12 @@ impl Sums {
                 true => [v1.difference(&x), v2.sum(&one)],
                 false => [v1.sum(&one), *v2],
             };
-            let ends =
-                [
-                    v1.sum(&v2.times(-begin)),
-                    v1.sum(&v2.product(&x)),
-                    w1.sum(&w2.product(&x)),
-                    w1.sum(&w2.times(rigid.length - begin)),
-                ];
+            let ends = [
+                v1.sum(&v2.times(-begin)),
+                v1.sum(&v2.product(&x)),
+                w1.sum(&w2.product(&x)),
+                w1.sum(&w2.times(rigid.length - begin)),
+            ];
             let squares = ends.map(|end| end.product(&end));
             let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
             reach = reach.sum(&sum.product(soft));
