@@ -10,6 +10,8 @@ mod arithmetic;
 mod parts;
 #[path = "guarantee/lies.rs"]
 mod lies;
+#[path = "guarantee/again.rs"]
+mod again;
 
 use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
 use sweetspot::modes::enclosure::within::{Within, band};

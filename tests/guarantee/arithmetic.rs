@@ -209,7 +209,7 @@ fn every_operation_of_series_holds_the_exact_polynomial() {
 }
 
 /// 24 Gauss points and weights in twice the digits.
-fn gauss_in_two() -> &'static [(Twofold, Twofold)] {
+pub fn gauss_in_two() -> &'static [(Twofold, Twofold)] {
     static POINTS: std::sync::OnceLock<Vec<(Twofold, Twofold)>> = std::sync::OnceLock::new();
     POINTS.get_or_init(|| {
         let (n, one) = (24, number(1.0));
