@@ -18,12 +18,12 @@ const PI: Twofold = Twofold { high: std::f64::consts::PI, low: 1.224_646_799_147
 /// A polynomial on a cell by its Legendre coefficients.
 type Polynomial = Vec<Twofold>;
 
-fn at(polynomial: &Polynomial, x: Twofold) -> Twofold {
+fn at(polynomial: &[Twofold], x: Twofold) -> Twofold {
     let p = legendre(polynomial.len().max(2), x);
     polynomial.iter().zip(p).fold(number(0.0), |sum, (c, p)| sum + *c * p)
 }
 
-fn integrated(polynomial: &Polynomial, half: Twofold) -> Polynomial {
+fn integrated(polynomial: &[Twofold], half: Twofold) -> Polynomial {
     let mut out = vec![number(0.0); polynomial.len() + 1];
     for (j, c) in polynomial.iter().enumerate() {
         let part = half * *c / number((2 * j + 1) as f64);
@@ -34,7 +34,7 @@ fn integrated(polynomial: &Polynomial, half: Twofold) -> Polynomial {
     out
 }
 
-fn plus(mut a: Polynomial, b: &Polynomial) -> Polynomial {
+fn plus(mut a: Polynomial, b: &[Twofold]) -> Polynomial {
     a.resize(a.len().max(b.len()), number(0.0));
     a.iter_mut().zip(b).for_each(|(a, b)| *a = *a + *b);
     a
@@ -114,9 +114,9 @@ fn energies(bat: &Bat, mesh: &Mesh, theory: Theory, trial: &Trial) -> [Twofold; 
     let (mut w0, mut t0) = (number(0.0), number(0.0));
     let mut motion: Vec<[Polynomial; 2]> = vec![];
     for (k, cell) in cells.iter().enumerate() {
-        let turn = plus(integrated(&of(&trial.bending, k), cell.half), &vec![t0]);
+        let turn = plus(integrated(&of(&trial.bending, k), cell.half), &[t0]);
         let slope = plus(turn.clone(), &of(&trial.shear, k));
-        let w = plus(integrated(&slope, cell.half), &vec![w0]);
+        let w = plus(integrated(&slope, cell.half), &[w0]);
         (w0, t0) = (at(&w, number(1.0)), at(&turn, number(1.0)));
         motion.push([w, turn]);
     }
@@ -136,8 +136,8 @@ fn energies(bat: &Bat, mesh: &Mesh, theory: Theory, trial: &Trial) -> [Twofold; 
     let push = (gram[2] * load[0] - gram[1] * load[1]) / determinant;
     let spin = (gram[0] * load[1] - gram[1] * load[0]) / determinant;
     for (cell, [w, turn]) in cells.iter().zip(&mut motion) {
-        *w = plus(w.clone(), &vec![-push - spin * cell.middle, -spin * cell.half]);
-        *turn = plus(turn.clone(), &vec![-spin]);
+        *w = plus(w.clone(), &[-push - spin * cell.middle, -spin * cell.half]);
+        *turn = plus(turn.clone(), &[-spin]);
     }
     let (mut strain, mut kinetic) = (number(0.0), number(0.0));
     let (mut v0, mut m0) = (number(0.0), number(0.0));
@@ -158,9 +158,9 @@ fn energies(bat: &Bat, mesh: &Mesh, theory: Theory, trial: &Trial) -> [Twofold; 
                     rho * cell.area(xi) * w * w + turning(xi) * t * t
                 });
         let load = through(w.len() + 1, |xi| rho * cell.area(xi) * at(w, xi));
-        let v = plus(integrated(&load, cell.half), &vec![v0]);
+        let v = plus(integrated(&load, cell.half), &[v0]);
         let couple = through(turn.len() + 3, |xi| -(turning(xi) * at(turn, xi)));
-        let m = plus(integrated(&plus(v.clone(), &couple), cell.half), &vec![m0]);
+        let m = plus(integrated(&plus(v.clone(), &couple), cell.half), &[m0]);
         (v0, m0) = (at(&v, number(1.0)), at(&m, number(1.0)));
         forces.push([v, m]);
     }

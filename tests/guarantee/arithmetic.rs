@@ -108,11 +108,11 @@ fn table<const N: usize>(gauss: &Gauss<N>) {
         let weight = number(2.0) * (one - x * x) / (below * below);
         assert!(x.less(gauss.points[g]).abs() <= half_a_unit(gauss.points[g]), "point {g}");
         assert!(weight.less(gauss.weights[g]).abs() <= half_a_unit(gauss.weights[g]), "weight {g}");
-        for j in 0..N {
+        for (j, p) in p[..N].iter().enumerate() {
             let (own, to) = (gauss.legendre[j][g], gauss.to_series[j][g]);
             // Near a zero of P_j twice the digits are digits of 1, not of the value.
-            assert!(p[j].less(own).abs() <= half_a_unit(own) + 1e-28, "P {j} {g}");
-            let exact = number(0.5 * (2 * j + 1) as f64) * weight * p[j];
+            assert!(p.less(own).abs() <= half_a_unit(own) + 1e-28, "P {j} {g}");
+            let exact = number(0.5 * (2 * j + 1) as f64) * weight * *p;
             assert!(exact.less(to).abs() <= half_a_unit(to) + 1e-28, "to series {j} {g}");
         }
     }

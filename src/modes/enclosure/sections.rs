@@ -85,7 +85,7 @@ impl Border {
     }
 }
 
-impl<'a> Ring<'a> {
+impl Ring<'_> {
     /// `b² − a²`.
     fn squares<const N: usize>(&self, gauss: &Gauss<N>) -> Values<N> {
         let b = self.outside.series.values(gauss);
@@ -325,5 +325,5 @@ pub fn inverse(values: &Values<40>, most: f64) -> Option<Nearly> {
     let product = series.values(gauss).product(values);
     let one = Values::constant(number(1.0));
     let share = Series::through(gauss, &product.difference(&one)).largest();
-    (share < most).then(|| Nearly { series, share })
+    (share < most).then_some(Nearly { series, share })
 }
