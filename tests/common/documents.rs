@@ -30,6 +30,12 @@ pub const WRITTEN: [Written; 22] = [
         Numbers::Sharp,
     ),
     (
+        "modes-proven",
+        "modes",
+        "modes r161.json -n 2 --tol 1e-9 --guarantee --within 0.1mm,2% --shape-points 2",
+        Numbers::Sharp,
+    ),
+    (
         "hit",
         "hit",
         "hit bat-1.json -n 2 --tol 1e-8 --theory timoshenko --from 0.6 --to 0.7 --points 2 --ball ball-1.json --wall-stiffness 5e6 --wall-mass 0.05 --reference-inertia 0.2 --swing-exponent 0.3 --swing-speed 50 --pitch 40.2336",

@@ -22,7 +22,7 @@
 //! N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), 3.1: `γ_n`. The use is that of Taylor
 //! models (K. Makino, M. Berz, Int. J. Pure Appl. Math. 4 (2003) 379) with Legendre's polynomials.
 
-use std::ops::{Add, Sub};
+use std::ops::{Add, Neg, Sub};
 
 use super::gauss::Gauss;
 use super::{Interval, UNIT};
@@ -239,13 +239,20 @@ impl Add for Series {
     }
 }
 
+impl Neg for Series {
+    type Output = Self;
+
+    fn neg(mut self) -> Self {
+        self.coefficients.iter_mut().for_each(|c| *c = -*c);
+        self
+    }
+}
+
 impl Sub for Series {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        let mut minus = other;
-        minus.coefficients.iter_mut().for_each(|c| *c = -*c);
-        self + minus
+        self + -other
     }
 }
 
@@ -324,6 +331,6 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
             sums[k] += a[k] * b[k];
         }
     }
-    debug_assert!(N % SIDE == 0);
+    debug_assert!(N.is_multiple_of(SIDE));
     sums.iter().sum()
 }

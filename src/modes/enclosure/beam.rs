@@ -160,18 +160,19 @@ impl Layout {
         let curves = curved(bat)?;
         let heavier = heavier(bat, &curves)?;
         let length = bat.length();
+        let turned = bat.profile().turned.then_some(length);
         let borders = bat.profile().borders();
         let mass = |attachment: &Attachment| {
             let near = |k: &usize| (borders[*k] - attachment.x).abs();
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
             let offset = data(attachment.offset);
-            let centre = place(attachment.x, None) + offset;
+            let centre = place(attachment.x, turned) + offset;
             let numbers = [data(attachment.mass), data(attachment.rotary_inertia), centre, offset];
             (border.expect("a bat has borders"), numbers)
         };
         let mut masses: Vec<_> = bat.fixtures().attachments.iter().map(mass).collect();
         masses.sort_by_key(|(border, _)| *border);
-        let whole = place(length, bat.profile().turned.then_some(length));
+        let whole = place(length, turned);
         Ok(Self { curves, heavier, masses, length: whole })
     }
 }
@@ -208,11 +209,21 @@ impl Proven {
         let gauss = &GAUSS_24;
         let (mut cells, mut begin) =
             (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
+        // Cells lie end to end from knob to tip: a gap would be another bat.
+        let mut before = (0, 0.0);
         for part in mesh.elements.iter().flat_map(|element| element.parts(bat)) {
             let [from, to] = part.of_piece;
+            let (piece, at) = if before.1 < 1.0 { before } else { (before.0 + 1, 0.0) };
+            if (part.piece, from) != (piece, at) || to <= from {
+                return Err(Error::value("mesh", "elements with a gap between them", "none"));
+            }
+            before = (part.piece, to);
             begin[part.piece] = begin[part.piece].min(cells.len());
             let curve = layout.curves[part.piece].part(from, to);
             cells.push(cell(bat, part.piece, &curve, layout.heavier, theory, origin)?);
+        }
+        if before != (layout.curves.len() - 1, 1.0) {
+            return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
         }
         let mass = |(piece, [mass, inertia, centre, offset]): &(usize, [Interval; 4])| Mass {
             border: begin.get(*piece).copied().unwrap_or(cells.len()),

@@ -63,8 +63,8 @@ pub struct Moved {
     pub borders: Vec<[f64; 2]>,
     /// Jump (m) and kink (rad) at every border, at most.
     pub steps: Vec<[f64; 2]>,
-    /// By how much deflection (m) and rotation (rad) of the trial's own motion may differ at most, kinks,
-    /// jumps and rigid motion together, on every cell and, one place further, at every border beyond it.
+    /// By how much deflection (m) and rotation (rad) of the trial's own motion may differ at most on every
+    /// cell: kinks, jumps and rigid motion together.
     pub drift: Vec<[f64; 2]>,
     /// Rigid motion that is left in it: deflection where arms are counted from, and rotation.
     pub rigid: [Interval; 2],
@@ -85,6 +85,11 @@ const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 impl Proven {
     /// What is proven of a trial; None of one without strain.
     pub fn energies(&self, trial: &Trial) -> Option<Energies> {
+        let own = trial.terms * self.cells.len();
+        let sheared = if self.theory.shears() { own } else { 0 };
+        if trial.terms == 0 || trial.bending.len() != own || trial.shear.len() != sheared {
+            return None;
+        }
         let moved = self.moved(trial)?;
         let (mut strain, mut kinetic) = (ZERO, ZERO);
         let gauss = &GAUSS_24;
@@ -214,10 +219,34 @@ impl Proven {
             let [jump, kink] = if inner == self.root { [0.0; 2] } else { moved.steps[inner] };
             side[1] = up(side[1] + kink);
             side[0] = up(up(side[0] + jump) + up(2.0 * self.cells[k].half.high * side[1]));
-            let cell = &self.cells[k];
-            let rigid = (push + turn * (cell.middle + cell.half * Interval::within(1.0))).largest();
-            moved.drift[k] = [up(side[0] + rigid), up(side[1] + turn.largest())];
+            moved.drift[k] = *side;
         }
+        let [own, turned] = self.rigid_of(moved.drift.iter());
+        for (cell, drift) in self.cells.iter().zip(&mut moved.drift) {
+            let arm = cell.middle + cell.half * Interval::within(1.0);
+            let rigid = up((push + turn * arm).largest() + up(own + up(turned * arm.largest())));
+            *drift = [up(drift[0] + rigid), up(drift[1] + up(turn.largest() + turned))];
+        }
+    }
+
+    /// The rigid motion at most (m where arms are counted from, and rad) in a motion that deflects and turns no cell
+    /// by more than these: by Cauchy's inequality `∫ρA |y| ≤ (M ∫ρA y²)^½`.
+    fn rigid_of<'a>(&self, drift: impl Iterator<Item = &'a [f64; 2]>) -> [f64; 2] {
+        let most =
+            drift.fold([0.0_f64; 2], |most, drift| [most[0].max(drift[0]), most[1].max(drift[1])]);
+        let offset = self.masses.iter().map(|mass| mass.offset.largest()).fold(0.0, f64::max);
+        let moved = Interval::point(up(most[0] + up(offset * most[1])));
+        let turned = Interval::point(most[1]);
+        let [mass, first, second] = self.gram;
+        let force = mass * moved;
+        let moment = (mass * second).sqrt() * moved + second * turned;
+        let over = (mass * second - first.square()).reciprocal();
+        let over = over.filter(|over| over.low > 0.0).unwrap_or(Interval::within(f64::INFINITY));
+        let first = Interval::point(first.largest());
+        [
+            ((second * force + first * moment) * over).largest(),
+            ((mass * moment + first * force) * over).largest(),
+        ]
     }
 
     /// The rigid motion in a motion: deflection where arms are counted from, and rotation.
@@ -301,8 +330,9 @@ impl Proven {
         };
         let outer = worth(at);
         let sign = Interval::point(sign);
-        // The cell inside of the border has the drift of the border too.
+        // What the cell inside of the border drifts, and the step at the border.
         let drift = moved.drift[if sign.low > 0.0 { border } else { border - 1 }];
+        let drift: [f64; 2] = std::array::from_fn(|i| up(drift[i] + moved.steps[border][i]));
         for mass in self.masses.iter().filter(|mass| mass.border == border) {
             let off = |i: usize| Interval::within(drift[i]);
             let [w, turn] = moved.borders[border].map(Interval::point);

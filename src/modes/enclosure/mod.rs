@@ -15,13 +15,21 @@
 //! | [`trials`](mod@trials), [`guarantee`](mod@guarantee) | which motions are tried; as narrow as asked |
 //! | [`within`] | every bat within so much of this one |
 
+#[doc(hidden)]
 pub mod radii;
+#[doc(hidden)]
 pub mod sections;
+#[doc(hidden)]
 pub mod beam;
+#[doc(hidden)]
 pub mod energies;
+#[doc(hidden)]
 pub mod norms;
+#[doc(hidden)]
 pub mod conclude;
+#[doc(hidden)]
 pub mod nodes;
+#[doc(hidden)]
 pub mod trials;
 pub mod guarantee;
 pub mod within;

@@ -6,7 +6,8 @@
 //!
 //! ```text
 //! u_χ(s) = ∫₀^s (A, B − ρI) dx,   u_γ(s) = −(A, B),   A = ∫₀^s ρA dx,   B = ∫₀^s ρA x dx
-//! v_χ(t) = (t, −1) − G u_χ(t),    v_γ(t) = (−1, 0) − G u_γ(t),   G the inverse of the rigid motions' masses
+//! v_χ(t) = (t, −1) − G u_χ(t),    v_γ(t) = (−1, 0) − G u_γ(t)
+//! G = [1/M + d²/I, −d/I; −d/I, 1/I],   M the mass, I the moment of inertia about the balance point at x = d
 //! ```
 //!
 //! `v(t)` is the line on which the bat lies left of a unit strain at `t` once the rigid motions are out, so the
@@ -16,8 +17,8 @@
 //! trace T = ∫ Σ_b u_b·v_b/C_b dt        |T|² = Σ τ² = 2 ∫ Σ_b v_bᵀ U v_b/C_b dt,   U′ = Σ_a u_a u_aᵀ/C_a
 //! ```
 //!
-//! over each side of the balance point from its own end, so that nothing cancels at thin ends, and
-//! `2 tr(U_l G U_r G)` for pairs of strains on different sides, whose own motions do not meet. Every integrand
+//! over each side of the balance point from its own end, `x` counted from the beginning of every stretch anew,
+//! so that nothing cancels at thin ends and little elsewhere, and `2 tr(U_l G U_r G)` for pairs of strains on different sides, whose own motions do not meet. Every integrand
 //! with `1/C` is not negative and rises with `1/C`: a polynomial above `1/C` gives a bound from above.
 //!
 //! # Source
@@ -56,6 +57,8 @@ const ABOVE: f64 = 1e-11;
 const MOST_HALVINGS: usize = 40;
 /// Halving brings the polynomial nearer by 2¹³, unless it is rounding that is left.
 const STALLED: f64 = 0.1;
+/// Stretches are no longer than this share of the bat, so that one ends near the balance point.
+const LONGEST: f64 = 0.1;
 /// A bat that takes more stretches is refused.
 const MOST_STRETCHES: usize = 20_000;
 /// A polynomial for 1/EI that is farther above it than this is of no use.
@@ -132,32 +135,31 @@ impl Norms {
             let found = "a bat whose rigid motions nothing tells apart";
             Error::value("profile", found, "numbers nearer to 1 in SI units")
         };
-        let left = inverse_of(rigid).ok_or_else(unbounded)?;
-        // Seen from the tip: x′ = L − x.
-        let [mass, first, second] = rigid;
-        let turned = [
-            mass,
-            length * mass - first,
-            length.square() * mass - length * (first + first) + second,
-        ];
-        let right = inverse_of(turned).ok_or_else(unbounded)?;
+        let rigid = Rigid::of(rigid, length).ok_or_else(unbounded)?;
         let knob: Vec<Met> = masses.iter().filter(|mass| mass.before <= split).copied().collect();
-        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &left, length);
+        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &rigid);
         let count = stretches.len();
+        let border = match stretches.get(split) {
+            Some(stretch) => stretch.middle - stretch.half,
+            None => length,
+        };
         let mirrored: Vec<Stretch> =
             stretches.drain(split..).rev().map(|stretch| stretch.mirrored(length)).collect();
+        // Seen from the tip, where x′ = L − x.
         let tip: Vec<Met> = masses
             .iter()
             .filter(|mass| mass.before > split)
             .map(|mass| Met { before: count - mass.before, centre: length - mass.centre, ..*mass })
             .rev()
             .collect();
-        let (parts_r, outer_r) = from_end(&mirrored, &tip, &right, length);
+        let turned = Rigid { balance: length - rigid.balance, ..rigid };
+        let (parts_r, outer_r) = from_end(&mirrored, &tip, &turned);
         let [trace, square, reach] = std::array::from_fn(|k| parts_l[k] + parts_r[k]);
-        // U_r in the left end's coordinates: `⟨φ, x⟩ = L ⟨φ, 1⟩ − ⟨φ, x′⟩`.
+        // Both about the border between them, moments the other way round.
         let [a, b, c] = outer_r;
-        let outer_r = [a, length * a - b, length.square() * a - length * (b + b) + c];
-        let both = times(times(full(outer_l), full(left)), times(full(outer_r), full(left)));
+        let outer_r = [a, -b, c];
+        let inverse = full(rigid.inverse(border));
+        let both = times(times(full(outer_l), inverse), times(full(outer_r), inverse));
         let across = both[0][0] + both[1][1];
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
         Ok(Self {
@@ -201,14 +203,35 @@ fn rigid(stretches: &[Stretch], masses: &[Met]) -> [Interval; 3] {
     gram
 }
 
-/// G: `[1/M + x_b²/I, −x_b/I, 1/I]` about the balance point.
-fn inverse_of([mass, first, second]: [Interval; 3]) -> Option<[Interval; 3]> {
-    let over = mass.reciprocal()?;
-    let balance = first * over;
-    // `∫ρA x² − M x_b²` cancels three quarters of itself at most on a bat.
-    let about = second - first * balance;
-    let turn = about.reciprocal().filter(|turn| turn.low > 0.0)?;
-    Some([over + balance.square() * turn, -(balance * turn), turn])
+/// The bat as a rigid body.
+#[derive(Clone, Copy)]
+struct Rigid {
+    /// 1/M (1/kg).
+    over_mass: Interval,
+    /// 1/I (1/(kg m²)).
+    over_inertia: Interval,
+    /// The balance point from the end that sums run from (m).
+    balance: Interval,
+    /// Length of the bat (m).
+    length: Interval,
+}
+
+impl Rigid {
+    fn of([mass, first, second]: [Interval; 3], length: Interval) -> Option<Self> {
+        let over_mass = mass.reciprocal()?;
+        let balance = first * over_mass;
+        // `∫ρA x² − M x_b²` cancels three quarters of itself at most on a bat.
+        let about = second - first * balance;
+        let over_inertia = about.reciprocal().filter(|over| over.low > 0.0)?;
+        Some(Self { over_mass, over_inertia, balance, length })
+    }
+
+    /// G about a place: its entries 11, 12, 22.
+    fn inverse(&self, place: Interval) -> [Interval; 3] {
+        let d = self.balance - place;
+        let Self { over_mass, over_inertia, .. } = *self;
+        [over_mass + d.square() * over_inertia, -(d * over_inertia), over_inertia]
+    }
 }
 
 fn full([a, b, c]: [Interval; 3]) -> [[Interval; 2]; 2] {
@@ -242,7 +265,9 @@ fn halved(
     all: &mut Vec<Stretch>,
 ) -> Result<()> {
     let Part { piece, curve, of_piece: [from, to], halvings, before } = part;
-    let stretch = Stretch::of(bat, layout, theory, piece, &curve.part(from, to));
+    let whole = curve.part(from, to);
+    let short = whole.length.high <= LONGEST * layout.length.low;
+    let stretch = short.then(|| Stretch::of(bat, layout, theory, piece, &whole)).flatten();
     let above = stretch.as_ref().map_or(f64::INFINITY, |stretch| stretch.above);
     if let Some(stretch) = stretch
         && (above < ABOVE || above > STALLED * before)
@@ -300,6 +325,7 @@ impl Stretch {
         })
     }
 
+    /// Places from the end of the bat (m), at the points.
     fn places(&self) -> Values<40> {
         Series::of(&[self.middle, self.half]).values(&GAUSS_40)
     }
@@ -318,8 +344,7 @@ impl Stretch {
 fn from_end(
     stretches: &[Stretch],
     masses: &[Met],
-    inverse: &[Interval; 3],
-    length: Interval,
+    rigid: &Rigid,
 ) -> ([Interval; 3], [Interval; 3]) {
     let mut parts = [ZERO; 3];
     let mut sums = Sums { line: [ZERO; 2], kink: [ZERO; 2], outer: [ZERO; 3] };
@@ -328,14 +353,14 @@ fn from_end(
     for (k, stretch) in stretches.iter().enumerate() {
         while let Some(met) = masses.next_if(|met| met.before <= k) {
             // `(s − c) μ` and `(s − c) μ c − J` at the place where it is passed, and their slopes.
-            let place = stretch.middle - stretch.half;
-            let push = met.mass * (place - met.centre);
+            let centre = met.centre - (stretch.middle - stretch.half);
+            let push = -(met.mass * centre);
             sums.kink[0] = sums.kink[0] + push;
-            sums.kink[1] = sums.kink[1] + push * met.centre - met.inertia;
+            sums.kink[1] = sums.kink[1] + push * centre - met.inertia;
             sums.line[0] = sums.line[0] + met.mass;
-            sums.line[1] = sums.line[1] + met.mass * met.centre;
+            sums.line[1] = sums.line[1] + met.mass * centre;
         }
-        let own = sums.over(stretch, inverse, length);
+        let own = sums.over(stretch, rigid);
         parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
     }
     (parts, sums.outer)
@@ -343,15 +368,13 @@ fn from_end(
 
 impl Sums {
     /// Goes over a stretch: its parts of `∫Σ u·v/C`, `∫Σ vᵀUv/C` and Γ.
-    fn over(
-        &mut self,
-        stretch: &Stretch,
-        [g11, g12, g22]: &[Interval; 3],
-        length: Interval,
-    ) -> [Interval; 3] {
+    fn over(&mut self, stretch: &Stretch, rigid: &Rigid) -> [Interval; 3] {
         let gauss = &GAUSS_40;
         let half = stretch.half;
-        let x = stretch.places();
+        // Counted from the beginning of the stretch.
+        let begin = stretch.middle - half;
+        let [g11, g12, g22] = rigid.inverse(begin);
+        let x = Series::of(&[half, half]).values(gauss);
         let run = |slope: &Series, begin: Interval| {
             let series = slope.integrated().times(half).plus(begin);
             (series, begin + half * slope.integral())
@@ -369,8 +392,8 @@ impl Sums {
         let [a, b, u1, u2] = [a, b, u1, u2].map(|series| series.values(gauss));
         let one = Values::constant(point(1.0));
         let of = |[u, w]: [&Values<40>; 2]| {
-            let v1 = u.times(*g11).sum(&w.times(*g12));
-            let v2 = u.times(*g12).sum(&w.times(*g22));
+            let v1 = u.times(g11).sum(&w.times(g12));
+            let v2 = u.times(g12).sum(&w.times(g22));
             [v1, v2]
         };
         let [k1, k2] = of([&u1, &u2]);
@@ -406,13 +429,23 @@ impl Sums {
                 true => [v1.difference(&x), v2.sum(&one)],
                 false => [v1.sum(&one), *v2],
             };
-            let ends =
-                [*v1, v1.sum(&v2.product(&x)), w1.sum(&w2.product(&x)), w1.sum(&w2.times(length))];
+            let ends = [
+                v1.sum(&v2.times(-begin)),
+                v1.sum(&v2.product(&x)),
+                w1.sum(&w2.product(&x)),
+                w1.sum(&w2.times(rigid.length - begin)),
+            ];
             let squares = ends.map(|end| end.product(&end));
             let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
             reach = reach.sum(&sum.product(soft));
         }
-        *self = Self { line: [a_end, b_end], kink: [u1_end, u2_end], outer: [e11, e12, e22] };
+        // About the end of the stretch from here on.
+        let h = half + half;
+        *self = Self {
+            line: [a_end, b_end - h * a_end],
+            kink: [u1_end, u2_end - h * u1_end],
+            outer: [e11, e12 - h * e11, e22 - h * (e12 + e12) + h.square() * e11],
+        };
         [trace, square, reach].map(|of| half * of.integral(gauss))
     }
 }

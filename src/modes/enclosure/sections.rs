@@ -2,7 +2,7 @@
 
 use crate::base::interval::gauss::Gauss;
 use crate::base::interval::tables::GAUSS_40;
-use crate::base::interval::{Interval, Series, Values};
+use crate::base::interval::{Interval, Series, Values, down, up};
 use crate::bat::layup::Layup;
 use crate::bat::material::Material;
 use crate::modes::enclosure::radii::{Cubic, Curved, NUMBER};
@@ -85,7 +85,7 @@ impl Border {
     }
 }
 
-impl<'a> Ring<'a> {
+impl Ring<'_> {
     /// `b² − a²`.
     fn squares<const N: usize>(&self, gauss: &Gauss<N>) -> Values<N> {
         let b = self.outside.series.values(gauss);
@@ -289,15 +289,21 @@ fn of_tube(ring: &Ring, area: &Values<40>) -> Option<Nearly> {
     let numerator = square.times(top).product(area);
     let denominator = square.times(below).sum(&a.product(&b).times(mixed));
     let values = std::array::from_fn(|g| numerator.at[g] / denominator.at[g]);
+    let least = |border: &Border| number(border.range().low.max(0.0)).square();
+    let squares = least(&ring.outside) + ring.empty * least(ring.inside.as_ref()?);
+    let modulus = data(ring.material.shear_modulus?) * Interval::pi();
+    let numerator_least = top * squares.square() * modulus * number(ring.least_powers()[0]);
     // `|c D − N| ≤ β N` bounds `|κGA − c| ≤ β κGA`.
-    stands_for(&values, &denominator, &numerator)
+    stands_for(&values, &denominator, &numerator, numerator_least.low)
 }
 
-/// A polynomial near these values of `N/D`, and by what share of itself it may be off.
+/// A polynomial near these values of `N/D`, and by what share of itself it may be off, `N` being at least
+/// `least`.
 fn stands_for(
     values: &[f64; 40],
     denominator: &Values<40>,
     numerator: &Values<40>,
+    least: f64,
 ) -> Option<Nearly> {
     let gauss = &GAUSS_40;
     let near = Series::near(gauss, values, DEGREE, 0.0);
@@ -305,18 +311,8 @@ fn stands_for(
     let series = Series::exact(&coefficients);
     let product = series.values(gauss).product(denominator);
     let off = Series::through(gauss, &product.difference(numerator)).largest();
-    // The numerator is positive and hardly goes with the place on a short cell.
-    let least = least_of(numerator, gauss)?;
-    let share = off / least * (1.0 + 1e-9);
-    (share < 1e-3).then(|| Nearly { series, share: share / (1.0 - share) * (1.0 + 1e-9) })
-}
-
-/// What a positive polynomial is at least, by its series; None where that does not tell.
-fn least_of<const N: usize>(values: &Values<N>, gauss: &Gauss<N>) -> Option<f64> {
-    let series = Series::through(gauss, values);
-    let others: f64 = (1..=series.degree()).map(|j| series.coefficient(j).abs()).sum();
-    let least = series.coefficient(0) - others * (1.0 + 1e-9) - 2.0 * series.radius();
-    (least > 0.0).then_some(least)
+    let share = up(off / least);
+    (least > 0.0 && share < 0.5).then(|| Nearly { series, share: up(share / down(1.0 - share)) })
 }
 
 /// `c` with `1/f ≤ c` on the cell, for a positive polynomial `f` of these values, and by what share at most `c`
@@ -329,5 +325,5 @@ pub fn inverse(values: &Values<40>, most: f64) -> Option<Nearly> {
     let product = series.values(gauss).product(values);
     let one = Values::constant(number(1.0));
     let share = Series::through(gauss, &product.difference(&one)).largest();
-    (share < most).then(|| Nearly { series, share })
+    (share < most).then_some(Nearly { series, share })
 }
