@@ -151,9 +151,12 @@ fn a_stiffer_bat_grows_where_it_may() {
     assert!((found[0] - 180.0).abs() <= 0.05, "{found:?}");
     assert!((inches(bat.length() - found[1]) - 6.5).abs() <= 0.01);
     assert!(ounce_square_inches(found[2]) <= 10_421.02 && ounces(new.inertia().mass) <= 31.0);
-    assert!((found[3] - 581.252 - 6.96).abs() < 0.2, "{found:?}");
     let [.., least, most] = along(&bat, &new);
     assert!(least >= 0.024 - 1e-9 && most <= 0.066_294 + 1e-9, "{least} {most}");
+    // Nothing is asked of f2, which rounding to 0.1 mm moves by some tenths: in finer digits it is the prototype's.
+    let fine = Outcome::of(&bat, &Wish { round: Some(1e-5), ..wish }, &terms()).unwrap();
+    let (_, found) = written(&fine, &answers);
+    assert!((found[3] - 581.252 - 6.96).abs() < 0.02, "{found:?}");
 }
 
 /// Task E: 4 oz less and the swing weight kept cannot both be had by turning. The best mass is 0.003 oz above
@@ -305,6 +308,7 @@ fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
         (["--rules", "mbl"], "did you mean mlb?"),
         (["--free", "colour red"], "--free"),
         (["--round", "0"], "--round"),
+        (["--slope", "0"], "a slope from 0.01 to 10"),
     ] {
         let args = ["aim", "r161.json", "--out", "new.json"];
         let output = folder.run(&[&args[..], &option[..]].concat());
@@ -358,4 +362,88 @@ fn a_bat_of_a_formula_keeps_its_handle() {
     let [_, added, ..] = along(&bat, &new);
     assert!(added <= 1e-8, "{added:e}");
     assert!(outcome.kept_within < 1e-5, "{:e}", outcome.kept_within);
+}
+
+/// Two per cent less swing weight of every bat that comes with the program, domed and pointed tips, hollow and cored
+/// bats, bats of formulas: had by taking wood off, and the file has nothing added anywhere, its handle what it was.
+#[test]
+fn every_bat_is_aimed_with_its_limits_kept_by_its_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let bat = Bat::from_file(&path).unwrap();
+        let mut terms = terms();
+        let material = bat.material();
+        if material.shear_modulus.is_none() && material.poisson_ratio.is_none() {
+            terms.request.theory = Theory::EulerBernoulli;
+        }
+        let lighter = Ask::Change(Amount::Share(-0.02), None);
+        let targets = vec![target(Answer::Inertia, lighter)];
+        let wish = Wish { targets, remove_only: true, ..Wish::default() };
+        let outcome = Outcome::of(&bat, &wish, &terms).unwrap();
+        let name = path.display();
+        assert!(outcome.met && outcome.broken <= 1e-9, "{name} {:e}", outcome.broken);
+        assert!(outcome.kept_within <= 1e-8, "{name} {:e}", outcome.kept_within);
+        let new = Bat::from_text("new.json", &aimed::bat_text(&outcome), Path::new("")).unwrap();
+        let inertia = |bat: &Bat| bat.inertia().about(sweetspot::bat::body::STANDARD_PIVOT);
+        assert!((inertia(&new) / inertia(&bat) - 0.98).abs() <= 1.001e-3, "{name}");
+        let [_, added, ..] = along(&bat, &new);
+        assert!(added <= 1e-9, "{name} {added:e}");
+    }
+}
+
+/// The greatest |r′| of a bat between two places (m), by differences over 10 µm.
+fn steepest(bat: &Bat, [from, to]: [f64; 2]) -> f64 {
+    let radius = |x: f64| bat.profile().at(x).outer;
+    let count = ((to - from) / 1e-5) as usize;
+    let places = (0..count).map(|k| from + 1e-5 * k as f64);
+    places.map(|x| (radius(x + 1e-5) - radius(x)).abs() / 1e-5).fold(0.0, f64::max)
+}
+
+/// Where the barrel stays and wood comes off before it, the surface becomes steep: a limit of the slope holds in the
+/// file, and costs a larger change.
+#[test]
+fn a_limit_of_the_slope_is_kept_by_the_file() {
+    let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "profile": { "unit": "mm", "x": [0, 400, 838.2], "diameter": [25, 44.5, 66] } }"#;
+    let bat = Bat::from_text("cone.json", text, Path::new("")).unwrap();
+    let lighter = target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), None));
+    let of = |slope: Option<f64>| {
+        let keep = vec![[0.0, 0.03], [0.6, 0.9]];
+        let wish =
+            Wish { targets: vec![lighter], slope, keep, remove_only: true, ..Wish::default() };
+        let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
+        (steepest(&written(&outcome, &[Answer::Inertia]).0, [0.0, 0.838]), outcome)
+    };
+    let (free, least) = of(None);
+    let (kept, outcome) = of(Some(0.05));
+    assert!(outcome.met && free > 0.055 && kept <= 0.05, "{kept} of {free}");
+    assert!(outcome.norm > 1.1 * least.norm, "{} of {}", outcome.norm, least.norm);
+    // What needs more cannot be had.
+    let (kept, outcome) = of(Some(0.045));
+    assert!(!outcome.met && outcome.conflict.is_some() && kept <= 0.045, "{kept}");
+}
+
+/// Where stations are a foot apart, a stretch that is kept has its curve and the frequency of a bat that changes
+/// elsewhere is that of the smooth change: other stations hold the curve.
+#[test]
+fn a_bat_of_few_stations_keeps_the_curve_of_what_is_kept() {
+    let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "profile": { "unit": "in", "x": [0, 1.5, 3, 17, 31, 33], "diameter": [1.8, 1, 0.95, 1.2, 2.5, 2.5] } }"#;
+    let bat = Bat::from_text("few.json", text, Path::new("")).unwrap();
+    let targets = vec![target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), None))];
+    for remove_only in [true, false] {
+        let (keep, targets) = (vec![[0.0, 0.5]], targets.clone());
+        let wish = Wish { targets, remove_only, keep, ..Wish::default() };
+        let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
+        assert!(outcome.met, "{outcome:?}");
+        let text = aimed::bat_text(&outcome);
+        let new = Bat::from_text("new.json", &text, Path::new("")).unwrap();
+        let moved = (0..5000).map(|k| 1e-4 * f64::from(k)).map(|x| {
+            let [was, is] = [&bat, &new].map(|bat| 2.0 * bat.profile().at(x).outer);
+            (is - was).abs()
+        });
+        let moved = moved.fold(0.0, f64::max);
+        assert!(moved <= 1e-5 && moved <= 1.01 * outcome.kept_within, "{moved:e}");
+    }
 }

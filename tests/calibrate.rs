@@ -269,21 +269,34 @@ fn the_written_bat_is_the_one_that_was_found() {
     }
 }
 
-#[test]
-fn answers_are_asked_and_kept() {
-    let folder = Folder::new("calibrate_asked");
-    let answers = "30.65 oz\n56.1 cm\n14.70\n174.5, 581.3, 1187\n\n";
+/// Runs `calibrate` with these answers.
+fn answered(folder: &Folder, answers: &str) -> std::process::Output {
     let asked = ["calibrate", "r161", "--ask", "--readings", "kept.json", "--json", "-"];
     let mut command = folder.command(&asked);
     let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = piped.spawn().unwrap();
     child.stdin.take().unwrap().write_all(answers.as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn answers_are_asked_and_kept() {
+    let folder = Folder::new("calibrate_asked");
+    // The answers end after two of them: the same command goes on with the third.
+    let output = answered(&folder, "30.65 oz\n56.1 cm\n");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    let plain = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(plain.contains("kept in kept.json.draft"), "{told}");
+    assert_eq!(folder.names(), ["kept.json.draft"]);
+    let output = answered(&folder, "14.70\n174.5, 581.3, 1187\n\n");
     assert!(output.status.success(), "{output:?}");
+    assert_eq!(folder.names(), ["kept.json"]);
     let again = folder.json(&["calibrate", "r161", "kept.json", "--json", "-"]);
     let first: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(first["parameters"], again["parameters"]);
     assert_eq!(first["labels"]["taken"], serde_json::json!([1, 2, 3]));
+    assert_eq!(first["data"].as_array().unwrap().len(), 6);
 }
 
 #[test]

@@ -545,3 +545,25 @@ fn the_verb_writes_what_it_finds() {
     let per_g = &document["added_mass"]["per_g"]["mass_kg"][0];
     assert!((per_g.as_f64().unwrap() - 1e-3).abs() < 1e-18);
 }
+
+/// The sweet spot's own place has an error as the speeds have: a map by rougher speeds is off from one by finer ones
+/// by no more.
+#[test]
+fn the_sweet_spot_s_place_has_an_error_that_holds() {
+    let bat = mesh("r161");
+    let answers =
+        [Answer::ExitSpeedPlace, Answer::ExitSpeed, Answer::Zone(false), Answer::Zone(true)];
+    let of = |tolerance: f64| {
+        Workpiece::new(&bat, &[], &timoshenko(tolerance), Some(&scene()), &answers)
+            .unwrap()
+            .values()
+            .to_vec()
+    };
+    let [rough, fine] = [1e-2, 1e-6].map(of);
+    for (rough, fine) in rough.iter().zip(&fine) {
+        let [rough, fine] = [rough, fine].map(|figure| figure.unwrap());
+        assert!(rough.error > 0.0 && fine.error > 0.0, "{rough:?} {fine:?}");
+        assert!((rough.value - fine.value).abs() <= rough.error + fine.error, "{rough:?} {fine:?}");
+        assert!(fine.error < 0.1 * rough.error, "{rough:?} {fine:?}");
+    }
+}

@@ -189,3 +189,39 @@ fn a_calibration_is_scattered_by_its_covariance() {
         assert!(sd < 1.02 * reading && sd > 0.3 * reading, "{name}: {sd} {reading}");
     }
 }
+
+/// Without a file the wood differs, as `analyze` has it beside the sweet spot: what is propagated there to first
+/// order comes of bats that are drawn and solved.
+#[test]
+fn without_a_file_bats_differ_as_analyze_says_beside_the_sweet_spot() {
+    let folder = Folder::new("wood-alone");
+    folder.write("r161.json", R161);
+    let drawn = folder.json(&["scatter", "r161.json", "--points", "256", "--json", "-"]);
+    let said = folder.json(&["analyze", "r161.json", "--json", "-", "--quiet"]);
+    let open = &said["open"];
+    let sources = open["sources"].as_array().unwrap();
+    let of_wood = |input: &str| sources.iter().position(|source| source["input"] == input).unwrap();
+    let wood = ["stiffness", "density"].map(of_wood);
+    for (name, answer) in [
+        ("exit_speed_max.x_m", "best_place_m"),
+        ("exit_speed_max.value", "exit_speed_m_s"),
+        ("f1_hz", "frequency_1_hz"),
+        ("mass_kg", "mass_kg"),
+    ] {
+        let answers = open["answers"].as_array().unwrap();
+        let estimate = answers.iter().find(|one| one["answer"] == answer).unwrap();
+        let part = |k: usize| estimate["by_source"][k].as_f64().unwrap();
+        let first_order = wood.map(part).into_iter().fold(0.0, f64::hypot);
+        let sd = output(&drawn, name)["sd"].as_f64().unwrap();
+        assert!((sd / first_order - 1.0).abs() < 0.03, "{name} {sd} {first_order}");
+    }
+    // A node is where it is whatever the wood is, as G goes with E: round-off has no shares.
+    assert!(output(&drawn, "node_mode_1_m")["shares"].is_null());
+    let words = drawn["words"].as_array().unwrap();
+    assert!(words.iter().any(|one| one == "node_mode_1_m is the same of all bats."), "{words:?}");
+    // Of what is no wood nothing is known.
+    folder.write("tube.json", include_str!("../meshes/northwestern_aluminium.json"));
+    let output = folder.run(&["scatter", "tube.json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("a scatter file"));
+}

@@ -1,7 +1,7 @@
 //! How is work shared among the processors?
 //!
-//! `map` asks rayon's pool, and does everything itself where no thread may be started or there is no
-//! pool.
+//! [`map`] and [`map_each`] ask rayon's pool, and do everything themselves where no thread may be started
+//! or there is no pool.
 
 /// What `of` makes of 0, 1, … below `count`, in that order.
 pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
@@ -10,6 +10,18 @@ pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<
         return pool::map(count, of);
     }
     (0..count).map(of).collect()
+}
+
+/// What `of` makes of each, with its number, in that order.
+pub(crate) fn map_each<S: Send, T: Send>(
+    each: &mut [S],
+    of: impl Fn(usize, &mut S) -> T + Sync,
+) -> Vec<T> {
+    #[cfg(feature = "parallel")]
+    if each.len() > 1 && pool::is_there() {
+        return pool::map_each(each, of);
+    }
+    each.iter_mut().enumerate().map(|(k, one)| of(k, one)).collect()
 }
 
 /// Does something with so many threads, as many as there are processors if none are named.
@@ -47,6 +59,13 @@ mod pool {
     pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
         (0..count).into_par_iter().map(&of).collect()
     }
+
+    pub fn map_each<S: Send, T: Send>(
+        each: &mut [S],
+        of: impl Fn(usize, &mut S) -> T + Sync,
+    ) -> Vec<T> {
+        each.par_iter_mut().enumerate().map(|(k, one)| of(k, one)).collect()
+    }
 }
 
 #[cfg(test)]
@@ -56,5 +75,12 @@ mod tests {
     #[test]
     fn the_order_is_kept() {
         assert_eq!(map(1000, |k| k * k), (0..1000).map(|k| k * k).collect::<Vec<_>>());
+        let mut sums = vec![1; 1000];
+        let places = map_each(&mut sums, |k, sum| {
+            *sum += k;
+            k
+        });
+        assert_eq!(places, (0..1000).collect::<Vec<_>>());
+        assert_eq!(sums, (1..1001).collect::<Vec<_>>());
     }
 }

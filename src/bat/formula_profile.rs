@@ -89,7 +89,7 @@ impl Profile {
             }
         }
         let formulas = Some(Formulas { pieces: written, from_tip: false });
-        Ok(Self { pieces, stations, formulas })
+        Ok(Self { pieces, stations, formulas, turned: false })
     }
 }
 

@@ -163,6 +163,8 @@ pub struct Profile {
     pub stations: Stations,
     /// The formulas it was made from, if it was.
     pub formulas: Option<Formulas>,
+    /// Whether it was reversed an odd number of times: its places are then differences from the length.
+    pub turned: bool,
 }
 
 impl Profile {
@@ -203,7 +205,7 @@ impl Profile {
         let pieces = pieces(&stations)?;
         pieces.iter().try_for_each(|piece| check_wall(piece, &stations))?;
         check_tips(&pieces, stations.x.len() - 1)?;
-        Ok(Self { pieces, stations, formulas: None })
+        Ok(Self { pieces, stations, formulas: None, turned: false })
     }
 
     /// Length from the knob end to the tip (m).
@@ -225,6 +227,7 @@ impl Profile {
         }
         self.pieces.reverse();
         self.formulas.iter_mut().for_each(|formulas| formulas.from_tip ^= true);
+        self.turned ^= true;
         self
     }
 

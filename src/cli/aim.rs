@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
-use crate::base::file;
+use crate::base::{file, typed};
 use crate::bat::body::Bat;
 use crate::collision::sweet_spot::FINE;
 use crate::files::aim_file::AimFile;
@@ -16,7 +16,7 @@ use crate::show::template::pdf::pdf;
 use crate::show::template::sheet::PAPERS;
 use crate::study::aim::bench::Terms;
 use crate::study::aim::outcome::Outcome;
-use crate::study::aim::wish::{FreeChoice, Wish};
+use crate::study::aim::wish::{FreeChoice, SLOPES, Wish};
 use crate::study::comparison::contender::Terms as Looks;
 use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::lathe::workpiece::HitTerms;
@@ -69,6 +69,10 @@ pub struct Args {
     /// A limit of the diameter, such as "4 in to 18 in, at least 24 mm"; may be repeated
     #[arg(long, value_name = "LIMIT")]
     diameter: Vec<String>,
+
+    /// The greatest slope of the surface where it is changed, such as 0.25: radius over length
+    #[arg(long, value_name = "SLOPE", value_parser = slope)]
+    slope: Option<f64>,
 
     /// Rules of a game: mlb, ncaa, ncaa-wood, nfhs, nfhs-wood, usa-baseball, softball, or a rule file
     #[arg(long, value_name = "RULES")]
@@ -142,6 +146,12 @@ fn spacing(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
+/// A slope that a tool may have.
+fn slope(text: &str) -> std::result::Result<f64, String> {
+    let value = typed::number(text).filter(|value| SLOPES.contains(value));
+    value.ok_or_else(|| "expected a slope from 0.01 to 10".to_owned())
+}
+
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.output.json), ("--cuts", &args.cuts), ("--out", &args.out)])?;
     args.solve.refuse_budget("aim")?;
@@ -150,7 +160,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let bat = read(&args.bat, &args.edits, args.output.quiet)?;
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
     let model = args.scene.model()?;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let (scene, law) = args.scene.scene(&bat, Some(request.tolerance))?;
     args.scene.warn(&args.output);
     let hit = HitTerms { scene: scene.clone(), model, exactly: false };
     let terms = Terms { request, hit, law };
@@ -166,7 +176,7 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.plots {
         let law = terms.law;
         draw(args, &outcome, &terms, |bat| {
-            let (scene, _) = args.scene.scene(bat)?;
+            let (scene, _) = args.scene.scene(bat, Some(request.tolerance))?;
             Ok((scene, law))
         })
         .and_then(|drawn| pictures::write(folder, &drawn, args.output.quiet))?;
@@ -221,6 +231,7 @@ fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     wish.remove_only |= args.remove_only;
     wish.stations = args.stations.or(wish.stations);
     wish.round = args.round.or(wish.round);
+    wish.slope = args.slope.or(wish.slope);
     Ok(wish)
 }
 

@@ -1,6 +1,6 @@
 //! `sweetspot calibrate BAT [MEASURED]`: what the wood is, by what was measured.
 
-use std::io::{IsTerminal, stdin};
+use std::io::{IsTerminal, StdinLock, stdin};
 use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
@@ -109,7 +109,7 @@ pub fn run(args: &Args) -> Result<Done> {
     ];
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
-    let (readings, name) = readings(args, &bat)?;
+    let Told { readings, name, person } = readings(args, &bat)?;
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
     let table = calibrate::text(&bat, &found);
@@ -122,6 +122,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let out = put(&args.json, out, || {
         Ok(schema::text(&calibrate::document(&bat, &found, args.regions)))
     })?;
+    if let Some(mut person) = person {
+        person.done();
+    }
     Ok(Done::new(out, if found.fits() { 0 } else { FAILED }))
 }
 
@@ -140,25 +143,45 @@ fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
     }
 }
 
-/// What was measured, and what it is called.
-fn readings(args: &Args, bat: &Bat) -> Result<(BatReadings, String)> {
+/// What was measured.
+struct Told {
+    readings: BatReadings,
+    /// What it is called.
+    name: String,
+    /// Who was asked, if somebody was: the answers are kept until all is done.
+    person: Option<Dialogue<StdinLock<'static>>>,
+}
+
+/// Where answers are kept.
+fn draft(args: &Args) -> PathBuf {
+    let name = args.readings.as_deref().unwrap_or(Path::new("sweetspot-calibrate"));
+    let mut name = name.as_os_str().to_owned();
+    name.push(".draft");
+    name.into()
+}
+
+/// Reads what was measured, or asks for it.
+fn readings(args: &Args, bat: &Bat) -> Result<Told> {
     let Some(path) = &args.measured else {
         if !args.ask && !stdin().is_terminal() {
             let expected = "a readings file, such as readings.json, or --ask to answer questions";
             return Err(Error::value("MEASURED", "none", expected));
         }
-        let text = Dialogue::new(stdin().lock()).hold(|person| asked(person, bat))?;
+        let mut person = Dialogue::kept(stdin().lock(), "calibrate", &draft(args));
+        let text = person.hold(|person| asked(person, bat))?;
         if let Some(path) = &args.readings {
             file::write(path, text.as_bytes())?;
         }
-        return Ok((readings_file::from_text("the answers", &text)?, "answers".to_owned()));
+        let readings = readings_file::from_text("the answers", &text)?;
+        return Ok(Told { readings, name: "answers".to_owned(), person: Some(person) });
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match ["csv", "uff", "unv"].contains(&ending.as_str()) {
-        true => Ok((of_modes(path, args.quiet)?, name)),
-        false => Ok((readings_file::from_file(path)?, name)),
-    }
+    let readings = match ["csv", "uff", "unv"].contains(&ending.as_str()) {
+        true => of_modes(path, args.quiet)?,
+        false => readings_file::from_file(path)?,
+    };
+    Ok(Told { readings, name, person: None })
 }
 
 /// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.

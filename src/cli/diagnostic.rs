@@ -28,7 +28,7 @@ pub fn render(error: &Error, coloured: bool) -> String {
     }
 }
 
-/// The same for other programs, in one line on standard error, if the command line asks for JSON.
+/// Prints the mistakes for other programs, in one line on standard error, if the command line asks for JSON.
 pub fn as_json(document: impl FnOnce() -> ErrorFile) {
     let mut options = std::env::args_os().skip(1).take_while(|word| word != "--");
     if options.any(|word| word == "--json" || word.as_encoded_bytes().starts_with(b"--json=")) {

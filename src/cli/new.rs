@@ -29,7 +29,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let measured = given(args)?;
         return made(args, &measured, &bat_text::text(&measured));
     }
-    let mut person = Dialogue::kept(stdin().lock(), &draft(args));
+    let mut person = Dialogue::kept(stdin().lock(), "new", &draft(args));
     let measured = person.hold(|person| asked(args, person))?;
     let text = bat_text::text(&measured);
     let done = made(args, &measured, &text).inspect_err(|_| {

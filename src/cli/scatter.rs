@@ -33,9 +33,9 @@ pub struct Args {
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
-    /// Scatter file (JSON): what differs
+    /// Scatter file (JSON): what differs [without it: the wood, by 22 % in stiffness and 10 % in density]
     #[arg(help_heading = "The bat")]
-    scatter: PathBuf,
+    scatter: Option<PathBuf>,
 
     #[command(flatten)]
     edits: EditArgs,
@@ -79,16 +79,27 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
+  sweetspot scatter r161 --points 64
+      how much bats of one model differ by the wood alone, from few bats
+
   sweetspot scatter r161 bats.json --points 64
-      how much bats differ by what bats.json says, from few bats
+      how much they differ by what bats.json says
 
   sweetspot scatter r161 bats.json --points 64 --bats spread --plots spread
       the bats nearest to the 5th, 50th and 95th percentile, and pictures";
 
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
-    let said = scatter_file::from_file(&args.scatter)?;
+    let said = args.scatter.as_ref().map(scatter_file::from_file).transpose()?;
     let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let said = match said {
+        Some(said) => said,
+        None => scatter_file::of_wood(&bat).ok_or_else(|| {
+            let expected = "a scatter file that says what differs, such as bats.json: how much pieces of \
+                            what this bat is made of differ is not known here";
+            Error::value("SCATTER", "none", expected)
+        })?,
+    };
     let ScatterFile { differences, setup, impact, outputs, tolerance } = said;
     let (points, seed) = (args.points, args.seed);
     let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
@@ -102,7 +113,7 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     if found.answered() == 0 {
         let why = found.reasons.first().cloned().unwrap_or_default();
-        return Err(Error::value(printed(&args.scatter), why, "bats that can be"));
+        return Err(Error::value(said_by(args), why, "bats that can be"));
     }
     if let Some(folder) = &args.plots {
         pictures::write(folder, &drawn(&rows, &found), args.quiet)?;
@@ -139,9 +150,14 @@ fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
     })
 }
 
+/// What messages call what differs.
+fn said_by(args: &Args) -> String {
+    args.scatter.as_deref().map_or("the wood".to_owned(), printed)
+}
+
 /// An error about the rows, by the name that its cause has for the user.
 fn named(args: &Args, error: Error) -> Error {
-    let file = printed(&args.scatter);
+    let file = said_by(args);
     error.placed(|complaint| {
         let field = match &*complaint.field {
             "points" => "--points".to_owned(),

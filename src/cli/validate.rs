@@ -10,6 +10,7 @@ use crate::proof::bundled::CASES;
 use crate::proof::hit_promise;
 use crate::proof::hoop_promise::{self, CheckedHoop};
 use crate::proof::promise::{self, Summary};
+use crate::proof::proven_promise;
 use crate::proof::published::Answer;
 use crate::proof::validation::{KnownNumber, run as run_case};
 use crate::show::hit_figure;
@@ -18,7 +19,9 @@ use crate::show::report::text::wrapped;
 
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
-use crate::cli::tables::{extremes_table, hit_promise_table, hoop_promise_table, promise_table};
+use crate::cli::tables::{
+    extremes_table, hit_promise_table, hoop_promise_table, promise_table, proven_promise_table,
+};
 use crate::show::report::columns::{Columns, first, numbers};
 
 /// Every known answer beside ours
@@ -97,6 +100,12 @@ pub fn run(args: &Args) -> Result<Done> {
         out += &promise_table::summary(&rows);
         out.push('\n');
         out += &hit_promise_table::summary(&hits);
+        if args.promise {
+            let proven = proven_promise::rows(&tell)?;
+            out.push('\n');
+            out += &proven_promise_table::summary(&proven);
+            good &= proven_promise_table::holds(&proven);
+        }
         good &= Summary::of(&rows).holds() && hit_promise::Summary::of(&hits).holds();
     }
     Ok(Done::new(out, if good { 0 } else { FAILED }))

@@ -11,7 +11,7 @@ use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
 use crate::files::rules_file::{self, truth};
-use crate::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
+use crate::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish};
 
 const KEYS: &[&str] = &[
     "format",
@@ -23,6 +23,7 @@ const KEYS: &[&str] = &[
     "diameter",
     "stations",
     "round",
+    "slope_at_most",
     "free",
     "$schema",
 ];
@@ -90,6 +91,7 @@ fn wish(document: &Document, folder: &Path) -> Result<Wish> {
     }
     wish.stations = mistakes.note(root.get("stations").map(spacing).transpose());
     wish.round = mistakes.note(root.get("round").map(spacing).transpose());
+    wish.slope = mistakes.note(root.get("slope_at_most").map(slope).transpose());
     if let Some(node) = root.get("free") {
         wish.free = mistakes.note(free(node));
     }
@@ -118,6 +120,15 @@ fn spacing(node: &Node) -> Result<f64> {
     match value > 0.0 && value <= 0.1 {
         true => Ok(value),
         false => Err(node.error(node.shown(), "a length above 0, 100 mm at most")),
+    }
+}
+
+/// A slope above 0.
+fn slope(node: &Node) -> Result<f64> {
+    let value = node.number()?;
+    match SLOPES.contains(&value) {
+        true => Ok(value),
+        false => Err(node.error(node.shown(), "a slope from 0.01 to 10")),
     }
 }
 

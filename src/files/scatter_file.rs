@@ -8,6 +8,8 @@ use std::path::Path;
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::Quantity;
+use crate::bat::body::Bat;
+use crate::bat::material::Scatter;
 use crate::collision::ball::Ball;
 use crate::collision::setup::Setup;
 use crate::files::amounts::share;
@@ -44,6 +46,8 @@ const USUAL: [&str; 6] = [
     "exit_speed_max.x_m",
     "node_mode_1_m",
 ];
+/// Accuracy where none is asked for.
+const TOLERANCE: f64 = 1e-4;
 /// How far along a bat a lathe's error reaches where nobody says so (m): 12 in.
 const ALONG: f64 = 0.3048;
 
@@ -60,6 +64,22 @@ pub struct ScatterFile {
     pub outputs: Vec<Output>,
     /// Accuracy.
     pub tolerance: f64,
+}
+
+/// What differs where nobody says it: the wood, from piece to piece of one species, stiffness and density each by
+/// itself ([`crate::bat::material::Material::scatter`]), the usual outputs asked. None for a bat that is not of wood.
+pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
+    let Scatter { youngs_modulus, density } = bat.material().scatter()?;
+    let one = |what, deviation| Difference { what, deviation };
+    let (density, modulus) =
+        (one(Differs::Density, density), one(Differs::YoungsModulus, youngs_modulus));
+    Some(ScatterFile {
+        differences: Differences { all: vec![density, modulus], correlations: vec![] },
+        setup: Setup::default(),
+        impact: None,
+        outputs: usual().ok()?,
+        tolerance: TOLERANCE,
+    })
 }
 
 /// Reads a scatter file.
@@ -117,7 +137,7 @@ fn from_document(document: &Document, folder: &Path) -> Result<ScatterFile> {
     let at = root.get("impact").map(|node| impact(node)).transpose();
     let impact = mistakes.note(at).flatten();
     let outputs = mistakes.note(outputs(&root, &differences));
-    let tolerance = root.get("tol").map_or(Ok(1e-4), share);
+    let tolerance = root.get("tol").map_or(Ok(TOLERANCE), share);
     let tolerance = mistakes.note(tolerance);
     mistakes.end(())?;
     if differences.all.is_empty() {
@@ -296,14 +316,15 @@ fn covariance(
     Ok(())
 }
 
+fn usual() -> Result<Vec<Output>> {
+    USUAL.iter().map(|name| Answer::named(name).map(Output::Of)).collect()
+}
+
 /// What is asked; where a place that is hit differs, the speed there too if nothing is named.
 fn outputs(root: &Object, differences: &Differences) -> Result<Vec<Output>> {
     let at_impact = differences.all.iter().any(|one| one.what == Differs::Impact);
     let Some(node) = root.get("outputs") else {
-        let mut all = USUAL
-            .iter()
-            .map(|name| Answer::named(name).map(Output::Of))
-            .collect::<Result<Vec<_>>>()?;
+        let mut all = usual()?;
         all.extend(at_impact.then_some(Output::AtImpact));
         return Ok(all);
     };

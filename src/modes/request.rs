@@ -71,7 +71,7 @@ impl Request {
     fn work(&self, elements: usize, degree: usize, points: usize) -> Work {
         let Self { modes, theory, solver, .. } = *self;
         let strains = (degree - 1) * if theory.shears() { 2 } else { 1 };
-        let together = if elements > LARGE / strains { 1 } else { WIDTH };
+        let together = if elements > LARGE / strains { AT_ONCE } else { WIDTH };
         let residual = stop_at(self);
         Work { elements, degree, points, modes, together, residual, theory, solver }
     }
@@ -114,6 +114,9 @@ pub const CONVERGED: f64 = 1e-13;
 /// Beyond so many unknowns the iteration starts from a coarse solution; `examples/tuning/coarse_start.rs`
 /// prints what that costs and saves.
 pub const LARGE: usize = 20_000;
+/// Modes of a large mesh that are looked at at a time, each by a thread of its own: more would take
+/// the memory of the mesh once more.
+pub const AT_ONCE: usize = 2;
 
 /// What the planner is asked for.
 pub fn wanted(request: &Request) -> Wanted {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::base::clock::Clock;
 use crate::base::error::{Error, Result};
 use crate::base::lanes::WIDTH;
+use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::beam::changes::Depth;
 use crate::beam::count;
@@ -19,7 +20,7 @@ use crate::modes::mode::{Mode, Shape};
 use crate::modes::pairs::{Pairs, pairs_of};
 use crate::modes::plan::Plan;
 use crate::modes::referee::{Found, Solver};
-use crate::modes::request::{CONVERGED, LARGE, Request};
+use crate::modes::request::{AT_ONCE, CONVERGED, LARGE, Request};
 use crate::modes::solution::{Solution, Timing};
 
 /// Modes on one mesh.
@@ -104,18 +105,26 @@ impl Task<'_> {
         let view = pairs.view();
         let (size, split, held) = (view.dimension(), view.split, view.fixed.is_some());
         let strains = &found.strains;
+        let count = strains.len() / size.max(1);
         if size > LARGE || held || found.apart > 0 {
-            let mut motion = Motion::<f64>::default();
-            for (k, own) in strains.chunks_exact(size).enumerate() {
-                // The compliance's rounding in the slower modes is no part of this one; of a large
-                // mesh that would cost the square of the modes.
-                let slower = if size > LARGE || k < found.apart { 0 } else { k };
-                pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, &mut motion);
-                account.add(Mode::new(k + 1, &pairs.view(), &motion, 0, &stretches));
-                motion.add_defects(split, &mut defects);
+            let pairs: &dyn Pairs = pairs;
+            let at_once = if size > LARGE { AT_ONCE } else { 1 };
+            let mut motions = vec![Motion::<f64>::default(); at_once.min(count)];
+            for first in (0..count).step_by(at_once) {
+                let some = &mut motions[..at_once.min(count - first)];
+                let modes = threads::map_each(some, |k, motion| {
+                    let k = first + k;
+                    let own = &strains[size * k..size * (k + 1)];
+                    // The compliance's rounding in the slower modes is no part of this one; of a large
+                    // mesh that would cost the square of the modes.
+                    let slower = if size > LARGE || k < found.apart { 0 } else { k };
+                    pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, motion);
+                    Mode::new(k + 1, &pairs.view(), motion, 0, &stretches)
+                });
+                modes.into_iter().for_each(|mode| account.add(mode));
+                some.iter().for_each(|motion| motion.add_defects(split, &mut defects));
             }
         } else {
-            let count = strains.len() / size;
             for first in (0..count).step_by(WIDTH) {
                 pairs.look_at(strains, first, Depth::Changes);
                 let (view, motions) = pairs.looked_at();

@@ -6,6 +6,7 @@
 //! | [`validation`] | is it reproduced |
 //! | [`published`] | are published figures reproduced |
 //! | [`promise`], [`hit_promise`], [`hoop_promise`] | do stated errors hold, of modes, of hits and of hoop modes |
+//! | [`proven_promise`] | do they hold where every frequency is proven |
 //! | [`extremes`] | does what no bat is stay right |
 
 pub mod bundled;
@@ -16,4 +17,5 @@ pub mod published;
 pub mod promise;
 pub mod hit_promise;
 pub mod hoop_promise;
+pub mod proven_promise;
 pub mod extremes;

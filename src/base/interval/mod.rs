@@ -2,23 +2,54 @@
 //!
 //! [`Interval`] and [`Rectangle`] hold every value that exact arithmetic could give: results are
 //! rounded outwards, by one place after `+ − × ÷ √` and by `LIBRARY` after other functions. A
-//! [`Jet`] carries the derivative along, so that a range can be had from its middle too.
+//! [`Jet`] carries the derivative along, so that a range can be had from its middle too. A [`Series`] holds
+//! a polynomial that is known to within a bound, and [`Values`] what it is at Gauss points.
 //!
 //! # Source
 //!
 //! R. E. Moore, Interval Analysis (Prentice-Hall, 1966): interval arithmetic, the mean-value form.
+//! S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, BIT 49 (2009) 419: one place outwards without a
+//! branch.
 
 mod rectangle;
 mod jet;
+pub mod gauss;
+pub mod tables;
+pub mod series;
 
 pub use jet::Jet;
 pub use rectangle::Rectangle;
+pub use series::{Series, Values};
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::iter::Sum;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Relative error allowed to `exp`, `sin` and the other functions of the system's library.
 const LIBRARY: f64 = 8.0 * f64::EPSILON;
+
+/// Unit round-off `u = 2⁻⁵³`: an operation's result is off by at most this share of it.
+pub const UNIT: f64 = 0.5 * f64::EPSILON;
+/// `φ = u (1 + 2u)`, with which one place outwards is one multiplication and two sums.
+const PHI: f64 = UNIT * (1.0 + 2.0 * UNIT);
+/// `η`, the least number above 0.
+const LEAST: f64 = f64::from_bits(1);
+
+/// A number below every real number that rounds to this one, `x − (φ|x| + η)`.
+pub fn down(x: f64) -> f64 {
+    let below = x - (PHI * x.abs() + LEAST);
+    match below.is_nan() {
+        false => below,
+        // Of what is too large to write all that is known is that it is large.
+        true if x == f64::INFINITY => f64::MAX,
+        true => f64::NEG_INFINITY,
+    }
+}
+
+/// A number above every real number that rounds to this one, `x + (φ|x| + η)`.
+pub fn up(x: f64) -> f64 {
+    -down(-x)
+}
 
 /// All numbers from `low` to `high`; an infinite end stands for a number too large to write.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,13 +71,21 @@ impl Interval {
         Self { low: -size, high: size }
     }
 
-    /// An interval whose ends were rounded once; 0 is taken to be exact.
+    /// Every number within this share of `value`.
+    pub fn around(value: f64, share: f64) -> Self {
+        Self::point(value) + Self::within(up(share * value.abs()))
+    }
+
+    /// π.
+    pub fn pi() -> Self {
+        // The double nearest to π is below it.
+        Self { low: PI, high: PI.next_up() }
+    }
+
+    /// An interval whose ends were rounded once, where only what is 0 rounds to 0.
     fn rounded(low: f64, high: f64) -> Self {
-        let low = if low.is_nan() { f64::NEG_INFINITY } else { low };
-        let high = if high.is_nan() { f64::INFINITY } else { high };
-        let down = if low == 0.0 { low } else { low.next_down() };
-        let up = if high == 0.0 { high } else { high.next_up() };
-        Self { low: down, high: up }
+        let low = if low == 0.0 { low } else { down(low) };
+        Self { low, high: if high == 0.0 { high } else { up(high) } }
     }
 
     /// An interval whose ends come from the system's library.
@@ -79,27 +118,42 @@ impl Interval {
         Self { low: self.low.max(other.low), high: self.high.min(other.high) }
     }
 
+    /// The number in the middle, nearly.
+    pub fn middle(self) -> f64 {
+        0.5 * self.low + 0.5 * self.high
+    }
+
+    /// How far numbers in it may be from `value`.
+    pub fn distance(self, value: f64) -> f64 {
+        f64::max(up(self.high - value), up(value - self.low)).max(0.0)
+    }
+
+    /// What is in one of two or between them.
+    pub fn hull(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
     /// The square, which is not negative.
     pub fn square(self) -> Self {
         let (small, large) = (self.smallest(), self.largest());
-        let square = Self::rounded(small * small, large * large);
-        Self { low: square.low.max(0.0), ..square }
+        let high = if large == 0.0 { 0.0 } else { up(large * large) };
+        Self { low: down(small * small).max(0.0), high }
     }
 
     /// The square root of what is not negative of it.
-    fn sqrt(self) -> Self {
+    pub fn sqrt(self) -> Self {
         let root = Self::rounded(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
         Self { low: root.low.max(0.0), ..root }
     }
 
     /// `1/x`, if 0 is not in it.
-    fn reciprocal(self) -> Option<Self> {
+    pub fn reciprocal(self) -> Option<Self> {
         (self.low > 0.0 || self.high < 0.0).then(|| Self::rounded(1.0 / self.high, 1.0 / self.low))
     }
 
     fn exp(self) -> Self {
         let exp = Self::library(self.low.exp(), self.high.exp());
-        Self { low: exp.low.max(0.0), ..exp }
+        Self { low: exp.low.max(0.0), high: exp.high.max(f64::MIN_POSITIVE) }
     }
 
     /// The logarithm of what is positive of it.
@@ -175,6 +229,12 @@ impl Sub for Interval {
     }
 }
 
+impl Sum for Interval {
+    fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
+        numbers.fold(Self::point(0.0), Self::add)
+    }
+}
+
 impl Mul for Interval {
     type Output = Self;
 
@@ -182,16 +242,18 @@ impl Mul for Interval {
         if self == Self::point(1.0) {
             return other;
         }
-        // 0 times a number too large to write is 0.
-        let times = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
         let corners = [
-            times(self.low, other.low),
-            times(self.low, other.high),
-            times(self.high, other.low),
-            times(self.high, other.high),
+            (self.low, other.low),
+            (self.low, other.high),
+            (self.high, other.low),
+            (self.high, other.high),
         ];
-        let low = corners.into_iter().fold(f64::INFINITY, f64::min);
-        Self::rounded(low, corners.into_iter().fold(f64::NEG_INFINITY, f64::max))
+        // 0 times a number too large to write is 0; what rounds to 0 is not.
+        let round = |(a, b): (f64, f64)| match a == 0.0 || b == 0.0 {
+            true => Self::point(0.0),
+            false => Self { low: down(a * b), high: up(a * b) },
+        };
+        corners.into_iter().map(round).reduce(Self::hull).expect("there are four corners")
     }
 }
 

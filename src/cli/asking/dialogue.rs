@@ -16,8 +16,10 @@ use crate::cli::common::printed;
 const MOST_TRIES: usize = 50;
 /// The longest line that is read at once (bytes).
 const LONGEST: u64 = 1 << 16;
-/// The first line of a draft, by which it is told from a file of somebody's own.
-const HEADER: &str = "# Answers to sweetspot new, which goes on after them";
+/// The first line of a draft, before the verb that it is of and [`GOES_ON`], by which it is told from a file of
+/// somebody's own.
+const ANSWERS_TO: &str = "# Answers to sweetspot ";
+const GOES_ON: &str = ", which goes on after them";
 
 /// What an answer means, or why it is invalid.
 pub type Read<T> = std::result::Result<T, Complaint>;
@@ -58,27 +60,36 @@ pub struct Dialogue<R> {
     given: Vec<[String; 2]>,
     /// How many of them have been passed over since the beginning.
     passed: usize,
-    draft: Option<PathBuf>,
+    draft: Option<Draft>,
+}
+
+/// Where answers are kept.
+struct Draft {
+    path: PathBuf,
+    /// Its first line.
+    header: String,
 }
 
 impl<R: BufRead> Dialogue<R> {
     /// A dialogue that is kept nowhere.
+    #[cfg(test)]
     pub fn new(answers: R) -> Self {
         Self { answers, given: vec![], passed: 0, draft: None }
     }
 
-    /// A dialogue that is kept in a draft, and goes on with the answers in it if there is one.
-    pub fn kept(answers: R, draft: &Path) -> Self {
+    /// A dialogue of that verb that is kept in a draft, and goes on with the answers in it if there is one.
+    pub fn kept(answers: R, verb: &str, draft: &Path) -> Self {
+        let header = format!("{ANSWERS_TO}{verb}{GOES_ON}");
         let before = fs::read_to_string(draft).ok();
-        let ours = before.as_ref().is_none_or(|text| text.starts_with(HEADER));
-        let given: Vec<[String; 2]> = before.iter().flat_map(|text| read_draft(text)).collect();
-        let dialogue = Self { answers, given, passed: 0, draft: ours.then(|| draft.to_owned()) };
+        let ours = before.as_ref().is_none_or(|text| text.starts_with(&header));
+        let read = |text: &String| read_draft(text, &header);
+        let given: Vec<[String; 2]> = before.iter().flat_map(read).collect();
+        let kept = ours.then(|| Draft { path: draft.to_owned(), header });
+        let dialogue = Self { answers, given, passed: 0, draft: kept };
         let name = printed(draft);
         match (dialogue.given.len(), ours) {
             (_, false) => dialogue.tell(&format!("{name} is another file: nothing is kept.")),
-            (0, _) => {
-                dialogue.tell(&format!("Answers are kept in {name} until the file is written."))
-            }
+            (0, _) => dialogue.tell(&format!("Answers are kept in {name} until all is done.")),
             (count, _) => dialogue.tell(&format!(
                 "Going on after the {count} answers in {name}; remove it to begin anew."
             )),
@@ -180,9 +191,9 @@ impl<R: BufRead> Dialogue<R> {
     }
 
     fn ended(&self, question: &Question, found: &str) -> Halt {
-        let kept = self.draft.as_ref().filter(|draft| draft.is_file());
+        let kept = self.draft.as_ref().filter(|draft| draft.path.is_file());
         let kept = kept.map_or("nothing was written".to_owned(), |draft| {
-            let draft = printed(draft);
+            let draft = printed(&draft.path);
             format!("the others are kept in {draft}, and the same command goes on after them")
         });
         Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
@@ -194,15 +205,18 @@ impl<R: BufRead> Dialogue<R> {
         let lines = self.given.iter().map(|[name, answer]| format!("{name}: {answer}\n"));
         // A folder that cannot be written to is told of in the end, with all answers.
         let _ = match self.given.is_empty() {
-            true => fs::remove_file(draft),
-            false => fs::write(draft, format!("{HEADER}\n{}", lines.collect::<String>())),
+            true => fs::remove_file(&draft.path),
+            false => {
+                let text = format!("{}\n{}", draft.header, lines.collect::<String>());
+                fs::write(&draft.path, text)
+            }
         };
     }
 }
 
-/// The answers of a draft, each after the name of its question; none of another file.
-fn read_draft(text: &str) -> Vec<[String; 2]> {
-    let Some(lines) = text.strip_prefix(HEADER) else { return vec![] };
+/// The answers of a draft with that first line, each after the name of its question; none of another file.
+fn read_draft(text: &str, header: &str) -> Vec<[String; 2]> {
+    let Some(lines) = text.strip_prefix(header) else { return vec![] };
     let answer = |line: &str| line.split_once(':').map(|(a, b)| [a, b.trim()].map(str::to_owned));
     lines.lines().filter_map(answer).collect()
 }

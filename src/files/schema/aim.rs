@@ -39,6 +39,10 @@ pub struct AimForm {
     /// What diameters are rounded to. Without it 0.1 mm, or 0.005 in of a bat in inches.
     #[schemars(transform = Measures(Quantity::Length))]
     pub round: Option<Amount>,
+    /// Greatest slope of the surface where it is changed: change of the radius over length, 0.01 to 10. Where the
+    /// bat is steeper already it becomes no steeper.
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub slope_at_most: Option<f64>,
     /// What may change besides the shape.
     pub free: Option<AimFree>,
 }

@@ -36,6 +36,9 @@ pub struct AimedFile {
     pub limits_broken_m: f64,
     /// How far the diameter moved on the stretches that are kept (m).
     pub kept_within_m: f64,
+    /// How much steeper the surface is anywhere than `slope_at_most` (radius over length); 0 where that is kept,
+    /// null without it.
+    pub steeper_by: Option<f64>,
     /// Quadratic programs of the search.
     pub iterations: usize,
     /// Bats that were computed.
@@ -87,7 +90,7 @@ pub struct AimedTarget {
 pub struct AimedConflict {
     /// The targets, with how near each comes.
     pub members: Vec<AimedReach>,
-    /// The same in words.
+    /// The conflict in a sentence: the targets that cannot all be had, and how near each comes.
     pub words: String,
 }
 

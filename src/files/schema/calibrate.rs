@@ -100,7 +100,7 @@ pub struct DatumFound {
     pub computed: f64,
     /// Measured less computed, in standard deviations.
     pub residual_sd: f64,
-    /// The same from the fit to all other data.
+    /// Measured less what the fit to all other data predicts, in standard deviations.
     pub left_out_sd: f64,
 }
 

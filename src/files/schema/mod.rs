@@ -36,6 +36,7 @@ pub mod lathe;
 pub mod aim;
 pub mod aimed;
 pub mod scatter;
+pub mod hoop;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

@@ -28,6 +28,9 @@ pub struct ModesFile {
     pub rigid_modes: usize,
     /// The elastic modes, rising in frequency.
     pub modes: Vec<Mode>,
+    /// What the proven frequencies rest on; only where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Proof>,
     /// Left out where equal input was to give equal bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
@@ -131,6 +134,16 @@ pub struct Mode {
     pub modal_mass_kg: f64,
     /// Isolated interior zeros of the deflection (m), from the knob.
     pub nodes_m: Vec<f64>,
+    /// Between which numbers the exact beam's frequency lies; only of a mode of which that was asked and is
+    /// proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven: Option<ProvenFrequency>,
+    /// Intervals (m), from the knob, with a node of the mode in each; only where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven_nodes_m: Option<Vec<[f64; 2]>>,
+    /// Between which numbers this frequency of every bat lies that is within the asked tolerances of this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven_within: Option<ProvenFrequency>,
     /// How far the numbers above may be off.
     pub error: ModeError,
     /// The deflection along the bat.
@@ -138,6 +151,62 @@ pub struct Mode {
     /// How the mode dies out; only of a damped bat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damped>,
+}
+
+/// Two numbers between which a frequency is proven to lie, rounded outwards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProvenFrequency {
+    /// The frequency is not below this (Hz).
+    pub lower_hz: f64,
+    /// The frequency is not above this (Hz).
+    pub upper_hz: f64,
+}
+
+/// What proven frequencies rest on: numbers from which the bounds of `τ = 1/ω²` follow by Temple's theorem and
+/// from which it follows that no mode is missing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Proof {
+    /// Whether every asked mode is proven and its interval is as narrow as asked.
+    pub met: bool,
+    /// How many modes are proven, from the first on, none missing.
+    pub proven: usize,
+    /// How many motions were tried.
+    pub trials: usize,
+    /// On so many stretches the trials are polynomials.
+    pub cells: usize,
+    /// Degree of the trials' deflection.
+    pub degree: usize,
+    /// The sum of all τ is at most this (s²).
+    pub trace_s2: f64,
+    /// The sum of all τ² is at most this (s⁴).
+    pub norm_squared_s4: f64,
+    /// No τ beside those of the trials' intervals is above this (s²).
+    pub others_s2: f64,
+    /// What is known of the trial of each proven mode, in their order.
+    pub trial: Vec<ProofOfTrial>,
+    /// Every bat within this of the file's was looked at for `proven_within`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within: Option<ProofWithin>,
+}
+
+/// What is known of a trial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProofOfTrial {
+    /// Rayleigh's quotient σ of the compliance lies between these (s²).
+    pub quotient_s2: [f64; 2],
+    /// Its residual ε², the square of `|Tk − σk|/|k|`, is at most this (s⁴).
+    pub residual_s4: f64,
+}
+
+/// How far a bat may be from what its file says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProofWithin {
+    /// Every radius, everywhere along the bat (m).
+    pub radius_m: f64,
+    /// Young's and the shear modulus, as a share of what they are.
+    pub modulus: f64,
+    /// Whether every asked mode has a band, each end as sharp as asked.
+    pub met: bool,
 }
 
 /// Estimated errors; null where none could be made. Those of the frequency are relative to it.

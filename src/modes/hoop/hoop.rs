@@ -55,14 +55,6 @@ pub struct Outline {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
-    /// A material has no Poisson's ratio: this one was assumed. `change` is by how much the lowest frequency
-    /// changes, relative, with 0.05 more and with 0.05 less.
-    PoissonRatioAssumed {
-        /// The ratio that was assumed.
-        ratio: f64,
-        /// Relative change of the lowest frequency with 0.05 more and with 0.05 less.
-        change: [f64; 2],
-    },
     /// The wall is so thin that rounding counts.
     ThinWall {
         /// Where it is thinnest against its radius (m).
@@ -84,12 +76,6 @@ pub enum Note {
     },
     /// The bore is open at the tip: no end cap was given.
     OpenTip,
-    /// The modes have not died out where the model begins: free and clamped there differ by this, relative, in
-    /// the lowest frequency.
-    KnobSideMatters {
-        /// Relative difference of the lowest frequency.
-        difference: f64,
-    },
 }
 
 /// Hoop modes of a bat.
@@ -232,6 +218,18 @@ impl Hoop {
         let radius = self.radius(patch.x);
         let of_wall = self.spectra.iter().filter(|spectrum| spectrum.system.n != 1);
         of_wall.map(|spectrum| share(spectrum, patch, radius)).collect()
+    }
+
+    /// Modal mass of mode `mode` of [`Self::modes`] (kg), the largest radial motion of the outer surface being 1:
+    /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, 2π in place of π for n = 0.
+    pub fn modal_mass(&self, mode: usize) -> f64 {
+        let asked = &self.modes[mode];
+        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
+        let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
+        let [largest, ..] =
+            spectrum.system.surface(&spectrum.motions[asked.order - 1], asked.largest_at);
+        let turn = if asked.harmonic == 0 { TAU } else { 0.5 * TAU };
+        turn / (largest * largest)
     }
 
     /// The motion of the outer surface in mode `mode` of [`Self::modes`] at so many even places.

@@ -1,6 +1,9 @@
 //! How far the numbers may be trusted: what is certified, what was left out and what that costs.
 
 use crate::bat::theory::Theory;
+use crate::modes::enclosure::guarantee::guarantee;
+use crate::modes::solve::Request;
+use crate::proof::promise::{ALWAYS, largest};
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length, speed};
 use crate::show::report::advice;
@@ -41,6 +44,7 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
             ),
         });
         told.push(count_of_modes(analysis).to_owned());
+        told.extend(proven(analysis));
     }
     let proof = &analysis.proof;
     told.push(format!(
@@ -53,6 +57,40 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
     told.extend(exit_speeds(analysis, units));
     told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, units)));
     told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// A bat of more pieces than this is not proven in a report: it would take long.
+const MOST_PIECES: usize = 300;
+/// So many modes are proven in a report.
+const MOST_MODES: usize = 10;
+/// Intervals are this narrow as a share of the frequency.
+const WIDTH: f64 = 1e-9;
+
+/// What is proven of the frequencies' stated errors; None where nothing is, or where a stated error is smaller
+/// than the proof tells.
+fn proven(analysis: &Analysis) -> Option<String> {
+    let Analysis { bat, solution, .. } = analysis;
+    if bat.profile().pieces.len() > MOST_PIECES {
+        return None;
+    }
+    let modes = solution.modes.len().min(MOST_MODES);
+    let theory = solution.theory;
+    let request = Request { modes, tolerance: WIDTH, theory, ..Request::default() };
+    let (_, found) = guarantee(bat, &request).ok()?;
+    let off = solution.modes.iter().zip(&found.modes).map(|(mode, known)| {
+        let [lower, upper] = known.hertz;
+        let frequency = mode.frequency();
+        f64::max(frequency / lower - 1.0, 1.0 - frequency / upper) / mode.error.total()
+    });
+    // Rounded up to what is printed.
+    let worst = (100.0 * largest(off)).ceil() / 100.0;
+    (found.met && worst <= ALWAYS).then(|| {
+        format!(
+            "Proven, rounding included (modes --guarantee): modes 1 to {modes} of this beam, none \
+             missing between them; each frequency above is off by at most {worst:.2} times what is \
+             stated for it."
+        )
+    })
 }
 
 /// Whether it is certain that no mode is missing.
@@ -129,7 +167,7 @@ pub fn left_out(analysis: &Analysis) -> Vec<String> {
 
 /// What the hits left out, of which the modes know nothing.
 pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
-    let ignored = in_hit(&analysis.bat, analysis.task.scene.wall.is_some());
+    let ignored = in_hit(&analysis.bat, &analysis.task.scene);
     ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
 }
 

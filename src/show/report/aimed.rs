@@ -167,11 +167,21 @@ pub fn bat_text(outcome: &Outcome) -> String {
     columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
 }
 
-/// The cut list as CSV: a line for each pass at each station.
+/// The cut list as CSV: a line for each pass at each station, in mm and in inches.
 pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
-    let mut table =
-        Csv::new(["x_mm", "from_mm", "to_mm", "pass", "off_diameter_mm", "diameter_mm"]);
+    let mut table = Csv::new([
+        "x_mm",
+        "from_mm",
+        "to_mm",
+        "pass",
+        "off_diameter_mm",
+        "diameter_mm",
+        "x_in",
+        "from_in",
+        "diameter_in",
+    ]);
     let mm = |value: f64| rounded(1e3 * value, 6);
+    let inch = |value: f64| rounded(inches(value), 6);
     for cut in cuts(&outcome.stations, pass) {
         for (k, off) in cut.passes.iter().enumerate() {
             table.row([
@@ -181,6 +191,9 @@ pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
                 (k + 1).into(),
                 mm(*off).into(),
                 mm(cut.from - off).into(),
+                inch(cut.x).into(),
+                inch(cut.from).into(),
+                inch(cut.from - off).into(),
             ]);
         }
     }
@@ -224,6 +237,9 @@ pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::
         largest_added_m: added,
         limits_broken_m: if outcome.broken <= 1e-9 { 0.0 } else { outcome.broken },
         kept_within_m: outcome.kept_within,
+        steeper_by: outcome
+            .slope
+            .map(|_| if outcome.steeper <= 1e-9 { 0.0 } else { outcome.steeper }),
         iterations: outcome.iterations,
         bats_solved: outcome.bats,
         stopped: outcome.stopped.map(str::to_owned),
@@ -281,7 +297,7 @@ fn of_rules(outcome: &Outcome, set: &RuleSet) -> file::AimedRules {
     }
 }
 
-fn station(station: &crate::study::aim::stations::Station) -> file::AimedStation {
+fn station(station: &crate::study::aim::laying::Station) -> file::AimedStation {
     file::AimedStation { x_m: station.x, old_m: station.old, new_m: station.new }
 }
 

@@ -63,10 +63,17 @@ fn head(outcome: &Outcome, us: bool) -> String {
         let line = format!("a limit of the diameter is broken by {:.4} mm", 1e3 * outcome.broken);
         out += &wrapped(&line, 2);
     }
-    if outcome.kept_within > 1e-9 {
+    if let Some(slope) = outcome.slope {
+        let kept = match outcome.steeper > 1e-9 {
+            true => format!("is broken by {:.4}", outcome.steeper),
+            false => "is kept".to_owned(),
+        };
+        out += &wrapped(&format!("the limit {} of the slope {kept}", shortest(slope)), 2);
+    }
+    if outcome.kept_within > 5e-8 {
         let line = format!(
-            "where the bat is kept, the curve through its stations moves by {:.4} mm at most",
-            1e3 * outcome.kept_within
+            "where the bat is kept, the curve through its stations moves by {:.1} μm at most",
+            1e6 * outcome.kept_within
         );
         out += &wrapped(&line, 2);
     }
@@ -206,7 +213,9 @@ fn choices(outcome: &Outcome, us: bool) -> String {
 }
 
 fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
-    let all = cuts(&outcome.stations, pass);
+    let mut all = cuts(&outcome.stations, pass);
+    // What would be shown as nothing.
+    all.retain(|cut| cut.from - cut.to >= if us { 1.27e-5 } else { 5e-6 });
     if all.is_empty() {
         return "Nothing is turned off.\n".to_owned();
     }

@@ -45,6 +45,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
         },
         rigid_modes: solution.rigid_modes,
         modes: (0..solution.modes.len()).map(|k| mode(solution, k, &places)).collect(),
+        proof: None,
         timing: timing.then_some(file::Timing {
             plan_s: solution.timing.plan.as_secs_f64(),
             assemble_s: solution.timing.assemble.as_secs_f64(),
@@ -65,6 +66,9 @@ fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {
         damping_ratio: solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
         modal_mass_kg: mode.modal_mass,
         nodes_m: mode.nodes.clone(),
+        proven: None,
+        proven_nodes_m: None,
+        proven_within: None,
         error: file::ModeError {
             discretization: known(mode.error.discretization),
             round_off: known(mode.error.round_off),

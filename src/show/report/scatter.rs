@@ -117,7 +117,12 @@ pub fn words(rows: &ScatterRows, found: &Scattered) -> Vec<String> {
 
 /// "Of the spread of f1_hz, 93 % is youngs_modulus given density, 6 % density."
 fn sentence(rows: &ScatterRows, output: &OutputSpread) -> Option<String> {
-    let indices = output.indices.as_ref()?;
+    let Some(indices) = &output.indices else {
+        let known = output.percentiles.first()?.value;
+        let same =
+            output.percentiles.iter().all(|one| (one.value - known).abs() <= 1e-8 * known.abs());
+        return same.then(|| format!("{} is the same of all bats.", output.name));
+    };
     let mut order: Vec<usize> = (0..indices.first.len()).collect();
     order.sort_by(|a, b| indices.first[*b].value.total_cmp(&indices.first[*a].value));
     let seen = order.into_iter().filter(|k| indices.first[*k].value >= LITTLE).take(3);

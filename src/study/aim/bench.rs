@@ -87,7 +87,8 @@ impl Bench {
                 return Err(Error::value(format!("keep[{k}]"), found, expected));
             }
         }
-        let splines = Splines::beside(&wish.keep, length);
+        let pointed = [0.0, length].map(|x| bat.profile().at(x).outer == 0.0);
+        let splines = Splines::beside(&wish.keep, length, pointed);
         let extras = extras(&wish.free, bat);
         if splines.is_empty() && extras.is_empty() {
             let expected = "a stretch of more than 2 cm that may change";
@@ -190,13 +191,19 @@ impl Bench {
     ///
     /// Those of [`Bat::turned`] and [`Bat::with`].
     pub fn changed(&self, p: &[f64]) -> Result<Bat> {
-        let parts: Vec<(f64, &DiameterChange)> =
-            p.iter().copied().zip(&self.changes).filter(|(p, _)| *p != 0.0).collect();
-        let turned = match parts.is_empty() {
+        let change = self.change(p);
+        let turned = match change.stretches().is_empty() {
             true => self.bat.clone(),
-            false => self.bat.turned(&DiameterChange::sum(&parts))?,
+            false => self.bat.turned(&change)?,
         };
         self.rechosen(&turned, p)
+    }
+
+    /// The change of the diameter (m), on the bat in its own length.
+    pub fn change(&self, p: &[f64]) -> DiameterChange {
+        let parts: Vec<(f64, &DiameterChange)> =
+            p.iter().copied().zip(&self.changes).filter(|(p, _)| *p != 0.0).collect();
+        DiameterChange::sum(&parts)
     }
 
     /// The changed bat with its goals.

@@ -5,6 +5,7 @@
 //! conflict: without any of its members the others can be met.
 
 use crate::base::error::Result;
+use crate::base::threads;
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
 use crate::study::aim::wish::Band;
 
@@ -43,6 +44,7 @@ impl Conflict {
     pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<Self> {
         let start = vec![0.0; found.p.len()];
         let mut stay = vec![true; bands.len()];
+        let mut nearest_yet = found.p.clone();
         let mut bats = 0;
         // What neither binds nor is missed is no part of it, most likely: it is left out first.
         let mut order: Vec<usize> = (0..bands.len()).collect();
@@ -54,22 +56,28 @@ impl Conflict {
             without[k] = false;
             if without.iter().any(|stays| *stays) {
                 let weights = some(&Weights::met(bands.len()), &without);
-                let tried = search.from(&start, bands, &weights)?;
+                let tried = search.meets(&start, bands, &weights)?;
                 bats += tried.bats;
                 if missed(&tried, bands, &without) {
-                    stay = without;
+                    (stay, nearest_yet) = (without, tried.p);
                 }
             }
         }
-        let mut members = vec![];
-        for k in (0..bands.len()).filter(|k| stay[*k]) {
-            let reached = search.from(&start, bands, &nearest(&stay, k))?;
+        let members: Vec<usize> = (0..bands.len()).filter(|k| stay[*k]).collect();
+        // How near each comes is sought from where all of them come nearest together.
+        let reached = threads::map(members.len(), |j| {
+            search.from(&nearest_yet, bands, &nearest(&stay, members[j]))
+        });
+        let reach = |(k, reached): (usize, Result<Found>)| {
+            let reached = reached?;
             bats += reached.bats;
             let mut others = stay.clone();
             others[k] = false;
             let others_met = !missed(&reached, bands, &others);
-            members.push(Reach { band: k, value: reached.values[k], others_met });
-        }
+            Ok(Reach { band: k, value: reached.values[k], others_met })
+        };
+        let members: Result<_> = members.into_iter().zip(reached).map(reach).collect();
+        let members = members?;
         Ok(Self { members, bats })
     }
 

@@ -1,6 +1,6 @@
 //! What does the lathe take off, station by station and pass by pass?
 
-use crate::study::aim::stations::Station;
+use crate::study::aim::laying::Station;
 
 /// What is turned off at a station; lengths in m.
 #[derive(Debug, Clone, PartialEq)]

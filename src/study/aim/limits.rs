@@ -9,6 +9,7 @@ use crate::base::golden;
 use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::profile::{Profile, SAME_PLACE, Section};
+use crate::study::aim::incline::{Incline, Steepness};
 use crate::study::aim::wish::{DiameterLimit, Wish};
 
 /// Distance of the places where the limits are asked first (m).
@@ -17,9 +18,12 @@ const EVERY: f64 = 5e-3;
 const CLOSE: f64 = 5e-4;
 /// A limit that is kept to this is kept (m).
 pub const KEPT: f64 = 1e-9;
-/// Least wall around a bore, and least diameter of a solid bat (m), where the bat is not thinner already.
+/// Least wall around a bore (m), where it is not thinner already.
 const WALL: f64 = 1e-3;
+/// Least diameter of a solid bat (m), and, where it is thinner already as at the point of a tip, the share of
+/// its diameter that must be left.
 const THINNEST: f64 = 5e-3;
+const LEFT: f64 = 0.9;
 
 /// The limits of a bat's diameter.
 #[derive(Debug, Clone)]
@@ -29,6 +33,8 @@ pub struct Limits<'a> {
     /// Greatest diameter by the rules (m).
     rule: f64,
     stretches: Vec<DiameterLimit>,
+    /// How steep the surface may become.
+    steepness: Option<Steepness>,
 }
 
 /// What the change of the diameter may be at a place (m).
@@ -55,23 +61,25 @@ impl<'a> Limits<'a> {
     /// The limits of a wish on this bat.
     pub fn new(wish: &Wish, bat: &'a Bat) -> Self {
         let rule = wish.rules.as_ref().map_or(f64::INFINITY, |rules| rules.diameter());
-        Self { bat, remove_only: wish.remove_only, rule, stretches: wish.diameter.clone() }
+        let steepness = wish.slope.map(|most| Steepness::new(most, wish.grid(bat)));
+        let (remove_only, stretches) = (wish.remove_only, wish.diameter.clone());
+        Self { bat, remove_only, rule, stretches, steepness }
     }
 
     /// These limits, applied to another bat.
     pub fn on<'b>(&self, bat: &'b Bat) -> Limits<'b> {
-        let Self { remove_only, rule, stretches, .. } = self.clone();
-        Limits { bat, remove_only, rule, stretches }
+        let Self { remove_only, rule, stretches, steepness, .. } = self.clone();
+        Limits { bat, remove_only, rule, stretches, steepness }
     }
 
     /// What the change may be at `x`, where the bat has that section.
     pub fn room(&self, x: f64, section: Section) -> Room {
         let diameter = 2.0 * section.outer;
         let least = match section.inner > 0.0 {
-            true => 2.0 * (section.inner + WALL),
-            false => THINNEST,
+            true => (2.0 * (section.inner + WALL)).min(diameter),
+            false => THINNEST.min(LEFT * diameter),
         };
-        let (mut low, mut high) = (least.min(diameter) - diameter, self.rule - diameter);
+        let (mut low, mut high) = (least - diameter, self.rule - diameter);
         let same = SAME_PLACE * self.bat.length();
         for limit in self.stretches.iter().filter(|l| x >= l.from - same && x <= l.to + same) {
             low = low.max(limit.at_least.map_or(f64::NEG_INFINITY, |least| least - diameter));
@@ -169,15 +177,34 @@ impl<'a> Limits<'a> {
         self.every(EVERY, changes)
     }
 
+    /// What the slope of the change may be, of places where the bat may change; empty without a limit.
+    pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
+        self.steepness.map_or(vec![], |steepness| steepness.inclines(self.bat, changes))
+    }
+
+    /// How much steeper another bat of the same length is anywhere than it may be: radius over length.
+    pub fn steeper_by(&self, other: &Bat) -> f64 {
+        self.steepness.map_or(0.0, |steepness| steepness.broken_by(self.bat, other))
+    }
+
+    /// Keeps rounded stations so much farther inside the limit of the slope.
+    pub fn gentler_by(&mut self, by: f64) {
+        if let Some(steepness) = &mut self.steepness {
+            steepness.ripple += by;
+        }
+    }
+
     fn every(&self, step: f64, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
-        let mut rooms = vec![];
+        let mut rooms: Vec<Room> = vec![];
         for piece in &self.bat.profile().pieces {
             let count = (piece.length / step).ceil().max(1.0) as usize;
             for k in 0..=count {
                 let s = k as f64 / count as f64;
                 let x = piece.start + s * piece.length;
-                if changes(x) {
-                    rooms.push(self.room(x, piece.at(s)));
+                let room = self.room(x, piece.at(s));
+                // Where two pieces meet without a step, once.
+                if changes(x) && rooms.last() != Some(&room) {
+                    rooms.push(room);
                 }
             }
         }

@@ -6,18 +6,16 @@
 //! made anew with bands that are moved by as much.
 
 use crate::base::error::{Error, Result};
-use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::bat::body::Bat;
 use crate::study::aim::bench::{Bench, Extra, Terms};
 use crate::study::aim::conflict::{Conflict, missed};
+use crate::study::aim::laying::Station;
 use crate::study::aim::limits::{KEPT, Limits};
-use crate::study::aim::rules::{Rule, cup, one_piece};
+use crate::study::aim::rounding::{Rounded, Rounding};
+use crate::study::aim::rules::{Rule, Ruled};
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
-use crate::study::aim::stations::{Draft, Drafting, Grid, Station};
-use crate::study::aim::wish::{Band, Wish};
+use crate::study::aim::wish::{Band, Grid, Wish};
 use crate::study::many::answers::Answer;
-
-/// A rule, what the bat has of its matter (SI), and whether it is kept.
-pub type Ruled = (Rule, Option<f64>, Option<bool>);
 
 /// What came of a wish.
 #[derive(Debug, Clone)]
@@ -53,6 +51,11 @@ pub struct Outcome {
     pub broken: f64,
     /// How far the diameter moved where the bat is kept (m).
     pub kept_within: f64,
+    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
+    pub slope: Option<f64>,
+    /// How much steeper the surface is anywhere than it may be, radius over length; 0 where it is not, or
+    /// nothing limits it.
+    pub steeper: f64,
     /// What else was chosen, with its value in SI.
     pub extras: Vec<(Extra, f64)>,
     /// The wood that was chosen.
@@ -76,8 +79,7 @@ const TOLD: [Answer; 10] = [
     Answer::ExitSpeed,
     Answer::ExitSpeedPlace,
 ];
-/// Roundings of the stations before the search is made anew, and how often it is.
-const DRAFTS: usize = 5;
+/// How often the search is made anew at most, where rounding has taken the bat out of its bands.
 const ANEW: usize = 4;
 
 /// The least change of one bat, before it is written.
@@ -153,7 +155,7 @@ impl Outcome {
                 least = tried;
             }
         }
-        Writing { wish, bands, bat, grid: grid(wish, bat) }.outcome(least)
+        Writing { wish, bands, bat, grid: wish.grid(bat) }.outcome(least)
     }
 
     /// Takes the bat as it was read from the file that was written, and computes its goals anew.
@@ -173,7 +175,7 @@ impl Outcome {
 
     fn is_met(&self) -> bool {
         let inside = self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value));
-        inside && self.broken <= KEPT
+        inside && self.broken <= KEPT && self.steeper <= KEPT
     }
 
     /// The largest amount taken off a diameter, and the largest put on (m).
@@ -181,13 +183,6 @@ impl Outcome {
         let changes = self.stations.iter().map(|station| station.new - station.old);
         changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
     }
-}
-
-/// The grid of the stations that a wish asks for.
-fn grid(wish: &Wish, bat: &Bat) -> Grid {
-    const INCH: f64 = 0.0254;
-    let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
-    Grid { every: wish.stations.unwrap_or(every), round: wish.round.unwrap_or(round) }
 }
 
 /// The least change on that bench.
@@ -211,14 +206,6 @@ struct Writing<'a> {
     grid: Grid,
 }
 
-/// A draft with the goals of its bat.
-struct Drawn {
-    draft: Draft,
-    values: Vec<f64>,
-    p: Vec<f64>,
-    norm: f64,
-}
-
 impl Writing<'_> {
     fn outcome(self, least: Least) -> Result<Outcome> {
         let Least { bench, mut found, wood, .. } = least;
@@ -235,37 +222,39 @@ impl Writing<'_> {
             found = search.from(&start, &self.bands, &conflict.nearest(self.bands.len()))?;
             found.bats += before;
         }
-        let mut best: Option<Drawn> = None;
+        let mut best: Option<Rounded> = None;
         let mut bands = self.bands.clone();
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
         let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
         let iterations = found.iterations;
+        let (wanted, grid) = (&self.bands, self.grid);
+        let rounding = Rounding { bench: &bench, limits: &limits, bands: wanted, grid };
+        let mut gentler = limits.clone();
         for _ in 0..ANEW {
-            let norm = search.norm(&found.p);
-            let (drawn, off) = self.drafted(&bench, &search, &limits, &found)?;
-            bats += DRAFTS;
-            let drawn = Drawn { norm, ..drawn };
-            if best.as_ref().is_none_or(|best| self.worse(best) > self.worse(&drawn)) {
-                best = Some(drawn);
+            let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
+            bats += rounded.drafts;
+            gentler.gentler_by(1.2 * rounded.steeper);
+            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
+                best = Some(rounded);
             }
-            let done = best.as_ref().is_some_and(|best| self.worse(best) <= 1e-9);
+            let done = best.as_ref().is_some_and(|best| best.worst <= 1e-9);
             if done || conflict.is_some() {
                 break;
             }
             // The search anew, for goals that rounding then puts where they are to be.
-            for ((band, of), off) in bands.iter_mut().zip(&self.bands).zip(&off) {
+            for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
                 let by = off * of.scale;
                 let inside = (0.25 * of.scale).min(0.25 * (of.high - of.low));
                 band.low = of.low - by + inside;
                 band.high = of.high - by - inside;
             }
-            let again = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
-            bats += again.bats;
-            found = again;
+            let search = Search::new(&bench, &gentler);
+            found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
+            bats += found.bats;
         }
-        let Drawn { draft, values, p, norm } = best.expect("one draft at least was made");
-        let written = norm;
+        let rounded = best.expect("one draft at least was made");
+        let Rounded { draft, values, p, norm: written, steeper, .. } = rounded;
         let extras = bench.extras().iter().enumerate();
         let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
         let kept = |x: f64| !bench.splines().stretches().iter().any(|s| x > s[0] && x < s[1]);
@@ -290,6 +279,8 @@ impl Writing<'_> {
             stopped: found.stopped,
             broken,
             kept_within,
+            slope: self.wish.slope,
+            steeper,
             extras,
             wood,
         };
@@ -301,14 +292,6 @@ impl Writing<'_> {
         parts.name = format!("{}, aimed", self.bat.name());
     }
 
-    /// Worst miss of a draft, in tolerances; a broken limit counts by its share of the rounding.
-    fn worse(&self, drawn: &Drawn) -> f64 {
-        let misses = self.bands.iter().zip(&drawn.values).map(|(band, value)| band.miss(*value));
-        let broken = drawn.draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
-        let broken = if broken > KEPT { broken / self.grid.round } else { 0.0 };
-        misses.fold(broken, f64::max)
-    }
-
     /// What the norm would be less by, per SI unit of each goal.
     fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
         let of = |(k, band): (usize, &Band)| {
@@ -318,106 +301,6 @@ impl Writing<'_> {
         };
         self.bands.iter().enumerate().map(of).collect()
     }
-
-    /// The best of some drafts, and by how much it moved each goal, in tolerances.
-    fn drafted(
-        &self,
-        bench: &Bench,
-        search: &Search,
-        limits: &Limits,
-        found: &Found,
-    ) -> Result<(Drawn, Vec<f64>)> {
-        let base = bench.rechosen(bench.bat(), &found.p)?;
-        let limits = limits.on(&base);
-        let n = bench.splines().len();
-        let densities = densities(bench, &self.bands, found)?;
-        let stretch = bench.stretch(&found.p);
-        let change = (bench.splines(), &found.p[..n], stretch);
-        let drafting = Drafting {
-            bat: &base,
-            limits: &limits,
-            change,
-            densities: &densities,
-            grid: self.grid,
-        };
-        let inside = self.inside(bench, &densities, found);
-        let mut aside = inside.clone();
-        let mut best: Option<(Drawn, Vec<f64>)> = None;
-        for _ in 0..DRAFTS {
-            let draft = drafting.draft(&aside)?;
-            let values = bench.of(&draft.bat)?;
-            let off: Vec<f64> = (0..values.len())
-                .map(|k| (values[k] - found.values[k]) / self.bands[k].scale)
-                .collect();
-            let drawn = Drawn { draft, values, p: found.p.clone(), norm: search.norm(&found.p) };
-            let better = best.as_ref().is_none_or(|best| self.worse(&best.0) > self.worse(&drawn));
-            let met = self.worse(&drawn) <= 1e-9;
-            if better {
-                best = Some((drawn, off.clone()));
-            }
-            if met {
-                break;
-            }
-            for ((aside, off), inside) in aside.iter_mut().zip(&off).zip(&inside) {
-                *aside += off + inside;
-            }
-        }
-        Ok(best.expect("there is a first draft"))
-    }
-
-    /// How far inside its band each goal is to be that is at its edge, in tolerances: what the rounding of one
-    /// station does to it.
-    fn inside(&self, bench: &Bench, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
-        let one = |of: &Vec<f64>| {
-            let places = (1..100).map(|k| 0.01 * f64::from(k) * bench.bat().length());
-            let effect = places.map(|x| bench.splines().at(of, x).abs()).fold(0.0, f64::max);
-            1e3 * self.grid.round * self.grid.every * effect
-        };
-        let of = |(k, density): (usize, &Vec<f64>)| {
-            let width = (self.bands[k].high - self.bands[k].low) / self.bands[k].scale;
-            let far = one(density).clamp(0.02, 0.4).min(0.4 * width);
-            match found.prices[k] {
-                price if price > 1e-6 => far,
-                price if price < -1e-6 => -far,
-                _ => 0.0,
-            }
-        };
-        densities.iter().enumerate().map(of).collect()
-    }
-}
-
-/// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the curves:
-/// their products with the curves are the slopes.
-fn densities(bench: &Bench, bands: &[Band], found: &Found) -> Result<Vec<Vec<f64>>> {
-    let n = bench.splines().len();
-    let overlaps = bench.splines().overlaps();
-    let of = |(band, slopes): (&Band, &Vec<f64>)| {
-        let right: Vec<f64> = slopes[..n].iter().map(|slope| slope / band.scale).collect();
-        solved(&overlaps, right)
-    };
-    Ok(bands.iter().zip(&found.slopes).map(of).collect())
-}
-
-/// `A x = b` for a symmetric positive definite matrix, by Cholesky's factors.
-fn solved(matrix: &[Vec<f64>], mut x: Vec<f64>) -> Vec<f64> {
-    let n = x.len();
-    let mut l = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
-            l[i][j] = match i == j {
-                true => (matrix[i][i] - sum).max(f64::MIN_POSITIVE).sqrt(),
-                false => (matrix[i][j] - sum) / l[j][j],
-            };
-        }
-        let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
-    }
-    for i in (0..n).rev() {
-        let sum: f64 = (i + 1..n).map(|k| l[k][i] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
-    }
-    x
 }
 
 /// The largest difference of two bats' diameters where `kept` (m).
@@ -440,42 +323,12 @@ fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<(Answer, [Option<f6
     Ok(TOLD.into_iter().zip(both).collect())
 }
 
-/// What the bat has of each rule's matter, and whether the rule is kept.
+/// The rules, with what the bat has of the matter of each.
 fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<Ruled>> {
     let Some(set) = &wish.rules else { return Ok(vec![]) };
-    let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
-    let body = bat.inertia();
     let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
         true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
         false => None,
     };
-    let hole = cup(bat);
-    let of = |rule: &Rule| {
-        let (value, most) = match rule {
-            Rule::DiameterAtMost(_) => (Some(2.0 * widest), true),
-            Rule::LengthAtMost(_) => (Some(bat.length()), true),
-            Rule::MassAtMost(_) => (Some(body.mass), true),
-            Rule::DropAtMost(_) => {
-                let drop = crate::base::units::inches(bat.length())
-                    - crate::base::units::ounces(body.mass);
-                (Some(drop), true)
-            }
-            Rule::BbcorAtMost(_) => (bbcor, true),
-            Rule::InertiaAtLeast(_) => (Some(body.about(STANDARD_PIVOT)), false),
-            Rule::CupDepthAtMost(_) => (hole.map(|hole| hole[0]), true),
-            Rule::CupDiameterAtLeast(_) => (hole.map(|hole| hole[1]), false),
-            Rule::CupDiameterAtMost(_) => (hole.map(|hole| hole[1]), true),
-            Rule::OnePiece => return (*rule, None, Some(one_piece(bat))),
-        };
-        let limit = rule.limit().unwrap_or(f64::INFINITY);
-        let slack = 1e-9 * limit.abs().max(1.0);
-        let kept = value.map(|value| match most {
-            true => value <= limit + slack,
-            false => value >= limit - slack,
-        });
-        // Without a cup every rule of cups is kept.
-        let of_cup = rule.name().starts_with("cup");
-        (*rule, value, if of_cup { Some(kept.unwrap_or(true)) } else { kept })
-    };
-    Ok(set.rules.iter().map(of).collect())
+    Ok(set.judged(bat, bbcor))
 }

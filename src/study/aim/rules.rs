@@ -2,7 +2,8 @@
 //!
 //! A [`RuleSet`] is data with its source and date; what is computed by it certifies nothing.
 
-use crate::bat::body::Bat;
+use crate::base::units::{inches, ounces};
+use crate::bat::body::{Bat, STANDARD_PIVOT};
 
 /// The rules of a game, as far as they are numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -45,6 +46,9 @@ pub enum Rule {
     /// The bat is one piece.
     OnePiece,
 }
+
+/// A rule, what the bat has of its matter (SI), and whether it is kept.
+pub type Ruled = (Rule, Option<f64>, Option<bool>);
 
 impl Rule {
     /// What a rule file calls it.
@@ -89,10 +93,40 @@ impl RuleSet {
         };
         self.rules.iter().map(of).fold(f64::INFINITY, f64::min)
     }
+
+    /// Every rule, what the bat has of its matter, and whether it is kept; its BBCOR is told.
+    pub fn judged(&self, bat: &Bat, bbcor: Option<f64>) -> Vec<Ruled> {
+        let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let (body, hole) = (bat.inertia(), cup(bat));
+        let of = |rule: &Rule| {
+            let (value, most) = match rule {
+                Rule::DiameterAtMost(_) => (Some(2.0 * widest), true),
+                Rule::LengthAtMost(_) => (Some(bat.length()), true),
+                Rule::MassAtMost(_) => (Some(body.mass), true),
+                Rule::DropAtMost(_) => (Some(inches(bat.length()) - ounces(body.mass)), true),
+                Rule::BbcorAtMost(_) => (bbcor, true),
+                Rule::InertiaAtLeast(_) => (Some(body.about(STANDARD_PIVOT)), false),
+                Rule::CupDepthAtMost(_) => (hole.map(|hole| hole[0]), true),
+                Rule::CupDiameterAtLeast(_) => (hole.map(|hole| hole[1]), false),
+                Rule::CupDiameterAtMost(_) => (hole.map(|hole| hole[1]), true),
+                Rule::OnePiece => return (*rule, None, Some(one_piece(bat))),
+            };
+            let limit = rule.limit().unwrap_or(f64::INFINITY);
+            let slack = 1e-9 * limit.abs().max(1.0);
+            let kept = value.map(|value| match most {
+                true => value <= limit + slack,
+                false => value >= limit - slack,
+            });
+            // Without a cup every rule of cups is kept.
+            let of_cup = rule.name().starts_with("cup");
+            (*rule, value, if of_cup { Some(kept.unwrap_or(true)) } else { kept })
+        };
+        self.rules.iter().map(of).collect()
+    }
 }
 
 /// A hole that is open at the tip: its depth and its diameter there (m). None where there is none.
-pub fn cup(bat: &Bat) -> Option<[f64; 2]> {
+fn cup(bat: &Bat) -> Option<[f64; 2]> {
     const SAMPLES: usize = 400;
     let length = bat.length();
     let rim = bat.profile().at(length).inner;
@@ -105,7 +139,7 @@ pub fn cup(bat: &Bat) -> Option<[f64; 2]> {
 }
 
 /// Whether nothing says that the bat is of several pieces.
-pub fn one_piece(bat: &Bat) -> bool {
+fn one_piece(bat: &Bat) -> bool {
     let fixtures = bat.fixtures();
     fixtures.regions.is_empty() && fixtures.joints.is_empty()
 }

@@ -6,6 +6,7 @@
 
 use crate::base::error::{Error, Result};
 use crate::study::aim::bench::{Bench, Look};
+use crate::study::aim::incline::Incline;
 use crate::study::aim::limits::{Broken, Limits, Room};
 use crate::study::aim::program::{Bounded, Elastic, Least, Program};
 use crate::study::aim::wish::Band;
@@ -23,6 +24,21 @@ const NO_GAIN: f64 = 1e-7;
 pub const MISSED: f64 = 1e-3;
 /// Rounds in which places where a limit is broken between others are added.
 const ROUNDS: usize = 10;
+/// A step that changes a coefficient by more than that (mm) is far from the end: its limits may be broken by some
+/// micrometres between the places where they are asked, which the next steps mend.
+const FAR: f64 = 0.1;
+const ROUGHLY: f64 = 2e-6;
+/// Slopes hold as long as no coefficient has changed by more than that (mm).
+const SAME_SLOPES: f64 = 0.05;
+
+/// When a search may end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// At the least change.
+    Least,
+    /// As soon as all that is asked is met.
+    Met,
+}
 
 /// What is to be made least: so many times the size of the change, and the price of each band's miss.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +84,7 @@ pub struct Search<'a> {
     limits: &'a Limits<'a>,
     form: Vec<Vec<f64>>,
     rooms: Vec<Room>,
+    inclines: Vec<Bounded>,
 }
 
 impl<'a> Search<'a> {
@@ -83,7 +100,17 @@ impl<'a> Search<'a> {
         }
         let changes = |x: f64| bench.splines().basis().iter().any(|curve| curve.at(x) != 0.0);
         let rooms = limits.rows(&changes);
-        Self { bench, limits, form, rooms }
+        let steep = |incline: Incline| {
+            // As what is gained or lost over 5 cm, so that all rows are of a size.
+            const OVER: f64 = 0.05;
+            let curves = bench.splines().basis().iter();
+            let mut row: Vec<f64> = curves.map(|curve| OVER * curve.slope(incline.x)).collect();
+            row.resize(count, 0.0);
+            let [low, high] = [incline.low, incline.high].map(|slope| 1e3 * OVER * slope);
+            Bounded { row, low, high }
+        };
+        let inclines = limits.inclines(&changes).into_iter().map(steep).collect();
+        Self { bench, limits, form, rooms, inclines }
     }
 
     /// The size of the change of the diameter: root of `mean(d²) + ℓ⁴ mean(d″²)` (mm).
@@ -103,14 +130,33 @@ impl<'a> Search<'a> {
     ///
     /// [`Error::Value`] where the limits of the diameter contradict each other; those of [`Bench::look`].
     pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+        self.until(End::Least, start, bands, weights)
+    }
+
+    /// The search as far as it shows whether the bands that have a price can be met: where they can, its change
+    /// is not the least.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::from`].
+    pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+        self.until(End::Met, start, bands, weights)
+    }
+
+    fn until(&self, end: End, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
         let mut look = self.bench.look(start)?;
         let mut p = start.to_vec();
         let mut count = 1;
         let mut rooms = self.rooms.clone();
         let mut found = None;
+        let mut slopes = vec![];
+        let mut of_slopes: Vec<f64> = vec![];
         for iteration in 1..=MOST {
-            let slopes = self.bench.slopes(&look)?;
-            count += self.bench.bats_of_slopes();
+            if slopes.is_empty() || largest(&p, &of_slopes) > SAME_SLOPES {
+                slopes = self.bench.slopes(&look)?;
+                of_slopes.clone_from(&p);
+                count += self.bench.bats_of_slopes();
+            }
             let program = self.program((&p, &look.values, &slopes), bands, weights);
             let mut least = self.solve(program, &p, &mut rooms)?;
             least.prices = asked(&least.prices, weights);
@@ -136,7 +182,9 @@ impl<'a> Search<'a> {
             let still = step < STILL || gained.abs() < NO_GAIN * merit.abs();
             found =
                 Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
-            if still {
+            let asked = bands.iter().zip(&look.values).zip(&weights.miss);
+            let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
+            if still || end == End::Met && misses.all(|miss| miss <= MISSED) {
                 break;
             }
         }
@@ -210,7 +258,8 @@ impl<'a> Search<'a> {
     }
 
     /// Solves the program under the limits of the diameter, along the whole curve, within the trust region:
-    /// a wider one where the limits leave nothing in it.
+    /// a wider one where the limits leave nothing in it. `rooms` are the places where limits are asked, to which
+    /// are added those where they would be broken.
     fn solve(&self, program: Program, p: &[f64], rooms: &mut Vec<Room>) -> Result<Least> {
         for wider in 0..6 {
             let trust = TRUST * f64::from(1 << wider);
@@ -237,20 +286,24 @@ impl<'a> Search<'a> {
                 low: p[k] - trust,
                 high: p[k] + trust,
             }));
-            program.limits.extend(rooms.iter().map(|room| self.row(room)));
+            program.limits.extend(self.inclines.iter().cloned());
+            program.limits.extend(rooms.iter().map(|room| self.row(room, p, trust)));
             let found = program.solve()?;
             let broken = self.broken(&found.p);
+            let worst = broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
+            let enough = worst <= ROUGHLY && largest(p, &found.p) > FAR;
             least = Some(found);
-            if broken.is_empty() {
+            rooms.extend(broken.iter().map(|broken| broken.room));
+            if broken.is_empty() || enough {
                 break;
             }
-            rooms.extend(broken.iter().map(|broken| broken.room));
         }
         least
     }
 
-    /// A limit of the diameter as a row of the program (mm).
-    fn row(&self, room: &Room) -> Bounded {
+    /// A limit of the diameter as a row of the program (mm), without the side that no step within the trust
+    /// region reaches.
+    fn row(&self, room: &Room, p: &[f64], trust: f64) -> Bounded {
         let mut row: Vec<f64> =
             self.bench.splines().basis().iter().map(|curve| curve.at(room.x)).collect();
         row.resize(self.bench.unknowns(), 0.0);
@@ -260,13 +313,18 @@ impl<'a> Search<'a> {
         let (low, high) = (1e3 * room.low, 1e3 * room.high);
         // Where the diameter is given exactly there is no inside.
         let inside = if high - low > 2.0 * inside { inside } else { 0.0 };
-        Bounded { row, low: low + inside, high: high - inside }
+        let (low, high) = (low + inside, high - inside);
+        let now: f64 = row.iter().zip(p).map(|(a, p)| a * p).sum();
+        let reach = trust * row.iter().map(|a| a.abs()).sum::<f64>();
+        let low = if now - reach > low { f64::NEG_INFINITY } else { low };
+        let high = if now + reach < high { f64::INFINITY } else { high };
+        Bounded { row, low, high }
     }
 
     /// Where the change of those unknowns breaks a limit.
     fn broken(&self, p: &[f64]) -> Vec<Broken> {
-        let splines = self.bench.splines();
-        self.limits.broken(&splines.knots(), &|x, _| 1e-3 * splines.at(p, x))
+        let change = self.bench.change(p);
+        self.limits.broken(&self.bench.splines().knots(), &|x, _| change.at(x))
     }
 }
 

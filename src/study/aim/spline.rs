@@ -1,7 +1,7 @@
 //! Which smooth curves may the change of the diameter be?
 //!
 //! On every stretch that is not kept, a cubic B-spline with a knot about every 5 cm; where the stretch ends at
-//! one that is kept, value and slope are 0. [`Splines::roughness`] is the quadratic form that a least change
+//! one that is kept, value and slope are 0, and at an end of the bat that comes to a point the value is. [`Splines::roughness`] is the quadratic form that a least change
 //! makes least:
 //!
 //! ```text
@@ -34,8 +34,9 @@ pub struct BSpline {
 }
 
 impl Splines {
-    /// The splines of a bat of that length (m) on all that is not kept: stretches from, to (m).
-    pub fn beside(keep: &[[f64; 2]], length: f64) -> Self {
+    /// The splines of a bat of that length (m) on all that is not kept: stretches from, to (m). A `pointed` end
+    /// of the bat, the knob's first, has no diameter to be changed.
+    pub fn beside(keep: &[[f64; 2]], length: f64, pointed: [bool; 2]) -> Self {
         let mut stretches = vec![];
         let mut basis = vec![];
         let mut kept: Vec<[f64; 2]> = keep.to_vec();
@@ -45,8 +46,13 @@ impl Splines {
         for [start, end] in kept {
             let to = f64::min(start, length);
             if to - from >= SHORTEST {
-                let held = [from > 0.0, to < length];
-                let on = on_stretch([from, to], held);
+                let end = |kept: bool, pointed: bool| match (kept, pointed) {
+                    (true, _) => End::Kept,
+                    (false, true) => End::Pointed,
+                    (false, false) => End::Free,
+                };
+                let ends = [end(from > 0.0, pointed[0]), end(to < length, pointed[1])];
+                let on = on_stretch([from, to], ends);
                 if !on.is_empty() {
                     stretches.push([from, to]);
                     basis.extend(on);
@@ -185,15 +191,30 @@ impl BSpline {
     }
 }
 
-/// The B-splines of a stretch, without those that would move an end that is held.
-fn on_stretch([from, to]: [f64; 2], held: [bool; 2]) -> Vec<BSpline> {
+/// What the end of a stretch is.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    /// An end of the bat, which may change.
+    Free,
+    /// An end of the bat that comes to a point: the value is 0.
+    Pointed,
+    /// The border of what is kept: value and slope are 0.
+    Kept,
+}
+
+/// The B-splines of a stretch, without those that would move what an end holds.
+fn on_stretch([from, to]: [f64; 2], held: [End; 2]) -> Vec<BSpline> {
     let pieces = (((to - from) / KNOT_EVERY).round() as usize).max(1);
     let place =
         |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
     let ends = |x: f64| std::iter::repeat_n(x, 3);
     let knots: Vec<f64> = ends(from).chain((0..=pieces).map(place)).chain(ends(to)).collect();
-    // Value and slope at an end are of the two first curves there alone.
-    let [first, last] = held.map(|held| if held { 2 } else { 0 });
+    // The value at an end is that of the first curve there, value and slope are those of the first two.
+    let [first, last] = held.map(|end| match end {
+        End::Free => 0,
+        End::Pointed => 1,
+        End::Kept => 2,
+    });
     let count = pieces + 3;
     (first..count.saturating_sub(last))
         .map(|k| BSpline { knots: std::array::from_fn(|i| knots[k + i]), closed: true })
@@ -205,7 +226,7 @@ mod tests {
     use super::*;
 
     fn r161() -> Splines {
-        Splines::beside(&[[0.0, 0.03]], 0.84)
+        Splines::beside(&[[0.0, 0.03]], 0.84, [false; 2])
     }
 
     #[test]
@@ -218,18 +239,20 @@ mod tests {
             |x: f64| splines.basis().iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
         assert_eq!(slope(0.03), 0.0);
         assert_eq!(splines.at(&p, 0.84), p[16]);
-        let both = Splines::beside(&[[0.0, 0.03], [0.4, 0.5]], 0.84);
+        let both = Splines::beside(&[[0.0, 0.03], [0.4, 0.5]], 0.84, [false; 2]);
         assert_eq!(both.stretches(), [[0.03, 0.4], [0.5, 0.84]]);
-        assert!(Splines::beside(&[[0.0, 0.84]], 0.84).is_empty());
+        assert!(Splines::beside(&[[0.0, 0.84]], 0.84, [false; 2]).is_empty());
+        let pointed = Splines::beside(&[[0.0, 0.03]], 0.84, [false, true]);
+        assert_eq!((pointed.len(), pointed.at(&p[..16], 0.84)), (16, 0.0));
         // Between 0.39 and 0.4 there is no room for a smooth change.
-        assert_eq!(Splines::beside(&[[0.0, 0.39], [0.4, 0.84]], 0.84).len(), 0);
+        assert_eq!(Splines::beside(&[[0.0, 0.39], [0.4, 0.84]], 0.84, [false; 2]).len(), 0);
     }
 
     /// The splines of a bat that may change everywhere add up to 1, and to x with their Greville
     /// abscissae: constants and lines are among the curves.
     #[test]
     fn constants_and_lines_are_among_the_curves() {
-        let splines = Splines::beside(&[], 0.8);
+        let splines = Splines::beside(&[], 0.8, [false; 2]);
         let greville: Vec<f64> =
             splines.basis().iter().map(|b| b.knots[1..4].iter().sum::<f64>() / 3.0).collect();
         for k in 0..=80 {

@@ -1,50 +1,17 @@
-//! Which stations is the changed bat written with?
+//! Which diameters is the changed bat written with?
 //!
-//! The user's own, and others at even places where the diameter changes: there diameters are rounded. Where
-//! nothing changes the bat keeps its stations and their digits, so that its curve is what it was. Rounding goes
-//! up or down so that the goals stay where they are: what one station moves, the next ones take back.
-//!
-//! A curve through stations feels two stations on: beside a stretch that is kept the next two stations stay,
-//! where they are near, so that its curve stays too (unless a limit asks for some µm of them).
+//! They are rounded up or down so that the goals stay where they are: what one station moves, the next ones
+//! take back. Stations where nothing changes keep their digits.
 //!
 //! The curve between rounded stations is a new one. Where it breaks a limit (on a bat of which wood is only
 //! taken off it bulges before the first station that is lower, by some 7 µm for 0.1 mm) the station beside it
-//! gives way, by as many digits more as that takes.
+//! gives way, by as many digits more as that takes; one of a stretch that is kept by some µm at most.
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
-use crate::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Stations};
-use crate::study::aim::limits::{Broken, Limits, section};
-use crate::study::aim::spline::Splines;
-
-/// A station of the new bat; lengths in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Station {
-    /// Place from the knob end.
-    pub x: f64,
-    /// Diameter that the bat has there.
-    pub old: f64,
-    /// Diameter by the smooth change.
-    pub exact: f64,
-    /// Diameter that is written.
-    pub new: f64,
-    /// Inner radius.
-    inner: f64,
-    /// What the limits allow, less where a curve between stations asked for it.
-    low: f64,
-    high: f64,
-    /// Whether it is in a stretch that is kept.
-    kept: bool,
-}
-
-/// How stations are laid and rounded.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Distance of the stations (m).
-    pub every: f64,
-    /// What diameters are rounded to (m).
-    pub round: f64,
-}
+use crate::bat::profile::SAME_PLACE;
+use crate::study::aim::laying::{Laying, Station};
+use crate::study::aim::limits::Broken;
 
 /// The new stations, and the bat with them.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,128 +26,30 @@ pub struct Draft {
 
 /// A change of a bat's diameter that is to be written.
 pub struct Drafting<'a> {
-    /// The bat before the change of its diameter.
-    pub bat: &'a Bat,
-    /// What its diameter may be.
-    pub limits: &'a Limits<'a>,
-    /// The change (mm) and the curves it is made of, places as shares of `stretch`.
-    pub change: (&'a Splines, &'a [f64], f64),
+    laying: Laying<'a>,
+    stations: Vec<Station>,
     /// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the
-    /// same curves.
-    pub densities: &'a [Vec<f64>],
-    /// How stations are laid.
-    pub grid: Grid,
+    /// change's curves.
+    densities: &'a [Vec<f64>],
 }
 
-/// Two stations beside a stretch that is kept, the nearer one first (m).
-#[derive(Debug, Clone, Copy)]
-struct Guard {
-    first: f64,
-    second: f64,
-}
-
-impl Guard {
-    /// Whether a place is at one of them or between them.
-    fn has(&self, x: f64) -> bool {
-        x >= self.first.min(self.second) && x <= self.first.max(self.second)
-    }
-}
-
-/// A place beside a station, as a share of the way to the next.
-const BESIDE: f64 = 1e-6;
-/// Stations farther apart are not near (m).
-const NEAR: f64 = 0.06;
-/// A smaller change than this share of the rounding is none.
-const NOTHING: f64 = 0.25;
+/// So far a station of a stretch that is kept gives way to a limit (m).
+const GIVES_WAY: f64 = 1e-5;
+/// What a station is taken to move the curve by at least, as a share of its own move.
+const LEAST_FELT: f64 = 1e-2;
 /// Rounds of giving way to limits.
 const ROUNDS: usize = 60;
 
-impl Drafting<'_> {
-    /// The change at a place (m of diameter).
-    fn change(&self, x: f64) -> f64 {
-        let (splines, p, stretch) = self.change;
-        1e-3 * splines.at(p, x / stretch)
-    }
-
-    /// Whether a place may change.
-    fn is_free(&self, x: f64) -> bool {
-        let (splines, _, stretch) = self.change;
-        let length = self.bat.length();
-        let same = SAME_PLACE * length;
-        splines.stretches().iter().any(|s| {
-            let [from, to] = s.map(|end| end * stretch);
-            (x > from + same || from <= same)
-                && (x < to - same || to >= length - same)
-                && x >= from - same
-                && x <= to + same
-        })
-    }
-
-    /// The stations beside the stretches that are kept.
-    fn guards(&self) -> Vec<Guard> {
-        let (splines, _, stretch) = self.change;
-        let length = self.bat.length();
-        let same = SAME_PLACE * length;
-        let x = &self.bat.profile().stations.x;
-        let mut guards = vec![];
-        if !self.is_of_stations() {
-            return guards;
-        }
-        for ends in splines.stretches() {
-            let [from, to] = ends.map(|end| end * stretch);
-            let outwards: Vec<f64> = x.iter().copied().filter(|x| *x >= from - same).collect();
-            let inwards: Vec<f64> = x.iter().rev().copied().filter(|x| *x <= to + same).collect();
-            let held = [(from > same, outwards), (to < length - same, inwards)];
-            for (_, beside) in held.into_iter().filter(|(held, _)| *held) {
-                // At a step the curve begins anew.
-                let [first, second] = [beside.first(), beside.get(1)].map(|x| x.copied());
-                guards.extend(first.zip(second).map(|(first, second)| Guard { first, second }));
-            }
-        }
-        guards.retain(|guard| (guard.second - guard.first).abs() <= NEAR);
-        guards
-    }
-
-    /// Whether the profile is what its stations say, so that they alone make the same curve.
-    fn is_of_stations(&self) -> bool {
-        self.bat.profile().formulas.is_none() && self.bat.edits().is_empty()
-    }
-
-    /// The stations with the diameters they would have without rounding.
-    fn stations(&self) -> Vec<Station> {
-        let profile = self.bat.profile();
-        let own = &profile.stations;
-        let mut places: Vec<(f64, f64)> = vec![];
-        for (k, x) in own.x.iter().enumerate() {
-            // At a step the first is of the piece to its left; a bat that is cut has several between two stations.
-            let left = k > 0 && (k + 1 == own.x.len() || own.x[k + 1] == *x);
-            let to = if left { own.x[k - 1] } else { own.x[(k + 1).min(own.x.len() - 1)] };
-            places.push((*x, x + BESIDE * (to - x)));
-        }
-        let length = profile.length();
-        let near = |x: f64| own.x.iter().any(|y| (y - x).abs() < 0.3 * self.grid.every);
-        let touched = |x: f64| self.change(x).abs() >= NOTHING * self.grid.round;
-        let count = (length / self.grid.every).floor() as usize;
-        for k in 1..=count {
-            let x = k as f64 * self.grid.every;
-            let wanted = self.is_free(x) && touched(x) || !self.is_of_stations();
-            if wanted && !near(x) && x < length {
-                places.push((x, x));
-            }
-        }
-        places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let guards = self.guards();
-        places.retain(|(x, _)| own.x.contains(x) || guards.iter().all(|guard| !guard.has(*x)));
-        let station = |(x, inside): (f64, f64)| {
-            let at = section(profile, x, inside);
-            let guarded = guards.iter().any(|guard| guard.has(x));
-            let (old, kept) = (2.0 * at.outer, !self.is_free(x));
-            let room = self.limits.room(x, at);
-            let exact = if kept || guarded { old } else { old + self.change(x) };
-            let (low, high) = (old + room.low, old + room.high);
-            Station { x, old, exact, new: old, inner: at.inner, low, high, kept }
-        };
-        places.into_iter().map(station).collect()
+impl<'a> Drafting<'a> {
+    /// Lays the stations of a change. The goals move by these densities, in tolerances per mm of diameter and m
+    /// of length, as coefficients of the change's curves.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Laying::stations`].
+    pub fn new(laying: Laying<'a>, densities: &'a [Vec<f64>]) -> Result<Self> {
+        let stations = laying.stations()?;
+        Ok(Self { laying, stations, densities })
     }
 
     /// The bat as it is written, the goals moved by `aside` (in tolerances) on purpose: what an earlier draft
@@ -188,15 +57,16 @@ impl Drafting<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Profile::new`] and [`Bat::with`].
+    /// Those of [`Laying::profile`] and [`Bat::with`].
     pub fn draft(&self, aside: &[f64]) -> Result<Draft> {
-        let mut stations = self.stations();
+        let mut stations = self.stations.clone();
         let mut finest = f64::INFINITY;
         let mut best: Option<Draft> = None;
         for _ in 0..ROUNDS {
             self.round(&mut stations, aside);
-            let bat = self.bat_of(&stations)?;
-            let broken = self.limits.broken_by(&bat);
+            let new = self.laying.profile(&stations, |station| station.new)?;
+            let bat = self.laying.bat.with(|parts| parts.profile = new)?;
+            let broken = self.laying.limits.broken_by(&bat);
             let worst = broken.iter().map(|b| b.by.abs()).fold(0.0, f64::max);
             if best.is_none() || worst < finest {
                 finest = worst;
@@ -220,28 +90,19 @@ impl Drafting<'_> {
         let x = broken.room.x;
         let left = stations.iter().map(|s| s.x).filter(|s| *s <= x).fold(0.0, f64::max);
         let right = stations.iter().map(|s| s.x).filter(|s| *s >= x).fold(f64::INFINITY, f64::min);
-        let ends = stations.iter().filter(|s| !s.kept && (s.x == left || s.x == right));
-        let nearest = ends.map(|s| (s.x - x).abs()).fold(f64::INFINITY, f64::min);
-        if nearest.is_infinite() {
-            return false;
-        }
-        // So much at the station moves the curve beside it by what it is over.
-        let needed = 1.5 * broken.by.abs();
-        let digit = 10.0_f64.powf((needed / self.grid.round).log10().floor().min(0.0));
-        let step = self.grid.round * digit;
-        let by = (needed / step).ceil() * step;
-        let beside = |s: &&mut Station| {
-            !s.kept && (s.x == left || s.x == right) && (s.x - x).abs() <= nearest * (1.0 + 1e-9)
-        };
+        let middle = (x - left - (right - x)).abs() <= 1e-9 * (right - left);
+        let nearest = if x - left < right - x { [left, right] } else { [right, left] };
         let mut moved = false;
-        for station in stations.iter_mut().filter(beside) {
-            let (high, low) = (station.new - by, station.new + by);
-            match broken.by > 0.0 {
-                true if high >= station.low => station.high = station.high.min(high),
-                false if low <= station.high => station.low = station.low.max(low),
-                _ => continue,
+        for end in nearest {
+            // The other end where the nearer one may not, and both for a place in the middle.
+            if !moved || middle {
+                // A station moves the curve beside it the less the farther from it, by nothing at the next one.
+                let felt = 1.0 - (x - end).abs() / (right - left).max(SAME_PLACE);
+                let by = broken.by / felt.max(LEAST_FELT);
+                for station in stations.iter_mut().filter(|station| station.x == end) {
+                    moved |= gives_way(station, by, self.laying.grid.round);
+                }
             }
-            moved = true;
         }
         moved
     }
@@ -257,7 +118,7 @@ impl Drafting<'_> {
             .collect();
         let mut off: Vec<f64> = aside.to_vec();
         for (station, spacing) in stations.iter_mut().zip(spacing) {
-            let (splines, _, stretch) = self.change;
+            let (splines, _, stretch) = self.laying.change;
             let effect: Vec<f64> = self
                 .densities
                 .iter()
@@ -268,7 +129,7 @@ impl Drafting<'_> {
                 // Where no goal feels it, the nearest.
                 off.map(|off| off * off).sum::<f64>() + 1e3 * (new - station.exact).abs()
             };
-            let candidates = self.candidates(station);
+            let candidates = candidates(station);
             let best = candidates.into_iter().min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
             station.new = best.unwrap_or(station.old);
             for (off, g) in off.iter_mut().zip(&effect) {
@@ -276,43 +137,38 @@ impl Drafting<'_> {
             }
         }
     }
+}
 
-    /// The diameters that a station may have.
-    fn candidates(&self, station: &Station) -> Vec<f64> {
-        let Station { old, exact, low, high, kept, .. } = *station;
-        if kept {
-            return vec![old];
-        }
-        let round = self.grid.round;
-        if (exact - old).abs() < NOTHING * round {
-            return vec![old.clamp(low.min(high), high)];
-        }
-        let clamped = exact.clamp(low.min(high), high);
-        let below = (clamped / round + 1e-9).floor();
-        let both = [below * round, (below + 1.0) * round];
-        let allowed = |new: &f64| *new >= low - 1e-12 && *new <= high + 1e-12;
-        let some: Vec<f64> = both.into_iter().filter(allowed).collect();
-        if some.is_empty() { vec![clamped] } else { some }
+/// Moves the limit of a station at which the curve is so much (m) too thick, or below 0 too thin; false where it
+/// may not move. What it is rounded to becomes as fine as that takes.
+fn gives_way(station: &mut Station, by: f64, round: f64) -> bool {
+    let needed = 1.2 * by.abs();
+    let step = round * 10.0_f64.powf((needed / round).log10().floor().min(0.0));
+    let away = (needed / step).ceil() * step;
+    let new = station.new - away.copysign(by);
+    let stays = station.kept && (new - station.old).abs() > GIVES_WAY;
+    if stays || new < station.low || new > station.high {
+        return false;
     }
+    if by > 0.0 {
+        station.high = new;
+    } else {
+        station.low = new;
+    }
+    station.round = station.round.min(step);
+    true
+}
 
-    /// The bat through those stations.
-    fn bat_of(&self, stations: &[Station]) -> Result<Bat> {
-        let profile = self.bat.profile();
-        let bent = |radii: &Radii| match radii {
-            Radii::Cubic(cubics) => cubics.degree > 1,
-            Radii::Formula(_) => true,
-        };
-        let interpolation = match profile.pieces.iter().any(|piece| bent(&piece.radii)) {
-            true => Interpolation::Pchip,
-            false => Interpolation::Linear,
-        };
-        let column = |of: fn(&Station) -> f64| stations.iter().map(of).collect();
-        let new = Profile::new(Stations {
-            x: column(|s| s.x),
-            outer: column(|s| 0.5 * s.new),
-            inner: column(|s| s.inner),
-            interpolation,
-        })?;
-        self.bat.with(|parts| parts.profile = new)
+/// The diameters that a station may have.
+fn candidates(station: &Station) -> Vec<f64> {
+    let Station { old, exact, low, high, round, .. } = *station;
+    let clamped = exact.clamp(low.min(high), high);
+    if exact == old {
+        return vec![clamped];
     }
+    let below = (clamped / round + 1e-9).floor();
+    let both = [below * round, (below + 1.0) * round];
+    let allowed = |new: &f64| *new >= low - 1e-12 && *new <= high + 1e-12;
+    let some: Vec<f64> = both.into_iter().filter(allowed).collect();
+    if some.is_empty() { vec![clamped] } else { some }
 }

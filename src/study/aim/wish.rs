@@ -93,8 +93,19 @@ pub struct Wish {
     pub stations: Option<f64>,
     /// What diameters are rounded to (m); None for 0.1 mm, or 0.005 in of a bat in inches.
     pub round: Option<f64>,
+    /// Greatest slope of the surface where it is changed: radius over length.
+    pub slope: Option<f64>,
     /// What else may change.
     pub free: FreeChoice,
+}
+
+/// How the stations of the new bat are laid and rounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Distance of the stations (m).
+    pub every: f64,
+    /// What diameters are rounded to (m).
+    pub round: f64,
 }
 
 /// What a goal may be, in SI, and what it is now.
@@ -117,6 +128,9 @@ pub struct Band {
 /// The knob, which stays as it is where nothing is said (m).
 pub const KNOB: [f64; 2] = [0.0, 0.03];
 
+/// Slopes that a limit may have: radius over length.
+pub const SLOPES: std::ops::RangeInclusive<f64> = 0.01..=10.0;
+
 impl Default for Wish {
     fn default() -> Self {
         Self {
@@ -127,6 +141,7 @@ impl Default for Wish {
             diameter: vec![],
             stations: None,
             round: None,
+            slope: None,
             free: FreeChoice::default(),
         }
     }
@@ -286,6 +301,13 @@ impl Wish {
         };
         let rules = self.rules.iter().flat_map(|set| &set.rules).filter_map(of_rule);
         self.targets.iter().map(|target| (target.goal, None)).chain(rules).collect()
+    }
+
+    /// The grid of the new bat's stations.
+    pub fn grid(&self, bat: &Bat) -> Grid {
+        const INCH: f64 = 0.0254;
+        let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
+        Grid { every: self.stations.unwrap_or(every), round: self.round.unwrap_or(round) }
     }
 
     /// What each goal of [`Self::goals`] may be, of a bat whose goals are these now.

@@ -72,9 +72,27 @@ pub struct Rivals {
 pub struct Gauge {
     /// Place (m from the knob end), probe and factor.
     pub terms: Vec<(f64, Probe, f64)>,
+    /// How far the answer is off for each unit that a reading is, and for each unit that the slope of the
+    /// readings along the bat is.
+    pub off: [f64; 2],
 }
 
 impl Gauge {
+    /// A reading at a place.
+    fn at(x: f64, probe: Probe) -> Self {
+        Self { terms: vec![(x, probe, 1.0)], off: [1.0, 0.0] }
+    }
+
+    /// How far the answer may be off where speeds are by `speed` (m/s), a curve along the bat that is not shorter
+    /// than `half_wave` (m): 0 of what is not read of speeds.
+    pub fn error(&self, speed: f64, half_wave: f64) -> f64 {
+        let speeds = [Probe::Speed, Probe::HandsVelocity];
+        let of_speeds = self.terms.iter().all(|(_, probe, _)| speeds.contains(probe));
+        // The slope of such a curve is π/half_wave of it at most.
+        let [value, slope] = self.off;
+        if of_speeds { speed * (value + std::f64::consts::PI / half_wave * slope) } else { 0.0 }
+    }
+
     /// The sum on a bat that is hit, of hits seen at those places.
     pub fn read(&self, hitter: &Hitter, seen: &Seen) -> Option<f64> {
         let of = |&(x, probe, factor): &(f64, Probe, f64)| {
@@ -149,7 +167,7 @@ impl<'a> OuterHalf<'a> {
     pub fn gauge(&mut self, answer: Answer) -> (Option<Gauge>, Option<f64>) {
         let at = |x: f64, probe: Probe| {
             let value = self.value(probe, x).filter(|value| probe.feels(*value));
-            (value.map(|_| Gauge { terms: vec![(x, probe, 1.0)] }), value)
+            (value.map(|_| Gauge::at(x, probe)), value)
         };
         match answer {
             Answer::ExitSpeedAt(x) => at(x, Probe::Speed),
@@ -199,10 +217,13 @@ impl<'a> OuterHalf<'a> {
             return (None, Some(value));
         }
         if !place {
-            return (Some(Gauge { terms: vec![(peak.x, probe, 1.0)] }), Some(value));
+            return (Some(Gauge::at(peak.x, probe)), Some(value));
         }
         let h = self.apart();
-        let gauge = bend.map(|bend| Gauge { terms: slope(peak.x, probe, h, -1.0 / bend) });
+        let gauge = bend.map(|bend| Gauge {
+            terms: slope(peak.x, probe, h, -1.0 / bend),
+            off: [0.0, 1.0 / bend.abs()],
+        });
         (gauge, Some(value))
     }
 
@@ -293,6 +314,8 @@ impl<'a> OuterHalf<'a> {
                 (x, Probe::Speed, -1.0 / slope),
                 (peak.x, Probe::Speed, (1.0 - NEARLY * peak.value.signum()) / slope),
             ],
+            // The speed there is off, and so is the greatest one.
+            off: [2.0 / slope.abs(), 0.0],
         });
         (gauge, Some(x))
     }

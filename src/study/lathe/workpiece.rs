@@ -192,11 +192,12 @@ impl Workpiece {
         let Some(hit) = &self.hit else { return Ok(()) };
         let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
         let length = self.bat.length();
+        let half_wave = length / (hitter.modes_used() + 1) as f64;
         let mut along = OuterHalf::new(&hitter, length, CLOSELY);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
-            let error = if answer.unit() == "m/s" { off * closing } else { 0.0 };
+            let error = gauge.as_ref().map_or(0.0, |gauge| gauge.error(off * closing, half_wave));
             self.values[k] = value.map(|value| Figure::new(value, error));
             self.gauges[k] = gauge;
         }

@@ -11,6 +11,8 @@ pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
 pub const WRITTEN: [usize; 3] = [1, 3, 5];
 /// Rows after which somebody is told how far it is.
 const TOLD: u64 = 64;
+/// Values whose standard deviation is no larger share of their mean are the same value but for rounding.
+const ROUND_OFF: f64 = 1e-9;
 /// Of Student's distribution with seven degrees of freedom 95 % lie within so many standard deviations.
 const STUDENT: f64 = 2.364_624_251;
 
@@ -117,12 +119,15 @@ impl Scattered {
                 .zip(&numbers)
                 .filter_map(|(row, numbers)| Some((numbers.clone(), values[*row]?)))
                 .collect();
+            let moments = moments(&values);
+            let differ = moments.is_some_and(|[mean, sd]| sd > ROUND_OFF * mean.abs());
+            let indices = differ.then(|| Indices::grouped(&rows.kinds(), rows.groups(), &fitted));
             OutputSpread {
                 name: output.name(),
                 unit: output.unit(),
                 percentiles: percentiles(&values),
-                moments: moments(&values),
-                indices: Indices::grouped(&rows.kinds(), rows.groups(), &fitted),
+                moments,
+                indices: indices.flatten(),
                 values,
             }
         });

@@ -1,0 +1,113 @@
+"""Spoils the proof in one place after the other and says which test finds it.
+
+    python3 search/proof_mutations.py [NAME ...]
+
+Works on a copy of the project in a temporary folder; each place takes a build of the library. A mutation that no
+test finds, or that its own test does not find, is told, and the exit code is 1.
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent.parent
+INTERVAL = "src/base/interval/"
+PROOF = "src/modes/enclosure/"
+
+# Name, file, what stands there, what is put there, the test that finds it.
+MUTATIONS = [
+    ("down rounds up", INTERVAL + "mod.rs",
+     "let below = x - (PHI * x.abs() + LEAST);", "let below = x + (PHI * x.abs() + LEAST);",
+     "every_operation_of_intervals_holds_the_exact_result"),
+    ("a product rounds its upper end down", INTERVAL + "mod.rs",
+     "false => Self { low: down(a * b), high: up(a * b) },",
+     "false => Self { low: down(a * b), high: down(a * b) },",
+     "every_operation_of_intervals_holds_the_exact_result"),
+    ("a number of a table is off by two units in the last place", INTERVAL + "tables.rs",
+     None, None,
+     "every_number_of_the_tables_is_the_nearest_double"),
+    ("too few points for a degree", INTERVAL + "series.rs",
+     "assert!(self.degree < 2 * N,", "assert!(self.degree < 2 * N + 2,",
+     "points_do_not_integrate_what_is_beyond_them"),
+    ("values without their rounding", INTERVAL + "series.rs",
+     "Values { at, radius: bound(self.radius + rounding), degree: self.degree() }",
+     "Values { at, radius: bound(self.radius + 0.0 * rounding), degree: self.degree() }",
+     "every_operation_of_series_holds_the_exact_polynomial"),
+    ("a product of values without the other's radius", INTERVAL + "series.rs",
+     "let off = own * other.radius + (its + other.radius) * self.radius + UNIT * own * its;",
+     "let off = own * other.radius + UNIT * own * its;",
+     "radii_go_through_every_operation"),
+    ("1/EI without its share", PROOF + "sections.rs",
+     "(share < most).then_some(Nearly { series, share })",
+     "(share < most).then_some(Nearly { series, share: 1e-16 })",
+     "what_is_taken_for_the_softness_is_nowhere_below_it"),
+    ("EI at most in place of at least", PROOF + "sections.rs",
+     "|of: [Interval; 4]| of.iter().fold(f64::INFINITY, |least, of| least.min(of.low));",
+     "|of: [Interval; 4]| of.iter().fold(0.0_f64, |least, of| least.max(of.low));",
+     "sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least"),
+    ("a cell left out of the norm", PROOF + "norms.rs",
+     "for (k, stretch) in stretches.iter().enumerate() {",
+     "for (k, stretch) in stretches.iter().enumerate().skip(1) {",
+     "norms_of_the_uniform_bat_are_those_in_closed_form"),
+    ("strains on different sides left out of the norm", PROOF + "norms.rs",
+     "square: (square + square + across + across).high,",
+     "square: (square + square + across).high,",
+     "norms_of_the_uniform_bat_are_those_in_closed_form"),
+    ("no other eigenvalue counted", PROOF + "conclude.rs",
+     "let count = known.iter().take_while(|c| **c > others).count();",
+     "let count = known.len();",
+     "conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known"),
+    ("the first that is not proven taken to be small", PROOF + "conclude.rs",
+     "let next = ends.get(count).map_or(others, |[_, d]| others.max(*d));",
+     "let next = 0.0 * others;",
+     "conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known"),
+    ("half of the residual", PROOF + "energies.rs",
+     "let residual = up(left / strain.low);", "let residual = 0.25 * up(left / strain.low);",
+     "ten_thousand_lies_prove_nothing_false"),
+    ("a residual of the knob side alone", PROOF + "energies.rs",
+     "for k in (self.root..count).rev() {", "for k in (self.root + 1..count).rev() {",
+     "ten_thousand_lies_prove_nothing_false"),
+    ("printed decimals rounded to nearest", "src/show/report/proven.rs",
+     "let step = 0.6 * 10f64.powf(-places);", "let step = 0.0 * 10f64.powf(-places);",
+     "decimals_are_never_inside_of_the_ends"),
+]
+
+
+def spoil(text, old, new):
+    """The text with one thing changed; of a table, a weight two units in the last place up."""
+    if old is not None:
+        assert text.count(old) == 1, f"{text.count(old)} times: {old}"
+        return text.replace(old, new)
+    import math
+    head, _, rest = text.partition("weights: [\n")
+    number = rest.split(",", 1)[0].strip()
+    off = math.nextafter(math.nextafter(float(number), 2.0), 2.0)
+    return head + "weights: [\n" + rest.replace(number, repr(off), 1)
+
+
+def main():
+    wanted = sys.argv[1:]
+    missed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / "project"
+        shutil.copytree(HERE, copy, ignore=shutil.ignore_patterns("target", ".git"))
+        for name, file, old, new, test in MUTATIONS:
+            if wanted and not any(part in name for part in wanted):
+                continue
+            path = copy / file
+            text = path.read_text()
+            path.write_text(spoil(text, old, new))
+            target = ["--lib"] if file.startswith("src/show") else ["--test", "guarantee"]
+            run = ["cargo", "test", "--offline", *target, test]
+            found = subprocess.run(run, cwd=copy, capture_output=True, text=True)
+            path.write_text(text)
+            ran = f"{test} ... FAILED" in found.stdout or "test result: FAILED" in found.stdout
+            print(f"{'found' if ran else 'NOT FOUND':<10} {name}: {test}", flush=True)
+            missed += not ran
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,312 @@
+//! What is the bat, cell by cell, that frequencies are proven of?
+//!
+//! [`Proven::of`] lays the bat out on the stretches of a mesh, each in one piece of the profile, with all that
+//! the energies of a motion need; what is not carried is refused with its reason.
+
+use crate::base::error::{Error, Result};
+use crate::base::interval::tables::GAUSS_24;
+use crate::base::interval::{Interval, Series, Values};
+use crate::bat::body::Bat;
+use crate::bat::fixtures::Attachment;
+use crate::bat::theory::Theory;
+use crate::beam::mesh::Mesh;
+use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
+use crate::modes::enclosure::sections::Rings;
+
+/// Points of the energies: they tell polynomials of degree 23 apart and integrate those of degree 47.
+pub const POINTS: usize = 24;
+
+/// A stretch of the bat in one piece of the profile.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    /// Half its length (m).
+    pub half: Interval,
+    /// Its middle from the place that arms are counted from (m).
+    pub middle: Interval,
+    /// EI (N m²) at the points.
+    pub bending: Values<POINTS>,
+    /// EI at least.
+    pub bending_least: f64,
+    /// ρA (kg/m) at the points.
+    pub mass: Values<POINTS>,
+    /// ρA, and ρA times the arm.
+    pub mass_series: [Series; 2],
+    /// ρI (kg m) at the points, where sections turn.
+    pub turning: Option<(Values<POINTS>, Series)>,
+    /// κGA (N) of a theory with shear.
+    pub shear: Option<Shear>,
+}
+
+/// κGA along a cell.
+#[derive(Debug, Clone)]
+pub struct Shear {
+    /// The polynomial that stands for κGA (N), at the points.
+    pub values: Values<POINTS>,
+    /// κGA is within this share of it.
+    pub share: f64,
+    /// κGA at least.
+    pub least: f64,
+}
+
+/// A point mass.
+#[derive(Debug, Clone, Copy)]
+pub struct Mass {
+    /// It is at the border before the cell of this number.
+    pub border: usize,
+    /// Its mass (kg).
+    pub mass: Interval,
+    /// Its own moment of inertia (kg m²).
+    pub inertia: Interval,
+    /// How far its centre is beyond the border (m).
+    pub offset: Interval,
+    /// Where the border is: its arm (m).
+    pub arm: Interval,
+}
+
+/// The bat that is proven of.
+#[derive(Debug, Clone)]
+pub struct Proven {
+    /// The beam theory.
+    pub theory: Theory,
+    /// Its cells from knob to tip.
+    pub cells: Vec<Cell>,
+    /// The masses on it, by rising border.
+    pub masses: Vec<Mass>,
+    /// The cell that sums run outwards from, beginning at its left end.
+    pub root: usize,
+    /// Mass (kg), first moment (kg m) and moment of inertia (kg m²) about the place that arms are counted from,
+    /// near the balance point.
+    pub gram: [Interval; 3],
+    /// That place from the knob end (m).
+    pub origin: f64,
+}
+
+/// What a bat must be for its frequencies to be proven.
+///
+/// # Errors
+///
+/// [`Error::Value`] that names what is not carried.
+pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
+    let refuse = |field: &str, found: &str, expected: &str| {
+        Err(Error::value(field, found.to_owned(), expected.to_owned()))
+    };
+    let fixtures = bat.fixtures();
+    let springs =
+        fixtures.attachments.iter().any(|a| a.stiffness > 0.0 || a.rotational_stiffness > 0.0);
+    let bare = "a free bat with masses on it at most: nothing is proven of the others yet";
+    if !fixtures.supports.is_empty() {
+        return refuse("supports", "a held bat", bare);
+    }
+    if fixtures.grip.is_some_and(|grip| grip.stiffness > 0.0) {
+        return refuse("grip", "an elastic bed", bare);
+    }
+    if springs {
+        return refuse("attachments", "a spring to the ground", bare);
+    }
+    if !fixtures.absorbers.is_empty() {
+        return refuse("absorbers", "a mass on a spring", bare);
+    }
+    if !fixtures.joints.is_empty() {
+        return refuse("joints", "a joint that gives way", bare);
+    }
+    if bat.profile().formulas.is_some() {
+        let expected = "a profile of stations: what is proven is proven of polynomials";
+        return refuse("profile.pieces", "formulas", expected);
+    }
+    if !bat.edits().is_empty() {
+        return refuse("edits", "a bat with edits", "a bat as it stands in its file");
+    }
+    if bat.factors()[1] != 1.0 || bat.weighed().first_bending.is_some() {
+        let expected = "moduli that stand in the file";
+        return refuse("weighed.first_bending_hz", "moduli that follow from a tap", expected);
+    }
+    let stations = &bat.profile().stations;
+    let last = stations.outer.len() - 1;
+    if stations.outer[0] == 0.0 || stations.outer[last] == 0.0 {
+        return refuse("profile", "a bat that comes to a point", "a radius above 0 at both ends");
+    }
+    if theory.shears() && !bat.knows_shear() {
+        return refuse("theory", "timoshenko without a shear modulus", "a shear modulus");
+    }
+    Ok(())
+}
+
+/// The bat in intervals, before it is divided into cells.
+#[derive(Debug, Clone)]
+pub struct Layout {
+    /// The pieces of its profile.
+    pub curves: Vec<Curved>,
+    /// The factor on densities that a weighed mass leads to, beside that which the bat's own have already.
+    pub heavier: Interval,
+    /// Masses on it: the piece that begins where they are, and mass (kg), moment of inertia (kg m²), place of the
+    /// centre (m) and how far that is beyond where it is fixed (m); by rising place.
+    pub masses: Vec<(usize, [Interval; 4])>,
+    /// Length (m).
+    pub length: Interval,
+}
+
+fn data(value: f64) -> Interval {
+    Interval::around(value, NUMBER)
+}
+
+impl Layout {
+    /// That of a bat.
+    ///
+    /// # Errors
+    ///
+    /// As [`carried`] and [`curved`].
+    pub fn of(bat: &Bat, theory: Theory) -> Result<Self> {
+        carried(bat, theory)?;
+        let curves = curved(bat)?;
+        let heavier = heavier(bat, &curves)?;
+        let length = bat.length();
+        let turned = bat.profile().turned.then_some(length);
+        let borders = bat.profile().borders();
+        let mass = |attachment: &Attachment| {
+            let near = |k: &usize| (borders[*k] - attachment.x).abs();
+            let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
+            let offset = data(attachment.offset);
+            let centre = place(attachment.x, turned) + offset;
+            let numbers = [data(attachment.mass), data(attachment.rotary_inertia), centre, offset];
+            (border.expect("a bat has borders"), numbers)
+        };
+        let mut masses: Vec<_> = bat.fixtures().attachments.iter().map(mass).collect();
+        masses.sort_by_key(|(border, _)| *border);
+        let whole = place(length, turned);
+        Ok(Self { curves, heavier, masses, length: whole })
+    }
+}
+
+/// [`Layout::heavier`].
+fn heavier(bat: &Bat, curves: &[Curved]) -> Result<Interval> {
+    let Some(weighed) = bat.weighed().mass else { return Ok(Interval::point(1.0)) };
+    let gauss = &GAUSS_24;
+    let (mut own, mut other) = (Interval::point(0.0), Interval::point(0.0));
+    for (curve, piece) in curves.iter().zip(&bat.profile().pieces) {
+        let rings = Rings::of(bat.layup(piece), curve, Interval::point(1.0));
+        let half = Interval::point(0.5) * curve.length;
+        let tape = curve.length * data(bat.layup(piece).tape);
+        own = own + half * rings.mass::<POINTS>(gauss).integral(gauss) - tape;
+        other = other + tape;
+    }
+    for attachment in &bat.fixtures().attachments {
+        other = other + data(attachment.mass);
+    }
+    let over = own.reciprocal().filter(|over| over.low > 0.0);
+    over.map(|over| (data(weighed) - other) * over).ok_or_else(|| {
+        Error::value("weighed.mass", format!("{weighed} kg"), "a bat whose own mass is known")
+    })
+}
+
+impl Proven {
+    /// The bat on the stretches of that mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where the sections of the bat are too far from 1 to be bounded.
+    pub fn of(bat: &Bat, layout: &Layout, mesh: &Mesh, theory: Theory) -> Result<Self> {
+        let origin = bat.inertia().balance_point;
+        let gauss = &GAUSS_24;
+        let (mut cells, mut begin) =
+            (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
+        // Cells lie end to end from knob to tip: a gap would be another bat.
+        let mut before = (0, 0.0);
+        for part in mesh.elements.iter().flat_map(|element| element.parts(bat)) {
+            let [from, to] = part.of_piece;
+            let (piece, at) = if before.1 < 1.0 { before } else { (before.0 + 1, 0.0) };
+            if (part.piece, from) != (piece, at) || to <= from {
+                return Err(Error::value("mesh", "elements with a gap between them", "none"));
+            }
+            before = (part.piece, to);
+            begin[part.piece] = begin[part.piece].min(cells.len());
+            let curve = layout.curves[part.piece].part(from, to);
+            cells.push(cell(bat, part.piece, &curve, layout.heavier, theory, origin)?);
+        }
+        if before != (layout.curves.len() - 1, 1.0) {
+            return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
+        }
+        let mass = |(piece, [mass, inertia, centre, offset]): &(usize, [Interval; 4])| Mass {
+            border: begin.get(*piece).copied().unwrap_or(cells.len()),
+            mass: *mass,
+            inertia: *inertia,
+            offset: *offset,
+            arm: *centre - *offset - Interval::point(origin),
+        };
+        let masses: Vec<Mass> = layout.masses.iter().map(mass).collect();
+        let root = root(&cells);
+        let mut gram = [Interval::point(0.0); 3];
+        for cell in &cells {
+            let arm = cell.arm();
+            let own = cell.mass.product(&arm).product(&arm).integral(gauss);
+            let turning = cell.turning.as_ref().map(|(turning, _)| turning.integral(gauss));
+            let parts = [
+                cell.mass_series[0].integral(),
+                cell.mass_series[1].integral(),
+                own + turning.unwrap_or(Interval::point(0.0)),
+            ];
+            gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + cell.half * part);
+        }
+        for Mass { mass, inertia, offset, arm, .. } in &masses {
+            let arm = *arm + *offset;
+            gram[0] = gram[0] + *mass;
+            gram[1] = gram[1] + *mass * arm;
+            gram[2] = gram[2] + *mass * arm.square() + *inertia;
+        }
+        Ok(Self { theory, cells, masses, root, gram, origin })
+    }
+}
+
+impl Cell {
+    /// The arm at the points (m).
+    pub fn arm(&self) -> Values<POINTS> {
+        Series::of(&[self.middle, self.half]).values(&GAUSS_24)
+    }
+}
+
+fn cell(
+    bat: &Bat,
+    piece: usize,
+    curve: &Curved,
+    heavier: Interval,
+    theory: Theory,
+    origin: f64,
+) -> Result<Cell> {
+    let gauss = &GAUSS_24;
+    let rings = Rings::of(bat.layup(&bat.profile().pieces[piece]), curve, heavier);
+    let half = Interval::point(0.5) * curve.length;
+    let middle = curve.start + half - Interval::point(origin);
+    let mass = rings.mass(gauss);
+    let arm = Series::of(&[middle, half]).values(gauss);
+    let mass_series = [Series::through(gauss, &mass), Series::through(gauss, &mass.product(&arm))];
+    let turning = theory.turns().then(|| {
+        let turning = rings.turning(gauss);
+        (turning, Series::through(gauss, &turning))
+    });
+    let unbounded = || {
+        let found = format!("sections near {:.4} m that nothing bounds", origin + middle.middle());
+        Error::value("profile", found, "a wall that is not thinner than round-off")
+    };
+    let shear = match theory.shears() {
+        false => None,
+        true => {
+            let nearly = rings.shear().ok_or_else(unbounded)?;
+            let least = rings.shear_at_least().filter(|least| *least > 0.0);
+            let least = least.ok_or_else(unbounded)?;
+            Some(Shear { values: nearly.series.values(gauss), share: nearly.share, least })
+        }
+    };
+    let bending_least = rings.bending_at_least();
+    if !(bending_least > 0.0 && half.low > 0.0) {
+        return Err(unbounded());
+    }
+    let bending = rings.bending(gauss);
+    Ok(Cell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
+}
+
+/// The middle one of the cells whose bending stiffness is at least half the greatest.
+fn root(cells: &[Cell]) -> usize {
+    let greatest = cells.iter().map(|cell| cell.bending.at[0]).fold(0.0, f64::max);
+    let stiff = |k: &usize| cells[*k].bending.at[0] >= 0.5 * greatest;
+    let count = (0..cells.len()).filter(stiff).count();
+    (0..cells.len()).filter(stiff).nth(count / 2).unwrap_or(0)
+}

@@ -1,0 +1,451 @@
+//! What are trace and Hilbert-Schmidt norm of the bat's compliance at most?
+//!
+//! A unit kink (χ) or jump (γ) at `s`, written left of `s`, moves the bat there by `(s − x, −1)` or `(−1, 0)` in
+//! `(w, θ)`, and not at all to the right of it. Its loads on the two rigid motions `(1, 0)` and `(x, 1)` are
+//! running sums,
+//!
+//! ```text
+//! u_χ(s) = ∫₀^s (A, B − ρI) dx,   u_γ(s) = −(A, B),   A = ∫₀^s ρA dx,   B = ∫₀^s ρA x dx
+//! v_χ(t) = (t, −1) − G u_χ(t),    v_γ(t) = (−1, 0) − G u_γ(t)
+//! G = [1/M + d²/I, −d/I; −d/I, 1/I],   M the mass, I the moment of inertia about the balance point at x = d
+//! ```
+//!
+//! `v(t)` is the line on which the bat lies left of a unit strain at `t` once the rigid motions are out, so the
+//! kernel of T is `k_ab(s, t) = u_a(s)·v_b(t)` for `s ≤ t`. With `C_χ = EI`, `C_γ = κGA`,
+//!
+//! ```text
+//! trace T = ∫ Σ_b u_b·v_b/C_b dt        |T|² = Σ τ² = 2 ∫ Σ_b v_bᵀ U v_b/C_b dt,   U′ = Σ_a u_a u_aᵀ/C_a
+//! ```
+//!
+//! over each side of the balance point from its own end, `x` counted from the beginning of every stretch anew,
+//! so that nothing cancels at thin ends and little elsewhere, and `2 tr(U_l G U_r G)` for pairs of strains on different sides, whose own motions do not meet. Every integrand
+//! with `1/C` is not negative and rises with `1/C`: a polynomial above `1/C` gives a bound from above.
+//!
+//! # Source
+//!
+//! G. Fichera, Numerical and Quantitative Analysis (1978): orthogonal invariants of a compact operator. The
+//! kernel is worked out here.
+
+use crate::base::error::{Error, Result};
+use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::{Interval, Series, Values};
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::modes::enclosure::beam::Layout;
+use crate::modes::enclosure::radii::Curved;
+use crate::modes::enclosure::sections::{Rings, inverse};
+
+/// Trace (s²) and square of the Hilbert-Schmidt norm (s⁴) of T.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Norms {
+    /// `Σ τ_n`, at most.
+    pub trace: f64,
+    /// `Σ τ_n²`, at most.
+    pub square: f64,
+    /// Γ (m²/J) of [`super::nodes`]: the square of how far a strain of unit energy moves any place, at most.
+    pub reach: f64,
+    /// The largest share by which 1/EI and 1/κGA were taken to be larger.
+    pub above: f64,
+    /// Number of stretches that it took.
+    pub stretches: usize,
+}
+
+const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
+/// Polynomials that stand for 1/EI are above it by less than this; where not, the stretch is halved.
+const ABOVE: f64 = 1e-11;
+/// Halvings of a piece of the profile.
+const MOST_HALVINGS: usize = 40;
+/// Halving brings the polynomial nearer by 2¹³, unless it is rounding that is left.
+const STALLED: f64 = 0.1;
+/// Stretches are no longer than this share of the bat, so that one ends near the balance point.
+const LONGEST: f64 = 0.1;
+/// A bat that takes more stretches is refused.
+const MOST_STRETCHES: usize = 20_000;
+/// A polynomial for 1/EI that is farther above it than this is of no use.
+const USELESS: f64 = 1e-3;
+
+/// Sums from one end of the bat.
+#[derive(Clone, Copy)]
+struct Sums {
+    /// A and B.
+    line: [Interval; 2],
+    /// `u_χ`.
+    kink: [Interval; 2],
+    /// U: its entries 11, 12 and 22.
+    outer: [Interval; 3],
+}
+
+/// What one stretch needs: ρA, ρI, and what is above 1/EI and 1/κGA.
+struct Stretch {
+    half: Interval,
+    middle: Interval,
+    mass: Values<40>,
+    turning: Option<Values<40>>,
+    soft: Values<40>,
+    slip: Option<Values<40>>,
+    above: f64,
+}
+
+/// A mass as it is met from one end: its place and where its centre is (m), its mass and moment of inertia.
+#[derive(Clone, Copy)]
+struct Met {
+    before: usize,
+    centre: Interval,
+    mass: Interval,
+    inertia: Interval,
+}
+
+fn point(value: f64) -> Interval {
+    Interval::point(value)
+}
+
+impl Norms {
+    /// Those of a bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where no short stretch has a polynomial near 1/EI.
+    pub fn of(bat: &Bat, layout: &Layout, theory: Theory) -> Result<Self> {
+        let (mut stretches, mut borders) = (vec![], vec![]);
+        for (piece, curve) in layout.curves.iter().enumerate() {
+            borders.push(stretches.len());
+            let before = f64::INFINITY;
+            let part = Part { piece, curve, of_piece: [0.0, 1.0], halvings: 0, before };
+            halved(bat, layout, theory, part, &mut stretches)?;
+        }
+        borders.push(stretches.len());
+        let masses: Vec<Met> = layout
+            .masses
+            .iter()
+            .map(|(piece, [mass, inertia, centre, _])| Met {
+                before: borders[*piece],
+                centre: *centre,
+                mass: *mass,
+                inertia: *inertia,
+            })
+            .collect();
+        let length = layout.length;
+        let rigid = rigid(&stretches, &masses);
+        let balance = (rigid[1] * point(1.0 / rigid[0].middle())).middle();
+        let split = stretches
+            .iter()
+            .position(|stretch| stretch.middle.middle() > balance)
+            .unwrap_or(stretches.len());
+        let unbounded = || {
+            let found = "a bat whose rigid motions nothing tells apart";
+            Error::value("profile", found, "numbers nearer to 1 in SI units")
+        };
+        let rigid = Rigid::of(rigid, length).ok_or_else(unbounded)?;
+        let knob: Vec<Met> = masses.iter().filter(|mass| mass.before <= split).copied().collect();
+        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &rigid);
+        let count = stretches.len();
+        let border = match stretches.get(split) {
+            Some(stretch) => stretch.middle - stretch.half,
+            None => length,
+        };
+        let mirrored: Vec<Stretch> =
+            stretches.drain(split..).rev().map(|stretch| stretch.mirrored(length)).collect();
+        // Seen from the tip, where x′ = L − x.
+        let tip: Vec<Met> = masses
+            .iter()
+            .filter(|mass| mass.before > split)
+            .map(|mass| Met { before: count - mass.before, centre: length - mass.centre, ..*mass })
+            .rev()
+            .collect();
+        let turned = Rigid { balance: length - rigid.balance, ..rigid };
+        let (parts_r, outer_r) = from_end(&mirrored, &tip, &turned);
+        let [trace, square, reach] = std::array::from_fn(|k| parts_l[k] + parts_r[k]);
+        // Both about the border between them, moments the other way round.
+        let [a, b, c] = outer_r;
+        let outer_r = [a, -b, c];
+        let inverse = full(rigid.inverse(border));
+        let both = times(times(full(outer_l), inverse), times(full(outer_r), inverse));
+        let across = both[0][0] + both[1][1];
+        let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
+        Ok(Self {
+            trace: trace.high,
+            square: (square + square + across + across).high,
+            reach: reach.high,
+            above: shares.fold(0.0, f64::max),
+            stretches: count,
+        })
+    }
+
+    /// What the eigenvalues beside some that are `known` at least may be, at most: by the trace and by the norm.
+    pub fn others(&self, known: &[f64]) -> [f64; 2] {
+        let sum: Interval = known.iter().map(|tau| point(*tau)).sum();
+        let squares: Interval = known.iter().map(|tau| point(*tau).square()).sum();
+        let positive = |of: Interval| Interval { low: 0.0, high: of.high.max(0.0) };
+        [positive(point(self.trace) - sum).high, positive(point(self.square) - squares).sqrt().high]
+    }
+}
+
+/// Masses of the rigid motions `(1, 0)` and `(x, 1)`: entries 11, 12, 22.
+fn rigid(stretches: &[Stretch], masses: &[Met]) -> [Interval; 3] {
+    let gauss = &GAUSS_40;
+    let mut gram = [ZERO; 3];
+    for stretch in stretches {
+        let x = stretch.places();
+        let first = stretch.mass.product(&x);
+        let turning = stretch.turning.as_ref().map_or(ZERO, |turning| turning.integral(gauss));
+        let parts = [
+            stretch.mass.integral(gauss),
+            first.integral(gauss),
+            first.product(&x).integral(gauss) + turning,
+        ];
+        gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + stretch.half * part);
+    }
+    for Met { centre, mass, inertia, .. } in masses {
+        gram[0] = gram[0] + *mass;
+        gram[1] = gram[1] + *mass * *centre;
+        gram[2] = gram[2] + *mass * centre.square() + *inertia;
+    }
+    gram
+}
+
+/// The bat as a rigid body.
+#[derive(Clone, Copy)]
+struct Rigid {
+    /// 1/M (1/kg).
+    over_mass: Interval,
+    /// 1/I (1/(kg m²)).
+    over_inertia: Interval,
+    /// The balance point from the end that sums run from (m).
+    balance: Interval,
+    /// Length of the bat (m).
+    length: Interval,
+}
+
+impl Rigid {
+    fn of([mass, first, second]: [Interval; 3], length: Interval) -> Option<Self> {
+        let over_mass = mass.reciprocal()?;
+        let balance = first * over_mass;
+        // `∫ρA x² − M x_b²` cancels three quarters of itself at most on a bat.
+        let about = second - first * balance;
+        let over_inertia = about.reciprocal().filter(|over| over.low > 0.0)?;
+        Some(Self { over_mass, over_inertia, balance, length })
+    }
+
+    /// G about a place: its entries 11, 12, 22.
+    fn inverse(&self, place: Interval) -> [Interval; 3] {
+        let d = self.balance - place;
+        let Self { over_mass, over_inertia, .. } = *self;
+        [over_mass + d.square() * over_inertia, -(d * over_inertia), over_inertia]
+    }
+}
+
+fn full([a, b, c]: [Interval; 3]) -> [[Interval; 2]; 2] {
+    [[a, b], [b, c]]
+}
+
+fn times(a: [[Interval; 2]; 2], b: [[Interval; 2]; 2]) -> [[Interval; 2]; 2] {
+    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
+    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
+}
+
+/// A part of a piece of the profile.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    piece: usize,
+    curve: &'a Curved,
+    /// Where in the piece it begins and ends, in [0, 1].
+    of_piece: [f64; 2],
+    /// How often the piece was halved for it.
+    halvings: usize,
+    /// How far above 1/EI the polynomial on twice its length is.
+    before: f64,
+}
+
+/// A part of a piece, halved until polynomials are near 1/EI and 1/κGA or nothing is gained.
+fn halved(
+    bat: &Bat,
+    layout: &Layout,
+    theory: Theory,
+    part: Part,
+    all: &mut Vec<Stretch>,
+) -> Result<()> {
+    let Part { piece, curve, of_piece: [from, to], halvings, before } = part;
+    let whole = curve.part(from, to);
+    let short = whole.length.high <= LONGEST * layout.length.low;
+    let stretch = short.then(|| Stretch::of(bat, layout, theory, piece, &whole)).flatten();
+    let above = stretch.as_ref().map_or(f64::INFINITY, |stretch| stretch.above);
+    if let Some(stretch) = stretch
+        && (above < ABOVE || above > STALLED * before)
+    {
+        all.push(stretch);
+        return Ok(());
+    }
+    if halvings == MOST_HALVINGS || all.len() >= MOST_STRETCHES {
+        let found = format!("sections near {:.4} m that nothing bounds", curve.start.middle());
+        return Err(Error::value("profile", found, "a wall that is not thinner than round-off"));
+    }
+    let middle = 0.5 * (from + to);
+    [[from, middle], [middle, to]].into_iter().try_for_each(|of_piece| {
+        let part = Part { of_piece, halvings: halvings + 1, before: above, ..part };
+        halved(bat, layout, theory, part, all)
+    })
+}
+
+impl Stretch {
+    fn of(
+        bat: &Bat,
+        layout: &Layout,
+        theory: Theory,
+        piece: usize,
+        curve: &Curved,
+    ) -> Option<Self> {
+        let gauss = &GAUSS_40;
+        let rings = Rings::of(bat.layup(&bat.profile().pieces[piece]), curve, layout.heavier);
+        let half = point(0.5) * curve.length;
+        let soft = inverse(&rings.bending(gauss), USELESS)?;
+        let mut above = soft.share;
+        let of = |series: &Series, share: f64| {
+            let over = (point(1.0) - point(share)).reciprocal()?;
+            Some(series.values(gauss).times(over))
+        };
+        let soft = of(&soft.series, soft.share)?;
+        let slip = match theory.shears() {
+            false => None,
+            true => {
+                let stiff = rings.shear()?;
+                let slip = inverse(&stiff.series.values(gauss), USELESS)?;
+                above = above.max(slip.share + stiff.share);
+                let over = (point(1.0) - point(stiff.share)).reciprocal()?;
+                Some(of(&slip.series, slip.share)?.times(over))
+            }
+        };
+        Some(Self {
+            half,
+            middle: curve.start + half,
+            mass: rings.mass(gauss),
+            turning: theory.turns().then(|| rings.turning(gauss)),
+            soft,
+            slip,
+            above,
+        })
+    }
+
+    /// Places from the end of the bat (m), at the points.
+    fn places(&self) -> Values<40> {
+        Series::of(&[self.middle, self.half]).values(&GAUSS_40)
+    }
+
+    /// The stretch as it is seen from the other end of a bat of that length.
+    fn mirrored(mut self, length: Interval) -> Self {
+        self.middle = length - self.middle;
+        let all =
+            [Some(&mut self.mass), self.turning.as_mut(), Some(&mut self.soft), self.slip.as_mut()];
+        all.into_iter().flatten().for_each(|values| values.at.reverse());
+        self
+    }
+}
+
+/// Trace, half the square of the norm, Γ, and U at the inner end, over stretches from an end of the bat.
+fn from_end(
+    stretches: &[Stretch],
+    masses: &[Met],
+    rigid: &Rigid,
+) -> ([Interval; 3], [Interval; 3]) {
+    let mut parts = [ZERO; 3];
+    let mut sums = Sums { line: [ZERO; 2], kink: [ZERO; 2], outer: [ZERO; 3] };
+    // Masses that were passed, as `u` of a strain beyond them has them: `Σμ`, `Σμc`, `Σμc² + J`.
+    let mut masses = masses.iter().peekable();
+    for (k, stretch) in stretches.iter().enumerate() {
+        while let Some(met) = masses.next_if(|met| met.before <= k) {
+            // `(s − c) μ` and `(s − c) μ c − J` at the place where it is passed, and their slopes.
+            let centre = met.centre - (stretch.middle - stretch.half);
+            let push = -(met.mass * centre);
+            sums.kink[0] = sums.kink[0] + push;
+            sums.kink[1] = sums.kink[1] + push * centre - met.inertia;
+            sums.line[0] = sums.line[0] + met.mass;
+            sums.line[1] = sums.line[1] + met.mass * centre;
+        }
+        let own = sums.over(stretch, rigid);
+        parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
+    }
+    (parts, sums.outer)
+}
+
+impl Sums {
+    /// Goes over a stretch: its parts of `∫Σ u·v/C`, `∫Σ vᵀUv/C` and Γ.
+    fn over(&mut self, stretch: &Stretch, rigid: &Rigid) -> [Interval; 3] {
+        let gauss = &GAUSS_40;
+        let half = stretch.half;
+        // Counted from the beginning of the stretch.
+        let begin = stretch.middle - half;
+        let [g11, g12, g22] = rigid.inverse(begin);
+        let x = Series::of(&[half, half]).values(gauss);
+        let run = |slope: &Series, begin: Interval| {
+            let series = slope.integrated().times(half).plus(begin);
+            (series, begin + half * slope.integral())
+        };
+        let mass = Series::through(gauss, &stretch.mass);
+        let first = Series::through(gauss, &stretch.mass.product(&x));
+        let (a, a_end) = run(&mass, self.line[0]);
+        let (b, b_end) = run(&first, self.line[1]);
+        let pulled = match &stretch.turning {
+            Some(turning) => b - Series::through(gauss, turning),
+            None => b,
+        };
+        let (u1, u1_end) = run(&a, self.kink[0]);
+        let (u2, u2_end) = run(&pulled, self.kink[1]);
+        let [a, b, u1, u2] = [a, b, u1, u2].map(|series| series.values(gauss));
+        let one = Values::constant(point(1.0));
+        let of = |[u, w]: [&Values<40>; 2]| {
+            let v1 = u.times(g11).sum(&w.times(g12));
+            let v2 = u.times(g12).sum(&w.times(g22));
+            [v1, v2]
+        };
+        let [k1, k2] = of([&u1, &u2]);
+        let kink = [x.difference(&k1), one.times(point(-1.0)).difference(&k2)];
+        let mut strains = vec![([u1, u2], kink, &stretch.soft)];
+        if let Some(slip) = &stretch.slip {
+            let [j1, j2] = of([&a, &b]);
+            // u_γ is the opposite of (A, B).
+            let minus = |values: &Values<40>| values.times(point(-1.0));
+            strains.push(([minus(&a), minus(&b)], [j1.difference(&one), j2], slip));
+        }
+        let mut trace = Values::constant(ZERO);
+        let mut slopes = [Values::constant(ZERO); 3];
+        for ([u1, u2], [v1, v2], soft) in &strains {
+            let (s1, s2) = (u1.product(soft), u2.product(soft));
+            trace = trace.sum(&s1.product(v1).sum(&s2.product(v2)));
+            let parts = [s1.product(u1), s1.product(u2), s2.product(u2)];
+            slopes.iter_mut().zip(parts).for_each(|(sum, part)| *sum = sum.sum(&part));
+        }
+        let [(o11, e11), (o12, e12), (o22, e22)] =
+            std::array::from_fn(|k| run(&Series::through(gauss, &slopes[k]), self.outer[k]));
+        let [o11, o12, o22] = [o11, o12, o22].map(|series| series.values(gauss));
+        let mut square = Values::constant(ZERO);
+        for (_, [v1, v2], soft) in &strains {
+            let twice = o12.times(point(2.0)).product(v1).product(v2);
+            let form = o11.product(v1).product(v1).sum(&twice).sum(&o22.product(v2).product(v2));
+            square = square.sum(&form.product(soft));
+        }
+        let mut reach = Values::constant(ZERO);
+        for ((_, [v1, v2], soft), kinks) in strains.iter().zip([true, false]) {
+            // Beyond the strain the bat lies on the other line, which differs by the unit strain's own motion.
+            let [w1, w2] = match kinks {
+                true => [v1.difference(&x), v2.sum(&one)],
+                false => [v1.sum(&one), *v2],
+            };
+            let ends = [
+                v1.sum(&v2.times(-begin)),
+                v1.sum(&v2.product(&x)),
+                w1.sum(&w2.product(&x)),
+                w1.sum(&w2.times(rigid.length - begin)),
+            ];
+            let squares = ends.map(|end| end.product(&end));
+            let sum = squares.into_iter().reduce(|a, b| a.sum(&b)).expect("four of them");
+            reach = reach.sum(&sum.product(soft));
+        }
+        // About the end of the stretch from here on.
+        let h = half + half;
+        *self = Self {
+            line: [a_end, b_end - h * a_end],
+            kink: [u1_end, u2_end - h * u1_end],
+            outer: [e11, e12 - h * e11, e22 - h * (e12 + e12) + h.square() * e11],
+        };
+        [trace, square, reach].map(|of| half * of.integral(gauss))
+    }
+}

@@ -1,0 +1,50 @@
+//! Which motions are tried: those of the solver, as strains on the stretches of its mesh?
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
+use crate::beam::view::View;
+use crate::modes::enclosure::energies::Trial;
+use crate::modes::pairs::pairs_of;
+use crate::modes::plan::Plan;
+use crate::modes::request::CONVERGED;
+
+/// The `count` slowest motions on that plan's mesh, whose elements do not reach over stations.
+///
+/// # Errors
+///
+/// Those of the eigensolver.
+pub fn trials(bat: &Bat, plan: &Plan, count: usize, theory: Theory) -> Result<Vec<Trial>> {
+    let mut pairs = pairs_of(bat, plan.degree, theory);
+    pairs.assemble(bat, &plan.mesh);
+    let count = count.min(pairs.view().freedom());
+    pairs.solve(count, CONVERGED)?;
+    let vectors = std::mem::take(&mut pairs.lanczos().vectors);
+    let view = pairs.view();
+    let size = view.dimension();
+    Ok(vectors.chunks_exact(size).map(|q| trial(&view, q)).collect())
+}
+
+/// Strains from scaled strains, from knob to tip: outwards is backwards on the knob side, where odd polynomials
+/// change sign, and a shear strain does.
+fn trial(view: &View<f64>, q: &[f64]) -> Trial {
+    let (terms, count, split) = (view.terms - 2, view.count, view.split);
+    let blocks = view.strains / terms;
+    let mut all = [vec![0.0; terms * count], vec![0.0; if blocks > 1 { terms * count } else { 0 }]];
+    let mut strains = vec![0.0; view.strains];
+    for number in 0..count {
+        let located = view.at(number);
+        located.cell.strains(&q[located.strains.clone()], terms, &mut strains);
+        let inside = number < split;
+        let element = if inside { split - 1 - number } else { number };
+        for (block, (all, own)) in all.iter_mut().zip(strains.chunks_exact(terms)).enumerate() {
+            let all = &mut all[element * terms..(element + 1) * terms];
+            for (j, (to, from)) in all.iter_mut().zip(own).enumerate() {
+                let turned = inside && (j + block) % 2 == 1;
+                *to = if turned { -from } else { *from };
+            }
+        }
+    }
+    let [bending, shear] = all;
+    Trial { terms, bending, shear }
+}

@@ -1,0 +1,179 @@
+//! What is proven of frequencies holds: against known answers, against lies told to it, and its arithmetic against
+//! arithmetic of twice the digits.
+
+mod common;
+#[path = "guarantee/twofold.rs"]
+mod twofold;
+#[path = "guarantee/arithmetic.rs"]
+mod arithmetic;
+#[path = "guarantee/parts.rs"]
+mod parts;
+#[path = "guarantee/lies.rs"]
+mod lies;
+#[path = "guarantee/again.rs"]
+mod again;
+
+use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
+use sweetspot::modes::enclosure::within::{Within, band};
+use sweetspot::proof::promise::{BATS, KNOWN_TO};
+use sweetspot::proof::validation::Truth;
+use sweetspot::{Bat, Request, Theory};
+
+fn proven(bat: &Bat, modes: usize, tolerance: f64, theory: Theory) -> Guarantee {
+    let request = Request { modes, tolerance, theory, ..Request::default() };
+    guarantee(bat, &request).unwrap().1
+}
+
+fn mesh_bat(name: &str) -> Bat {
+    Bat::from_file(format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// Whether a known frequency, right to half a unit in its last place, may be between the two.
+fn holds([lower, upper]: [f64; 2], known: f64) -> bool {
+    lower <= known * (1.0 + KNOWN_TO) && known * (1.0 - KNOWN_TO) <= upper
+}
+
+#[test]
+fn every_known_frequency_is_between_its_bounds() {
+    let (mut held, mut refused) = (0, vec![]);
+    for (name, cases) in BATS.iter().filter(|(_, cases)| !cases.is_empty()) {
+        let truth = Truth::of_cases(cases).unwrap();
+        let modes = truth.frequencies.len().min(10);
+        let request =
+            Request { modes, tolerance: 1e-11, theory: truth.theory, ..Request::default() };
+        let found = match guarantee(&truth.bat, &request) {
+            Ok((_, found)) => found,
+            Err(said) => {
+                refused.push((name, said.to_string()));
+                continue;
+            }
+        };
+        assert_eq!(found.modes.len(), modes, "{name}");
+        for (mode, known) in found.modes.iter().zip(&truth.frequencies) {
+            assert!(holds(mode.hertz, *known), "{name}: {:?} {known:?}", mode.hertz);
+            held += 1;
+        }
+        for (mode, nodes) in
+            found.modes.iter().zip(&truth.nodes).filter(|(_, nodes)| !nodes.is_empty())
+        {
+            for [from, to] in &mode.nodes {
+                let inside = nodes.iter().filter(|x| *from - 1e-15 <= **x && **x <= *to + 1e-15);
+                let beside = *from < 1e-4 || *to > truth.bat.length() - 1e-4;
+                assert!(inside.count() == 1 || beside, "{name}: {from} {to} {nodes:?}");
+            }
+        }
+    }
+    assert!(held > 200, "{held}");
+    // What is not carried says why.
+    let reasons = ["supports", "attachments", "absorbers", "joints", "grip", "profile"];
+    for (name, said) in &refused {
+        assert!(reasons.iter().any(|reason| said.contains(reason)), "{name}: {said}");
+    }
+}
+
+#[test]
+fn ten_modes_of_the_r161_are_proven_to_twelve_digits() {
+    let bat = mesh_bat("r161");
+    for theory in [Theory::EulerBernoulli, Theory::Timoshenko] {
+        let found = proven(&bat, 10, 1e-12, theory);
+        assert!(found.met && found.modes.len() == 10, "{theory:?} {}", found.width());
+        let nodes = found.modes.iter().map(|mode| mode.nodes.len());
+        assert!(nodes.eq(2..12), "{theory:?}");
+    }
+}
+
+#[test]
+fn a_width_is_met_or_it_is_said_that_it_is_not() {
+    for name in ["dowel", "r161", "cone"] {
+        let bat = mesh_bat(name);
+        for digits in [4, 8, 11] {
+            let tolerance = 10f64.powi(-digits);
+            let found = proven(&bat, 5, tolerance, Theory::EulerBernoulli);
+            assert!(found.met && found.width() <= tolerance, "{name} {digits}");
+            assert!(found.shortfall(tolerance).is_empty());
+        }
+        let found = proven(&bat, 5, 1e-15, Theory::EulerBernoulli);
+        assert!(!found.met && !found.shortfall(1e-15).is_empty());
+    }
+}
+
+/// Stations of 33 in are 0.8382 m, whatever the double next to it is.
+#[test]
+fn what_is_proven_is_the_decimals_of_the_file() {
+    let of = |x: &str, r: &str, unit: &str| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1",
+                 "material": {{ "density": 700, "youngs_modulus": 14e9 }},
+                 "profile": {{ "interpolation": "linear", "unit": "{unit}", "x": [0, {x}],
+                              "diameter": [{r}, {r}] }} }}"#
+        );
+        let bat = Bat::from_text("bat.json", &text, "".as_ref()).unwrap();
+        proven(&bat, 3, 1e-12, Theory::EulerBernoulli)
+    };
+    // The same bat in three units: equal rationals, doubles that differ in the last place.
+    let all = [of("33", "1.5", "in"), of("838.2", "38.1", "mm"), of("0.8382", "0.0381", "m")];
+    // Frequency of the free dowel, β² in 30 digits: (β/L)² √(E r²/4ρ)/2π.
+    let betas = [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_671];
+    for (k, beta) in betas.iter().enumerate() {
+        let known = (beta / 0.8382_f64).powi(2) * (14e9_f64 / 700.0).sqrt() * 0.019_05
+            / (4.0 * std::f64::consts::PI);
+        for found in &all {
+            let [lower, upper] = found.modes[k].hertz;
+            // The formula in plain numbers is right to some units in the last place.
+            assert!(lower <= known * (1.0 + 2e-15) && known * (1.0 - 2e-15) <= upper);
+        }
+    }
+}
+
+#[test]
+fn a_band_holds_the_frequencies_of_bats_within_it() {
+    let bat = mesh_bat("r161");
+    let request = Request { modes: 4, tolerance: 1e-9, ..Request::default() };
+    let within = Within { radius: 1e-4, modulus: 0.02 };
+    let found = band(&bat, &request, within).unwrap();
+    assert!(found.met && found.hertz.len() == 4);
+    for k in 0..12 {
+        let sign = |j: i32| if (k >> j) & 1 == 0 { 1.0 } else { -1.0 };
+        // Thicker or thinner, in stretches, and stiffer or softer.
+        let stations = bat.profile().stations.outer.len() as f64;
+        let other = bat
+            .with(|parts| {
+                let mut radii = parts.profile.stations.clone();
+                for (j, r) in radii.outer.iter_mut().enumerate() {
+                    let share = (j as f64 / stations - 0.5 * sign(3)) * sign(1);
+                    *r += 1e-4 * sign(0) * (4.0 * share).clamp(-1.0, 1.0);
+                }
+                parts.profile = sweetspot::Profile::new(radii).unwrap();
+                parts.material.youngs_modulus *= 1.0 + 0.02 * sign(2);
+            })
+            .unwrap();
+        let own = proven(&other, 4, 1e-9, Theory::EulerBernoulli);
+        for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
+            // The curve between stations may leave the band by no more than their own change of slope: the
+            // ends of the band are met by none of these bats.
+            assert!(*lower <= mode.hertz[1] && mode.hertz[0] <= *upper);
+        }
+    }
+    // Exactly `d` thicker everywhere: the monotone curve is moved as a whole, and every mode stays inside.
+    for d in [1e-4, -1e-4] {
+        let moved = bat.with(|parts| {
+            let mut radii = parts.profile.stations.clone();
+            radii.outer.iter_mut().for_each(|r| *r += d);
+            parts.profile = sweetspot::Profile::new(radii).unwrap();
+            parts.material.youngs_modulus *= 1.0 + 200.0 * d;
+        });
+        let own = proven(&moved.unwrap(), 4, 1e-9, Theory::EulerBernoulli);
+        for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
+            assert!(*lower <= mode.hertz[0] && mode.hertz[1] <= *upper);
+        }
+    }
+}
+
+#[test]
+fn what_is_not_carried_is_refused_with_its_reason() {
+    let refused = |name: &str| {
+        let request = Request { modes: 2, ..Request::default() };
+        guarantee(&mesh_bat(name), &request).unwrap_err().to_string()
+    };
+    assert!(refused("tanh").contains("formulas"), "{}", refused("tanh"));
+}

@@ -1,0 +1,187 @@
+//! Trials that are wrong in every way: no interval may leave out the frequency that it is of.
+
+use sweetspot::bat::profile::{Interpolation, Stations};
+use sweetspot::beam::mesh::Mesh;
+use sweetspot::modes::enclosure::beam::{Layout, Proven};
+use sweetspot::modes::enclosure::conclude::conclude;
+use sweetspot::modes::enclosure::energies::Trial;
+use sweetspot::modes::enclosure::norms::Norms;
+use sweetspot::modes::enclosure::trials::trials;
+use sweetspot::modes::plan::Plan;
+use sweetspot::proof::validation::Truth;
+use sweetspot::{Bat, Profile, Theory};
+
+use crate::arithmetic::Random;
+use crate::holds;
+
+/// A bat on a mesh with trials of its own.
+struct Scene {
+    truth: Truth,
+    norms: Norms,
+    proven: Proven,
+    trials: Vec<Trial>,
+}
+
+fn plan(bat: &Bat, elements: usize, degree: usize) -> Plan {
+    Plan { mesh: Mesh::along(bat, elements), degree, ..Plan::default() }
+}
+
+impl Scene {
+    fn new(case: &str, elements: usize, degree: usize) -> Self {
+        let truth = Truth::of_cases(&[case]).unwrap();
+        let (bat, theory) = (&truth.bat, truth.theory);
+        let plan = plan(bat, elements, degree);
+        let trials = trials(bat, &plan, 16, theory).unwrap();
+        let layout = Layout::of(bat, theory).unwrap();
+        let norms = Norms::of(bat, &layout, theory).unwrap();
+        let proven = Proven::of(bat, &layout, &plan.mesh, theory).unwrap();
+        Self { truth, norms, proven, trials }
+    }
+
+    /// How many modes these trials prove; every one must hold the known frequency.
+    fn proven_by(&self, trials: &[Trial], told: &str) -> usize {
+        let energies: Vec<_> = trials.iter().map(|trial| self.proven.energies(trial)).collect();
+        let found = conclude(&energies, &self.norms);
+        for (eigenvalue, known) in found.proven.iter().zip(&self.truth.frequencies) {
+            assert!(holds(eigenvalue.hertz(), *known), "{told}: {:?} {known}", eigenvalue.hertz());
+        }
+        found.proven.len()
+    }
+}
+
+/// `a` and a part of `b`, strain by strain.
+fn with(a: &Trial, part: f64, b: &Trial) -> Trial {
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + part * b).collect();
+    Trial { terms: a.terms, bending: sum(&a.bending, &b.bending), shear: sum(&a.shear, &b.shear) }
+}
+
+/// A trial of the same size whose strains are not a motion's.
+fn nonsense(like: &Trial, random: &mut Random) -> Trial {
+    let mut of = |all: &[f64]| {
+        let most = all.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+        all.iter().map(|_| most * random.signed()).collect()
+    };
+    Trial { terms: like.terms, bending: of(&like.bending), shear: of(&like.shear) }
+}
+
+/// Ten thousand trials that are spoilt: noise, mixtures, one left out, one twice, nonsense; on fine meshes and
+/// on coarse ones.
+#[test]
+fn ten_thousand_lies_prove_nothing_false() {
+    let mut random = Random::new(11);
+    let (mut attacks, mut proven) = (0, 0);
+    let scenes = [
+        ("cone_1_2p64", 8, 12),
+        ("cone_1_10", 9, 12),
+        ("step_1_3", 8, 10),
+        ("pchip_bat", 14, 8),
+        ("rayleigh_cone", 9, 11),
+        ("timo_dowel", 7, 11),
+        ("timo_step", 8, 9),
+        ("cone_1_2p64", 20, 3),
+        ("timo_dowel", 12, 4),
+        ("mid_mass", 8, 10),
+        ("offset_mass", 8, 10),
+    ];
+    for (case, elements, degree) in scenes {
+        let scene = Scene::new(case, elements, degree);
+        let own = &scene.trials;
+        let told = format!("{case} on {elements} of degree {degree}");
+        scene.proven_by(own, &told);
+        for round in 0..140 {
+            let size = 10f64.powf(-12.0 * random.share());
+            let mut lies = own.clone();
+            let (k, other) = ((random.share() * 16.0) as usize, (random.share() * 16.0) as usize);
+            match round % 7 {
+                // Noise in all, or in one.
+                0 => {
+                    for lie in &mut lies {
+                        let noise = nonsense(lie, &mut random);
+                        *lie = with(lie, size, &noise);
+                    }
+                }
+                1 => lies[k] = with(&own[k], size, &nonsense(&own[k], &mut random)),
+                // Mixed among themselves.
+                2 => {
+                    for lie in &mut lies {
+                        let other = (random.share() * 16.0) as usize;
+                        *lie = with(lie, size * random.signed(), &own[other]);
+                    }
+                }
+                3 => {
+                    lies[k] = with(&own[k], random.signed(), &own[other]);
+                    lies[other] = with(&own[other], random.signed(), &own[k]);
+                }
+                // One that is not there, one that is there twice, one that is another.
+                4 => {
+                    lies.remove(k);
+                    assert!(scene.proven_by(&lies, &told) <= k, "{told}: {k} left out");
+                }
+                5 => lies[k] = own[other].clone(),
+                _ => lies[k] = nonsense(&own[k], &mut random),
+            }
+            proven += scene.proven_by(&lies, &told);
+            attacks += lies.len();
+        }
+    }
+    assert!(attacks > 10_000 && proven > 5_000, "{attacks} {proven}");
+}
+
+/// Trials of no size, of infinite size or with no number in them prove nothing, and do not spoil others.
+#[test]
+fn trials_that_are_no_numbers_prove_nothing() {
+    let scene = Scene::new("cone_1_2p64", 8, 12);
+    let good = scene.proven_by(&scene.trials, "good");
+    for value in [0.0, f64::NAN, f64::INFINITY, 1e200, 1e-200] {
+        let mut lies = scene.trials.clone();
+        lies[12].bending.iter_mut().for_each(|c| *c = value);
+        assert!(scene.proven_by(&lies, "spoilt") <= good);
+    }
+}
+
+/// A bat that looks random: ten stations, some steps, a bore, masses.
+fn random_bat(random: &mut Random) -> Bat {
+    let count = 4 + (random.share() * 6.0) as usize;
+    let mut x: Vec<f64> = (0..count).map(|k| k as f64 + 0.7 * random.share()).collect();
+    let (first, last) = (x[0], x[count - 1]);
+    x.iter_mut().for_each(|x| *x = 0.84 * (*x - first) / (last - first));
+    (x[0], x[count - 1]) = (0.0, 0.84);
+    let outer: Vec<f64> = (0..count).map(|_| 0.009 * 4f64.powf(random.share())).collect();
+    let hollow = random.share() > 0.6;
+    let inner = outer.iter().map(|r| if hollow { 0.6 * r } else { 0.0 }).collect();
+    let smooth = random.share() > 0.3;
+    let interpolation = if smooth { Interpolation::Pchip } else { Interpolation::Linear };
+    let profile = Profile::new(Stations { x, outer, inner, interpolation }).unwrap();
+    let mut wood = sweetspot::Material::new(650.0, 14e9).unwrap();
+    wood.shear_modulus = Some(1e9);
+    Bat::builder(profile, wood).build().unwrap()
+}
+
+/// Any two enclosures of one frequency overlap, from whatever meshes they are.
+#[test]
+fn enclosures_from_different_meshes_overlap() {
+    let mut random = Random::new(21);
+    let (mut pairs, mut ten) = (0, 0);
+    for round in 0..40 {
+        let bat = random_bat(&mut random);
+        let theory = Theory::ALL[round % 3];
+        let layout = Layout::of(&bat, theory).unwrap();
+        let norms = Norms::of(&bat, &layout, theory).unwrap();
+        let mut of = |elements: usize, degree: usize| -> Vec<[f64; 2]> {
+            let plan = plan(&bat, elements, degree);
+            let tried = trials(&bat, &plan, 16, theory).unwrap();
+            let proven = Proven::of(&bat, &layout, &plan.mesh, theory).unwrap();
+            let energies: Vec<_> = tried.iter().map(|trial| proven.energies(trial)).collect();
+            conclude(&energies, &norms).proven.iter().map(|mode| mode.hertz()).collect()
+        };
+        let all = [of(30, 10), of(24, 8), of(40, 5), of(60, 3)];
+        ten += usize::from(all[0].len() >= 10);
+        for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2)] {
+            for ([low, high], [other_low, other_high]) in all[a].iter().zip(&all[b]) {
+                assert!(low <= other_high && other_low <= high, "{round} {a} {b}");
+                pairs += 1;
+            }
+        }
+    }
+    assert!(pairs > 500 && ten > 10, "{pairs} {ten}");
+}

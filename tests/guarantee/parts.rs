@@ -1,0 +1,219 @@
+//! Sections, norms and conclusions, each against what is known of it.
+
+use std::f64::consts::TAU;
+
+use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
+use sweetspot::base::interval::{Interval, Values};
+use sweetspot::modes::enclosure::beam::{Layout, Proven};
+use sweetspot::modes::enclosure::conclude::conclude;
+use sweetspot::modes::enclosure::energies::Energies;
+use sweetspot::modes::enclosure::norms::Norms;
+use sweetspot::modes::enclosure::radii::curved;
+use sweetspot::modes::enclosure::sections::{Rings, inverse};
+use sweetspot::proof::bundled::bundled_bat;
+use sweetspot::proof::validation::Truth;
+use sweetspot::{Bat, Theory};
+
+use crate::common::{DENSITY, LENGTH, MODULUS, RADIUS, cone, dowel};
+
+fn norms(bat: &Bat, theory: Theory) -> Norms {
+    Norms::of(bat, &Layout::of(bat, theory).unwrap(), theory).unwrap()
+}
+
+/// `trace = ρA L⁴/420 EI`, `|T|² = (1/420² − 2/1247400)(ρA L⁴/EI)²` of the uniform beam.
+#[test]
+fn norms_of_the_uniform_bat_are_those_in_closed_form() {
+    let found = norms(&dowel(), Theory::EulerBernoulli);
+    let unit = 4.0 * DENSITY * LENGTH.powi(4) / (MODULUS * RADIUS * RADIUS);
+    let exact = [unit / 420.0, (1.0 / (420.0 * 420.0) - 2.0 / 1_247_400.0) * unit * unit];
+    for (found, exact) in [found.trace, found.square].into_iter().zip(exact) {
+        let above = found / exact - 1.0;
+        assert!((-1e-14..1e-10).contains(&above), "{above:e}");
+    }
+    // With rotary inertia and shear the norms rise, in step with the frequencies' fall.
+    let mut wood = sweetspot::Material::new(DENSITY, MODULUS).unwrap();
+    wood.shear_modulus = Some(1e9);
+    let sheared = dowel().with(|parts| parts.material = wood).unwrap();
+    let all = Theory::ALL.map(|theory| norms(&sheared, theory).trace);
+    assert!(all[0] < all[1] && all[1] < all[2]);
+}
+
+/// Every known eigenvalue is part of the sums; the first few are most of them.
+#[test]
+fn norms_are_above_the_sums_over_known_modes_and_near_them() {
+    let cases: [&[&str]; 6] = [
+        &["cone_1_2p64_60"],
+        &["cone_1_10_60"],
+        &["step_1_3_60"],
+        &["steps_many"],
+        &["pchip_bat"],
+        &["timo_dowel_60"],
+    ];
+    for cases in cases {
+        let truth = Truth::of_cases(cases).unwrap();
+        let taus: Vec<f64> = truth.frequencies.iter().map(|f| (TAU * f).powi(-2)).collect();
+        let found = norms(&truth.bat, truth.theory);
+        let [sum, squares] =
+            [1, 2].map(|power| taus.iter().map(|tau| tau.powi(power)).sum::<f64>());
+        let last = taus.last().unwrap();
+        // Beyond mode n of a plain beam τ falls as n⁻⁴, of one that shears as n⁻²; steps make it uneven.
+        let rest = if truth.theory.shears() { 1.6 } else { 0.5 } * taus.len() as f64 * last;
+        let above = (found.trace - sum) / rest;
+        assert!(above > 0.2 && above < 1.5, "{cases:?} {above}");
+        let above = found.square / squares - 1.0;
+        assert!(
+            above > -1e-14 && above < 1e-9 + 2.0 * rest * last / squares,
+            "{cases:?} {above:e}"
+        );
+    }
+}
+
+/// The sums do not depend on where the bat is divided: each stretch that is left out would show.
+#[test]
+fn norms_are_the_same_whatever_pieces_a_bat_has() {
+    let whole = norms(&cone(0.012, 0.033), Theory::EulerBernoulli);
+    for count in [2, 5, 11] {
+        let share = |k: usize| k as f64 / count as f64;
+        let x: Vec<f64> = (0..=count).map(|k| LENGTH * share(k)).collect();
+        let outer: Vec<f64> = (0..=count).map(|k| 0.012 + 0.021 * share(k)).collect();
+        let linear = sweetspot::bat::profile::Interpolation::Linear;
+        let cut = crate::common::bat(&x, &outer, &vec![0.0; x.len()], linear);
+        let found = norms(&cut, Theory::EulerBernoulli);
+        assert!((found.trace / whole.trace - 1.0).abs() < 1e-10, "{count}");
+        assert!((found.square / whole.square - 1.0).abs() < 1e-10, "{count}");
+    }
+    // Turned end for end, too.
+    let turned = norms(&cone(0.033, 0.012), Theory::EulerBernoulli);
+    assert!((turned.trace / whole.trace - 1.0).abs() < 1e-10);
+    assert!((turned.square / whole.square - 1.0).abs() < 1e-10);
+}
+
+/// Steep stretches, on which a polynomial of degree 12 is not near 1/EI: what is taken for 1/EI must not be
+/// below it anywhere.
+#[test]
+fn what_is_taken_for_the_softness_is_nowhere_below_it() {
+    let mut bounded = 0;
+    for ratio in [1.5, 2.0, 2.5, 3.0] {
+        let bat = cone(0.01, 0.01 * ratio);
+        let curve = &curved(&bat).unwrap()[0];
+        let rings = Rings::of(&bat.layups()[0], curve, Interval::point(1.0));
+        let stiff: Values<40> = rings.bending(&GAUSS_40);
+        let Some(soft) = inverse(&stiff, 0.5) else { continue };
+        let at: Values<40> = soft.series.values(&GAUSS_40);
+        for g in 0..40 {
+            let taken = at.at[g] / (1.0 - soft.share);
+            let exact = 1.0 / stiff.at[g];
+            assert!(taken >= exact * (1.0 - 1e-13), "{ratio} {g} {}", taken / exact - 1.0);
+            assert!(taken <= exact * (1.0 + 3.0 * soft.share + 1e-12), "{ratio} {g}");
+            // And the share is needed: somewhere the polynomial alone is below.
+        }
+        let below = (0..40).any(|g| at.at[g] * stiff.at[g] < 1.0 - 0.01 * soft.share);
+        assert!(below, "{ratio}");
+        bounded += 1;
+    }
+    assert!(bounded > 1);
+}
+
+#[test]
+fn sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least() {
+    let mut looked = 0;
+    for file in ["r161", "northwestern_aluminium", "corked", "two_piece", "cone"] {
+        let bat = bundled_bat(&format!("meshes/{file}.json")).unwrap();
+        let curves = curved(&bat).unwrap();
+        for (curve, piece) in curves.iter().zip(&bat.profile().pieces) {
+            let rings = Rings::of(bat.layup(piece), curve, Interval::point(1.0));
+            let [bending, mass, turning]: [Values<24>; 3] =
+                [rings.bending(&GAUSS_24), rings.mass(&GAUSS_24), rings.turning(&GAUSS_24)];
+            let (least, mut softest) = (rings.bending_at_least(), f64::INFINITY);
+            let shear = rings.shear();
+            let sheared: Option<Values<24>> =
+                shear.as_ref().map(|shear| shear.series.values(&GAUSS_24));
+            for (g, xi) in GAUSS_24.points.iter().enumerate() {
+                let worth = bat.layup(piece).worth(piece.at(0.5 * (1.0 + xi)));
+                let near = |found: f64, radius: f64, exact: f64| {
+                    let off = (found - exact).abs();
+                    assert!(off <= radius + 1e-13 * exact, "{file} {g} {found} {exact}");
+                    // Thin walls are known to fewer digits.
+                    assert!(radius < 1e-11 * exact, "{file} {g} {radius:e} {exact:e}");
+                };
+                near(bending.at[g], bending.radius, worth.bending);
+                near(mass.at[g], mass.radius, worth.mass);
+                near(turning.at[g], turning.radius, worth.turning);
+                assert!(least <= worth.bending * (1.0 + 1e-14));
+                softest = softest.min(worth.bending);
+                if let (Some(values), Some(shear)) = (&sheared, &shear) {
+                    let off = values.radius + shear.share * values.largest();
+                    let exact = worth.shear;
+                    assert!((values.at[g] - exact).abs() <= off + 1e-12 * exact, "{file} {g}");
+                    assert!(rings.shear_at_least().unwrap() <= exact * (1.0 + 1e-14));
+                }
+                looked += 1;
+            }
+            assert!(least > 0.2 * softest, "{file} {least} {softest}");
+        }
+    }
+    assert!(looked > 1000, "{looked}");
+}
+
+/// The mass of a bat that was weighed is what the scale said.
+#[test]
+fn a_weighed_bat_weighs_what_the_scale_said() {
+    let bat = cone(0.012, 0.033);
+    let material = bat.material().clone();
+    let weighed = Bat::builder(bat.profile().clone(), material).mass(Some(0.9)).build().unwrap();
+    let theory = Theory::EulerBernoulli;
+    let layout = Layout::of(&weighed, theory).unwrap();
+    let mesh = sweetspot::beam::mesh::Mesh::along(&weighed, 4);
+    let mass = Proven::of(&weighed, &layout, &mesh, theory).unwrap().gram[0];
+    assert!(mass.low < 0.9 && mass.high > 0.9 && mass.high - mass.low < 1e-12, "{mass:?}");
+}
+
+/// Trials made up for a matrix of known eigenvalues: every interval holds its own.
+#[test]
+fn conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known() {
+    let taus: Vec<f64> = (1..=40).map(|n| f64::from(n).powi(-4)).collect();
+    let norms = Norms {
+        trace: taus.iter().sum::<f64>() * (1.0 + 1e-12),
+        square: taus.iter().map(|tau| tau * tau).sum::<f64>() * (1.0 + 1e-12),
+        reach: 1.0,
+        above: 0.0,
+        stretches: 1,
+    };
+    let mut random = crate::arithmetic::Random::new(3);
+    let mut held = [0; 2];
+    for round in 0..4000 {
+        let noise = 10f64.powf(-1.0 - 7.0 * random.share());
+        let mut trials = vec![];
+        for n in 0..16 {
+            // One left out now and then, one twice.
+            if round % 5 == 1 && n == round % 16 {
+                continue;
+            }
+            let mut vector: Vec<f64> = (0..40).map(|_| noise * random.signed()).collect();
+            vector[if round % 7 == 2 && n == 3 { 2 } else { n }] += 1.0;
+            let sum = |power: i32| -> f64 {
+                vector.iter().zip(&taus).map(|(v, tau)| v * v * tau.powi(power)).sum()
+            };
+            let (norm, first, second) = (sum(0), sum(1), sum(2));
+            let quotient = first / norm;
+            let residual = (second / norm - quotient * quotient).max(0.0);
+            trials.push(Some(Energies {
+                quotient: Interval::around(quotient, 1e-13),
+                residual: residual * (1.0 + 1e-9) + 1e-15 * quotient * quotient,
+                strain: Interval::point(1.0),
+            }));
+        }
+        let found = conclude(&trials, &norms);
+        for (eigenvalue, tau) in found.proven.iter().zip(&taus) {
+            let [lower, upper] = eigenvalue.tau;
+            assert!(lower <= *tau && *tau <= upper, "{round} {eigenvalue:?} {tau}");
+            held[0] += 1;
+        }
+        held[1] += found.proven.len();
+        // With mode n left out at most n − 1 are proven.
+        if round % 5 == 1 && round % 7 != 2 {
+            assert!(found.proven.len() <= round % 16, "{round}");
+        }
+    }
+    assert!(held[0] == held[1] && held[0] > 20_000, "{held:?}");
+}
