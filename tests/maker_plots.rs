@@ -35,7 +35,7 @@ fn a_change_of_the_diameter_is_whole_in_every_form() {
             check(&picture, name);
             assert_eq!(picture.drawing.width, sheet.width());
             // A tenth of a millimetre at most is off, where x is 0.6 m.
-            let off = if us { "0.00 in at most off" } else { "0.10 mm at most off" };
+            let off = if us { "3.94 mil at most off" } else { "0.10 mm at most off" };
             assert!(picture.svg.contains(off), "{}", &picture.svg[..800]);
         }
         // Both bats the same: a line of nothing.

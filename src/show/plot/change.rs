@@ -5,7 +5,7 @@ use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
 use crate::show::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::show::plot::series::{Series, hover};
-use crate::show::plot::sheet::Sheet;
+use crate::show::plot::sheet::{Sheet, Unit};
 use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::FRAME;
 
@@ -16,7 +16,12 @@ const PLACES: usize = 420;
 
 /// The change of the diameter from one bat to the other, place by place as shares of their lengths: `change`.
 pub fn picture(sheet: Sheet, old: &Bat, new: &Bat) -> Picture {
-    let (length, small) = (sheet.length(), sheet.small());
+    let length = sheet.length();
+    // A thousandth of an inch is what a change in inches is counted in.
+    let small = match sheet.us {
+        true => Unit { name: "mil", per: 1e3 * sheet.small().per },
+        false => sheet.small(),
+    };
     let at = |k: usize| {
         let share = (k as f64 + 0.5) / PLACES as f64;
         let [was, is] = [old, new].map(|bat| bat.profile().at(share * bat.length()).outer);
