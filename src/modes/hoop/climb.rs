@@ -137,7 +137,9 @@ impl<'a> Climb<'a> {
                 errors.retain(|_| kept.next() == Some(true));
             }
             if k + 1 == LADDER.len() || errors.iter().all(|error| *error <= tol) {
-                let of_cut = |mode| if self.cut { cut_off(&now, mode) } else { 0.0 };
+                // Motions of n = 0 are waves along the whole bat: theirs are of the stretch that is modelled.
+                let dies_out = self.cut && n >= 2;
+                let of_cut = |mode| if dies_out { cut_off(&now, mode) } else { 0.0 };
                 let cut: Vec<f64> = (0..errors.len()).map(of_cut).collect();
                 errors.iter_mut().zip(&cut).for_each(|(error, cut)| *error += cut);
                 let worst = cut.into_iter().fold(0.0, f64::max);
