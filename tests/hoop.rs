@@ -139,7 +139,7 @@ fn published_cylinders_come_out() {
     steel.poisson_ratio = Some(0.3);
     let found = frequencies(&tube(10.0, 2.0, 0.4, steel.clone()), 0.0, [8, 4], ends(1), 0, FREE, 5);
     close(&found, &[243.53, 377.41, 394.11, 397.72, 405.28], 4e-4);
-    let inch = 0.0254;
+    let inch = 0.0254_f64;
     let mut thin =
         Material::new(0.282_072 * 0.453_592_37 / inch.powi(3), 30e6 * 6_894.757_293_17).unwrap();
     thin.poisson_ratio = Some(0.3);
@@ -272,7 +272,8 @@ fn a_stepped_tube_rings_the_same_from_either_end() {
         .map(|profile| Bat::builder(profile, aluminium()).build().unwrap());
     let grading = Grading { corner: 4, ..ends(2) };
     let [a, b] = bats.each_ref().map(|bat| frequencies(bat, 0.0, [7, 4], grading, 2, FREE, 4));
-    close(&a, &b, 1e-10);
+    // What rounding leaves with elements of 30 µm.
+    close(&a, &b, 1e-8);
     let [thin, thick] = [(0.030, 0.002), (0.0301, 0.0028)].map(|(radius, thickness)| {
         frequencies(&tube(0.25, radius, thickness, aluminium()), 0.0, [6, 3], ends(1), 2, FREE, 1)
     });
@@ -286,7 +287,9 @@ fn the_first_harmonic_is_the_beam() {
     let slender = tube(0.9, 0.012, 0.002, aluminium());
     let wall = frequencies(&slender, 0.0, [8, 4], ends(1), 1, FREE, 3);
     close(&wall, &[187.266, 511.380, 988.929], 2e-6);
-    let request = sweetspot::Request { modes: 3, tolerance: 1e-7, ..sweetspot::Request::default() };
+    let theory = sweetspot::Theory::Timoshenko;
+    let request =
+        sweetspot::Request { modes: 3, tolerance: 1e-7, theory, ..sweetspot::Request::default() };
     let mut metal = aluminium();
     metal.shear_modulus = Some(71e9 / 2.66);
     let solution = sweetspot::solve(&tube(0.9, 0.012, 0.002, metal), &request).unwrap();
@@ -326,10 +329,13 @@ fn the_wall_gives_way_under_a_ball_as_published() {
     let patch = Patch::under(0.6858, 0.0366, 0.0333, 0.008);
     let ends = [patch.x - patch.half_length, patch.x + patch.half_length];
     let bat = barrel_in_parts(0.0030, &[0.58, ends[0], ends[1], 0.8382]);
-    let harmonics = vec![0, 2, 3, 4, 5, 6];
-    let request = HoopRequest { tol: 2e-8, harmonics, up_to_hz: 3000.0, ..HoopRequest::default() };
-    let hoop = Hoop::of(&bat, &request).unwrap();
-    let under = hoop.under(&patch);
+    let of = |harmonics: Vec<usize>, tol| {
+        let request = HoopRequest { tol, harmonics, up_to_hz: 3000.0, ..HoopRequest::default() };
+        Hoop::of(&bat, &request).unwrap()
+    };
+    // Frequencies of n = 0 converge long before its flexibility does.
+    let (round, hoop) = (of(vec![0], 1e-11), of(vec![2, 3, 4, 5, 6], 3e-7));
+    let under = [round.under(&patch), hoop.under(&patch)].concat();
     let found: Vec<f64> = under.iter().map(|share| share.flexibility).collect();
     let published = [
         7.701_487_1e-10,
@@ -341,7 +347,7 @@ fn the_wall_gives_way_under_a_ball_as_published() {
     ];
     close(&found, &published, 5e-7);
     close(&under[1].gains, &[2.217_415_5, 2.263_246_1, 2.378_587_1], 5e-6);
-    for share in &under {
+    for share in &under[1..] {
         let modes = hoop.modes().iter().filter(|mode| mode.harmonic == share.harmonic);
         let of_modes: f64 = modes.zip(&share.gains).map(|(m, c)| c / m.omega.powi(2)).sum();
         assert!(of_modes < share.flexibility, "{} {of_modes}", share.harmonic);
@@ -369,12 +375,22 @@ fn a_barrel_is_answered_to_its_tolerance() {
     assert!((lowest[0].largest_at - 0.8382).abs() < 1e-9);
     let outline = hoop.outline(hoop.modes().iter().position(|m| m == lowest[0]).unwrap(), 41);
     assert!((outline.radial[40] - 1.0).abs() < 1e-12 && outline.radial[0].abs() < 1e-3);
-    // Without stretch around, U + nV = 0.
-    assert!((outline.radial[40] + 2.0 * outline.around[40]).abs() < 0.05);
+    // Without stretch in the middle of the wall U + nV = 0 there; h/2 farther out V has turned with it by
+    // h/2R (V + nU).
+    let turned = 0.0015 / 0.0318 * 1.5;
+    assert!((outline.around[40] + 0.5 - turned).abs() < 0.02, "{}", outline.around[40]);
     let clamped = HoopRequest { end: KnobSide::Clamped, ..HoopRequest::default() };
     let clamped = Hoop::of(&bat, &clamped).unwrap();
     let off = clamped.lowest(1)[0].omega / lowest[0].omega - 1.0;
     assert!(off.abs() < 1e-6, "{off:e}");
+}
+
+/// On the published barrels and on some random ones; `sweetspot validate --promise` has twenty.
+#[test]
+fn no_true_error_is_more_than_three_times_the_stated_one() {
+    for row in sweetspot::proof::hoop_promise::rows(&|_, _| {}, 4).unwrap() {
+        assert!(row.holds() && row.met, "{row:?}");
+    }
 }
 
 #[test]
@@ -390,7 +406,7 @@ fn what_has_no_wall_to_ring_is_refused_with_the_reason() {
     assert!(Hoop::of(&hollow, &request).unwrap_err().to_string().contains("grain"));
     // The knob of this bat is a tube that does not touch its handle.
     let bat = northwestern();
-    assert!(rings(&bat) && Hoop::of(&bat, &request).unwrap().from() > 0.01905);
+    assert!(rings(&bat) && Hoop::of(&bat, &request).unwrap().from() > 0.019);
     let error = Hoop::between(&bat, [0.0, bat.length()], &request).unwrap_err();
     assert!(error.to_string().contains("meet"), "{error}");
     let tol = HoopRequest { tol: f64::NAN, ..HoopRequest::default() };

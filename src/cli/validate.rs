@@ -93,7 +93,7 @@ pub fn run(args: &Args) -> Result<Done> {
         if args.promise {
             out += &promise_table::table(&rows);
             out += &hit_promise_table::table(&hits);
-            let hoops = hoop_promise::rows(&tell)?;
+            let hoops = hoop_promise::rows(&tell, hoop_promise::BARRELS)?;
             out += &hoop_promise_table::table(&hoops);
             good &= hoops.iter().all(CheckedHoop::holds);
         }

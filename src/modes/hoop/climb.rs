@@ -137,7 +137,9 @@ impl<'a> Climb<'a> {
                 errors.retain(|_| kept.next() == Some(true));
             }
             if k + 1 == LADDER.len() || errors.iter().all(|error| *error <= tol) {
-                let of_cut = |mode| if self.cut { cut_off(&now, mode) } else { 0.0 };
+                // Motions of n = 0 are waves along the whole bat: theirs are of the stretch that is modelled.
+                let dies_out = self.cut && n >= 2;
+                let of_cut = |mode| if dies_out { cut_off(&now, mode) } else { 0.0 };
                 let cut: Vec<f64> = (0..errors.len()).map(of_cut).collect();
                 errors.iter_mut().zip(&cut).for_each(|(error, cut)| *error += cut);
                 let worst = cut.into_iter().fold(0.0, f64::max);
@@ -155,7 +157,7 @@ const MOST_MODES: usize = 200;
 /// Modes of the handle, at most, beside those of the barrel that are wanted at least.
 const MOST_LEFT_OUT: usize = 40;
 
-/// What it costs a mode's frequency, relative, that the handle is cut off: about a fifth of its motion there
+/// What it costs a mode's frequency, relative, that the handle is cut off: about a fiftieth of its motion there
 /// squared, against its largest, and times the cube of the radii, as the stiffness of a section that does not
 /// stay round. Measured on twenty random barrels, cut off where their taper begins and eight radii before.
 fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
@@ -169,7 +171,7 @@ fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
     let places = places.map(|x| (size(x), x));
     let (largest, at) = places.fold((0.0, from), |a, b| if b.0 > a.0 { b } else { a });
     let radii = spectrum.system.radius(at) / radius;
-    0.2 * (there.fold(0.0, f64::max) / largest).powi(2) * radii.powi(3)
+    0.02 * (there.fold(0.0, f64::max) / largest).powi(2) * radii.powi(3)
 }
 
 /// Places at which the motion beside a cut is looked at.

@@ -91,8 +91,6 @@ pub struct Hoop {
 
 /// Highest frequency up to which modes may be asked for (Hz).
 const MOST_HZ: f64 = 1e6;
-/// Farthest before the taper that the model begins, in radii of the handle.
-const MOST_LEAD: f64 = 40.0;
 /// Walls thinner than this share of their radius get a warning.
 const THIN: f64 = 1.0 / 300.0;
 
@@ -118,16 +116,15 @@ impl Hoop {
             return Err(Error::value("up_to_hz", request.up_to_hz, expected));
         }
         // What is cut off in the handle costs a tenth with every two radii or so.
-        let mut lead = 2.5 * (1e-4 / tol).log10().max(0.0);
-        let (mut hoop, extent) = loop {
-            let extent = Extent::of(bat, lead)?;
-            let cut = extent.limit == Limit::Handle;
-            let (hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
-            if !cut || cut_off < 0.3 * tol || lead > MOST_LEAD {
-                break (hoop, extent);
-            }
-            lead += 5.0;
-        };
+        let lead = 2.5 * (1e-4 / tol).log10().max(0.0);
+        let mut extent = Extent::of(bat, lead)?;
+        let cut = extent.limit == Limit::Handle;
+        let (mut hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
+        if cut && cut_off > 0.5 * tol {
+            // High modes may reach far into a thin handle: all of it is modelled then.
+            extent = Extent::of(bat, f64::INFINITY)?;
+            hoop = Self::solved(bat, [extent.from, extent.to], false, request)?.0;
+        }
         match extent.limit {
             Limit::Step => hoop.notes.push(Note::BeginsBeyondStep { at: extent.from }),
             Limit::Wood => hoop.notes.push(Note::BeginsBeyondWood { at: extent.from }),
