@@ -239,7 +239,7 @@ impl<'a> Hitter<'a> {
     }
 
     /// The wall at `x` (m), where it gives way by its hoop modes.
-    pub(super) fn under(&self, x: f64) -> Option<Arc<WallFelt>> {
+    pub(super) fn under(&self, x: f64) -> Option<WallFelt> {
         Some(self.hoop.as_ref()?.under(x, COMPRESSION))
     }
 

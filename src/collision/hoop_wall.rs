@@ -22,7 +22,8 @@ use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::Felt;
 use crate::collision::struck::complete;
-use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch};
+use crate::collision::wall_table::WallTable;
+use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
 
 /// Compression δ of the ball (m) by which it presses on the wall as a patch: half of the largest at game
 /// speed. Half and twice as much say what that choice does to BBCOR.
@@ -37,8 +38,8 @@ pub struct HoopWall {
     ball_radius: f64,
     request: HoopRequest,
     hoop: Hoop,
-    /// What is known already, by place and compression in bits.
-    known: Mutex<BTreeMap<[u64; 2], Arc<WallFelt>>>,
+    /// What is known along the barrel, by the ball's compression in bits.
+    tables: Mutex<BTreeMap<u64, Arc<WallTable>>>,
 }
 
 /// Modes and flexibility of a wall at one place.
@@ -83,9 +84,9 @@ impl HoopWall {
     ///
     /// As [`Hoop::of`].
     pub fn of(bat: &Bat, ball_radius: f64, request: &HoopRequest) -> Result<Arc<Self>> {
-        let (hoop, known) = (Hoop::of(bat, request)?, Mutex::default());
+        let (hoop, tables) = (Hoop::of(bat, request)?, Mutex::default());
         let (bat, request) = (bat.clone(), request.clone());
-        Ok(Arc::new(Self { bat, ball_radius, request, hoop, known }))
+        Ok(Arc::new(Self { bat, ball_radius, request, hoop, tables }))
     }
 
     /// The wall of another bat, solved to the same accuracy; of a bat with the same wall this one.
@@ -132,37 +133,14 @@ impl HoopWall {
 
     /// The wall at `x` (m) under a ball that is compressed by that much (m). Where the modelled stretch
     /// ends it does not give way.
-    pub fn under(&self, x: f64, compression: f64) -> Arc<WallFelt> {
-        let key = [x, compression].map(f64::to_bits);
-        let known = |map: &BTreeMap<_, Arc<WallFelt>>| map.get(&key).cloned();
-        if let Some(felt) = known(&self.known.lock().unwrap_or_else(PoisonError::into_inner)) {
-            return felt;
-        }
-        let felt = Arc::new(self.looked_at(x, compression));
-        let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        // Many sweeps over one bat shall not fill the memory.
-        if all.len() >= MOST_PLACES {
-            all.clear();
-        }
-        Arc::clone(all.entry(key).or_insert(felt))
-    }
-
-    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it.
-    pub fn somewhere(&self, x: f64) -> [f64; 2] {
-        let from = self.hoop.from() + self.patch(x, COMPRESSION).half_length;
-        let felt = self.under(x.max(from).min(self.hoop.to()), COMPRESSION);
-        [felt.soft, felt.slow]
-    }
-
-    fn looked_at(&self, x: f64, compression: f64) -> WallFelt {
+    pub fn under(&self, x: f64, compression: f64) -> WallFelt {
         let (patch, modes) = (self.patch(x, compression), self.hoop.modes());
         if !self.hoop.covers(&patch) {
             let none = WallSeries { gains: vec![0.0; modes.len()], rest: 0.0 };
             return WallFelt { full: none.clone(), fewer: none, ..WallFelt::default() };
         }
-        let mut felt = WallFelt::default();
-        let mut from = 0;
-        for share in self.hoop.under(&patch) {
+        let (table, mut felt, mut from) = (self.table(compression), WallFelt::default(), 0);
+        for share in table.at(x, |nodes| self.looked_at(nodes, compression)) {
             let all = [share.flexibility, share.slowness];
             let own = &modes[from..from + share.gains.len()];
             from += share.gains.len();
@@ -179,10 +157,32 @@ impl HoopWall {
         felt.unsure += beyond(&felt.flexibility, &patch, self.hoop.radius(x));
         felt
     }
+
+    fn looked_at(&self, places: &[f64], compression: f64) -> Vec<Vec<Share>> {
+        let patches: Vec<Patch> = places.iter().map(|x| self.patch(*x, compression)).collect();
+        self.hoop.under_each(&patches)
+    }
+
+    /// The places at which the wall is looked at for that compression.
+    fn table(&self, compression: f64) -> Arc<WallTable> {
+        let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        let half = self.patch(self.hoop.to(), compression).half_length;
+        let ends = [self.hoop.from() + half, self.hoop.to() - half, self.hoop.to()];
+        let step = half / if self.request.tol < FINE { 8.0 } else { 4.0 };
+        let table = tables.entry(compression.to_bits());
+        Arc::clone(table.or_insert_with(|| Arc::new(WallTable::new(ends, step))))
+    }
+
+    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it.
+    pub fn somewhere(&self, x: f64) -> [f64; 2] {
+        let from = self.hoop.from() + self.patch(x, COMPRESSION).half_length;
+        let felt = self.under(x.max(from).min(self.hoop.to()), COMPRESSION);
+        [felt.soft, felt.slow]
+    }
 }
 
-/// Places that are kept in mind.
-const MOST_PLACES: usize = 20_000;
+/// Hoop modes better than this are felt at places twice as close.
+const FINE: f64 = 1e-4;
 
 impl WallSeries {
     /// Adds a harmonic by so many of its modes; those that are not taken weigh nothing.

@@ -114,11 +114,14 @@ const USUAL: f64 = 1e-4;
 pub fn hoop_request(tolerance: f64) -> HoopRequest {
     let last = match tolerance {
         t if t >= 1e-3 => 8,
-        t if t >= 1e-4 => 12,
-        t if t >= 1e-5 => 16,
+        t if t >= 1e-4 => 10,
+        t if t >= 1e-5 => 14,
         _ => 20,
     };
     let harmonics = std::iter::once(0).chain(2..=last).collect();
     // A mode that is far faster than the hit follows the force: one of a harmonic does.
-    HoopRequest { tol: tolerance.clamp(1e-8, 1e-3), harmonics, least: 1, ..HoopRequest::default() }
+    // The highest frequency may be off by ten times as much: the low ones, which matter, are a hundred
+    // times better then.
+    let tol = (10.0 * tolerance).clamp(1e-8, 3e-3);
+    HoopRequest { tol, harmonics, least: 1, ..HoopRequest::default() }
 }

@@ -107,6 +107,65 @@ impl Fronts {
     }
 }
 
+/// Right-hand sides that are solved together, so that the factors are read once for them.
+pub const SIDES: usize = 8;
+
+impl Fronts {
+    /// `x ← K⁻¹ x` of several right-hand sides side by side.
+    pub fn solve_together(&self, x: &mut [[f64; SIDES]]) {
+        widest(Together { fronts: &self.fronts, pivots: &self.pivots, x });
+    }
+}
+
+/// `x ← K⁻¹ x` of several right-hand sides.
+struct Together<'a> {
+    fronts: &'a [Front],
+    pivots: &'a [f64],
+    x: &'a mut [[f64; SIDES]],
+}
+
+impl WithSimd for Together<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { fronts, pivots, x } = self;
+        let mut own: Vec<[f64; SIDES]> = vec![];
+        for front in fronts {
+            own.clear();
+            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+            for (k, row) in front.rows.chunks_exact(front.unknowns.len()).enumerate() {
+                let value = own[k];
+                // Loads of one place: nothing before it.
+                if value == [0.0; SIDES] {
+                    continue;
+                }
+                for (x, l) in own[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                    (0..SIDES).for_each(|s| x[s] -= value[s] * l);
+                }
+            }
+            front.unknowns.iter().zip(&own).for_each(|(unknown, own)| x[*unknown] = *own);
+        }
+        for (x, pivot) in x.iter_mut().zip(pivots) {
+            x.iter_mut().for_each(|x| *x /= pivot);
+        }
+        for front in fronts.iter().rev() {
+            own.clear();
+            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+            let rows = front.rows.chunks_exact(front.unknowns.len());
+            for (k, row) in rows.enumerate().rev() {
+                let mut sum = [0.0; SIDES];
+                for (x, l) in own[k + 1..].iter().zip(&row[k + 1..]) {
+                    (0..SIDES).for_each(|s| sum[s] += x[s] * l);
+                }
+                (0..SIDES).for_each(|s| own[k][s] -= sum[s]);
+            }
+            let eliminated = front.unknowns.iter().zip(&own).take(front.eliminated);
+            eliminated.for_each(|(unknown, own)| x[*unknown] = *own);
+        }
+    }
+}
+
 /// `x ← L⁻¹ x`, front after front.
 struct Forward<'a> {
     fronts: &'a [Front],
@@ -287,6 +346,15 @@ mod tests {
             fronts.solve(&mut x);
             for (x, exact) in x.iter().zip(&exact) {
                 assert!((x - exact).abs() < 1e-12, "{x} {exact}");
+            }
+            let mut several: Vec<[f64; SIDES]> = (0..21)
+                .map(|i| std::array::from_fn(|s| if s == 1 { 0.0 } else { product(i) * s as f64 }))
+                .collect();
+            fronts.solve_together(&mut several);
+            for (x, exact) in several.iter().zip(&exact) {
+                for (s, x) in x.iter().enumerate().filter(|(s, _)| *s != 1) {
+                    assert!((x - exact * s as f64).abs() < 1e-11, "{s} {x} {exact}");
+                }
             }
             let mut whole = Fronts::new(21);
             first(&(0..21).collect::<Vec<_>>(), 21, true, &mut whole, 0);

@@ -9,8 +9,9 @@ use crate::bat::body::Bat;
 use crate::beam::wall::extent::{Extent, Limit};
 use crate::beam::wall::layers::Layers;
 use crate::beam::wall::unknowns::EndHold;
+use crate::eigen::fronts::SIDES;
 use crate::modes::hoop::climb::{Climb, thinnest};
-use crate::modes::hoop::patch::{Patch, Share, share};
+use crate::modes::hoop::patch::{Patch, Share, shares};
 use crate::modes::hoop::request::{HoopRequest, KnobSide};
 use crate::modes::hoop::spectrum::Spectrum;
 
@@ -212,9 +213,19 @@ impl Hoop {
 
     /// How each harmonic gives way under a patch.
     pub fn under(&self, patch: &Patch) -> Vec<Share> {
-        let radius = self.radius(patch.x);
-        let of_wall = self.spectra.iter().filter(|spectrum| spectrum.system.n != 1);
-        of_wall.map(|spectrum| share(spectrum, patch, radius)).collect()
+        self.under_each(std::slice::from_ref(patch)).remove(0)
+    }
+
+    /// How each harmonic gives way under each of some patches; patches that are neighbours take less time
+    /// together than one by one.
+    pub fn under_each(&self, patches: &[Patch]) -> Vec<Vec<Share>> {
+        let placed: Vec<(Patch, f64)> = patches.iter().map(|p| (*p, self.radius(p.x))).collect();
+        let mut all = vec![vec![]; patches.len()];
+        for spectrum in self.spectra.iter().filter(|spectrum| spectrum.system.n != 1) {
+            let shares = placed.chunks(SIDES).flat_map(|few| shares(spectrum, few));
+            all.iter_mut().zip(shares).for_each(|(all, share)| all.push(share));
+        }
+        all
     }
 
     /// Modal mass of mode `mode` of [`Self::modes`] (kg), the largest radial motion of the outer surface being 1:

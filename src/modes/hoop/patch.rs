@@ -16,6 +16,7 @@ use std::f64::consts::PI;
 
 use crate::base::linear::dot;
 use crate::base::quadrature::gauss;
+use crate::eigen::fronts::SIDES;
 use crate::modes::hoop::spectrum::Spectrum;
 
 /// Where a ball presses on the barrel.
@@ -72,28 +73,36 @@ fn parabola(k: f64) -> f64 {
     3.0 * (k.sin() - k * k.cos()) / k.powi(3)
 }
 
-/// How a harmonic gives way under a patch on a barrel of radius `r` (m).
-pub(crate) fn share(spectrum: &Spectrum, patch: &Patch, r: f64) -> Share {
+/// How a harmonic gives way under patches on a barrel of those radii (m), up to [`SIDES`] of them.
+pub(crate) fn shares(spectrum: &Spectrum, patches: &[(Patch, f64)]) -> Vec<Share> {
     let system = &spectrum.system;
-    let n = system.n;
-    let load = load(spectrum, patch, patch.share(n, r));
+    let (n, free) = (system.n, system.unknowns.count);
+    let load = |(patch, r): &(Patch, f64)| load(spectrum, patch, patch.share(n, *r));
+    let loads: Vec<Vec<f64>> = patches.iter().map(load).collect();
+    let side = |s: usize, i: usize| loads.get(s).map_or(0.0, |load| load[i]);
+    let beside = |i: usize| std::array::from_fn(|s| side(s, i));
+    let mut given: Vec<[f64; SIDES]> = (0..free).map(beside).collect();
+    spectrum.factors.solve_together(&mut given);
     let turn = if n == 0 { 2.0 * PI } else { PI };
-    let gain = |motion: &Vec<f64>| dot(&load, motion).powi(2) / turn;
-    let gains = spectrum.motions.iter().map(gain).collect();
-    let free = system.unknowns.count;
-    let mut given = load.clone();
-    spectrum.factors.solve(&mut given[..free]);
-    given[free..].fill(0.0);
-    let mut moved = vec![0.0; given.len()];
-    system.mass(&given, &mut moved);
-    if let Some(rigid) = &spectrum.rigid {
-        let part = dot(rigid, &moved);
-        given.iter_mut().zip(rigid).for_each(|(x, r)| *x -= part * r);
+    let share = |(s, load): (usize, &Vec<f64>)| {
+        let gain = |motion: &Vec<f64>| dot(load, motion).powi(2) / turn;
+        let mut given: Vec<f64> = given.iter().map(|x| x[s]).collect();
+        given.resize(load.len(), 0.0);
+        let mut moved = vec![0.0; load.len()];
         system.mass(&given, &mut moved);
-    }
-    let flexibility = dot(&load, &given) / turn;
-    let slowness = dot(&given, &moved) / turn;
-    Share { harmonic: n, gains, flexibility, slowness }
+        if let Some(rigid) = &spectrum.rigid {
+            let part = dot(rigid, &moved);
+            given.iter_mut().zip(rigid).for_each(|(x, r)| *x -= part * r);
+            system.mass(&given, &mut moved);
+        }
+        Share {
+            harmonic: n,
+            gains: spectrum.motions.iter().map(gain).collect(),
+            flexibility: dot(load, &given) / turn,
+            slowness: dot(&given, &moved) / turn,
+        }
+    };
+    loads.iter().enumerate().map(share).collect()
 }
 
 /// The load of a patch of resultant 1, all unknowns.
