@@ -104,8 +104,8 @@ Examples:
   sweetspot hoop bbcor_made_up
       the tones of an aluminium barrel, and what its wall gives the ball
 
-  sweetspot hoop softball_made_up --ball softball --ball-stiffness \"7000 lbf/in\" \\
-      --speed \"100 mph\" --at \"27 in\" --wall-sweep
+  sweetspot hoop softball_made_up --wall-sweep --ball softball \\
+      --ball-stiffness \"7000 lbf/in\" --speed \"100 mph\" --at \"27 in\"
       a softball bat, and with other walls
 
   sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel

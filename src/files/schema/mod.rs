@@ -20,6 +20,7 @@ pub mod materials;
 pub mod modes;
 pub mod hit;
 pub mod bbcor;
+pub mod hoop;
 pub mod compare;
 pub mod measured;
 pub mod ring;
@@ -36,7 +37,6 @@ pub mod lathe;
 pub mod aim;
 pub mod aimed;
 pub mod scatter;
-pub mod hoop;
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;

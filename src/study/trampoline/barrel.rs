@@ -182,13 +182,17 @@ fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<
     let hitter = Hitter::new(Model::Contact, &scene, &free, &hits.solution, hits.effort)?;
     let outcome = hits.impacts.first().and_then(|impact| impact.outcome.as_ref());
     let both = outcome.zip(hitter.wall_figures(test.at));
-    // BBCOR is `e_A (1 + r) + r`, and `outcome.error` that of `e_A`.
-    Ok(both.map(|(outcome, figures)| Rebound {
-        error: (1.0 + outcome.bbcor) / (1.0 + outcome.collision_efficiency) * outcome.error,
-        peak_force: outcome.peak_force.unwrap_or(f64::NAN),
-        left: outcome.energy.wall,
-        initial: outcome.energy.initial,
-        figures,
+    Ok(both.and_then(|(outcome, figures)| {
+        // BBCOR is `e_A (1 + r) + r`, and `outcome.error` that of `e_A`.
+        let per_efficiency = (1.0 + outcome.bbcor) / (1.0 + outcome.collision_efficiency);
+        let error = per_efficiency * outcome.error;
+        error.is_finite().then_some(Rebound {
+            error,
+            peak_force: outcome.peak_force?,
+            left: outcome.energy.wall,
+            initial: outcome.energy.initial,
+            figures,
+        })
     }))
 }
 
