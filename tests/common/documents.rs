@@ -22,11 +22,17 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 21] = [
+pub const WRITTEN: [Written; 22] = [
     (
         "modes",
         "modes",
         "modes bat-1.json -n 2 --tol 1e-9 --theory timoshenko --shape-points 3",
+        Numbers::Sharp,
+    ),
+    (
+        "modes-proven",
+        "modes",
+        "modes r161.json -n 2 --tol 1e-9 --guarantee --within 0.1mm,2% --shape-points 2",
         Numbers::Sharp,
     ),
     (
