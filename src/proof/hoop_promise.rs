@@ -245,7 +245,7 @@ fn random(k: usize) -> Result<Bat> {
     } else {
         x.push(length);
         outer.push(between(9, 0.97, 1.0) * barrel);
-        wall.push(if k % 2 == 0 { thin } else { thick });
+        wall.push(if k.is_multiple_of(2) { thin } else { thick });
     }
     let inner = outer.iter().zip(&wall).map(|(r, h)| r - h).collect();
     let interpolation = if k % 3 == 2 { Interpolation::Linear } else { Interpolation::Pchip };
