@@ -142,11 +142,13 @@ impl Hitter<'_> {
                         true => apart(few, accuracy, 1.0),
                         false => 0.0,
                     });
+                /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
+                const FEWER: f64 = 0.5;
                 // A wall of fewer modes, and one softer by all that may be missing.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let fewer = under.fewer.before(self.bent(x, count, beyond));
                     let softer = Felt { rest: felt.rest + under.unsure, ..felt.clone() };
-                    [fewer, softer].iter().map(|felt| from_other(felt, accuracy, 1.0)).sum()
+                    FEWER * from_other(&fewer, accuracy, 1.0) + from_other(&softer, accuracy, 1.0)
                 });
                 [left_out, steps, wall]
             });
