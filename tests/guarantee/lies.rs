@@ -167,7 +167,7 @@ fn enclosures_from_different_meshes_overlap() {
         let theory = Theory::ALL[round % 3];
         let layout = Layout::of(&bat, theory).unwrap();
         let norms = Norms::of(&bat, &layout, theory).unwrap();
-        let mut of = |elements: usize, degree: usize| -> Vec<[f64; 2]> {
+        let of = |elements: usize, degree: usize| -> Vec<[f64; 2]> {
             let plan = plan(&bat, elements, degree);
             let tried = trials(&bat, &plan, 16, theory).unwrap();
             let proven = Proven::of(&bat, &layout, &plan.mesh, theory).unwrap();
