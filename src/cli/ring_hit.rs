@@ -38,8 +38,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
-    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, _) = args.scene.scene(&bat, tolerance)?;
+    let (scene, _) = args.scene.scene(&bat)?;
     args.scene.warn(&args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
@@ -89,7 +88,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let code = args.solve.verdict(&solution, &args.output);
     let document = || {
-        let ignored = ignored::in_hit(&bat, &scene);
+        let ignored = ignored::in_hit(&bat, scene.wall.is_some());
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
     let text = args.output.deliver(text, document)?;

@@ -20,7 +20,6 @@ pub mod materials;
 pub mod modes;
 pub mod hit;
 pub mod bbcor;
-pub mod hoop;
 pub mod compare;
 pub mod measured;
 pub mod ring;
