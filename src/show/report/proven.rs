@@ -63,12 +63,14 @@ pub fn write(document: &mut file::ModesFile, proven: &Proven) {
 
 /// The ends in so many decimals that they differ, each rounded outwards.
 pub fn decimals([lower, upper]: [f64; 2]) -> [String; 2] {
-    let width = (upper - lower).max(1e-15 * upper.abs()).max(f64::MIN_POSITIVE);
+    let width = (upper - lower).max(1e-14 * upper.abs()).max(f64::MIN_POSITIVE);
     let places = (1.0 - width.log10()).ceil().clamp(0.0, 17.0);
-    // More than half a unit of the last place outwards: rounding takes back half of one at most.
+    // More than half a unit of the last place outwards, and one double: rounding the decimals and the sum
+    // takes back half of each at most.
     let step = 0.6 * 10f64.powf(-places);
     let places = places as usize;
-    [format!("{:.places$}", lower - step), format!("{:.places$}", upper + step)]
+    let [lower, upper] = [(lower - step).next_down(), (upper + step).next_up()];
+    [format!("{lower:.places$}"), format!("{upper:.places$}")]
 }
 
 /// The table of what is proven.
