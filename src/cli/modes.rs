@@ -82,7 +82,7 @@ Examples:
       to ten digits, with the shapes as JSON
 
   sweetspot modes r161 -n 5 --tol 1e-9 --guarantee --within \"0.1 mm, 2 %\"
-      two numbers that the frequencies cannot leave, and those of every bat that near
+      two numbers that the frequencies cannot leave, and of every bat so near
 
   sweetspot modes northwestern_aluminium --budget \"2 ms\"
       the best that two milliseconds give";
