@@ -13,6 +13,7 @@ mod lies;
 #[path = "guarantee/again.rs"]
 mod again;
 
+use sweetspot::bat::fixtures::Tape;
 use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
 use sweetspot::modes::enclosure::within::{Within, band};
 use sweetspot::proof::promise::{BATS, KNOWN_TO};
@@ -175,5 +176,31 @@ fn what_is_not_carried_is_refused_with_its_reason() {
         let request = Request { modes: 2, ..Request::default() };
         guarantee(&mesh_bat(name), &request).unwrap_err().to_string()
     };
-    assert!(refused("tanh").contains("formulas"), "{}", refused("tanh"));
+    let reasons =
+        [("tanh", "formulas"), ("house", "point"), ("torpedo", "point"), ("two_piece", "joint")];
+    for (name, reason) in reasons {
+        assert!(refused(name).contains(reason), "{name}: {}", refused(name));
+    }
+}
+
+/// Tape turns with the surface it lies on, and the fastest bat of a band is drawn thick: a band of a taped bat whose
+/// sections turn would promise more than follows.
+#[test]
+fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
+    let tape = Tape { from: 0.02, to: 0.3, mass: 0.05 };
+    let taped = mesh_bat("r161").with(|parts| parts.fixtures.tapes.push(tape)).unwrap();
+    let within = Within { radius: 1e-4, modulus: 0.0 };
+    let of = |theory: Theory| {
+        band(&taped, &Request { modes: 2, tolerance: 1e-9, theory, ..Request::default() }, within)
+    };
+    for theory in [Theory::Rayleigh, Theory::Timoshenko] {
+        let said = of(theory).unwrap_err().to_string();
+        assert!(said.contains("tape"), "{said}");
+    }
+    // A mass alone goes with no radius.
+    let found = of(Theory::EulerBernoulli).unwrap();
+    let own = proven(&taped, 2, 1e-9, Theory::EulerBernoulli);
+    for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
+        assert!(*lower < mode.hertz[0] && mode.hertz[1] < *upper);
+    }
 }

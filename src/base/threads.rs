@@ -1,6 +1,6 @@
 //! How is work shared among the processors?
 //!
-//! [`map`] and [`map_each`] ask rayon's pool, and do everything themselves where no thread may be started
+//! `map` and `map_each` ask rayon's pool, and do everything themselves where no thread may be started
 //! or there is no pool.
 
 /// What `of` makes of 0, 1, … below `count`, in that order.

@@ -46,7 +46,8 @@ pub struct Args {
     guarantee: bool,
 
     /// And for every bat within this of it: radii and moduli, such as "0.1 mm, 2 %"
-    #[arg(long, value_name = "m, %", help_heading = "Accuracy", requires = "guarantee", value_parser = within)]
+    #[arg(long, value_name = "m, %", help_heading = "Accuracy", requires = "guarantee",
+        allow_hyphen_values = true, value_parser = within)]
     within: Option<Within>,
 
     /// Samples of each shape in the JSON: a number, or "nodes" for the mesh's

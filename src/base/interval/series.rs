@@ -15,7 +15,7 @@
 //!   `[(2j + 1)/2]^½ ‖v‖ ≤ (2j + 1)^½ max|v_g|`, by Cauchy's inequality again.
 //!
 //! Bounds are themselves computed in plain numbers, from sums and products of what is not negative; each is
-//! made larger by [`SLACK`], thousands of times what that can round.
+//! made larger by `SLACK`, thousands of times what that can round.
 //!
 //! # Source
 //!

@@ -2,7 +2,7 @@
 //!
 //! A bat's doubles are decimals of its file times units, each off by some `u` of itself, and what is proven is
 //! proven of the decimals: [`LENGTH`], [`NUMBER`] and [`BORE`] hold all that reading may have rounded. Curves are
-//! laid anew through such intervals by the formulas of [`crate::bat::pchip`]: slopes are continuous functions
+//! laid anew through such intervals by the formulas of `bat/pchip.rs`: slopes are continuous functions
 //! of the stations, so that where an interval leaves a branch open the hull of both is right.
 
 use crate::base::error::{Error, Result};

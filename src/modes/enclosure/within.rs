@@ -47,10 +47,17 @@ const ROOM: f64 = 1e-12;
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a hollow bat or one of several materials, for radii that are no more than the
-/// allowance, and those of [`guarantee`].
+/// [`Error::Value`] for a hollow bat or one of several materials, for one that was weighed, for tape where
+/// sections turn, for radii that are no more than the allowance, and those of [`guarantee`].
 pub fn band(bat: &Bat, request: &Request, within: Within) -> Result<Band> {
     carried(bat, request.theory)?;
+    if request.theory.turns() && !bat.fixtures().tapes.is_empty() {
+        // The fastest bat is drawn as thick as the thickest: tape on it would turn more than its own.
+        let found = format!("tape, and sections that turn ({})", request.theory.name());
+        let expected =
+            "a bat without tape, or the theory euler-bernoulli, whose tape is a mass alone";
+        return Err(Error::value("within", found, expected));
+    }
     let slow = guarantee(&hybrid(bat, within, false)?, request)?.1;
     let fast = guarantee(&hybrid(bat, within, true)?, request)?.1;
     let of = |found: &Guarantee, end: usize| -> Vec<f64> {
