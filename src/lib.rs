@@ -158,11 +158,11 @@
 //!
 //! # What is left out
 //!
-//! Sections stay round and plane: hoop modes of hollow barrels, and wood that differs across the
-//! grain, are no beam's. What a theory leaves out on a bat is estimated and reported with every
-//! solution ([`study::ignored`]), and [`study::advise`] measures what each part of a model does. A barrel's wall
-//! under the ball is one spring-mass of the caller's own figures, and a hit counts dashpots mode by
-//! mode ([`collision`]). The ball meets the bat head on, without spin and friction.
+//! Sections of the beam stay round and plane: hoop modes of hollow barrels are counted in hits
+//! ([`collision::hoop_wall`]) and no beam's, and wood that differs across the grain is not modelled. What a
+//! theory leaves out on a bat is estimated and reported with every solution ([`study::ignored`]), and
+//! [`study::advise`] measures what each part of a model does. A hit counts dashpots mode by mode
+//! ([`collision`]). The ball meets the bat head on, without spin and friction.
 //!
 //! # Features
 //!

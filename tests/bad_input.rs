@@ -1474,6 +1474,11 @@ fn a_wrong_command_line_is_refused() {
         (&["hit", "bat.json", "--hands", "-1 in"], &["--hands: found -0.0254 m", "0 to 0.8 m"]),
         (&["hit", "bat.json", "--wall-stiffness", "0"], &["--wall-stiffness", "1 to 1e15 N/m"]),
         (&["hit", "bat.json", "--wall-mass", "50 g"], &["--wall-stiffness <N/m>"]),
+        (&["hit", "bat.json", "--wall", "soft"], &["--wall <WHEN>", "auto, on, off"]),
+        (
+            &["hit", "bat.json", "--wall", "on", "--model", "rigid"],
+            &["--wall: found on with --model rigid", "--model contact"],
+        ),
         (
             &["hit", "bat.json", "--wall-stiffness", "4e6", "--model", "rigid"],
             &["--wall-stiffness: found it with --model rigid", "--model contact"],

@@ -177,7 +177,7 @@ const TUBE: &str = r#"{ "format": "sweetspot-bat/1", "name": "tube", "material":
     "profile": { "x": [0, 0.3, 0.55, 0.84], "diameter": [0.024, 0.024, 0.066, 0.066],
                  "wall_thickness": [0.004, 0.004, 0.003, 0.003] } }"#;
 
-/// Every result of a hollow barrel without figures for its wall says that it has none.
+/// Every result of a hollow barrel whose wall is taken as rigid says so, and no other.
 #[test]
 fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
     let folder = Folder::new("hollow");
@@ -192,9 +192,11 @@ fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
         &["ring", "tube.json", "--hit", "0.7"],
     ];
     for command in commands {
-        let text = flat(folder.text(command));
+        assert!(!flat(folder.text(command)).contains(told), "{command:?}");
+        let rigid = [command, &["--wall", "off"]].concat();
+        let text = flat(folder.text(&rigid));
         assert!(text.contains(told), "{command:?}: {text}");
-        let json = folder.text(&[command, &["--json", "-"]].concat());
+        let json = folder.text(&[&rigid[..], &["--json", "-"]].concat());
         assert!(json.contains(told), "{command:?}: no member says it");
     }
     let modes = folder.text(&["modes", "tube.json", "--json", "-"]);

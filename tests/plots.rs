@@ -9,6 +9,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::roxmltree::Document;
 use resvg::usvg::{Options, Tree};
 use sweetspot::base::xml::escaped;
+use sweetspot::collision::Ball;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
@@ -28,18 +29,22 @@ use sweetspot::show::plot::sheet::{Paper, Sheet};
 use sweetspot::show::plot::svg::Shape;
 use sweetspot::show::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use sweetspot::show::plot::{
-    exit_speed, front, lathe, ledger, matrix, profile, response, ringing, shapes,
+    exit_speed, front, hoop, lathe, ledger, matrix, profile, response, ringing, shapes,
+    wall_sweep as thickness,
 };
 use sweetspot::show::report::aftermath::AfterHit;
 use sweetspot::study::lathe::map::{LatheMap, LatheTerms, bands};
 use sweetspot::study::lathe::workpiece::HitTerms;
 use sweetspot::study::many::answers::Answer;
 use sweetspot::study::trade::measure::measure;
+use sweetspot::study::trampoline::barrel::{Barrel, BarrelTest};
+use sweetspot::study::trampoline::thickness::wall_sweep;
 use sweetspot::{Bat, Request, Solution, solve};
 
 const SHEET: Sheet = Sheet::file(false);
 
-const BATS: [&str; 10] = [
+const BATS: [&str; 12] = [
+    "bbcor_made_up",
     "cone",
     "corked",
     "dowel",
@@ -47,6 +52,7 @@ const BATS: [&str; 10] = [
     "northwestern_aluminium",
     "northwestern_wood",
     "r161",
+    "softball_made_up_open",
     "tanh",
     "torpedo",
     "two_piece",
@@ -144,6 +150,30 @@ fn a_lathe_map_is_whole_in_every_form() {
             let picture = lathe::picture(sheet, &map).unwrap();
             check(&picture, name);
             assert_eq!(picture.drawing.width, sheet.width());
+        }
+    }
+}
+
+/// The modes of a barrel, and BBCOR against its wall, in every form.
+#[test]
+fn hoop_modes_and_walls_are_whole_in_every_form() {
+    for name in ["bbcor_made_up", "softball_made_up_open", "northwestern_aluminium"] {
+        let bat = bat(name);
+        let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::default());
+        let barrel = Barrel::of(&bat, test).unwrap();
+        let tried = wall_sweep(&bat, &barrel, &|_| {});
+        assert!(tried.len() > 3, "{name}");
+        for (us, paper) in
+            [(false, Paper::File), (true, Paper::File), (true, Paper::Page), (false, Paper::Narrow)]
+        {
+            let sheet = Sheet { us, paper };
+            for picture in [
+                hoop::picture(sheet, &bat, &barrel, hoop::MODES).unwrap(),
+                thickness::picture(sheet, name, &tried).unwrap(),
+            ] {
+                check(&picture, name);
+                assert_eq!(picture.drawing.width, sheet.width());
+            }
         }
     }
 }

@@ -147,7 +147,7 @@ impl Bat {
             let setup = scene_file::from_text(scene, ball(ball_name, None)?)?;
             let model = setup.model()?;
             let (bat, request) = asked.prepared(&self.0)?;
-            let (scene, law) = setup.scene(&bat)?;
+            let (scene, law) = setup.scene(&bat, Some(tol))?;
             let length = bat.length();
             let places = places.unwrap_or_else(|| {
                 (0..=100).map(|k| (0.5 + 0.005 * f64::from(k)).min(1.0) * length).collect()

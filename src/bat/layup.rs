@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bat::material::Material;
+use crate::bat::material::{Material, ShearModuli};
 use crate::bat::profile::Section;
 
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
@@ -226,7 +226,15 @@ impl Layup {
         for material in self.materials_mut() {
             material.density *= density;
             material.youngs_modulus *= modulus;
-            material.shear_modulus.iter_mut().for_each(|shear| *shear *= modulus);
+            let Material { shear_modulus, hoop_modulus, radial_modulus, shear_moduli, .. } =
+                material;
+            let single = [shear_modulus, hoop_modulus, radial_modulus];
+            single.into_iter().flatten().for_each(|own| *own *= modulus);
+            if let Some(ShearModuli { along_around, along_across, around_across }) = shear_moduli {
+                for own in [along_around, along_across, around_across] {
+                    *own *= modulus;
+                }
+            }
         }
     }
 }

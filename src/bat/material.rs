@@ -36,6 +36,43 @@ pub struct Material {
     /// Strain at which it breaks, if known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain_to_failure: Option<f64>,
+    /// Young's modulus around the bat (Pa), of a composite that differs with the direction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hoop_modulus: Option<f64>,
+    /// Young's modulus across the wall (Pa), of such a composite.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radial_modulus: Option<f64>,
+    /// Shear moduli in the planes of such a composite.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_moduli: Option<ShearModuli>,
+    /// Poisson's ratios in the planes of such a composite.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson_ratios: Option<PoissonRatios>,
+}
+
+/// Shear moduli of a composite in the planes of the bat's directions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct ShearModuli {
+    /// Shear modulus between the directions along and around the bat (Pa).
+    pub along_around: f64,
+    /// Shear modulus between the directions along the bat and across the wall (Pa).
+    pub along_across: f64,
+    /// Shear modulus between the directions around the bat and across the wall (Pa).
+    pub around_across: f64,
+}
+
+/// Poisson's ratios of a composite: how far it contracts in the second direction when it is pulled in the
+/// first, against its stretch in the first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct PoissonRatios {
+    /// Contraction around the bat when pulled along it.
+    pub along_around: f64,
+    /// Contraction across the wall when pulled along the bat.
+    pub along_across: f64,
+    /// Contraction across the wall when pulled around the bat.
+    pub around_across: f64,
 }
 
 impl Material {
@@ -55,6 +92,10 @@ impl Material {
             loss_factor: 0.0,
             strength: None,
             strain_to_failure: None,
+            hoop_modulus: None,
+            radial_modulus: None,
+            shear_moduli: None,
+            poisson_ratios: None,
         };
         material.check()?;
         Ok(material)
@@ -119,6 +160,10 @@ impl Material {
             loss_factor: 0.0,
             strength: m.strength,
             strain_to_failure: m.strain_to_failure,
+            hoop_modulus: None,
+            radial_modulus: None,
+            shear_moduli: None,
+            poisson_ratios: None,
         })
     }
 }

@@ -9,7 +9,7 @@ use crate::base::error::Result;
 use crate::base::units::Quantity;
 use crate::bat::edit::{Bore, Cork, Cup, Cut, ScaleDiameter, Shorten, Sleeve};
 use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
-use crate::bat::material::Material;
+use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::part::Slot::{self, Number, Unknown};
 use crate::bat::part::{Bound, Field, Instead, Kind, PLACE, Part, Range};
 use crate::bat::weighed::Weighed;
@@ -51,8 +51,59 @@ impl Part for Material {
         .like("103 MPa"),
         Field::<Self>::ratio("strain_to_failure", STRAIN, |m| Unknown(&mut m.strain_to_failure))
             .like("0.02"),
+        Field::<Self>::new("hoop_modulus", Quantity::Pressure, Range::Positive, |m| {
+            Unknown(&mut m.hoop_modulus)
+        })
+        .with("radial_modulus", "the \"radial_modulus\" of the composite, across the wall"),
+        Field::<Self>::new("radial_modulus", Quantity::Pressure, Range::Positive, |m| {
+            Unknown(&mut m.radial_modulus)
+        })
+        .with("shear_moduli", "the \"shear_moduli\" of the composite"),
+        Field::<Self>::of_kind("shear_moduli", Kind::ShearModuli, |m| {
+            Slot::ShearModuli(&mut m.shear_moduli)
+        })
+        .with("poisson_ratios", "the \"poisson_ratios\" of the composite"),
+        Field::<Self>::of_kind("poisson_ratios", Kind::PoissonRatios, |m| {
+            Slot::PoissonRatios(&mut m.poisson_ratios)
+        })
+        .with("hoop_modulus", "the \"hoop_modulus\" of the composite, around the bat"),
     ];
 }
+
+impl Part for ShearModuli {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("along_around", Quantity::Pressure, Range::Positive, |m| {
+            Number(&mut m.along_around)
+        })
+        .needed("\"along_around\": the modulus in the surface of the wall"),
+        Field::<Self>::new("along_across", Quantity::Pressure, Range::Positive, |m| {
+            Number(&mut m.along_across)
+        })
+        .needed("\"along_across\": the modulus along the bat and across the wall"),
+        Field::<Self>::new("around_across", Quantity::Pressure, Range::Positive, |m| {
+            Number(&mut m.around_across)
+        })
+        .needed("\"around_across\": the modulus around the bat and across the wall"),
+    ];
+}
+
+impl Part for PoissonRatios {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::ratio("along_around", DIRECTED, |m| Number(&mut m.along_around))
+            .needed("\"along_around\": contraction around when pulled along the bat")
+            .like("0.3"),
+        Field::<Self>::ratio("along_across", DIRECTED, |m| Number(&mut m.along_across))
+            .needed("\"along_across\": contraction across the wall when pulled along the bat")
+            .like("0.3"),
+        Field::<Self>::ratio("around_across", DIRECTED, |m| Number(&mut m.around_across))
+            .needed("\"around_across\": contraction across the wall when pulled around")
+            .like("0.3"),
+    ];
+}
+
+/// Poisson's ratios of a composite, which all together make a positive stiffness.
+const DIRECTED: Range =
+    Range::Between(Bound::Beyond(-10.0), Bound::Beyond(10.0), "a number between -10 and 10");
 
 /// Poisson's ratio: a positive bulk and shear modulus.
 const POISSON: Range =

@@ -5,7 +5,7 @@ use crate::base::mistakes::Mistakes;
 use crate::base::number::significant;
 use crate::base::units::{Quantity, shown_length};
 use crate::bat::fixtures::Held;
-use crate::bat::material::Material;
+use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::profile::SAME_PLACE;
 
 /// Products of larger values are beyond the range of numbers.
@@ -38,6 +38,10 @@ pub(crate) enum Kind {
     Held,
     /// A material by its name or its numbers.
     Material,
+    /// Shear moduli of a composite.
+    ShearModuli,
+    /// Poisson's ratios of a composite.
+    PoissonRatios,
 }
 
 /// Where the value of a member is kept.
@@ -52,6 +56,10 @@ pub(crate) enum Slot<'a> {
     Material(&'a mut Material),
     /// A material that may be missing.
     Core(&'a mut Option<Material>),
+    /// Shear moduli that may be missing.
+    ShearModuli(&'a mut Option<ShearModuli>),
+    /// Poisson's ratios that may be missing.
+    PoissonRatios(&'a mut Option<PoissonRatios>),
 }
 
 /// How large a number may be.
@@ -142,6 +150,8 @@ impl<P> Field<P> {
             (_, Slot::Material(material) | Slot::Core(Some(material))) => {
                 Part::check(material, &field, length)
             }
+            (_, Slot::ShearModuli(Some(moduli))) => Part::check(moduli, &field, length),
+            (_, Slot::PoissonRatios(Some(ratios))) => Part::check(ratios, &field, length),
             _ => Ok(()),
         }
     }

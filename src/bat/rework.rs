@@ -72,6 +72,20 @@ impl Profile {
         Ok(())
     }
 
+    /// Moves the surface of the bore out by `by` (m), in Bernstein form over each piece; None leaves a piece as
+    /// it is, and where there is no bore nothing is moved.
+    pub(crate) fn bore_moved(&mut self, by: impl Fn(&Piece) -> Option<[f64; 4]>) -> Result<()> {
+        let length = self.length();
+        for piece in &mut self.pieces {
+            if let Some(by) = by(piece) {
+                bored(piece, by)?;
+                check_wall(piece)?;
+            }
+        }
+        self.survey(length);
+        Ok(())
+    }
+
     /// Multiplies the outer radius of a stretch by a factor, which comes in and goes out as the depth of
     /// [`Self::turned_down`] does.
     pub(crate) fn scaled_outside(&mut self, on: Blended, by: f64) -> Result<()> {
@@ -247,6 +261,24 @@ fn grown(piece: &mut Piece, by: [f64; 4]) -> Result<()> {
         Radii::Formula(curves) => {
             let by = polynomial(&by, curves);
             curves.outer = formula(format!("({})+{by}", curves.outer.text()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Moves the surface of the bore of a piece out by so much (m), in Bernstein form, if it has a bore.
+fn bored(piece: &mut Piece, by: [f64; 4]) -> Result<()> {
+    match &mut piece.radii {
+        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => {}
+        Radii::Cubic(cubics) => {
+            cubics.inner.iter_mut().zip(by).for_each(|(r, by)| *r += by);
+            cubics.degree = if flat(&by) { cubics.degree } else { 3 };
+        }
+        Radii::Formula(curves) => {
+            let by = polynomial(&by, curves);
+            if let Some(inner) = &curves.inner {
+                curves.inner = Some(formula(format!("({})+{by}", inner.text()))?);
+            }
         }
     }
     Ok(())

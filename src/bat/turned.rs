@@ -1,6 +1,7 @@
-//! How does a bat look whose diameter is changed by a curve along it?
+//! How does a bat look whose diameter, or that of its bore, is changed by a curve along it?
 //!
-//! A [`DiameterChange`] is a cubic between places; [`Bat::turned`] adds it to the bat's diameter. The pieces
+//! A [`DiameterChange`] is a cubic between places; [`Bat::turned`] adds it to the bat's diameter, [`Bat::bored`]
+//! to that of its bore. The pieces
 //! of the profile are cut where the change has its ends and moved one by one, so that what was a cubic stays
 //! one and the curve elsewhere stays what it is.
 
@@ -177,6 +178,19 @@ impl Bat {
         self.with(|parts| parts.profile = profile)
     }
 
+    /// The bat with the diameter of its bore changed so, where it has one: its wall becomes thinner where the
+    /// change is positive. What was weighed stays as it led to densities.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where no wall would be left.
+    pub fn bored(&self, change: &DiameterChange) -> Result<Self> {
+        let mut profile = self.profile().clone();
+        profile.cut(change.knots());
+        profile.bore_moved(|piece| change.radius_over(piece))?;
+        self.with(|parts| parts.profile = profile)
+    }
+
     /// The bat with borders between pieces of its profile at these places (m), and else the same.
     ///
     /// # Errors
@@ -233,5 +247,32 @@ mod tests {
         let all = bat.turned(&DiameterChange::band([0.1, 0.2], -0.03));
         assert!(all.unwrap_err().to_string().contains("no wood left"));
         assert!(bat.turned(&DiameterChange::band([0.8, 0.9], -1e-4)).is_err());
+    }
+
+    #[test]
+    fn the_bore_has_the_changed_diameter_and_the_surface_its_own() {
+        let columns = r#""x": [0, 0.2, 0.2, 0.84], "radius": [0.012, 0.014, 0.014, 0.03],
+            "inner_radius": [0, 0, 0.011, 0.027]"#;
+        let pieces = r#""pieces": [ { "from": 0, "to": 0.2, "formula": "0.012" },
+            { "from": 0.2, "to": 0.84, "formula": "0.014 + 0.025*(x - 0.2)",
+              "inner_formula": "0.011 + 0.025*(x - 0.2)" } ]"#;
+        let change = DiameterChange::through(&[0.1, 0.5, 0.84], |x| -0.002 * (x - 0.1));
+        for profile in [columns, pieces] {
+            let text = format!(
+                r#"{{ "format": "sweetspot-bat/1", "material": "aluminium-7075",
+                    "profile": {{ {profile} }} }}"#
+            );
+            let bat = Bat::from_text("bat.json", &text, "".as_ref()).unwrap();
+            let bored = bat.bored(&change).unwrap();
+            for k in 1..84 {
+                let x = 0.01 * f64::from(k) + 1e-5;
+                let [was, is] = [&bat, &bored].map(|bat| bat.profile().at(x));
+                assert!((is.outer - was.outer).abs() < 1e-16, "{x}");
+                let by = if was.inner > 0.0 { 0.5 * change.at(x) } else { 0.0 };
+                assert!((is.inner - was.inner - by).abs() < 1e-15, "{x}");
+            }
+            let through = bat.bored(&DiameterChange::band([0.3, 0.5], 0.01));
+            assert!(through.unwrap_err().to_string().contains("no wood left"));
+        }
     }
 }

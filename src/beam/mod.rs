@@ -13,6 +13,7 @@
 //! | [`statics`], [`start`], [`view`] | what a load does to the whole bat; where an iteration starts |
 //! | [`count`] | how many motions are slower than one |
 //! | [`motion`], [`defect`], [`changes`] | shape and energies of a motion; how far it and its shape are from a mode's |
+//! | [`wall`] | what does the wall of a hollow bat store when its sections do not stay round |
 //! | [`assembly`], [`dowel`] | sparse matrices; a uniform beam in closed form |
 
 pub mod mesh;
@@ -36,6 +37,7 @@ pub mod count;
 pub mod motion;
 pub mod defect;
 pub mod changes;
+pub mod wall;
 
 pub mod assembly;
 pub mod dowel;

@@ -160,7 +160,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let bat = read(&args.bat, &args.edits, args.output.quiet)?;
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
     let model = args.scene.model()?;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let (scene, law) = args.scene.scene(&bat, Some(request.tolerance))?;
     args.scene.warn(&args.output);
     let hit = HitTerms { scene: scene.clone(), model, exactly: false };
     let terms = Terms { request, hit, law };
@@ -176,7 +176,7 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.plots {
         let law = terms.law;
         draw(args, &outcome, &terms, |bat| {
-            let (scene, _) = args.scene.scene(bat)?;
+            let (scene, _) = args.scene.scene(bat, Some(request.tolerance))?;
             Ok((scene, law))
         })
         .and_then(|drawn| pictures::write(folder, &drawn, args.output.quiet))?;

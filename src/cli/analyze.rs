@@ -9,6 +9,7 @@ use crate::files::schema;
 use crate::files::schema::analysis::AnalysisFile;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit::HitFile;
+use crate::files::schema::hoop::HoopFile;
 use crate::files::schema::modes::ModesFile;
 use crate::modes::solve::Request;
 use crate::show::analysis::{Analysis, Proof, Task};
@@ -20,7 +21,8 @@ use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
 use crate::show::report::sketch::{self, SketchRow};
 use crate::show::report::text;
-use crate::show::report::{self, advice, aftermath, hit_json, hit_text, trust};
+use crate::show::report::units::Units;
+use crate::show::report::{self, advice, aftermath, hit_json, hit_text, hoop_json, trust};
 use crate::study::lathe::map::LatheMap;
 use crate::study::lathe::workpiece::HitTerms;
 use crate::study::spread::Readings;
@@ -76,7 +78,7 @@ pub struct Args {
     #[arg(long, help_heading = "Output")]
     full: bool,
 
-    /// Write modes.json, hit.json and curve.csv into this folder
+    /// Write modes.json, hit.json and curve.csv into this folder, of a hollow bat also hoop.json
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     out: Option<PathBuf>,
 
@@ -123,7 +125,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
     let Solved { bat, solution, warning } = args.bat.solve_for(bat, &args.solve, &args.output)?;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let modes = args.solve.modes_within(10, bat.profile().pieces.len());
@@ -164,6 +166,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit: hit_file(&analysis),
         strength: aftermath::strengths_file(&analysis.strength),
         open: trust::open(&analysis.spread),
+        hoop: hoop_file(&analysis),
     };
     let code = args.solve.verdict(&analysis.solution, &args.output);
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
@@ -173,11 +176,20 @@ pub fn run(args: &Args) -> Result<Done> {
             let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
             table(&analysis, &args.output) + &cuts.unwrap_or_default()
         }
-        false => trust::screen(&analysis, args.output.units) + MORE,
+        false => {
+            let barrel = analysis.barrel.as_ref().map(report::hoop::in_a_line);
+            trust::screen(&analysis, args.output.units) + &barrel.unwrap_or_default() + MORE
+        }
     };
     let table = table + &written(args);
     let text = args.output.deliver(table, all)?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// The barrel of a hollow bat, in short.
+fn barrel(analysis: &Analysis, units: Units) -> String {
+    let told = |barrel| format!("\n{}", report::hoop::in_short(&analysis.bat, barrel, units));
+    analysis.barrel.as_ref().map_or(String::new(), told)
 }
 
 /// What a short answer ends with.
@@ -246,7 +258,7 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::beyond(hits, &task.scene, units),
         hit_text::figures(figures, units),
         aftermath::strengths(&analysis.strength, units)
-    )
+    ) + &barrel(analysis, units)
 }
 
 fn modes_file(args: &Args, analysis: &Analysis) -> ModesFile {
@@ -262,12 +274,21 @@ fn hit_file(analysis: &Analysis) -> HitFile {
     }
 }
 
+fn hoop_file(analysis: &Analysis) -> Option<HoopFile> {
+    const SAMPLES: usize = 41;
+    let barrel = analysis.barrel.as_ref()?;
+    Some(hoop_json::document(&analysis.bat, barrel, &[], SAMPLES))
+}
+
 fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
     let failed = |source| Error::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
     let modes = schema::text(&modes_file(args, analysis));
     file::write(&folder.join("modes.json"), modes.as_bytes())?;
     file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
+    if let Some(hoop) = hoop_file(analysis) {
+        file::write(&folder.join("hoop.json"), schema::text(&hoop).as_bytes())?;
+    }
     file::write(
         &folder.join("curve.csv"),
         csv::impacts(&columns::CURVE, &analysis.hits.impacts).as_bytes(),

@@ -2,22 +2,24 @@
 
 use std::path::PathBuf;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::mistakes::Mistakes;
 use crate::bat::body::Bat;
-use crate::collision::bbcor::{Protocol, TEST_SPEED};
+use crate::collision::bbcor::Protocol;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::sweep::Trial;
+use crate::collision::wall_choice::WallChoice;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
+use crate::cli::cannon::CannonArgs;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
 use crate::cli::ring_args::on_the_bat;
-use crate::cli::value::{CANNON_SPEED, PLACE, STIFFNESS, cor};
-use crate::files::balls::ball;
+use crate::cli::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed
 ///
@@ -32,24 +34,8 @@ pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
-    /// Ball: baseball, humid-baseball, softball or a ball file
-    #[arg(long, value_name = "BALL", default_value = "baseball", help_heading = "The test")]
-    ball: String,
-
-    /// The ball is a linear spring of this stiffness, in place of its own force law
-    #[arg(long, value_name = "N/m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| STIFFNESS.read(s))]
-    ball_stiffness: Option<f64>,
-
-    /// The ball's coefficient of restitution at the test speed, in place of its own
-    #[arg(long, value_name = "E", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = cor)]
-    cor: Option<f64>,
-
-    /// Speed of the ball [default: 136 mph]
-    #[arg(long, value_name = "m/s", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| CANNON_SPEED.read(s))]
-    speed: Option<f64>,
+    #[command(flatten)]
+    cannon: CannonArgs,
 
     /// Where the scan begins, from the knob end [default: 12 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
@@ -60,6 +46,14 @@ pub struct Args {
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
           value_parser = |s: &str| PLACE.read(s))]
     to: Option<f64>,
+
+    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    ///
+    /// auto: where that changes BBCOR by more than --tol, by estimate, and not with a number of modes of
+    /// your own.
+    #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
+          value_parser = ["auto", "on", "off"], hide_possible_values = true)]
+    wall: String,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -102,7 +96,7 @@ pub fn run(args: &Args) -> Result<Done> {
             plot::picture(args.output.sheet(&tested.bat), &tested).into_iter().collect();
         pictures::write(folder, &picture, args.output.quiet)?;
     }
-    let source = report::cor_source(&tested, args.cor.is_some());
+    let source = report::cor_source(&tested, args.cannon.cor().is_some());
     let code = verdict(&args.solve, &tested.sweep, &args.output);
     let table = report::text(&tested, &source, args.output.units);
     let out = args.output.deliver(table, || report::document(&tested, &source))?;
@@ -112,31 +106,13 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// What is asked of that bat, all that is wrong with it at once.
 fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
-    let mut wrong: Vec<Error> = vec![];
-    let ball = ball(&args.ball, args.ball_stiffness).map_err(|error| wrong.push(error)).ok();
-    let speed = args.speed.unwrap_or(TEST_SPEED);
-    if !(speed > 0.0 && speed < 1e6) {
-        wrong.push(Error::value("--speed", format!("{speed:?} m/s"), "above 0 and below 1e6 m/s"));
-    }
-    let mut ends = [None; 2];
-    for ((end, name), x) in ends.iter_mut().zip(["--from", "--to"]).zip([args.from, args.to]) {
-        let place = x.map(|x| on_the_bat(bat, name, x)).transpose();
-        *end = place.unwrap_or_else(|error| {
-            wrong.push(error);
-            None
-        });
-    }
-    match (ball, wrong.len()) {
-        (Some(mut ball), 0) => {
-            if args.cor.is_some() {
-                ball.cor_by_speed.clear();
-            }
-            let usual = Protocol::of(bat, ball);
-            let scan = [ends[0].unwrap_or(usual.scan[0]), ends[1].unwrap_or(usual.scan[1])];
-            Protocol { ball_speed: speed, cor: args.cor.unwrap_or(usual.cor), scan, ..usual }
-                .checked()
-        }
-        (_, 1) => Err(wrong.remove(0)),
-        _ => Err(Error::Several { shown: wrong, more: 0 }),
-    }
+    let mut mistakes = Mistakes::default();
+    let mut end =
+        |name: &str, x: Option<f64>| mistakes.note(x.map(|x| on_the_bat(bat, name, x)).transpose());
+    let [from, to] = [end("--from", args.from), end("--to", args.to)];
+    let shot = mistakes.and(args.cannon.shot())?;
+    let usual = Protocol::of(bat, shot.ball);
+    let scan = [from.unwrap_or(usual.scan[0]), to.unwrap_or(usual.scan[1])];
+    let (cor, wall) = (shot.cor.unwrap_or(usual.cor), WallChoice::named(&args.wall));
+    Protocol { ball_speed: shot.speed, cor, scan, wall, ..usual }.checked()
 }

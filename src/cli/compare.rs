@@ -220,7 +220,8 @@ fn bats_beside(args: &Args) -> Result<Done> {
     for (path, bat) in bats {
         let modes = args.count.map_or(10, usize::from);
         let prepared = args.solve.prepare(bat, modes, &args.output)?;
-        let (scene, law) = args.scene.scene(&prepared.bat)?;
+        let tolerance = args.count.is_none().then_some(prepared.request.tolerance);
+        let (scene, law) = args.scene.scene(&prepared.bat, tolerance)?;
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }

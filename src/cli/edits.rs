@@ -361,7 +361,11 @@ fn set<P>(field: &Field<P>, value: f64, part: &mut P) {
     match (field.of)(part) {
         Slot::Number(number) => *number = value,
         Slot::Unknown(number) => *number = Some(value),
-        Slot::Held(_) | Slot::Material(_) | Slot::Core(_) => {}
+        Slot::Held(_)
+        | Slot::Material(_)
+        | Slot::Core(_)
+        | Slot::ShearModuli(_)
+        | Slot::PoissonRatios(_) => {}
     }
 }
 

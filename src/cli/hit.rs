@@ -130,7 +130,8 @@ pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, law) = args.scene.scene(&bat, tolerance)?;
     args.scene.warn(&args.output);
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");

@@ -128,7 +128,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
-    let (scene, law) = args.scene.scene(&bat)?;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, law) = args.scene.scene(&bat, tolerance)?;
     args.scene.warn(&args.output);
     let (bands, cut) = stretches(args, &bat)?;
     let at = args.at.map(|x| on_the_bat(&bat, "--at", x)).transpose()?;

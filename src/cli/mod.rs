@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit |
+//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit, the ball of a test |
 //! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
 //! | `asking`, `tables` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
@@ -24,6 +24,7 @@ mod csv_option;
 mod bat_text;
 mod pictures;
 mod scene;
+mod cannon;
 mod asking;
 mod tables;
 mod modes;
@@ -33,6 +34,7 @@ mod ring_hit;
 mod ring_motion;
 mod ring;
 mod bbcor;
+mod hoop;
 mod analyze;
 mod compare;
 mod calibrate;

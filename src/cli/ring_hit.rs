@@ -38,7 +38,8 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
-    let (scene, _) = args.scene.scene(&bat)?;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, _) = args.scene.scene(&bat, tolerance)?;
     args.scene.warn(&args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
@@ -88,7 +89,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let code = args.solve.verdict(&solution, &args.output);
     let document = || {
-        let ignored = ignored::in_hit(&bat, scene.wall.is_some());
+        let ignored = ignored::in_hit(&bat, &scene);
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
     let text = args.output.deliver(text, document)?;

@@ -9,6 +9,7 @@ use crate::collision::ball::Ball;
 use crate::collision::figures::{BarrelSpeed, SwingLaw};
 use crate::collision::hit::{Model, Scene};
 use crate::collision::setup::Setup;
+use crate::collision::wall_choice::WallChoice;
 use crate::files::balls::{ball, is_built_in};
 
 use crate::cli::common::{OutputArgs, as_options};
@@ -83,9 +84,17 @@ pub struct SceneArgs {
           value_parser = |s: &str| PLACE.read(s))]
     hands: f64,
 
+    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    ///
+    /// For the contact model. auto: where that changes BBCOR by more than --tol, by estimate, and not
+    /// with a number of modes of your own.
+    #[arg(long, value_name = "WHEN", default_value = "auto",
+          value_parser = ["auto", "on", "off"], hide_possible_values = true)]
+    wall: String,
+
     /// Stiffness of a hollow barrel's wall under the ball
     ///
-    /// For the contact model; without it the wall does not give way.
+    /// For the contact model; in place of the wall's own hoop modes (--wall).
     #[arg(long, value_name = "N/m", allow_hyphen_values = true,
           value_parser = |s: &str| STIFFNESS.read(s))]
     wall_stiffness: Option<f64>,
@@ -163,6 +172,7 @@ impl SceneArgs {
             ball: self.ball()?,
             cor: self.cor,
             hands: self.hands,
+            wall: WallChoice::named(&self.wall),
             wall_stiffness: self.wall_stiffness,
             wall_mass: self.wall_mass,
             reference_inertia: self.reference_inertia,
@@ -174,9 +184,9 @@ impl SceneArgs {
         })
     }
 
-    /// The scene on that bat, and where its swing is from.
-    pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
-        self.setup()?.scene(bat).map_err(as_options)
+    /// The scene on that bat, and where its swing is from; `tolerance` as [`Setup::scene`] takes it.
+    pub fn scene(&self, bat: &Bat, tolerance: Option<f64>) -> Result<(Scene, Option<SwingLaw>)> {
+        self.setup()?.scene(bat, tolerance).map_err(as_options)
     }
 
     /// The speed of a point of the barrel, where that was given.

@@ -8,6 +8,7 @@ use crate::base::file;
 use crate::base::telling::Tell;
 use crate::proof::bundled::CASES;
 use crate::proof::hit_promise;
+use crate::proof::hoop_promise::{self, CheckedHoop};
 use crate::proof::promise::{self, Summary};
 use crate::proof::proven_promise;
 use crate::proof::published::Answer;
@@ -18,7 +19,9 @@ use crate::show::report::text::wrapped;
 
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;
-use crate::cli::tables::{extremes_table, hit_promise_table, promise_table, proven_promise_table};
+use crate::cli::tables::{
+    extremes_table, hit_promise_table, hoop_promise_table, promise_table, proven_promise_table,
+};
 use crate::show::report::columns::{Columns, first, numbers};
 
 /// Every known answer beside ours
@@ -90,6 +93,9 @@ pub fn run(args: &Args) -> Result<Done> {
         if args.promise {
             out += &promise_table::table(&rows);
             out += &hit_promise_table::table(&hits);
+            let hoops = hoop_promise::rows(&tell, hoop_promise::BARRELS)?;
+            out += &hoop_promise_table::table(&hoops);
+            good &= hoops.iter().all(CheckedHoop::holds);
         }
         out += &promise_table::summary(&rows);
         out.push('\n');

@@ -14,8 +14,8 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::cli::done::{Done, printable};
 use crate::cli::{
     advise, aim, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help,
-    hit, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop, study,
-    style, trade, validate,
+    hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop,
+    study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -49,6 +49,7 @@ enum Verb {
     Modes(modes::Args),
     Hit(hit::Args),
     Bbcor(bbcor::Args),
+    Hoop(hoop::Args),
     Compare(compare::Args),
     Calibrate(calibrate::Args),
     Ring(ring::Args),
@@ -87,6 +88,7 @@ pub fn run() -> Result<Done> {
         Verb::Modes(args) => modes::run(&args),
         Verb::Hit(args) => hit::run(&args),
         Verb::Bbcor(args) => bbcor::run(&args),
+        Verb::Hoop(args) => hoop::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Calibrate(args) => calibrate::run(&args),
         Verb::Ring(args) => ring::run(&args),

@@ -1,6 +1,7 @@
 //! What each model says of a hit: one function a model.
 
 use crate::collision::contact::power_law::LEAST_RESTITUTION;
+use crate::collision::contact::touch::Felt;
 use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
 use crate::collision::hit::{Effort, Model, Separation};
 use crate::collision::hitter::Hitter;
@@ -16,7 +17,8 @@ pub(super) struct Answer {
     pub in_modes: Vec<f64>,
     pub lost_in_ball: f64,
     pub lost_in_bat: f64,
-    pub in_wall: f64,
+    /// Energy (J) of every mode of the wall.
+    pub in_wall: Vec<f64>,
     pub contact_time: Option<f64>,
     pub first_separation: Option<Separation>,
     pub peak_force: Option<f64>,
@@ -25,6 +27,7 @@ pub(super) struct Answer {
     pub error: f64,
     pub truncation: f64,
     pub steps: f64,
+    pub wall: f64,
 }
 
 impl Answer {
@@ -38,7 +41,7 @@ impl Answer {
             in_modes: vec![],
             lost_in_ball,
             lost_in_bat: 0.0,
-            in_wall: 0.0,
+            in_wall: vec![],
             contact_time: None,
             first_separation: None,
             peak_force: None,
@@ -47,13 +50,14 @@ impl Answer {
             error,
             truncation: 0.0,
             steps: 0.0,
+            wall: 0.0,
         }
     }
 }
 
 impl Hitter<'_> {
     /// What the model says of a hit at `x`, if it says anything.
-    pub(super) fn answer(&self, x: f64, known: Option<[f64; 2]>) -> Option<Answer> {
+    pub(super) fn answer(&self, x: f64, known: Option<[f64; 3]>) -> Option<Answer> {
         let closing = self.closing(x).filter(|_| self.has_section(x))?;
         let [mass, cor] = self.blow(x, closing);
         let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
@@ -110,38 +114,50 @@ impl Hitter<'_> {
         Some(answer)
     }
 
-    fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 2]>) -> Option<Answer> {
+    fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 3]>) -> Option<Answer> {
         let (ball, count) = (self.scene.ball.mass, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
         let felt = self.felt_with(x, count, beyond);
         let (met, accuracy) = self.meet(x, &felt, closing, accuracy)?;
-        let apart = |count: usize, accuracy: f64, faster: f64| {
-            let felt = self.felt_with(x, count, beyond);
-            let other = self.meet(x, &felt, faster * closing, accuracy);
+        let from_other = |felt: &Felt, accuracy: f64, faster: f64| {
+            let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
             other.map_or(1.0, |(other, _)| {
                 (other.impulse / faster - met.impulse).abs() / (ball * closing)
             })
+        };
+        let apart = |count: usize, accuracy: f64, faster: f64| {
+            from_other(&self.felt_with(x, count, beyond), accuracy, faster)
         };
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
         let answered = Answered { met: &met, count, accuracy, rebound, of_ball: mass / ball };
         let shears = self.solution.theory.shears();
         let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
-        [answer.truncation, answer.steps] =
+        [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
-                answered.errors(shears, |few, accuracy| match completed || few == count {
-                    true => apart(few, accuracy, 1.0),
-                    false => 0.0,
-                })
+                let [left_out, steps] =
+                    answered.errors(shears, |few, accuracy| match completed || few == count {
+                        true => apart(few, accuracy, 1.0),
+                        false => 0.0,
+                    });
+                /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
+                const FEWER: f64 = 0.5;
+                // A wall of fewer modes, and one softer by all that may be missing.
+                let wall = self.under(x).map_or(0.0, |under| {
+                    let fewer = under.fewer.before(self.bent(x, count, beyond));
+                    let softer = Felt { rest: felt.rest + under.unsure, ..felt.clone() };
+                    FEWER * from_other(&fewer, accuracy, 1.0) + from_other(&softer, accuracy, 1.0)
+                });
+                [left_out, steps, wall]
             });
         let [magnified, round_off] = answered.magnified(|by| apart(count, accuracy, 1.0 + by));
         answer.steps += round_off;
         // What touches beyond those that were followed could give, and a ball deader than any law.
         answer.error +=
             met.open / (ball * closing) + (LEAST_RESTITUTION - cor).max(0.0) * mass / ball;
-        answer.error += self.wall_error + answer.truncation + answer.steps;
+        answer.error += self.wall_error + answer.truncation + answer.steps + answer.wall;
         // How long one push of the force lasts (s): a half sine's time on a stiff bat at most.
         let push = met.time / (met.touches + met.reloads) as f64;
         let push = push.min(std::f64::consts::PI * self.pressed);
@@ -163,7 +179,7 @@ impl Hitter<'_> {
         answer.peak_force = Some(met.peak_force);
         answer.peak_compression = Some(met.compression);
         let walls = met.in_modes.len() - count;
-        answer.in_wall = met.in_modes[..walls].iter().sum();
+        answer.in_wall = met.in_modes[..walls].to_vec();
         answer.in_modes = met.in_modes[walls..].to_vec();
         answer.lost_in_bat = met.lost_in_bat;
         Some(answer)

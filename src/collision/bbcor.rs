@@ -18,7 +18,10 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::fixtures::{Fixtures, Held, Support};
 use crate::collision::ball::Ball;
 use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Accuracy, Sweep, Trial, sweep_telling};
+use crate::collision::wall_choice::WallChoice;
+use crate::collision::wall_figures::WallFigures;
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
@@ -51,6 +54,8 @@ pub struct Protocol {
     pub cor: f64,
     /// First and last place of the scan (m from the knob end).
     pub scan: [f64; 2],
+    /// Whether a hollow barrel's wall gives way.
+    pub wall: WallChoice,
 }
 
 /// One place of the scan.
@@ -75,10 +80,16 @@ pub struct Tested {
     /// What was done.
     #[serde(skip)]
     pub protocol: Protocol,
+    /// The scene of every hit.
+    #[serde(skip)]
+    pub scene: Scene,
     /// Every place, from the first to the last.
     pub places: Vec<Place>,
     /// The place with the largest BBCOR, among [`Self::places`].
     pub largest: Option<usize>,
+    /// What a hollow barrel's wall does at that place; None where it does not give way by its hoop modes.
+    #[serde(skip)]
+    pub wall: Option<WallFigures>,
     /// The hits as they were computed.
     pub sweep: Sweep,
 }
@@ -89,7 +100,8 @@ impl Protocol {
     pub fn of(bat: &Bat, ball: Ball) -> Self {
         let [from, to] = SCAN.map(|from_tip| bat.length() - from_tip);
         let scan = [from.max(0.5 * bat.length()), to.max(0.5 * bat.length())];
-        Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan }
+        let wall = WallChoice::Auto;
+        Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan, wall }
     }
 
     /// This protocol with its force law and its places checked, before anything is computed.
@@ -139,7 +151,9 @@ impl Protocol {
             let [from, to] = self.scan;
             return Err(Error::value("scan", format!("{from:.4} to {to:.4} m"), expected));
         }
-        let (bat, scene) = (pivoted(bat)?, self.scene());
+        let (bat, tolerance) =
+            (pivoted(bat)?, accuracy.modes.is_none().then_some(accuracy.exit_speed));
+        let scene = self.scene().with_wall(self.wall, &bat, Model::Contact, tolerance)?;
         let trial = Trial { model: Model::Contact, scene: &scene };
         let sweep = sweep_telling(&bat, trial, accuracy, &places, tell)?;
         let inertia = bat.inertia().about(STANDARD_PIVOT);
@@ -153,7 +167,10 @@ impl Protocol {
         let places: Vec<Place> = sweep.impacts.iter().map(place).collect();
         let known = places.iter().enumerate().filter_map(|(k, place)| Some((k, place.bbcor?)));
         let largest = known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
-        Ok(Tested { bat, protocol: self, places, largest, sweep })
+        let hitter = Hitter::new(Model::Contact, &scene, &bat, &sweep.solution, sweep.effort)?;
+        let wall = largest.and_then(|k| hitter.wall_figures(places[k].impact.x));
+        drop(hitter);
+        Ok(Tested { bat, protocol: self, scene, places, largest, wall, sweep })
     }
 }
 
@@ -172,10 +189,16 @@ impl Tested {
         self.places.get(self.largest?)
     }
 
-    /// Whether it is within the limit: None where its error does not tell.
+    /// Whether it is within the limit: None where its error does not tell, that of the patch on which a
+    /// ball presses on a hollow barrel included.
     pub fn within(&self) -> Option<bool> {
         let most = self.most()?;
         let (bbcor, error) = (most.bbcor?, most.error?);
+        let open = |wall: &WallFigures| {
+            let ends = wall.bbcor_pivoted.range.map(|end| (end - wall.bbcor_pivoted.with).abs());
+            ends[0].max(ends[1])
+        };
+        let error = error + self.wall.as_ref().map_or(0.0, open);
         ((bbcor - LIMIT).abs() > error).then_some(bbcor < LIMIT)
     }
 }
@@ -191,6 +214,7 @@ mod tests {
             ball_speed: TEST_SPEED,
             cor: 0.5,
             scan: [0.8382 - 0.3048, 0.8382 - 0.0254],
+            wall: WallChoice::Auto,
         };
         let places = protocol.places(0.8382);
         assert_eq!(places.len(), 23);

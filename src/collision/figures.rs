@@ -10,6 +10,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::{FEW, Looked, Peak, SweetSpot};
+use crate::collision::wall_figures::WallFigures;
 
 /// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
 /// (I_ref/I)^n`, I about the standard pivot.
@@ -89,6 +90,10 @@ pub struct Figures {
     pub bbcor_max: Option<Peak>,
     /// The largest BBCOR of the outer half, as of a bat held at the standard pivot, 6 in from the knob.
     pub bbcor_pivoted_max: Option<Peak>,
+    /// What a hollow barrel's wall does at the sweet spot; None where it does not give way by its hoop
+    /// modes.
+    #[serde(skip)]
+    pub wall: Option<WallFigures>,
     /// Swings of one batter with this bat, by several laws; empty where no reference bat was given.
     pub swings: Vec<Swung>,
     /// The sweet spot of other scenes, each with what is different.
@@ -134,6 +139,7 @@ impl Figures {
         let moves = changes.into_iter().zip(moved).map(|((what, _), spot)| Ok((what, spot?)));
         Ok(Self {
             best: spot.exit_speed_max.map(|peak| hitter.strike(peak.x)),
+            wall: spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x)),
             vibration_at_rigid_best: rigid_best.and_then(|peak| hitter.glance(peak.x)?.vibration),
             rigid_best,
             bbcor_max: bbcor(1),

@@ -7,6 +7,7 @@ use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
 use crate::collision::contact::collider::Law;
 use crate::collision::energy_loss::EnergyLoss;
+use crate::collision::hoop_wall::HoopInHit;
 use crate::collision::pulse::Pulse;
 
 /// How the bat's bending is counted; each model is a limit of the last.
@@ -77,8 +78,11 @@ pub struct Scene {
     pub cor: f64,
     /// Where the hands feel the hit (m from the knob end).
     pub hands: f64,
-    /// How the barrel's wall gives way under the ball, if it does.
+    /// How the barrel's wall gives way under the ball by a person's own figures, if it does.
     pub wall: Option<Wall>,
+    /// Whether it gives way by its own hoop modes, those of the bat that the scene was made for; of
+    /// another bat they are solved anew. Not where [`Self::wall`] is given.
+    pub hoop: HoopInHit,
 }
 
 impl Default for Scene {
@@ -101,11 +105,17 @@ impl Default for Scene {
             ball,
             hands: STANDARD_PIVOT,
             wall: None,
+            hoop: HoopInHit::None,
         }
     }
 }
 
 impl Scene {
+    /// Whether the barrel's wall gives way under the ball, by a person's figures or by its own hoop modes.
+    pub fn wall_gives_way(&self) -> bool {
+        self.wall.is_some() || self.hoop.wall().is_some()
+    }
+
     /// e₀ of a ball that is met with that energy (J, of the relative motion): that of the rigid
     /// wall on which it would have as much, and so be compressed as much.
     pub fn restitution(&self, energy: f64) -> f64 {
@@ -200,6 +210,8 @@ pub struct Outcome {
     pub truncation: f64,
     /// Part of [`Self::error`] that shorter steps would remove.
     pub steps: f64,
+    /// Part of [`Self::error`] that more and better hoop modes of the wall would remove.
+    pub wall: f64,
 }
 
 /// The moment at which the ball leaves the bat for the first time. It may be caught again.
@@ -230,6 +242,8 @@ pub struct Energy {
     pub dissipated_damping: f64,
     /// Energy left in the barrel's wall, where it gives way.
     pub wall: f64,
+    /// That energy by the harmonics around the barrel, where the wall gives way by its hoop modes.
+    pub wall_by_harmonic: Vec<(usize, f64)>,
 }
 
 impl Energy {

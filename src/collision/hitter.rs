@@ -13,6 +13,7 @@ use crate::collision::contact::collider::{Collider, Law};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::Felt;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
+use crate::collision::hoop_wall::{COMPRESSION, HoopWall, WallFelt};
 use crate::collision::rigid::{RigidBat, RigidVelocity};
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
@@ -39,8 +40,12 @@ pub struct Hitter<'a> {
     pub(super) pressed: f64,
     pub(super) collider: Option<Collider>,
     /// The wall as the ball feels it, and what that leaves out, relative to the closing speed.
-    pub(super) wall: Option<Wall>,
+    wall: Option<Wall>,
     pub(super) wall_error: f64,
+    /// The wall by its own hoop modes.
+    pub(super) hoop: Option<Arc<HoopWall>>,
+    /// ω (rad/s) and damping ratio of the modes of either, which a contact takes first.
+    pub(super) wall_modes: Vec<[f64; 2]>,
 }
 
 /// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
@@ -105,10 +110,16 @@ impl<'a> Hitter<'a> {
         let pressed =
             law.as_ref().map_or(f64::NAN, |law| law.pressed_by(0.5 * mass * speed * speed) / speed);
         let (wall, wall_error) = felt_wall(scene.wall, pressed, effort.accuracy);
+        let hoop = scene.hoop.wall().filter(|_| model == Model::Contact && wall.is_none());
+        let hoop = hoop.map(|hoop| hoop.on(bat)).transpose()?;
+        let wall_modes = match &hoop {
+            Some(hoop) => hoop.modes(),
+            None => swinging(wall).into_iter().collect(),
+        };
         let collider = match model {
             Model::Contact => {
                 law?;
-                Some(collider(&modes, wall, pressed)?)
+                Some(collider(&modes, &wall_modes, pressed)?)
             }
             _ => None,
         };
@@ -129,6 +140,8 @@ impl<'a> Hitter<'a> {
             collider,
             wall,
             wall_error,
+            hoop,
+            wall_modes,
         })
     }
 
@@ -204,17 +217,30 @@ impl<'a> Hitter<'a> {
     /// The bat as the ball feels it at `x` (m), with `count` modes; `beyond` is the flexibility of all
     /// modes where those beyond `count` are to be included.
     pub(super) fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
-        let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
-        let mut felt = match beyond {
-            None => modes,
-            Some(beyond) => self.struck.completed(x, modes, beyond),
-        };
+        let mut felt = self.bent(x, count, beyond);
         match self.wall {
             Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
             Some(wall) => felt.rest += 1.0 / wall.stiffness,
             None => {}
         }
-        felt
+        match self.under(x) {
+            Some(under) => under.full.before(felt),
+            None => felt,
+        }
+    }
+
+    /// The bat as the ball feels it at `x` (m) where its wall is stiff.
+    pub(super) fn bent(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
+        let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
+        match beyond {
+            None => modes,
+            Some(beyond) => self.struck.completed(x, modes, beyond),
+        }
+    }
+
+    /// The wall at `x` (m), where it gives way by its hoop modes.
+    pub(super) fn under(&self, x: f64) -> Option<WallFelt> {
+        Some(self.hoop.as_ref()?.under(x, COMPRESSION))
     }
 
     /// The force law with the e₀ of the hit, which later touches of the same hit keep.
@@ -239,7 +265,7 @@ impl<'a> Hitter<'a> {
 
 /// The modes as a contact takes them, those of the wall first, for a ball that is pressed for about that
 /// time (s).
-fn collider(modes: &[[f64; 2]], wall: Option<Wall>, pressed: f64) -> Result<Collider> {
+fn collider(modes: &[[f64; 2]], wall: &[[f64; 2]], pressed: f64) -> Result<Collider> {
     if let Some(k) = modes.iter().position(|[_, ratio]| *ratio >= 1.0) {
         let found = format!("mode {} with a damping ratio of {:.2}", k + 1, modes[k][1]);
         let expected = "dashpots that let every mode swing (a ratio below 1), or none: a hit is over \
@@ -247,7 +273,7 @@ fn collider(modes: &[[f64; 2]], wall: Option<Wall>, pressed: f64) -> Result<Coll
         return Err(Error::value("hit", found, expected));
     }
     let longest = if pressed.is_finite() { LONGEST * pressed } else { 1.0 };
-    let all: Vec<[f64; 2]> = swinging(wall).into_iter().chain(modes.iter().copied()).collect();
+    let all = [wall, modes].concat();
     Ok(Collider::new(&all, longest))
 }
 
@@ -263,7 +289,7 @@ pub(super) fn resolved<T>(
 }
 
 /// ω (rad/s) and damping ratio of a wall that has a mass.
-pub(super) fn swinging(wall: Option<Wall>) -> Option<[f64; 2]> {
+fn swinging(wall: Option<Wall>) -> Option<[f64; 2]> {
     let wall = wall.filter(|wall| wall.mass > 0.0)?;
     Some([(wall.stiffness / wall.mass).sqrt(), 0.0])
 }

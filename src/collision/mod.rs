@@ -9,12 +9,12 @@
 //! |---|---|
 //! | [`contact`] | how hard does a ball push back; what happens while they touch, and when do they touch again |
 //! | [`ball`] | what ball |
-//! | [`struck`] | how does the bat give way to a ball, anywhere |
+//! | [`struck`], `wall_table`, [`hoop_wall`] | how does the bat give way to a ball, anywhere; how does a barrel's wall |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are told, and by which names |
-//! | [`setup`] | how is a bat hit, whichever bat it is |
+//! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, whichever bat it is |
 //! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
-//! | [`sweet_spot`], [`figures`] | where is it best, by which figures are bats compared |
+//! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is it best, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
@@ -24,6 +24,8 @@ pub mod contact;
 pub mod ball;
 #[doc(hidden)]
 pub mod struck;
+pub(crate) mod wall_table;
+pub mod hoop_wall;
 pub mod rigid;
 pub mod energy_loss;
 pub mod pulse;
@@ -40,7 +42,9 @@ pub(crate) mod answer;
 pub mod strike;
 pub mod strength;
 pub mod sweet_spot;
+pub mod wall_figures;
 pub mod figures;
+pub mod wall_choice;
 pub mod setup;
 pub mod sweep;
 pub mod bbcor;

@@ -11,7 +11,9 @@ use crate::collision::ball::Ball;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::figures::{BarrelSpeed, SwingLaw};
 use crate::collision::hit::{Model, Scene, Wall};
+use crate::collision::hoop_wall::HoopInHit;
 use crate::collision::pulse::Pulse;
+use crate::collision::wall_choice::WallChoice;
 
 /// Swing, pitch, ball and wall, before the bat is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +36,9 @@ pub struct Setup {
     pub cor: Option<f64>,
     /// Where the hands feel the hit (m from the knob end).
     pub hands: f64,
+    /// Whether a hollow barrel's wall gives way by its own hoop modes; a stiffness that is given takes
+    /// their place.
+    pub wall: WallChoice,
     /// Stiffness of a hollow barrel's wall under the ball (N/m).
     pub wall_stiffness: Option<f64>,
     /// Mass of that wall's own vibration (kg).
@@ -66,6 +71,7 @@ impl Default for Setup {
             ball: scene.ball,
             cor: None,
             hands: scene.hands,
+            wall: WallChoice::Auto,
             wall_stiffness: None,
             wall_mass: None,
             reference_inertia: None,
@@ -80,7 +86,7 @@ impl Default for Setup {
 
 impl Setup {
     /// The members that have a name, as files and paths write them; the ball has its own.
-    pub const MEMBERS: [&'static str; 17] = [
+    pub const MEMBERS: [&'static str; 18] = [
         "model",
         "swing_speed",
         "bat_speed",
@@ -90,6 +96,7 @@ impl Setup {
         "ball_stiffness",
         "cor",
         "hands",
+        "wall",
         "wall_stiffness",
         "wall_mass",
         "reference_inertia",
@@ -100,12 +107,14 @@ impl Setup {
         "loss_share",
     ];
 
-    /// The scene on that bat, and where its swing is from.
+    /// The scene on that bat, and where its swing is from. `tolerance` is that of exit speeds over the
+    /// closing speed, by which a hollow barrel's wall gives way or not; None where a number of modes and
+    /// nothing else is to be counted.
     ///
     /// # Errors
     ///
     /// [`Error::Value`] about a member that cannot be, or not on this bat.
-    pub fn scene(&self, bat: &Bat) -> Result<(Scene, Option<SwingLaw>)> {
+    pub fn scene(&self, bat: &Bat, tolerance: Option<f64>) -> Result<(Scene, Option<SwingLaw>)> {
         let mut ball = self.ball.clone();
         let cor = self.cor.unwrap_or(ball.cor);
         let speeds = [self.pitch, self.swing_speed, self.bat_speed.unwrap_or_default(), self.pivot];
@@ -132,8 +141,9 @@ impl Setup {
             (None, Some(barrel)) => self.swing_of(barrel, bat)?,
             (None, None) => self.swing_speed,
         };
-        let (hands, wall) = (self.hands, self.wall()?);
-        Ok((Scene { pivot, swing, ball, ball_speed, cor, hands, wall }, law))
+        let (hands, wall, hoop) = (self.hands, self.spring_mass()?, HoopInHit::None);
+        let scene = Scene { pivot, swing, ball, ball_speed, cor, hands, wall, hoop };
+        Ok((scene.with_wall(self.wall, bat, self.model, tolerance)?, law))
     }
 
     /// The speed of a point of the barrel, where that was given.
@@ -167,7 +177,7 @@ impl Setup {
         Ok(Some(SwingLaw { exponent, reference, of_reference: self.swing_speed }))
     }
 
-    fn wall(&self) -> Result<Option<Wall>> {
+    fn spring_mass(&self) -> Result<Option<Wall>> {
         let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
         if self.model != Model::Contact {
             let found = format!("it with `model` {}", self.model.name());

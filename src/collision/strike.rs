@@ -4,7 +4,7 @@ use crate::collision::answer::Answer;
 use crate::collision::contact::table::Piece;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
-use crate::collision::hitter::{Hitter, resolved, swinging};
+use crate::collision::hitter::{Hitter, resolved};
 use crate::collision::struck::recoil_between;
 
 /// A hit without its ledger and its error.
@@ -22,7 +22,7 @@ pub struct Glance {
 }
 
 /// Accuracy of the steps where a place is sought: exit speeds then differ smoothly.
-const SMOOTH: f64 = 1e-6;
+pub(super) const SMOOTH: f64 = 1e-6;
 
 /// The flag of a contact whose steps come to no end, or whose energies do not close.
 pub const UNRESOLVED: &str = "unresolved";
@@ -73,9 +73,9 @@ impl Hitter<'_> {
         self.strike_knowing(x, None)
     }
 
-    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation and by steps
-    /// given where they are `known`: they are not estimated again.
-    pub fn strike_knowing(&self, x: f64, known: Option<[f64; 2]>) -> Impact {
+    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation, by steps and by
+    /// the wall given where they are `known`: they are not estimated again.
+    pub fn strike_knowing(&self, x: f64, known: Option<[f64; 3]>) -> Impact {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let rigid_exit_speed = self.rigid_exit(x);
         let answer = self.answer(x, known);
@@ -102,8 +102,7 @@ impl Hitter<'_> {
     /// in every piece of the force; None where that model has no answer.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
-        let modes: Vec<[f64; 2]> =
-            swinging(self.wall).into_iter().chain(self.modes.clone()).collect();
+        let modes = [&self.wall_modes[..], &self.modes].concat();
         Some(history(&pieces, &felt, &modes, speed, parts))
     }
 
@@ -144,11 +143,16 @@ impl Hitter<'_> {
                 vibration_by_mode: answer.in_modes,
                 dissipated_ball: answer.lost_in_ball,
                 dissipated_damping: answer.lost_in_bat,
-                wall: answer.in_wall,
+                wall: answer.in_wall.iter().fold(0.0, |sum, energy| sum + energy),
+                wall_by_harmonic: self
+                    .hoop
+                    .as_ref()
+                    .map_or(vec![], |hoop| hoop.by_harmonic(&answer.in_wall)),
             },
             error: answer.error,
             truncation: answer.truncation,
             steps: answer.steps,
+            wall: answer.wall,
         }
     }
 }

@@ -80,33 +80,20 @@ impl<'a> Struck<'a> {
     }
 
     /// What [`Self::felt`] returns, from [`Self::with_modes`] and [`Self::flexibility`] at `x` (m).
-    pub fn completed(&self, x: f64, mut felt: Felt, [soft, slow]: [f64; 2]) -> Felt {
-        /// What is left is known if it is so many times its error.
-        const KNOWN: f64 = 10.0;
-        let Some((last, taken)) = felt.gains.split_last_mut() else {
-            return Felt { rest: soft, ..felt };
+    pub fn completed(&self, x: f64, mut felt: Felt, all: [f64; 2]) -> Felt {
+        let Some(last) = felt.gains.len().checked_sub(1) else {
+            return Felt { rest: all[0], ..felt };
         };
-        let [here, there] = self.taken(taken);
-        let (rest, left) = (soft - here, slow - there);
-        let square = self.solution.modes[taken.len()].omega.powi(2);
         let held = self.flexible.rigid.len() < 2;
-        let [unsure, unsure_slow] =
-            if held { self.taken(&self.doubt(x)[..taken.len()]) } else { [0.0; 2] };
-        if left > KNOWN * unsure_slow {
-            *last = last.max(left * square * square);
-        }
-        if rest > KNOWN * unsure {
-            felt.rest = (rest - *last / square).max(0.0);
-        }
+        let unsure = if held { self.taken(&self.doubt(x)[..last]) } else { [0.0; 2] };
+        let square = |k: usize| self.solution.modes[k].omega.powi(2);
+        felt.rest = complete(&mut felt.gains, square, all, unsure);
         felt
     }
 
     /// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of the modes with those gains.
     pub fn taken(&self, gains: &[f64]) -> [f64; 2] {
-        let squares = self.solution.modes.iter().map(|mode| mode.omega.powi(2));
-        gains.iter().zip(squares).fold([0.0; 2], |[soft, slow], (gain, square)| {
-            [soft + gain / square, slow + gain / (square * square)]
-        })
+        taken(gains, |k| self.solution.modes[k].omega.powi(2))
     }
 
     /// How far every gain (1/kg) may be off at `x` for the mesh, that of the frequency with it.
@@ -119,6 +106,35 @@ impl<'a> Struck<'a> {
         };
         self.solution.modes.iter().map(doubt).collect()
     }
+}
+
+/// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of modes with those gains, `square(k)` the ω² of mode k.
+pub fn taken(gains: &[f64], square: impl Fn(usize) -> f64) -> [f64; 2] {
+    gains.iter().enumerate().fold([0.0; 2], |[soft, slow], (k, gain)| {
+        let square = square(k);
+        [soft + gain / square, slow + gain / (square * square)]
+    })
+}
+
+/// Lets the last of some modes stand for all beyond it, as [`Struck::felt`] says, and returns the
+/// flexibility (m/N) that is still missing then; `all` are C (m/N) and D (m s²/N) of every mode there
+/// is, `unsure` what these are not known to. Without a mode all is flexibility.
+pub fn complete(
+    gains: &mut [f64],
+    square: impl Fn(usize) -> f64,
+    [soft, slow]: [f64; 2],
+    [unsure, unsure_slow]: [f64; 2],
+) -> f64 {
+    /// What is left is known if it is so many times its error.
+    const KNOWN: f64 = 10.0;
+    let Some((last, before)) = gains.split_last_mut() else { return soft };
+    let [here, there] = taken(before, &square);
+    let (rest, left) = (soft - here, slow - there);
+    let square = square(before.len());
+    if left > KNOWN * unsure_slow {
+        *last = last.max(left * square * square);
+    }
+    if rest > KNOWN * unsure { (rest - *last / square).max(0.0) } else { 0.0 }
 }
 
 /// The rigid motions of the bat where springs and hands do not hold it.

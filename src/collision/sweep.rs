@@ -243,7 +243,7 @@ impl Round {
             effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
         }
         // The exit speed is more sensitive than the frequencies: ask these for more.
-        let left = worst.error - worst.truncation - worst.steps;
+        let left = worst.error - worst.truncation - worst.steps - worst.wall;
         if left > 0.5 * tolerance {
             request.tolerance *= (0.3 * tolerance / left).clamp(1e-6, 0.1);
             request.tolerance = request.tolerance.max(1e-14);
@@ -257,6 +257,7 @@ struct Worst {
     error: f64,
     truncation: f64,
     steps: f64,
+    wall: f64,
 }
 
 impl Worst {
@@ -266,6 +267,7 @@ impl Worst {
             error: most(|o| o.error),
             truncation: most(|o| o.truncation),
             steps: most(|o| o.steps),
+            wall: most(|o| o.wall),
         }
     }
 }
@@ -333,8 +335,13 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
             return compared[after].clone();
         }
         let [a, b] = [after - 1, after].map(|i| compared[i].outcome.as_ref());
-        let errors =
-            a.zip(b).map(|(a, b)| [greater(a.truncation, b.truncation), greater(a.steps, b.steps)]);
+        let errors = a.zip(b).map(|(a, b)| {
+            [
+                greater(a.truncation, b.truncation),
+                greater(a.steps, b.steps),
+                greater(a.wall, b.wall),
+            ]
+        });
         told(hitter.strike_knowing(places[k], errors))
     };
     threads::map(places.len(), strike)

@@ -3,7 +3,7 @@
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::bat::fixtures::Held;
-use crate::bat::material::{BUILT_IN, Material};
+use crate::bat::material::{BUILT_IN, Material, PoissonRatios, ShearModuli};
 use crate::bat::part::{Field, Instead, Kind, Part, Slot};
 use crate::files::json_node::{Node, Object};
 
@@ -142,6 +142,12 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
         Slot::Held(held) => *held = node.word(&HELD)?,
         Slot::Material(outer) => *outer = whole_material(node)?,
         Slot::Core(core) => *core = Some(whole_material(node)?),
+        Slot::ShearModuli(moduli) => {
+            *moduli = Some(self::part(node, ShearModuli::default(), None)?)
+        }
+        Slot::PoissonRatios(ratios) => {
+            *ratios = Some(self::part(node, PoissonRatios::default(), None)?);
+        }
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use crate::base::units::Quantity;
 use crate::collision::ball::Ball;
 use crate::collision::hit::Model;
 use crate::collision::setup::Setup;
+use crate::collision::wall_choice::WallChoice;
 use crate::files::ball_file::e0;
 use crate::files::document::Document;
 use crate::files::json_node::Node;
@@ -72,6 +73,9 @@ pub(crate) fn read(node: &Node, ball: Ball) -> Result<Setup> {
     if let Some(node) = object.get("model") {
         let named = Model::all().map(|model| (model.name(), model));
         setup.model = mistakes.some(node.word(&named)).unwrap_or(setup.model);
+    }
+    if let Some(node) = object.get("wall") {
+        setup.wall = mistakes.some(node.word(&WallChoice::ALL)).unwrap_or(setup.wall);
     }
     if let (Some(stiffness), Some(node)) = (stiffness, object.get("ball_stiffness")) {
         let linear = setup.ball.clone().linear(stiffness);

@@ -222,8 +222,8 @@ impl Rows {
 
     fn trial(&self, row: &Row, bat: &Bat) -> Result<Trial> {
         let setup = self.setup(row)?;
-        let model = setup.model()?;
-        Ok(Trial { scene: setup.scene(bat)?.0, model, barrel: setup.barrel_speed() })
+        let (model, tolerance) = (setup.model()?, Some(self.study.asked.tolerance));
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model, barrel: setup.barrel_speed() })
     }
 }
 

@@ -9,14 +9,14 @@
 //! | `memory` | how much memory does a solve take |
 //! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
 //! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
-//! | [`certificate`] | how far may each be off |
-//! | [`referee`] | what do other solvers say |
+//! | [`certificate`], [`referee`] | how far may each be off; what do other solvers say |
 //! | [`pairs`] | the lowest motions whatever the degree of the elements |
 //! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`enclosure`] | between which numbers do frequencies lie, proven |
 //! | [`compliance`] | how the bat gives way at a place |
 //! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
+//! | [`hoop`] | how the wall of a hollow bat rings |
 
 pub mod shape;
 pub(crate) mod landmarks;
@@ -52,3 +52,4 @@ pub mod solve;
 pub mod up_to;
 pub mod batch;
 pub mod enclosure;
+pub mod hoop;

@@ -137,6 +137,9 @@ pub const CASES: &[(&str, &str)] = &[
 
 /// The bats that travel with the program: path and text.
 pub const BATS: &[(&str, &str)] = &[
+    ("meshes/bbcor_made_up.json", include_str!("../../meshes/bbcor_made_up.json")),
+    ("meshes/bbcor_made_up_open.json", include_str!("../../meshes/bbcor_made_up_open.json")),
+    ("meshes/composite_made_up.json", include_str!("../../meshes/composite_made_up.json")),
     ("meshes/cone.json", include_str!("../../meshes/cone.json")),
     ("meshes/corked.json", include_str!("../../meshes/corked.json")),
     ("meshes/dowel.json", include_str!("../../meshes/dowel.json")),
@@ -147,6 +150,8 @@ pub const BATS: &[(&str, &str)] = &[
     ),
     ("meshes/northwestern_wood.json", include_str!("../../meshes/northwestern_wood.json")),
     ("meshes/r161.json", include_str!("../../meshes/r161.json")),
+    ("meshes/softball_made_up.json", include_str!("../../meshes/softball_made_up.json")),
+    ("meshes/softball_made_up_open.json", include_str!("../../meshes/softball_made_up_open.json")),
     ("meshes/tanh.json", include_str!("../../meshes/tanh.json")),
     ("meshes/torpedo.json", include_str!("../../meshes/torpedo.json")),
     ("meshes/two_piece.json", include_str!("../../meshes/two_piece.json")),

@@ -5,7 +5,7 @@
 //! | [`bundled`], [`known_hits`], [`case`](mod@case) | what is known, of which bats and hits |
 //! | [`validation`] | is it reproduced |
 //! | [`published`] | are published figures reproduced |
-//! | [`promise`], [`hit_promise`] | do stated errors hold, of modes and of hits |
+//! | [`promise`], [`hit_promise`], [`hoop_promise`] | do stated errors hold, of modes, of hits and of hoop modes |
 //! | [`proven_promise`] | do they hold where every frequency is proven |
 //! | [`extremes`] | does what no bat is stay right |
 
@@ -16,5 +16,6 @@ pub mod validation;
 pub mod published;
 pub mod promise;
 pub mod hit_promise;
+pub mod hoop_promise;
 pub mod proven_promise;
 pub mod extremes;

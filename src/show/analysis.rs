@@ -7,11 +7,13 @@ use crate::collision::figures::{Figures, SwingLaw};
 use crate::collision::hit::{Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::strength::Strength;
-use crate::collision::sweep::{Sweep, Trial, sweep_telling};
+use crate::collision::sweep::{Accuracy, Sweep, Trial, sweep_telling};
+use crate::modes::hoop::rings;
 use crate::modes::solve::{Request, Solution};
 use crate::proof::validation::dowel_proof;
 use crate::study::advise::advice::{Advice, advise};
 use crate::study::spread::{Analysed, Readings, Spread};
+use crate::study::trampoline::barrel::{Barrel, BarrelTest};
 
 /// Impact points along the outer half of the bat.
 pub const POINTS: usize = 101;
@@ -68,6 +70,8 @@ pub struct Analysis {
     /// What the model needs; None for a bat of so many pieces that it would take long, and where
     /// there is none to give.
     pub advice: Option<Advice>,
+    /// How the barrel of a hollow bat rings, and what its wall does to the ball; None for others.
+    pub barrel: Option<Barrel>,
 }
 
 impl Analysis {
@@ -117,7 +121,8 @@ impl Analysis {
         };
         tell(0.9, "what the model needs");
         let advice = advice(&bat, task.hits.tolerance);
-        Ok(Self { bat, solution, task, hits, figures, strength, proof, spread, advice })
+        let barrel = barrel(&bat, &task, accuracy);
+        Ok(Self { bat, solution, task, hits, figures, strength, proof, spread, advice, barrel })
     }
 }
 
@@ -131,6 +136,15 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
     let places = best.map_or(vec![], |best| vec![best.x, best.x - INSIDE]);
     let at = |x: f64| Strength::at(bat, &hits.solution, (&task.scene, hits.effort), x);
     places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
+}
+
+/// The barrel of a hollow bat under the scene's ball, shot as laboratories do; None where there is none to ring.
+fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Barrel> {
+    if !rings(bat) || bat.profile().pieces.len() > MOST_PIECES {
+        return None;
+    }
+    let test = BarrelTest::of(bat, task.scene.ball.clone(), accuracy);
+    Barrel::of(bat, BarrelTest { cor: task.scene.cor, ..test }).ok()
 }
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {

@@ -14,6 +14,7 @@ use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
 use crate::files::schema::frf::FrfFile;
 use crate::files::schema::hit::HitFile;
+use crate::files::schema::hoop::HoopFile;
 use crate::files::schema::lathe::LatheFile;
 use crate::files::schema::materials::MaterialsFile;
 use crate::files::schema::measured::MeasuredFile;
@@ -38,7 +39,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 28] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
@@ -51,6 +52,7 @@ impl FileKind {
         Self::of::<HitFile>(),
         Self::of::<AnalysisFile>(),
         Self::of::<BbcorFile>(),
+        Self::of::<HoopFile>(),
         Self::of::<LatheFile>(),
         Self::of::<CompareFile>(),
         Self::of::<MeasuredFile>(),

@@ -10,6 +10,8 @@
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
 use crate::bat::theory::Theory;
+use crate::collision::hit::Scene;
+use crate::collision::hoop_wall::{HoopInHit, WhyRigid, barrel_walls};
 use crate::modes::mode::Mode;
 use crate::modes::solve::{Request, Solution, solve};
 
@@ -172,47 +174,53 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
     }
     ignored.push(match thinnest_wall(bat) {
-        Some(_) => "hoop modes of this hollow barrel: not a beam's, and not modelled".to_owned(),
+        Some(_) => {
+            "hoop modes of this hollow barrel: not a beam's; sweetspot hoop has them".to_owned()
+        }
         None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
     });
     ignored
 }
 
-/// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
-pub const CUP: f64 = 0.04;
-
 /// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
-/// where that half is solid. A bore with a core in it is hollow too; a cup in the tip is not.
+/// where that half is solid, as [`barrel_walls`] says.
 pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
-    const STRETCHES: usize = 200;
-    let half = 0.5 * bat.length();
-    let wall = |k: usize| {
-        // Between the stations too, and not at the tip, where a cap is not a wall.
-        let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
-        let section = bat.profile().at(x);
-        (section.inner > 0.0).then_some([section.outer - section.inner, x])
-    };
-    let barrel = |wall: &[f64; 2]| wall[1] < bat.length() - CUP;
-    let walls: Vec<[f64; 2]> = (0..STRETCHES).filter_map(wall).collect();
-    let hollow = walls.iter().any(barrel);
-    walls.into_iter().filter(|_| hollow).min_by(|a, b| a[0].total_cmp(&b[0]))
+    barrel_walls(bat).into_iter().min_by(|a, b| a[0].total_cmp(&b[0]))
 }
 
-/// What a hit on this bat leaves out, a sentence each: of a hollow barrel whose wall has no figures,
-/// how the wall gives way.
+/// What a hit on this bat leaves out, a sentence each: how the wall of a hollow barrel gives way, where
+/// it is taken as rigid.
 ///
 /// # Source
 ///
 /// For the direction: A. M. Nathan, D. A. Russell, L. V. Smith, "The physics of the trampoline effect
 /// in baseball and softball bats", Engineering of Sport 5 (2004).
-pub fn in_hit(bat: &Bat, wall_given: bool) -> Vec<String> {
-    let Some([wall, x]) = thinnest_wall(bat).filter(|_| !wall_given) else { return vec![] };
-    vec![format!(
-        "the wall of this hollow barrel ({:.1} mm at its thinnest, {:.0} cm from the knob) is rigid \
-         here: a thin one gives way under the ball and spares it a loss, so that the ball leaves \
-         faster and BBCOR is larger than computed; --wall-stiffness and --wall-mass put in what is \
-         known of it",
+pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
+    let rigid = thinnest_wall(bat).filter(|_| !scene.wall_gives_way());
+    let Some([wall, x]) = rigid else { return vec![] };
+    let barrel = format!(
+        "the wall of this hollow barrel ({:.1} mm at its thinnest, {:.0} cm from the knob) is rigid here",
         1e3 * wall,
         100.0 * x
-    )]
+    );
+    let faster = "a thin one gives way under the ball and spares it a loss, so that the ball leaves \
+                  faster and BBCOR is larger than computed";
+    let given = "--wall-stiffness and --wall-mass put in what is known of it";
+    vec![match &scene.hoop {
+        HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance }) => format!(
+            "{barrel}: giving way it would change BBCOR by about {gain:.0e}, less than the \
+             {tolerance:.0e} asked for; --wall on counts its hoop modes"
+        ),
+        HoopInHit::LeftOut(WhyRigid::Asked) => {
+            format!("{barrel}: {faster}; --wall auto counts its hoop modes")
+        }
+        HoopInHit::LeftOut(WhyRigid::ModesTold) => format!(
+            "{barrel}: {faster}; a number of modes was told and nothing else is counted, but --wall on \
+             counts its hoop modes"
+        ),
+        HoopInHit::LeftOut(WhyRigid::Unsolved(why)) => {
+            format!("{barrel}: {faster}; its hoop modes could not be found ({why}), {given}")
+        }
+        HoopInHit::None | HoopInHit::Counted(_) => format!("{barrel}: {faster}; {given}"),
+    }]
 }

@@ -12,6 +12,7 @@
 //! | [`many`] | which bats does a study vary |
 //! | [`lathe`] | where does a cut do what |
 //! | [`scatter`] | how much do bats of one model and swings of one batter differ |
+//! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 pub mod trade;
@@ -28,3 +29,4 @@ pub mod lathe;
 #[cfg(feature = "aim")]
 pub mod aim;
 pub mod scatter;
+pub mod trampoline;

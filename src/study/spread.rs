@@ -218,7 +218,7 @@ type Answers = [Option<f64>; ANSWERS];
 #[derive(Debug, Clone, PartialEq)]
 enum Change {
     /// In a property of one material, wherever the bat has it.
-    Of(Material, Property),
+    Of(Box<Material>, Property),
     /// In a property of all materials.
     All(Property),
     Diameters,
@@ -371,7 +371,7 @@ fn open(
             };
             let of = if only { String::new() } else { place.clone() };
             let source = Source { input, material: of, deviation };
-            open.push((Change::Of(material.clone(), property), source));
+            open.push((Change::Of(Box::new(material.clone()), property), source));
         }
     }
     if bat.profile().formulas.is_some() {
@@ -543,7 +543,7 @@ fn changed(bat: &Bat, change: &Change, by: f64) -> Result<Bat> {
             let regions = parts.fixtures.regions.iter_mut();
             let others = regions.flat_map(|region| region.layup.materials_mut());
             let all = std::iter::once(&mut parts.material).chain(others);
-            all.filter(|one| *one == which).for_each(|one| scaled(one, *property));
+            all.filter(|one| **one == **which).for_each(|one| scaled(one, *property));
         }),
         Change::Diameters => reshaped(bat, |stations| wider(&mut stations.outer, by)),
         Change::Bores => reshaped(bat, |stations| wider(&mut stations.inner, by)),

@@ -41,6 +41,7 @@ def make(sweetspot, folder):
     asked = {
         "r161": [f"{mesh}/r161.json"],
         "two_piece": [f"{mesh}/two_piece.json"],
+        "barrel": [f"{mesh}/bbcor_made_up.json"],
         "evil": [f"{folder}/evil.json"],
         "long": [f"{folder}/long.json"],
         "rigid": [f"{mesh}/dowel.json", "--model", "rigid", "--modes", "0"],
@@ -185,10 +186,10 @@ def waited(browser, true, seconds=3.0):
     return False
 
 
-def moving(browser, path):
-    """Nothing moves for who asked for that, until Play is pressed; else the modes do when seen."""
+def moving(browser, path, players):
+    """Nothing moves for who asked for that, until Play is pressed; else the first player does when seen."""
     opened(browser, path, calm=True)
-    for player in ("modes-player", "moment-player"):
+    for player in players:
         shape = SHAPE.format(player)
         browser.run(f"document.querySelector('#{player} .stage').scrollIntoView({{ block: 'center' }})")
         before = browser.run(shape)
@@ -208,10 +209,11 @@ def moving(browser, path):
         speed(browser, player)
         scrub(browser, player)
     opened(browser, path, calm=False)
-    browser.run("document.querySelector('#modes-player .stage').scrollIntoView({ block: 'center' })")
-    before = browser.run(SHAPE.format("modes-player"))
-    moved = waited(browser, f"{SHAPE.format('modes-player')} !== {json.dumps(before)}")
-    check(moved, "the modes do not begin to move when they are seen")
+    shape = SHAPE.format(players[0])
+    browser.run(f"document.querySelector('#{players[0]} .stage').scrollIntoView({{ block: 'center' }})")
+    before = browser.run(shape)
+    moved = waited(browser, f"{shape} !== {json.dumps(before)}")
+    check(moved, f"{players[0]} does not begin to move when it is seen")
     quiet(browser, "what moves")
 
 
@@ -290,15 +292,37 @@ def marks(browser, path):
         check(seen and all(0.01 < share < 0.03 and within for share, within in seen), f"{player}: marks are {seen}")
 
 
-def choosing(browser, path):
+def choosing(browser, path, choices):
     """Arrows choose another mode and another hit."""
     opened(browser, path, calm=True)
-    for player, name in (("modes-player", "mode"), ("moment-player", "moment")):
+    for player, name in choices:
         before = browser.run(SHAPE.format(player))
         browser.run(f"document.querySelector('input[name={name}]').focus()")
         browser.key("ArrowRight", number=39)
         check(browser.run(f"document.querySelector('input[name={name}]:checked').value") == "1", f"{name}: arrows")
         check(browser.run(SHAPE.format(player)) != before, f"{name}: shows the same")
+
+
+def ringing(browser, path):
+    """The barrel and its ring stay on their stage and apart from each other, in every mode and at every instant."""
+    opened(browser, path, calm=True)
+    off = browser.run("""(() => {
+      const root = document.querySelector('#hoop-player'), stage = root.querySelector('.stage').viewBox.baseVal;
+      const slider = root.querySelector('.scrub input'), told = [];
+      for (const input of root.querySelectorAll('input[name=hoop]')) {
+        input.click();
+        for (const instant of [0, 125, 250, 500, 750]) {
+          slider.value = instant;
+          slider.dispatchEvent(new Event('input'));
+          const [side, ring] = [...root.querySelectorAll('.bat')].map(path => path.getBBox());
+          const inside = [side, ring].every(box => box.x >= stage.x && box.y >= stage.y
+            && box.x + box.width <= stage.x + stage.width && box.y + box.height <= stage.y + stage.height);
+          if (!inside || side.x + side.width >= ring.x) told.push(`mode ${input.value} at ${instant}`);
+        }
+      }
+      return told;
+    })()""")
+    check(off == [], f"the barrel leaves its stage: {off}")
 
 
 def hair_lines(browser, path):
@@ -441,16 +465,19 @@ def main():
                 readable(browser, name, path)
             browser.open(pages["evil"])
             check(browser.run("document.title").startswith("</script>"), "a name changed the page")
-            moving(browser, pages["r161"])
+            moving(browser, pages["r161"], ("modes-player", "moment-player"))
+            moving(browser, pages["barrel"], ("hoop-player",))
             for name in ("r161", "long"):
                 marks(browser, pages[name])
-            choosing(browser, pages["r161"])
+            choosing(browser, pages["r161"], (("modes-player", "mode"), ("moment-player", "moment")))
+            choosing(browser, pages["barrel"], (("hoop-player", "hoop"),))
+            ringing(browser, pages["barrel"])
             flight(browser, pages["r161"])
             hair_lines(browser, pages["r161"])
             units(browser, pages["r161"])
             sounds(browser, pages["r161"])
             plays_once(browser, pages["r161"])
-            for name in ("r161", "two_piece", "compared"):
+            for name in ("r161", "two_piece", "barrel", "compared"):
                 sheets(browser, pages[name], name)
             for width in (390, 1440):
                 keyboard(browser, pages["two_piece"], width)

@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 22] = [
+pub const WRITTEN: [Written; 23] = [
     (
         "modes",
         "modes",
@@ -48,6 +48,7 @@ pub const WRITTEN: [Written; 22] = [
         Numbers::Rough,
     ),
     ("bbcor", "bbcor", "bbcor dowel.json --tol 1e-4", Numbers::Rough),
+    ("hoop", "hoop", "hoop bbcor_made_up_open.json --shape-points 3 --wall-sweep", Numbers::Rough),
     (
         "lathe",
         "lathe",
@@ -139,6 +140,8 @@ pub fn folder(test: &str) -> Folder {
     folder.write("bat-1.json", include_str!("../golden/bat-1.json"));
     folder.write("ball-1.json", include_str!("../golden/ball-1.json"));
     folder.write("dowel.json", include_str!("../../meshes/dowel.json"));
+    let open = include_str!("../../meshes/bbcor_made_up_open.json");
+    folder.write("bbcor_made_up_open.json", open);
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);

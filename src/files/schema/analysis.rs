@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::HitFile;
+use crate::files::schema::hoop::HoopFile;
 use crate::files::schema::modes::ModesFile;
 use crate::files::schema::ring::Strength;
 
@@ -26,6 +27,10 @@ pub struct AnalysisFile {
     pub strength: Vec<Strength>,
     /// What calipers, scale and wood leave open of the answers.
     pub open: Open,
+    /// How the barrel of a hollow bat rings and what its wall does to the ball, a document of its own; left out
+    /// of others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hoop: Option<HoopFile>,
 }
 
 impl Document for AnalysisFile {

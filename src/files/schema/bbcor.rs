@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bat::edit::Edit;
 use crate::files::schema::document::{Document, Format, Generator};
-use crate::files::schema::hit::Ball;
+use crate::files::schema::hit::{Ball, WallUnderBall};
 
 /// BBCOR along a bat as laboratories measure it, the bat at rest on a pivot: computed, and no
 /// certificate. SI, the unit in every name; positions count from the knob end; what does not exist is
@@ -31,6 +31,10 @@ pub struct BbcorFile {
     pub places: Vec<Place>,
     /// The largest BBCOR of the scan; null where no place has one.
     pub largest: Option<Largest>,
+    /// What a hollow barrel's wall does at that place; left out where it does not give way by its hoop
+    /// modes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<WallUnderBall>,
     /// The largest BBCOR that the rules allow.
     pub limit: f64,
     /// Whether the largest is below the limit; null where its error does not tell.

@@ -92,6 +92,25 @@ pub struct Wall {
     pub stiffness_n_m: f64,
     /// Mass (kg) of its vibration; 0 is a spring in series.
     pub mass_kg: f64,
+    /// The hoop modes by which it gives way; left out where the two numbers above are all there is. These
+    /// are then one spring-mass for a slow force 6 in from the tip, and hits count every mode.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hoop: Option<HoopInHit>,
+}
+
+/// The hoop modes that hits count.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HoopInHit {
+    /// Harmonics around the barrel.
+    pub harmonics: Vec<usize>,
+    /// Number of modes.
+    pub modes: usize,
+    /// Largest stated relative error of their frequencies.
+    pub frequency_error: f64,
+    /// From where to where the wall is modelled (m).
+    pub stretch_m: [f64; 2],
+    /// Compression of the ball by which it presses as a patch (m).
+    pub patch_compression_m: f64,
 }
 
 /// One impact. Most is null where ball and bat do not meet, or where the model has no real answer;
@@ -172,8 +191,20 @@ pub struct Energy {
     /// Energy left in the barrel's wall (J), where it gives way.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wall: f64,
+    /// That energy by the harmonics around the barrel; left out where the wall has none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wall_by_harmonic: Vec<HarmonicEnergy>,
     /// Energy that the model created (−) or failed to account for (+) (J).
     pub imbalance: f64,
+}
+
+/// Energy of all hoop modes of a harmonic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HarmonicEnergy {
+    /// Number of waves around the barrel.
+    pub harmonic: usize,
+    /// Energy (J).
+    pub energy_j: f64,
 }
 
 /// A wall that does not give way has no line.
@@ -240,10 +271,46 @@ pub struct Figures {
     pub bbcor_pivoted_max: Option<Peak>,
     /// Place and exit speed (m/s) of the fastest ball if the bat did not bend.
     pub rigid_exit_speed_max: Option<Peak>,
+    /// What a hollow barrel's wall does at the sweet spot; left out where it does not give way by its hoop
+    /// modes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<WallUnderBall>,
     /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
     /// The sweet spot of scenes that differ in one thing each.
     pub moves: Vec<Moved>,
+}
+
+/// The wall of a hollow barrel under the ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallUnderBall {
+    /// The place (m).
+    pub x_m: f64,
+    /// Half lengths of the patch on which the ball presses, along the bat and around it (m).
+    pub patch_half_lengths_m: [f64; 2],
+    /// Static stiffness under the patch (N/m).
+    pub stiffness_n_m: f64,
+    /// That stiffness over the ball's, its largest force over its largest compression on a stiff wall.
+    pub stiffness_over_ball: f64,
+    /// Mass (kg) of one spring-mass with the same answer to a slow force.
+    pub mass_kg: f64,
+    /// BBCOR there with the wall, with a stiff one, and how far the patch leaves it open.
+    pub bbcor: WallBbcor,
+    /// How far the wall dents under the largest force (m).
+    pub dent_m: f64,
+    /// Thickness of the wall there (m); dents beyond half of it are beyond this theory.
+    pub thickness_m: f64,
+}
+
+/// What the wall makes of BBCOR.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallBbcor {
+    /// With the wall.
+    pub with: f64,
+    /// With a stiff wall.
+    pub stiff: f64,
+    /// With half and with twice the compression of the patch: the modelling error.
+    pub range: [f64; 2],
 }
 
 /// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.

@@ -20,6 +20,7 @@ pub mod materials;
 pub mod modes;
 pub mod hit;
 pub mod bbcor;
+pub mod hoop;
 pub mod compare;
 pub mod measured;
 pub mod ring;

@@ -210,6 +210,10 @@ fn member<P>(field: &Field<P>, said: &str, generator: &mut SchemaGenerator) -> S
             member.insert("allOf".to_owned(), json!([whole()]));
             member
         }
+        Kind::ShearModuli => described(generator.subschema_for::<InFile<bat::ShearModuli>>(), said),
+        Kind::PoissonRatios => {
+            described(generator.subschema_for::<InFile<bat::PoissonRatios>>(), said)
+        }
     }
 }
 

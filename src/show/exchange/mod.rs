@@ -13,4 +13,6 @@ pub mod csv;
 pub mod npz;
 pub mod solid;
 pub mod vtu;
+pub mod barrel;
+pub mod hoop_files;
 pub mod wav;

@@ -26,8 +26,6 @@ impl Grid {
     /// The surface of revolution through radii `r` (m) at places `x` (m), `around` points on each
     /// circle, closed by discs at the ends. A radius of 0 is one point.
     pub fn surface(x: &[f64], r: &[f64], around: usize) -> Self {
-        let mut grid = Self::default();
-        let mut rings: Vec<Vec<usize>> = Vec::new();
         let last = x.len().saturating_sub(1);
         // A disc is a ring of no radius at the same place.
         let mut stops: Vec<(usize, f64)> = r.iter().copied().enumerate().collect();
@@ -37,7 +35,20 @@ impl Grid {
         if r.last().is_some_and(|r| *r > 0.0) {
             stops.push((last, 0.0));
         }
-        for (place, radius) in stops {
+        Self::through(x, &stops, around)
+    }
+
+    /// The same surface open at both ends: a tube.
+    pub fn tube(x: &[f64], r: &[f64], around: usize) -> Self {
+        let stops: Vec<(usize, f64)> = r.iter().copied().enumerate().collect();
+        Self::through(x, &stops, around)
+    }
+
+    /// Rings of these radii (m), each with the number of its place, joined one to the next.
+    fn through(x: &[f64], stops: &[(usize, f64)], around: usize) -> Self {
+        let mut grid = Self::default();
+        let mut rings: Vec<Vec<usize>> = Vec::new();
+        for &(place, radius) in stops {
             let count = if radius > 0.0 { around } else { 1 };
             let first = grid.points.len();
             for k in 0..count {

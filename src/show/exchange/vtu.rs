@@ -71,45 +71,75 @@ fn file(
     name: impl Fn(&SampledMode) -> String,
     time: Option<f64>,
 ) -> String {
-    let mut out = String::from("<?xml version=\"1.0\"?>\n");
-    out += "<!-- a bat: x along it, deflection along y -->\n";
-    out += "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
-    out += "<UnstructuredGrid>\n<FieldData>\n";
-    field(&mut out, "TimeValue", &time.into_iter().collect::<Vec<_>>());
     let of = |of: fn(&SampledMode) -> f64| modes.iter().map(|mode| of(mode)).collect::<Vec<_>>();
-    field(&mut out, "frequency_hz", &of(|mode| mode.frequency));
-    field(&mut out, "modal_mass_kg", &of(|mode| mode.modal_mass));
-    field(&mut out, "damping_ratio", &of(|mode| mode.damping_ratio));
-    // The one unit that names of arrays do not tell: that of the points.
-    field(&mut out, "meters_per_unit_length", &[1.0]);
-    out += "</FieldData>\n";
-    let (points, cells) = (grid.points.len(), grid.cells.len());
-    let _ = writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">");
-    point_data(&mut out, table, grid, modes, name);
-    out += "<Points>\n";
-    vectors(&mut out, "Points", &grid.points);
-    out += "</Points>\n";
-    put_cells(&mut out, grid);
-    out + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
+    let scalars = ["radius_m", "inner_radius_m"].into_iter().zip(table.radii());
+    let moved = |mode: &&SampledMode| (name(mode), grid.moved(&mode.deflection, &mode.rotation));
+    Contents {
+        about: "a bat: x along it, deflection along y",
+        time,
+        fields: vec![
+            ("frequency_hz", of(|mode| mode.frequency)),
+            ("modal_mass_kg", of(|mode| mode.modal_mass)),
+            ("damping_ratio", of(|mode| mode.damping_ratio)),
+        ],
+        scalars: scalars.collect(),
+        vectors: modes.iter().map(moved).collect(),
+    }
+    .file(grid)
 }
 
-fn point_data(
-    out: &mut String,
-    table: &ModeTable,
-    grid: &Grid,
-    modes: &[&SampledMode],
-    name: impl Fn(&SampledMode) -> String,
-) {
-    let first = modes.first().map_or(String::new(), |mode| name(mode));
-    let _ = writeln!(out, "<PointData Scalars=\"radius_m\" Vectors=\"{first}\">");
-    for (name, radii) in ["radius_m", "inner_radius_m"].into_iter().zip(table.radii()) {
-        begin(out, "Float64", name, 1);
-        rows(out, grid.places.iter().map(|k| format!("{:?}", radii[*k])), 8);
+/// What a file holds besides the points and cells of its grid.
+pub(super) struct Contents {
+    /// What it is, in a comment.
+    pub about: &'static str,
+    /// The time of the file, if it has one.
+    pub time: Option<f64>,
+    /// Numbers that belong to the whole file.
+    pub fields: Vec<(&'static str, Vec<f64>)>,
+    /// A number for each place of the grid.
+    pub scalars: Vec<(&'static str, Vec<f64>)>,
+    /// A vector for each point of the grid.
+    pub vectors: Vec<(String, Vec<[f64; 3]>)>,
+}
+
+impl Contents {
+    /// The file of that grid.
+    pub fn file(&self, grid: &Grid) -> String {
+        let mut out = String::from("<?xml version=\"1.0\"?>\n");
+        let _ = writeln!(out, "<!-- {} -->", self.about);
+        out += "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
+        out += "<UnstructuredGrid>\n<FieldData>\n";
+        field(&mut out, "TimeValue", &self.time.into_iter().collect::<Vec<_>>());
+        for (name, values) in &self.fields {
+            field(&mut out, name, values);
+        }
+        // The one unit that names of arrays do not tell: that of the points.
+        field(&mut out, "meters_per_unit_length", &[1.0]);
+        out += "</FieldData>\n";
+        let (points, cells) = (grid.points.len(), grid.cells.len());
+        let _ = writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">");
+        self.point_data(&mut out, grid);
+        out += "<Points>\n";
+        vectors(&mut out, "Points", &grid.points);
+        out += "</Points>\n";
+        put_cells(&mut out, grid);
+        out + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
     }
-    for mode in modes {
-        vectors(out, &name(mode), &grid.moved(&mode.deflection, &mode.rotation));
+
+    fn point_data(&self, out: &mut String, grid: &Grid) {
+        let first = |name: Option<&str>| name.unwrap_or_default().to_owned();
+        let scalar = first(self.scalars.first().map(|(name, _)| *name));
+        let vector = first(self.vectors.first().map(|(name, _)| name.as_str()));
+        let _ = writeln!(out, "<PointData Scalars=\"{scalar}\" Vectors=\"{vector}\">");
+        for (name, values) in &self.scalars {
+            begin(out, "Float64", name, 1);
+            rows(out, grid.places.iter().map(|k| format!("{:?}", values[*k])), 8);
+        }
+        for (name, motion) in &self.vectors {
+            vectors(out, name, motion);
+        }
+        *out += "</PointData>\n";
     }
-    *out += "</PointData>\n";
 }
 
 fn put_cells(out: &mut String, grid: &Grid) {

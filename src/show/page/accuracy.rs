@@ -167,7 +167,7 @@ pub fn left_out(analysis: &Analysis) -> Vec<String> {
 
 /// What the hits left out, of which the modes know nothing.
 pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
-    let ignored = in_hit(&analysis.bat, analysis.task.scene.wall.is_some());
+    let ignored = in_hit(&analysis.bat, &analysis.task.scene);
     ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
 }
 

@@ -14,11 +14,12 @@ use crate::show::page::inputs::{self, Input};
 use crate::show::page::moment::{Moment, moments};
 use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::players;
+use crate::show::page::shown::sentence;
 use crate::show::page::summary::{NO_HIT, Summary};
 use crate::show::page::tables;
 use crate::show::plot::sets::of_analysis;
 use crate::show::report::units::Units;
-use crate::show::report::{edits, lathe};
+use crate::show::report::{edits, hoop, hoop_notes, lathe};
 use crate::study::lathe::map::LatheMap;
 
 /// What a report is made from.
@@ -55,6 +56,8 @@ const NO_CONTACT: &str = "This model takes a half sine of given duration as the 
                           squeeze the ball, so the moment of the hit cannot be shown; the model \
                           \"contact\" gives one.";
 const NO_CUTS: &str = "What a cut does to this bat is not known.";
+/// What links call the section that hollow bats alone have.
+const HOOP: &str = "hoop";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
@@ -112,6 +115,7 @@ impl<'a> Report<'a> {
             section(Folded, "spots", "The sweet spot by other measures", self.spots(units)),
             section(Folded, "energy", "Where the energy goes", self.energy(units)),
             section(Folded, "modes", "How the bat vibrates", self.modes(units)),
+            section(ScreenOnly, HOOP, "How the barrel rings", self.hoop(units)),
             section(Folded, "figures", "Figures", self.standard(units)),
             section(Folded, "accuracy", "How far to trust this", self.accuracy(units)),
             section(ScreenOnly, "contact", "The ball on the bat, and the hands", self.contact()),
@@ -119,6 +123,8 @@ impl<'a> Report<'a> {
             section(ScreenOnly, "inputs", "What went in", self.inputs(units)),
             section(ScreenOnly, "provenance", "Where it comes from", self.provenance()),
         ];
+        let solid = self.analysis.barrel.is_none();
+        let rest = rest.into_iter().filter(|section| section.id != HOOP || !solid);
         strange.into_iter().chain(rest).collect()
     }
 
@@ -220,6 +226,26 @@ impl<'a> Report<'a> {
             Part::Picture("shapes"),
             Part::Table(tables::modes(self.analysis, units)),
         ]
+    }
+
+    /// The hoop modes of a hollow barrel, and what its wall does to the ball.
+    fn hoop(&'a self, units: Units) -> Vec<Part<'a>> {
+        let Some(barrel) = &self.analysis.barrel else { return vec![] };
+        let bat = &self.analysis.bat;
+        let mut parts = vec![
+            Part::Moving(players::hoop(barrel)),
+            Part::Picture("hoop"),
+            Part::Table(tables::hoop_modes(bat, barrel, units)),
+            Part::List(hoop::answers(bat, barrel, units)),
+        ];
+        let notes: Vec<String> =
+            hoop_notes::notes(barrel, units).iter().map(|note| sentence(note)).collect();
+        if !notes.is_empty() {
+            parts.extend([Part::Heading("What was assumed of the wall"), Part::List(notes)]);
+        }
+        parts
+            .push(Part::Text("More modes, other balls and other walls: the verb hoop.".to_owned()));
+        parts
     }
 
     fn standard(&'a self, units: Units) -> Vec<Part<'a>> {

@@ -10,6 +10,7 @@ use crate::collision::hit::{Energy, Impact};
 use crate::files::schema::document::{Document, Format};
 use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
+use crate::show::page::barrel::RingingBarrel;
 use crate::show::page::moment::Moment;
 use crate::show::page::summary::Summary;
 
@@ -29,6 +30,9 @@ pub struct Data<'a> {
     pub curve: Curve,
     /// The first modes, six at most.
     pub modes: Vec<MovingMode>,
+    /// How the barrel of a hollow bat rings; left out of others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub barrel: Option<RingingBarrel>,
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
     /// What a tap on the tip sounds like.
@@ -114,6 +118,8 @@ impl<'a> Data<'a> {
             summary,
             curve: Curve::new(&read_off(analysis)),
             modes: modes.collect(),
+            barrel: (analysis.barrel.as_ref())
+                .and_then(|barrel| RingingBarrel::new(&analysis.bat, barrel)),
             outline,
             moments,
             tap,

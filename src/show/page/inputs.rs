@@ -85,6 +85,10 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
         line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
         line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
     }
+    if let Some(wall) = scene.hoop.wall() {
+        let modes = format!("by {} hoop modes", wall.hoop().modes().len());
+        line(("the barrel's wall gives way", modes));
+    }
     if analysis.bat.fixtures().holding() {
         line(("the bat is held", "energies are as its hands see them".to_owned()));
     }

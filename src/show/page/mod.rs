@@ -13,6 +13,7 @@ pub mod tables;
 pub mod accuracy;
 pub mod inputs;
 pub mod moment;
+pub mod barrel;
 pub mod data;
 pub mod players;
 pub mod part;

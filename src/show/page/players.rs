@@ -2,12 +2,15 @@
 
 use std::fmt::Write;
 
+use crate::modes::hoop::HoopMode;
 use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
+use crate::show::page::barrel::moving;
 use crate::show::page::data::MOVING;
 use crate::show::page::escape::html as escaped;
 use crate::show::page::moment::Moment;
 use crate::show::page::shown::decimals;
+use crate::study::trampoline::barrel::Barrel;
 
 const NO_SCRIPT: &str = "<noscript><p class=\"missing\">What moves here needs JavaScript; everything \
                          else on this page does without.</p></noscript>\n";
@@ -20,7 +23,21 @@ pub fn modes(analysis: &Analysis) -> String {
     let choice = choice("mode", "Mode", &names, 0);
     let note = "The bending is drawn much larger and slower than it is; dots are the nodes, which \
                 stay at rest.";
-    player("modes-player", "The bat bending in the chosen mode", &choice, note)
+    player("modes-player", "The bat bending in the chosen mode", &choice, ["knob", "tip", note])
+}
+
+/// The barrel in one of its hoop modes.
+pub fn hoop(barrel: &Barrel) -> String {
+    let name = |(_, mode): &(usize, &HoopMode)| {
+        let hertz = decimals(mode.frequency(), 0);
+        format!("n {}, m {} · {hertz} Hz", mode.harmonic, mode.order)
+    };
+    let names: Vec<String> = moving(barrel).iter().map(name).collect();
+    let choice = choice("hoop", "Hoop mode", &names, 0);
+    let note = "The barrel from the side, and from the tip where it moves most; the motion is drawn much \
+                larger and slower than it is.";
+    let told = ["from the side", "from the tip", note];
+    player("hoop-player", "The barrel ringing in the chosen mode", &choice, told)
 }
 
 /// Ball and bat at the moment of the hit.
@@ -32,7 +49,8 @@ pub fn moment(moments: &[Moment]) -> String {
         "Seen by someone who moves with the bat, which swings upwards. Ball, flight and squeeze are to \
          scale; the bat's bending about the ball is drawn {factor} times larger than it is, in both hits."
     );
-    player("moment-player", "Ball and bat at the moment of the hit", &choice, &note)
+    let told = ["knob", "tip", &note];
+    player("moment-player", "Ball and bat at the moment of the hit", &choice, told)
 }
 
 /// Buttons that let the bat be heard.
@@ -75,12 +93,12 @@ pub fn choice(name: &str, legend: &str, labels: &[String], first: usize) -> Stri
 }
 
 /// A stage with its controls.
-fn player(id: &str, title: &str, choice: &str, note: &str) -> String {
+fn player(id: &str, title: &str, choice: &str, [from, to, note]: [&str; 3]) -> String {
     let title = escaped(title);
     format!(
         "{NO_SCRIPT}<div class=\"player moving\" id=\"{id}\">\n{choice}\
          <svg class=\"stage\" role=\"img\" aria-label=\"{title}\"></svg>\n\
-         <p class=\"ends\" aria-hidden=\"true\"><span>knob</span><span>tip</span></p>\n\
+         <p class=\"ends\" aria-hidden=\"true\"><span>{from}</span><span>{to}</span></p>\n\
          <div class=\"controls\">\n\
          <button type=\"button\" class=\"play\" aria-pressed=\"false\">Play</button>\n\
          <button type=\"button\" class=\"slow\" aria-pressed=\"false\">Slow</button>\n\

@@ -150,6 +150,45 @@
     once(stage, film);
   };
 
+  /** The barrel in a hoop mode: from the side, and from the tip where it moves most. */
+  const hoop = (root) => {
+    const { x_mm: places, radius_mm: radii, modes: all } = data.barrel;
+    const stage = root.querySelector(".stage");
+    const thick = Math.max(...radii), size = 0.28 * thick, pad = 0.25 * thick;
+    const [from, to] = [places[0], places.at(-1)], middle = to + 2.6 * thick, high = thick + size + pad;
+    stage.setAttribute("viewBox", `${from - pad} ${-high} ${middle + high - from + pad} ${2 * high}`);
+    let mode = all[0];
+    /** The barrel from the side, its waves on the lower side as half a turn on. */
+    const side = (moved) => {
+      const odd = mode.harmonic % 2 ? -1 : 1;
+      const line = (sign, waves) => places.map((x, k) =>
+        `${x} ${(sign * (radii[k] + moved * waves * mode.radial[k])).toFixed(2)}`);
+      return `M${line(-1, 1).join("L")}L${line(1, odd).reverse().join("L")}Z`;
+    };
+    /** The ring: a point at an angle moves outwards by U cos, around by V sin of n times it. */
+    const ring = (moved) => {
+      const size = mode.radial.map(Math.abs), k = size.indexOf(Math.max(...size)), n = mode.harmonic;
+      const points = Array.from({ length: 72 }, (_, j) => {
+        const angle = 2 * Math.PI * j / 72, out = radii[k] + moved * mode.radial[k] * Math.cos(n * angle);
+        const along = moved * mode.around[k] * Math.sin(n * angle), [s, c] = [Math.sin(angle), Math.cos(angle)];
+        return `${(middle + out * s + along * c).toFixed(2)} ${(along * s - out * c).toFixed(2)}`;
+      });
+      return `M${points.join("L")}Z`;
+    };
+    const rest = [0, 1].map(() => drawn(stage, "path", { class: "rest" }));
+    const walls = [0, 1].map(() => drawn(stage, "path", { class: "bat" }));
+    const show = (paths, moved) => [side, ring].forEach((form, k) => paths[k].setAttribute("d", form(moved)));
+    const film = player(root, {
+      seconds: 2, round: true, first: 0.25,
+      draw: (share) => { show(rest, 0); show(walls, size * Math.sin(2 * Math.PI * share)); },
+      say: (share, seconds) => `${mode.harmonic} waves around, ${mode.order} along: ` +
+        `${mode.frequency_hz.toFixed(1)} Hz, ${(1000 * share / mode.frequency_hz).toFixed(3)} of ` +
+        `${(1000 / mode.frequency_hz).toFixed(3)} ms, shown ${Math.round(seconds * mode.frequency_hz)} times slower`,
+    });
+    chosen(root, "hoop", (k) => { mode = all[k]; film.show(); });
+    once(stage, film);
+  };
+
   const moment = (root) => {
     const stage = root.querySelector(".stage");
     const radius = data.ball_radius_mm;
@@ -333,8 +372,10 @@
     button.addEventListener("click", () => heard(button.dataset.sound === "tap" ? data.tap : data.crack));
   }
 
-  const [film, hit] = ["modes-player", "moment-player"].map((id) => document.getElementById(id));
+  const [film, barrel, hit] = ["modes-player", "hoop-player", "moment-player"]
+    .map((id) => document.getElementById(id));
   if (film) modes(film);
+  if (barrel) hoop(barrel);
   if (hit) moment(hit);
   if (places.length > 1) {
     new Set([...document.querySelectorAll("svg[data-frame]")].map((picture) => picture.closest(".sheet"))).forEach(hair);

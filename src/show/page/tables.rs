@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::base::number;
 use crate::base::units::{gravities, inches, ounces};
+use crate::bat::body::Bat;
 use crate::collision::figures::Swung;
 use crate::collision::hit::Outcome;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
@@ -11,6 +12,7 @@ use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, bare, decimals, length, length_unit, speed};
 use crate::show::page::table::Table;
 use crate::show::report::units::Units;
+use crate::study::trampoline::barrel::Barrel;
 
 /// So many modes have their nodes listed, and so many their energies.
 const LISTED: usize = 6;
@@ -39,6 +41,25 @@ pub fn modes(analysis: &Analysis, units: Units) -> Table {
             row.extend([decimals(damped.swinging() / TAU, 2), decimals(100.0 * damped.ratio, 3)]);
         }
         table.row(row);
+    }
+    table
+}
+
+/// The lowest hoop modes of a barrel: waves around and number along, frequencies with their errors, and where
+/// they move most.
+pub fn hoop_modes(bat: &Bat, barrel: &Barrel, units: Units) -> Table {
+    const MOST: usize = 10;
+    let largest = format!("Largest, from the tip, {}", length_unit(units));
+    let head = ["n around", "m along", "Frequency, Hz", "Relative error", &largest];
+    let mut table = Table::new("Hoop modes: the wall as an elastic solid", &head);
+    for mode in barrel.hoop().lowest(MOST) {
+        table.row([
+            mode.harmonic.to_string(),
+            mode.order.to_string(),
+            decimals(mode.frequency(), 2),
+            format!("≤ {}", shown::error(mode.error)),
+            bare(units, (bat.length() - mode.largest_at).max(0.0)),
+        ]);
     }
     table
 }

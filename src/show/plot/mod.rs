@@ -55,6 +55,8 @@ pub mod front;
 pub mod u_curve;
 pub mod matrix;
 pub mod lathe;
+pub mod hoop;
+pub mod wall_sweep;
 pub mod sets;
 pub mod compared;
 pub mod change;

@@ -12,7 +12,7 @@ use crate::show::analysis::Analysis;
 use crate::show::plot::picture::Picture;
 use crate::show::plot::sheet::Sheet;
 use crate::show::plot::{
-    contact, exit_speed, hands, lathe, ledger, profile, shapes, spot, u_curve,
+    contact, exit_speed, hands, hoop, lathe, ledger, profile, shapes, spot, u_curve,
 };
 use crate::study::lathe::map::LatheMap;
 use crate::study::trade::u_curve::Column;
@@ -74,8 +74,8 @@ impl Hits<'_> {
     }
 }
 
-/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, and what cuts
-/// do (`lathe`) if that is known.
+/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, the
+/// barrel of a hollow bat (`hoop`), and what cuts do (`lathe`) if that is known.
 ///
 /// # Errors
 ///
@@ -91,6 +91,8 @@ pub fn of_analysis(
     pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
     let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
     pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(sheet, None)?);
+    let barrel = analysis.barrel.as_ref();
+    pictures.extend(barrel.and_then(|barrel| hoop::picture(sheet, bat, barrel, hoop::MODES)));
     pictures.extend(map.and_then(|map| lathe::picture(sheet, map)));
     Ok(pictures)
 }

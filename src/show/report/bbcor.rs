@@ -10,7 +10,8 @@ use crate::files::schema::bbcor as file;
 use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::hit_json::ball_out;
+use crate::show::report::hit_json::{ball_out, wall_under_ball};
+use crate::show::report::hit_text::{wall_lines, wall_words};
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
 use crate::study::ignored;
@@ -41,10 +42,19 @@ pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
         protocol.ball.name
     );
     out += &wrapped(&scene, 4);
-    for effect in ignored::in_hit(&tested.bat, false) {
+    if let Some(wall) = tested.scene.hoop.wall() {
+        out += &wrapped(&format!("  {}", wall_words(&tested.bat, &tested.scene, wall)), 4);
+    }
+    for effect in ignored::in_hit(&tested.bat, &tested.scene) {
         out += &wrapped(&format!("  left out: {effect}"), 4);
     }
     out += &table(tested, units);
+    if let Some(wall) = &tested.wall {
+        out += "\nWhere it is largest\n";
+        for [what, value] in wall_lines(wall, wall.bbcor_pivoted, units) {
+            let _ = writeln!(out, "  {what:<40} {value}");
+        }
+    }
     out + &verdict(tested, units)
 }
 
@@ -152,10 +162,11 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
         },
         places: tested.places.iter().map(|at| place(at, length, protocol.ball_speed)).collect(),
         largest: tested.most().and_then(largest),
+        wall: tested.wall.map(|wall| wall_under_ball(&wall, wall.bbcor_pivoted)),
         limit: LIMIT,
         within_limit: tested.within(),
         tolerance_met: tested.sweep.met,
-        ignored: ignored::in_hit(&tested.bat, false),
+        ignored: ignored::in_hit(&tested.bat, &tested.scene),
     }
 }
 

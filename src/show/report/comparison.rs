@@ -114,7 +114,7 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         if !contender.bat.edits().is_empty() {
             out += &wrapped(&format!("     edited: {}", edits::listed(&contender.bat, units)), 5);
         }
-        for effect in in_hit(&contender.bat, contender.scene.wall.is_some()) {
+        for effect in in_hit(&contender.bat, &contender.scene) {
             out += &wrapped(&format!("     left out: {effect}"), 5);
         }
     }

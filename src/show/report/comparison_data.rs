@@ -77,7 +77,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
         theory: bat.sweep.solution.theory.name(),
         modes: bat.sweep.solution.modes.len(),
         tolerance_met: bat.sweep.met,
-        ignored: in_hit(&bat.bat, bat.scene.wall.is_some()),
+        ignored: in_hit(&bat.bat, &bat.scene),
         figures: figures
             .map(|row| (format!("{}{}", row.key, row.unit.suffix()), figure(row)))
             .collect(),

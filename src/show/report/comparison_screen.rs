@@ -52,7 +52,7 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
 fn bats(comparison: &Comparison, units: Units) -> String {
     let mut out = String::from("Bats compared; A is the one the others are measured by\n");
     for (k, contender) in comparison.bats.iter().enumerate() {
-        let hollow = thinnest_wall(&contender.bat).filter(|_| contender.scene.wall.is_none());
+        let hollow = thinnest_wall(&contender.bat).filter(|_| !contender.scene.wall_gives_way());
         let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
         out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
         let edits = edits::listed(&contender.bat, units);

@@ -3,9 +3,11 @@
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::columns;
-use crate::collision::figures::{Figures, Swung};
-use crate::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall};
+use crate::collision::figures::{BarrelSpeed, Figures, Swung};
+use crate::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall, greater};
+use crate::collision::hoop_wall::COMPRESSION;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit as file;
 use crate::study::ignored;
@@ -26,7 +28,7 @@ pub fn hit(
         scene: scene_out(bat, scene),
         impacts: impacts.iter().map(|at| impact(bat, at)).collect(),
         sweet_spot: sweet_spot(spot),
-        ignored: ignored::in_hit(bat, scene.wall.is_some()),
+        ignored: ignored::in_hit(bat, scene),
         figures: None,
     }
 }
@@ -38,7 +40,6 @@ pub fn seen_from(bat: &Bat) -> &'static str {
 
 /// Swing, pitch and ball.
 pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
-    let wall = |wall: Wall| file::Wall { stiffness_n_m: wall.stiffness, mass_kg: wall.mass };
     file::Scene {
         bat_pivot_m: scene.pivot,
         swing_rad_s: scene.swing,
@@ -47,8 +48,29 @@ pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
         cor: scene.cor,
         hands_m: scene.hands,
         energies_seen_from: seen_from(bat).to_owned(),
-        wall: scene.wall.map(wall),
+        wall: wall(bat, scene),
     }
+}
+
+/// How the wall gives way, if it does.
+fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
+    if let Some(Wall { stiffness, mass }) = scene.wall {
+        return Some(file::Wall { stiffness_n_m: stiffness, mass_kg: mass, hoop: None });
+    }
+    let wall = scene.hoop.wall()?;
+    let (hoop, x) = (wall.hoop(), bat.length() - BarrelSpeed::BROADCAST);
+    let [soft, slow] = wall.somewhere(x);
+    Some(file::Wall {
+        stiffness_n_m: 1.0 / soft,
+        mass_kg: slow / (soft * soft),
+        hoop: Some(file::HoopInHit {
+            harmonics: wall.request().harmonics.clone(),
+            modes: hoop.modes().len(),
+            frequency_error: hoop.modes().iter().map(|mode| mode.error).fold(0.0, greater),
+            stretch_m: [hoop.from(), hoop.to()],
+            patch_compression_m: COMPRESSION,
+        }),
+    })
 }
 
 /// The ball, with what its numbers come from.
@@ -104,8 +126,24 @@ pub fn figures(figures: &Figures) -> file::Figures {
         bbcor_max: figures.bbcor_max.map(peak),
         bbcor_pivoted_max: figures.bbcor_pivoted_max.map(peak),
         rigid_exit_speed_max: figures.rigid_best.map(peak),
+        wall: figures.wall.map(|wall| wall_under_ball(&wall, wall.bbcor)),
         swings: figures.swings.iter().map(swung).collect(),
         moves: figures.moves.iter().map(moved).collect(),
+    }
+}
+
+/// The wall under the ball, and that BBCOR there.
+pub fn wall_under_ball(wall: &WallFigures, bbcor: WallBbcor) -> file::WallUnderBall {
+    let WallBbcor { with, stiff, range } = bbcor;
+    file::WallUnderBall {
+        x_m: wall.x,
+        patch_half_lengths_m: wall.patch,
+        stiffness_n_m: wall.stiffness,
+        stiffness_over_ball: wall.over_ball,
+        mass_kg: wall.mass,
+        bbcor: file::WallBbcor { with, stiff, range },
+        dent_m: wall.dent,
+        thickness_m: wall.thickness,
     }
 }
 
@@ -139,6 +177,8 @@ fn separation(first: Separation) -> file::FirstSeparation {
 }
 
 fn energy_out(energy: &Energy) -> file::Energy {
+    let harmonic =
+        |&(harmonic, energy_j): &(usize, f64)| file::HarmonicEnergy { harmonic, energy_j };
     file::Energy {
         initial: energy.initial,
         ball: energy.ball,
@@ -148,6 +188,7 @@ fn energy_out(energy: &Energy) -> file::Energy {
         dissipated_ball: energy.dissipated_ball,
         dissipated_damping: energy.dissipated_damping,
         wall: energy.wall,
+        wall_by_harmonic: energy.wall_by_harmonic.iter().map(harmonic).collect(),
         imbalance: energy.imbalance(),
     }
 }

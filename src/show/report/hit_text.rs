@@ -2,14 +2,16 @@
 
 use std::fmt::Write;
 
-use crate::base::number::signed;
+use crate::base::number::{signed, significant};
 use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::columns::{self, Column};
 use crate::collision::figures::{BarrelSpeed, Figures};
 use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::hoop_wall::HoopWall;
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::show::report::curve;
 use crate::show::report::edits;
 use crate::show::report::text::wrapped;
@@ -250,6 +252,11 @@ pub fn figures(figures: &Figures, units: Units) -> String {
         line("1 in off towards the knob", lost(knob));
         line("1 in off towards the tip", lost(tip));
     }
+    if let Some(wall) = figures.wall {
+        wall_lines(&wall, wall.bbcor, units)
+            .into_iter()
+            .for_each(|[what, value]| line(&what, value));
+    }
     for swung in &figures.swings {
         let what = match swung.exponent {
             0.0 => "same angular speed".to_owned(),
@@ -260,6 +267,31 @@ pub fn figures(figures: &Figures, units: Units) -> String {
         line(&what, format!("{:.2} rad/s: {best}", swung.swing));
     }
     out
+}
+
+/// What a hollow barrel's wall does at a place, and to that BBCOR there: names and values.
+pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[String; 2]> {
+    let short = |x: f64| units.inline(units.show(millimetres(x), in_inches(x)));
+    let [along, around] = wall.patch.map(|half| 2.0 * half);
+    let [low, high] = bbcor.range;
+    let deep =
+        if wall.is_deep() { ": deeper than half the wall, where this theory ends" } else { "" };
+    [
+        ("BBCOR with a stiff wall", format!("{:.3}", bbcor.stiff)),
+        ("  with half and twice the patch's press", format!("{low:.3} to {high:.3}")),
+        (
+            "wall under the ball",
+            format!("{:.1} MN/m, {:.1} times the ball's", 1e-6 * wall.stiffness, wall.over_ball),
+        ),
+        ("  patch, along and around", format!("{} by {}", short(along), short(around))),
+        ("  it dents by", format!("{}{deep}", short(wall.dent))),
+    ]
+    .map(|(what, value)| [what.to_owned(), value])
+    .into()
+}
+
+fn millimetres(x: f64) -> String {
+    format!("{:.1} mm", 1e3 * x)
 }
 
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
@@ -304,6 +336,20 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
     out
 }
 
+/// What of the wall gives way, and why it is counted.
+pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
+    let modes = wall.hoop().modes();
+    let last = modes.iter().map(|mode| mode.harmonic).max().unwrap_or(0);
+    let why = scene.gain_by_wall(bat).map_or(String::new(), |gain| {
+        format!(": by estimate that is {} of BBCOR", significant(gain, 1))
+    });
+    format!(
+        "the barrel's wall gives way by {} hoop modes of its own, of harmonics 0 and 2 to {last} around \
+         it{why}",
+        modes.len()
+    )
+}
+
 /// The scene in words.
 pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
@@ -332,7 +378,10 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
             wall.stiffness, wall.mass
         );
     }
-    for effect in ignored::in_hit(bat, scene.wall.is_some()) {
+    if let Some(wall) = scene.hoop.wall() {
+        out += &wrapped(&format!("     {}", wall_words(bat, scene, wall)), 5);
+    }
+    for effect in ignored::in_hit(bat, scene) {
         out += &wrapped(&format!("     left out: {effect}"), 5);
     }
     if bat.fixtures().holding() {

@@ -170,7 +170,7 @@ const HOLLOW: &str = "Left out: how a hollow barrel's wall gives way; --full say
 pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
     let mut told = of_bat(analysis, units);
     told.push(computation(analysis));
-    let rigid = thinnest_wall(&analysis.bat).filter(|_| analysis.task.scene.wall.is_none());
+    let rigid = thinnest_wall(&analysis.bat).filter(|_| !analysis.task.scene.wall_gives_way());
     told.extend(rigid.map(|_| HOLLOW.to_owned()));
     told
 }

@@ -1,7 +1,7 @@
 //! The physics of bats that no model here has.
 
 use crate::bat::body::Bat;
-use crate::study::ignored::CUP;
+use crate::collision::hoop_wall::CUP;
 
 /// What is out of scope, a sentence each, as far as it can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {
@@ -13,8 +13,8 @@ pub fn outside(bat: &Bat) -> Vec<String> {
         match hollow {
             true => {
                 "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-                 the ball (trampoline effect); sections stay round here, and a hit models that \
-                 wall by --wall-stiffness alone"
+                 the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
+                 these modes (--wall) and sweetspot hoop shows them"
             }
             false => {
                 "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"

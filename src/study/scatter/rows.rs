@@ -205,8 +205,8 @@ impl ScatterRows {
             setup.ball.cor = moved(setup.ball.cor);
             setup.ball.cor_by_speed.iter_mut().for_each(|[_, cor]| *cor = moved(*cor));
         }
-        let model = setup.model()?;
-        Ok(Trial { scene: setup.scene(bat)?.0, model, barrel: setup.barrel_speed() })
+        let (model, tolerance) = (setup.model()?, Some(self.plan.tolerance));
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model, barrel: setup.barrel_speed() })
     }
 
     /// The bat with these numbers.
@@ -299,7 +299,7 @@ fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
 
 /// Where the ball leaves the bat fastest (m).
 fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
-    let (scene, _) = plan.setup.scene(bat)?;
+    let (scene, _) = plan.setup.scene(bat, Some(plan.tolerance))?;
     let model = plan.setup.model()?;
     let request = Request { tolerance: plan.tolerance, ..Request::default() };
     let request = Request { theory: theory(bat, &request)?.theory, ..request };

@@ -1,0 +1,330 @@
+//! How does a hollow barrel's own wall give way under a ball?
+//!
+//! Every hoop mode of the wall ([`crate::modes::hoop`]) is one more mode of the contact, and what a
+//! harmonic has beyond its kept modes is added as the modes of bending that are left out are
+//! ([`complete`]). A ball presses on a patch, so that
+//! the sum over the harmonics ends:
+//!
+//! ```text
+//! y″ + 2ζωy′ + ω²y = −c F       c = (g_n Ū)²/M of every mode (n, m), ζ = η/2
+//! C_n = Σ c/ω²,  D_n = Σ c/ω⁴   over all modes of a harmonic, by statics
+//! g_n = P(n a_t/r)/P(a_t/r)     P(k) = 3 (sin k − k cos k)/k³
+//! ```
+//!
+//! A motion that goes as `cos nθ`, n ≠ 1, has neither momentum nor angular momentum: rigid motion and
+//! bending stay as they are.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::collision::contact::touch::Felt;
+use crate::collision::struck::complete;
+use crate::collision::wall_table::WallTable;
+use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
+
+/// Compression δ of the ball (m) by which it presses on the wall as a patch: half of the largest at game
+/// speed. Half and twice as much say what that choice does to BBCOR.
+pub const COMPRESSION: f64 = 0.008;
+
+/// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
+pub const CUP: f64 = 0.04;
+
+/// The wall of a hollow barrel, its hoop modes solved, for balls of one size.
+pub struct HoopWall {
+    bat: Bat,
+    ball_radius: f64,
+    request: HoopRequest,
+    hoop: Hoop,
+    /// What is known along the barrel, by the ball's compression in bits.
+    tables: Mutex<BTreeMap<u64, Arc<WallTable>>>,
+}
+
+/// Modes and flexibility of a wall at one place.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WallSeries {
+    /// `c` of every hoop mode (1/kg), the last of each harmonic as heavy as stands for those beyond it.
+    pub gains: Vec<f64>,
+    /// Flexibility that is left (m/N).
+    pub rest: f64,
+}
+
+/// The wall as a ball feels it at one place.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WallFelt {
+    /// All modes.
+    pub full: WallSeries,
+    /// One mode fewer of every harmonic, to see what the modes that are left out do.
+    pub fewer: WallSeries,
+    /// `C_n` (m/N) of every harmonic.
+    pub flexibility: Vec<(usize, f64)>,
+    /// `Σ C_n` (m/N): deflection under the ball per force.
+    pub soft: f64,
+    /// `Σ D_n` (m s²/N).
+    pub slow: f64,
+    /// Flexibility (m/N) that may be missing: of harmonics left out, and by the modes' own errors.
+    pub unsure: f64,
+}
+
+impl WallSeries {
+    /// The bat with these modes before its own, and this flexibility.
+    pub fn before(&self, mut felt: Felt) -> Felt {
+        felt.gains.splice(0..0, self.gains.iter().copied());
+        felt.rest += self.rest;
+        felt
+    }
+}
+
+impl HoopWall {
+    /// The wall of that bat for balls of that radius (m).
+    ///
+    /// # Errors
+    ///
+    /// As [`Hoop::of`].
+    pub fn of(bat: &Bat, ball_radius: f64, request: &HoopRequest) -> Result<Arc<Self>> {
+        let (hoop, tables) = (Hoop::of(bat, request)?, Mutex::default());
+        let (bat, request) = (bat.clone(), request.clone());
+        Ok(Arc::new(Self { bat, ball_radius, request, hoop, tables }))
+    }
+
+    /// The wall of another bat, solved to the same accuracy; of a bat with the same wall this one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hoop::of`].
+    pub fn on(self: &Arc<Self>, bat: &Bat) -> Result<Arc<Self>> {
+        let same = self.bat.profile() == bat.profile() && self.bat.layups() == bat.layups();
+        if same { Ok(Arc::clone(self)) } else { Self::of(bat, self.ball_radius, &self.request) }
+    }
+
+    /// The hoop modes.
+    pub fn hoop(&self) -> &Hoop {
+        &self.hoop
+    }
+
+    /// What was asked of them.
+    pub fn request(&self) -> &HoopRequest {
+        &self.request
+    }
+
+    /// ω (rad/s) and damping ratio of every mode.
+    pub fn modes(&self) -> Vec<[f64; 2]> {
+        self.hoop.modes().iter().map(|mode| [mode.omega, mode.damping_ratio]).collect()
+    }
+
+    /// The energies (J) of all modes, summed by harmonic.
+    pub fn by_harmonic(&self, energies: &[f64]) -> Vec<(usize, f64)> {
+        let mut all: Vec<(usize, f64)> = vec![];
+        for (mode, energy) in self.hoop.modes().iter().zip(energies) {
+            match all.last_mut().filter(|(harmonic, _)| *harmonic == mode.harmonic) {
+                Some((_, sum)) => *sum += energy,
+                None => all.push((mode.harmonic, *energy)),
+            }
+        }
+        all
+    }
+
+    /// Where a ball that is compressed by that much (m) presses at `x` (m).
+    pub fn patch(&self, x: f64, compression: f64) -> Patch {
+        Patch::under(x, self.ball_radius, self.bat.profile().at(x).outer, compression)
+    }
+
+    /// The wall at `x` (m) under a ball that is compressed by that much (m). Where the modelled stretch
+    /// ends it does not give way.
+    pub fn under(&self, x: f64, compression: f64) -> WallFelt {
+        let (patch, modes) = (self.patch(x, compression), self.hoop.modes());
+        if !self.hoop.covers(&patch) {
+            let none = WallSeries { gains: vec![0.0; modes.len()], rest: 0.0 };
+            return WallFelt { full: none.clone(), fewer: none, ..WallFelt::default() };
+        }
+        let (table, mut felt, mut from) = (self.table(compression), WallFelt::default(), 0);
+        for share in table.at(x, |nodes| self.looked_at(nodes, compression)) {
+            let all = [share.flexibility, share.slowness];
+            let own = &modes[from..from + share.gains.len()];
+            from += share.gains.len();
+            felt.full.take(share.gains.clone(), own, share.gains.len(), all);
+            felt.fewer.take(share.gains.clone(), own, own.len().saturating_sub(1), all);
+            // ω is off by a relative error, 1/ω² by twice that.
+            let doubt = own.iter().zip(&share.gains);
+            let doubt = doubt.map(|(mode, gain)| 2.0 * mode.error * gain / mode.omega.powi(2));
+            felt.unsure += doubt.sum::<f64>();
+            felt.flexibility.push((share.harmonic, share.flexibility));
+            felt.soft += share.flexibility;
+            felt.slow += share.slowness;
+        }
+        felt.unsure += beyond(&felt.flexibility, &patch, self.hoop.radius(x));
+        felt
+    }
+
+    fn looked_at(&self, places: &[f64], compression: f64) -> Vec<Vec<Share>> {
+        let patches: Vec<Patch> = places.iter().map(|x| self.patch(*x, compression)).collect();
+        self.hoop.under_each(&patches)
+    }
+
+    /// The places at which the wall is looked at for that compression.
+    fn table(&self, compression: f64) -> Arc<WallTable> {
+        let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        let half = self.patch(self.hoop.to(), compression).half_length;
+        let ends = [self.hoop.from() + half, self.hoop.to() - half, self.hoop.to()];
+        let step = half / if self.request.tol < FINE { 8.0 } else { 4.0 };
+        let table = tables.entry(compression.to_bits());
+        Arc::clone(table.or_insert_with(|| Arc::new(WallTable::new(ends, step))))
+    }
+
+    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it.
+    pub fn somewhere(&self, x: f64) -> [f64; 2] {
+        let from = self.hoop.from() + self.patch(x, COMPRESSION).half_length;
+        let felt = self.under(x.max(from).min(self.hoop.to()), COMPRESSION);
+        [felt.soft, felt.slow]
+    }
+}
+
+/// Hoop modes better than this are felt at places twice as close.
+const FINE: f64 = 1e-4;
+
+impl WallSeries {
+    /// Adds a harmonic by so many of its modes; those that are not taken weigh nothing.
+    fn take(&mut self, mut gains: Vec<f64>, modes: &[HoopMode], count: usize, all: [f64; 2]) {
+        let square = |k: usize| modes[k].omega.powi(2);
+        self.rest += complete(&mut gains[..count], square, all, [0.0; 2]);
+        gains[count..].fill(0.0);
+        self.gains.extend(gains);
+    }
+}
+
+impl fmt::Debug for HoopWall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let modes = self.hoop.modes().len();
+        f.debug_struct("HoopWall").field("bat", &self.bat.name()).field("modes", &modes).finish()
+    }
+}
+
+impl PartialEq for HoopWall {
+    /// The same bat, ball and accuracy: the answers are then the same.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.bat, self.ball_radius, &self.request)
+            == (&other.bat, other.ball_radius, &other.request)
+    }
+}
+
+/// Flexibility (m/N) of the harmonics above the last that is counted, by an estimate from above: what a
+/// wall gives way to `cos nθ` falls at least as `1/n³` (a ring bends as `1/n⁴`), times the share `g_n²`
+/// that a patch of that half width over the radius has in it.
+fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
+    const FALL: i32 = 3;
+    const FAR: usize = 60;
+    let share = |n: usize| patch.share(n, radius).powi(2);
+    let last = flexibility.iter().map(|(n, _)| *n).max().unwrap_or(0);
+    // Of the last two, since one may lie where the patch takes nothing.
+    let known = flexibility.iter().filter(|(n, _)| *n > 0 && n + 2 > last);
+    let by_share = known.map(|(n, soft)| soft / share(*n).max(1e-2) * (*n as f64).powi(FALL));
+    let most = by_share.fold(0.0, f64::max);
+    (last + 1..last + FAR).map(|n| most * share(n) / (n as f64).powi(FALL)).sum()
+}
+
+/// How stiff the barrel's wall is under a ball (N/m), before anything is solved: the least of `3 E h^{5/2}
+/// r^{−3/2}` over the outer half of the bat; None where that is solid.
+///
+/// # Source
+///
+/// A fit to hoop modes of bats with walls from 1.4 to 6 mm and a patch of [`COMPRESSION`], good to a
+/// tenth.
+pub fn rough_stiffness(bat: &Bat) -> Option<f64> {
+    let stiffness = |[wall, x]: [f64; 2]| {
+        let modulus = bat.layup(bat.profile().piece_at(x)).outer.youngs_modulus;
+        3.0 * modulus * wall.powf(2.5) * bat.profile().at(x).outer.powf(-1.5)
+    };
+    barrel_walls(bat).into_iter().map(stiffness).min_by(f64::total_cmp)
+}
+
+/// Walls (m) of the outer half of the bat, where a ball is hit, and their places (m); none where that
+/// half is solid. A bore with a core in it is hollow too; a cup in the tip is not.
+pub fn barrel_walls(bat: &Bat) -> Vec<[f64; 2]> {
+    const STRETCHES: usize = 200;
+    let half = 0.5 * bat.length();
+    let wall = |k: usize| {
+        // Between the stations too, and not at the tip, where a cap is not a wall.
+        let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
+        let section = bat.profile().at(x);
+        (section.inner > 0.0).then_some([section.outer - section.inner, x])
+    };
+    let walls: Vec<[f64; 2]> = (0..STRETCHES).filter_map(wall).collect();
+    let hollow = walls.iter().any(|[_, x]| *x < bat.length() - CUP);
+    if hollow { walls } else { vec![] }
+}
+
+/// Restitution of a ball on a wall that gives way, from that on a stiff one, `e = √((e_s² + s)/(1 + s))`,
+/// `s = ½ (1 + α) k_ball/k_wall` the share of the energy that the wall stores and gives back: an
+/// estimate, within 0.03, of a wall much lighter than the ball.
+pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> f64 {
+    let share = 0.5 * (1.0 + exponent) * ball_over_wall;
+    ((stiff * stiff + share) / (1.0 + share)).sqrt()
+}
+
+/// Whether the wall of a bat gives way in a hit by its own hoop modes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum HoopInHit {
+    /// There is no wall that could, or nothing was asked.
+    #[default]
+    None,
+    /// There is one, and it is taken as rigid.
+    LeftOut(WhyRigid),
+    /// It does.
+    Counted(Arc<HoopWall>),
+}
+
+/// Why a wall that could give way is taken as rigid.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum WhyRigid {
+    /// So it was asked.
+    Asked,
+    /// The number of modes was told, and nothing else is counted.
+    ModesTold,
+    /// It would change the restitution by about that much, less than was asked for.
+    Small {
+        /// Estimated change.
+        gain: f64,
+        /// Accuracy that was asked for.
+        tolerance: f64,
+    },
+    /// Its hoop modes could not be found, for that reason.
+    Unsolved(String),
+}
+
+impl HoopInHit {
+    /// The wall, where it gives way.
+    pub fn wall(&self) -> Option<&Arc<HoopWall>> {
+        match self {
+            Self::Counted(wall) => Some(wall),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A limit: a stiff wall changes nothing, one that stores all gives all back.
+    #[test]
+    fn a_wall_returns_what_it_stores() {
+        assert!((restitution_with_wall(0.5, 1.84, 0.0) - 0.5).abs() < 1e-15);
+        assert!((restitution_with_wall(0.5, 1.84, 1e12) - 1.0).abs() < 1e-9);
+    }
+
+    /// Of harmonics that fall as the estimate assumes, what is beyond is stated within a few per cent.
+    #[test]
+    fn harmonics_left_out_are_estimated_from_the_last() {
+        let (patch, radius) = (Patch::under(0.7, 0.0366, 0.0333, COMPRESSION), 0.0333);
+        let soft = |n: usize| 1e-8 * patch.share(n, radius).powi(2) * (n as f64).powi(-3);
+        for last in [6, 8, 11] {
+            let counted: Vec<(usize, f64)> = (2..=last).map(|n| (n, soft(n))).collect();
+            let true_rest: f64 = (last + 1..400).map(soft).sum();
+            let stated = beyond(&counted, &patch, radius);
+            assert!((stated / true_rest - 1.0).abs() < 0.05, "{last} {stated:e} {true_rest:e}");
+        }
+    }
+}

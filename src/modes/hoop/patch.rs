@@ -1,0 +1,158 @@
+//! How does the wall give way where a ball presses on it?
+//!
+//! The ball presses on a patch, with a pressure that is a parabola along the bat and around it. With
+//! `P(k) = 3 (sin k − k cos k)/k³` and a resultant F across the bat
+//!
+//! ```text
+//! share of harmonic n      g_n = P(n a_t/r)/P(a_t/r),  g_0 = 1/P(a_t/r)
+//! motion the ball feels    y_n = g_n · mean of U_n(x, r_o) with the weight 1 − (x − x₀)²/a_x²
+//! mode (n, m)              c = (g_n Ū)²/M,   y″ + 2ζω y′ + ω² y = −c F
+//! all modes of n           C_n = f·K⁻¹f = Σ c/ω²,   D_n = (K⁻¹f)·M(K⁻¹f) = Σ c/ω⁴
+//! ```
+//!
+//! where f is the load of F = 1, the work of that pressure.
+
+use std::f64::consts::PI;
+
+use crate::base::linear::dot;
+use crate::base::quadrature::gauss;
+use crate::eigen::fronts::SIDES;
+use crate::modes::hoop::spectrum::Spectrum;
+
+/// Where a ball presses on the barrel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// Middle of the patch (m from the knob end).
+    pub x: f64,
+    /// Half its length along the bat, `a_x` (m).
+    pub half_length: f64,
+    /// Half its width around the bat, `a_t` (m).
+    pub half_width: f64,
+}
+
+/// How one harmonic gives way under a patch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Share {
+    /// The harmonic n.
+    pub harmonic: usize,
+    /// `(g_n Ū)²/M` of each kept mode, in their order (1/kg).
+    pub gains: Vec<f64>,
+    /// `C_n`: displacement under a steady force of all modes of the harmonic (m/N).
+    pub flexibility: f64,
+    /// `D_n = Σ c/ω⁴` over all modes of the harmonic (m s²/N).
+    pub slowness: f64,
+}
+
+impl Patch {
+    /// The patch of a ball that is compressed so far, all lengths in m, as for two elastic bodies that touch:
+    /// `a_x = √(R δ)`, `a_t = √(δ R r/(R + r))` of a ball of radius R on a barrel of radius r.
+    ///
+    /// # Source
+    ///
+    /// K. L. Johnson, Contact Mechanics (Cambridge 1985), chapter 4: Hertz.
+    pub fn under(x: f64, ball_radius: f64, barrel_radius: f64, compression: f64) -> Self {
+        let around = ball_radius * barrel_radius / (ball_radius + barrel_radius);
+        let half_length = (ball_radius * compression).sqrt();
+        Self { x, half_length, half_width: (compression * around).sqrt() }
+    }
+
+    /// `g_n` on a barrel of radius `r` (m).
+    pub fn share(&self, n: usize, r: f64) -> f64 {
+        let k = self.half_width / r;
+        parabola(n as f64 * k) / parabola(k)
+    }
+}
+
+/// `P(k) = 3 (sin k − k cos k)/k³`, the Fourier transform of a parabola of area 1 over [−1, 1].
+fn parabola(k: f64) -> f64 {
+    if k.abs() < 0.1 {
+        // Its series, where the difference would lose digits.
+        let square = k * k;
+        return 1.0 - square / 10.0 * (1.0 - square / 28.0 * (1.0 - square / 54.0));
+    }
+    3.0 * (k.sin() - k * k.cos()) / k.powi(3)
+}
+
+/// How a harmonic gives way under patches on a barrel of those radii (m), up to [`SIDES`] of them.
+pub(crate) fn shares(spectrum: &Spectrum, patches: &[(Patch, f64)]) -> Vec<Share> {
+    let system = &spectrum.system;
+    let (n, free) = (system.n, system.unknowns.count);
+    let load = |(patch, r): &(Patch, f64)| load(spectrum, patch, patch.share(n, *r));
+    let loads: Vec<Vec<f64>> = patches.iter().map(load).collect();
+    let side = |s: usize, i: usize| loads.get(s).map_or(0.0, |load| load[i]);
+    let beside = |i: usize| std::array::from_fn(|s| side(s, i));
+    let mut given: Vec<[f64; SIDES]> = (0..free).map(beside).collect();
+    spectrum.factors.solve_together(&mut given);
+    let turn = if n == 0 { 2.0 * PI } else { PI };
+    let share = |(s, load): (usize, &Vec<f64>)| {
+        let gain = |motion: &Vec<f64>| dot(load, motion).powi(2) / turn;
+        let mut given: Vec<f64> = given.iter().map(|x| x[s]).collect();
+        given.resize(load.len(), 0.0);
+        let mut moved = vec![0.0; load.len()];
+        system.mass(&given, &mut moved);
+        if let Some(rigid) = &spectrum.rigid {
+            let part = dot(rigid, &moved);
+            given.iter_mut().zip(rigid).for_each(|(x, r)| *x -= part * r);
+            system.mass(&given, &mut moved);
+        }
+        Share {
+            harmonic: n,
+            gains: spectrum.motions.iter().map(gain).collect(),
+            flexibility: dot(load, &given) / turn,
+            slowness: dot(&given, &moved) / turn,
+        }
+    };
+    loads.iter().enumerate().map(share).collect()
+}
+
+/// The load of a patch of resultant 1, all unknowns.
+fn load(spectrum: &Spectrum, patch: &Patch, share: f64) -> Vec<f64> {
+    let system = &spectrum.system;
+    let mut load = vec![0.0; system.unknowns.all()];
+    let columns = &system.mesh.columns;
+    let ends = [columns[0].from, columns[columns.len() - 1].to];
+    let (from, to) = (patch.x - patch.half_length, patch.x + patch.half_length);
+    let weight = |x: f64| 1.0 - ((x - patch.x) / patch.half_length).powi(2);
+    let mut points = vec![];
+    let rule = gauss(system.mesh.degrees[0] + 3);
+    for column in columns {
+        let (a, b) = (column.from.max(from), column.to.min(to));
+        if b > a {
+            points.extend(rule.iter().map(|(s, w)| {
+                let x = a + (b - a) * s;
+                (x, w * (b - a) * weight(x))
+            }));
+        }
+    }
+    let total: f64 = points.iter().map(|(_, weight)| weight).sum();
+    if total <= 0.0 {
+        system.load(patch.x.clamp(ends[0], ends[1]), share, &mut load);
+        return load;
+    }
+    for (x, weight) in points {
+        system.load(x, share * weight / total, &mut load);
+    }
+    load
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_and_the_closed_form_of_the_parabola_agree() {
+        let exact = |k: f64| 3.0 * (k.sin() - k * k.cos()) / k.powi(3);
+        for k in [0.05, 0.09, 0.0999] {
+            assert!((parabola(k) - exact(k)).abs() < 1e-11, "{k}");
+        }
+        assert_eq!(parabola(0.0), 1.0);
+    }
+
+    /// The sizes that two spheres of one radius on flat ground have, and those of the note's baseball.
+    #[test]
+    fn a_patch_is_that_of_hertz() {
+        let patch = Patch::under(0.6858, 0.0366, 0.0333, 0.008);
+        assert!((patch.half_length - 17.111_399_7e-3).abs() < 1e-10, "{patch:?}");
+        assert!((patch.half_width - 11.810_521_5e-3).abs() < 1e-10, "{patch:?}");
+    }
+}

@@ -1,0 +1,309 @@
+//! What are the hoop modes of a bat, as accurately as asked?
+
+use std::f64::consts::TAU;
+
+use crate::base::error::{Error, Result};
+use crate::base::golden;
+use crate::base::threads;
+use crate::bat::body::Bat;
+use crate::beam::wall::extent::{Extent, Limit};
+use crate::beam::wall::layers::Layers;
+use crate::beam::wall::unknowns::EndHold;
+use crate::eigen::fronts::SIDES;
+use crate::modes::hoop::climb::{Climb, thinnest};
+use crate::modes::hoop::patch::{Patch, Share, shares};
+use crate::modes::hoop::request::{HoopRequest, KnobSide};
+use crate::modes::hoop::spectrum::Spectrum;
+
+/// One hoop mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoopMode {
+    /// Its harmonic n: it moves as `cos nθ` around the bat.
+    pub harmonic: usize,
+    /// Its order among those of its harmonic, from 1.
+    pub order: usize,
+    /// Angular frequency (rad/s).
+    pub omega: f64,
+    /// Damping ratio ζ, half the loss factor of the wall.
+    pub damping_ratio: f64,
+    /// Largest relative error of the frequency, as it is stated.
+    pub error: f64,
+    /// Where the outer surface moves most, radially (m from the knob end).
+    pub largest_at: f64,
+}
+
+impl HoopMode {
+    /// Frequency (Hz).
+    pub fn frequency(&self) -> f64 {
+        self.omega / TAU
+    }
+}
+
+/// The motion of the outer surface in a mode; the largest |radial| is 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// Places from the knob end (m).
+    pub x: Vec<f64>,
+    /// Radial displacement at θ = 0, which goes as `cos nθ`.
+    pub radial: Vec<f64>,
+    /// Displacement around, which goes as `sin nθ`.
+    pub around: Vec<f64>,
+    /// Displacement along the bat, which goes as `cos nθ`.
+    pub along: Vec<f64>,
+}
+
+/// What was assumed, or is worth a warning.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// The wall is so thin that rounding counts.
+    ThinWall {
+        /// Where it is thinnest against its radius (m).
+        at: f64,
+        /// Thickness there (m).
+        thickness: f64,
+        /// Radius there (m).
+        radius: f64,
+    },
+    /// The model begins beyond a step whose walls do not meet.
+    BeginsBeyondStep {
+        /// Where the step is (m).
+        at: f64,
+    },
+    /// The model begins where the wood ends.
+    BeginsBeyondWood {
+        /// Where the wood ends (m).
+        at: f64,
+    },
+    /// The bore is open at the tip: no end cap was given.
+    OpenTip,
+}
+
+/// Hoop modes of a bat.
+#[derive(Debug, Clone)]
+pub struct Hoop {
+    from: f64,
+    to: f64,
+    spectra: Vec<Spectrum>,
+    modes: Vec<HoopMode>,
+    notes: Vec<Note>,
+    met: bool,
+}
+
+/// Highest frequency up to which modes may be asked for (Hz).
+const MOST_HZ: f64 = 1e6;
+/// Walls thinner than this share of their radius get a warning.
+const THIN: f64 = 1.0 / 300.0;
+
+impl Hoop {
+    /// The hoop modes of a hollow bat.
+    ///
+    /// The stretch from the handle to the tip is a solid of revolution; its modes in the handle, which depend on
+    /// where that is cut off, are left out. Every harmonic is solved on two meshes, the second with a higher
+    /// degree along and across and finer towards ends, kinks and corners; the answer is the second, and their
+    /// difference its stated error. While that is above the tolerance both get finer.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a solid bat, a wall of wood, walls that do not meet in the barrel, and a request that
+    /// is none; [`Error::NotConverged`] if an iteration fails.
+    pub fn of(bat: &Bat, request: &HoopRequest) -> Result<Self> {
+        let tol = request.tol;
+        if !(tol > 0.0 && tol < 1.0) {
+            return Err(Error::value("tol", tol, "a number above 0 and below 1"));
+        }
+        if !(0.0..=MOST_HZ).contains(&request.up_to_hz) {
+            let expected = format!("0 to {MOST_HZ:e} Hz");
+            return Err(Error::value("up_to_hz", request.up_to_hz, expected));
+        }
+        // What is cut off in the handle costs a tenth with every two radii or so.
+        let lead = 2.5 * (1e-4 / tol).log10().max(0.0);
+        let mut extent = Extent::of(bat, lead)?;
+        let cut = extent.limit == Limit::Handle;
+        let (mut hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
+        if cut && cut_off > 0.5 * tol {
+            // High modes may reach far into a thin handle: all of it is modelled then.
+            extent = Extent::of(bat, f64::INFINITY)?;
+            hoop = Self::solved(bat, [extent.from, extent.to], false, request)?.0;
+        }
+        match extent.limit {
+            Limit::Step => hoop.notes.push(Note::BeginsBeyondStep { at: extent.from }),
+            Limit::Wood => hoop.notes.push(Note::BeginsBeyondWood { at: extent.from }),
+            Limit::Handle | Limit::Knob => {}
+        }
+        Ok(hoop)
+    }
+
+    /// The hoop modes of a stretch of a bat (m), which is cut off at both ends.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`].
+    pub fn between(bat: &Bat, stretch: [f64; 2], request: &HoopRequest) -> Result<Self> {
+        Ok(Self::solved(bat, stretch, stretch[0] > 0.0, request)?.0)
+    }
+
+    /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there. Besides, what the
+    /// cut costs.
+    fn solved(
+        bat: &Bat,
+        [from, to]: [f64; 2],
+        cut: bool,
+        request: &HoopRequest,
+    ) -> Result<(Self, f64)> {
+        let layers = Layers::of(bat, from, to)?;
+        let ends = match request.end {
+            KnobSide::Free => [EndHold::Free; 2],
+            KnobSide::Clamped => [EndHold::Clamped, EndHold::Free],
+        };
+        let climb = Climb::new(&layers, ends, cut, request);
+        let solved =
+            threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
+        let solved = solved.into_iter().collect::<Result<Vec<_>>>()?;
+        let met = solved.iter().flat_map(|of| &of.errors).all(|error| *error <= request.tol);
+        let modes = solved.iter().flat_map(|of| modes(&of.spectrum, &of.errors)).collect();
+        let cut_off = solved.iter().map(|of| of.cut).fold(0.0, f64::max);
+        let notes = notes(&layers);
+        let spectra = solved.into_iter().map(|of| of.spectrum).collect();
+        Ok((Self { from, to, spectra, modes, notes, met }, cut_off))
+    }
+
+    /// All modes that were kept, by harmonic, then order.
+    pub fn modes(&self) -> &[HoopMode] {
+        &self.modes
+    }
+
+    /// The lowest modes of n ≥ 2, by rising frequency.
+    pub fn lowest(&self, count: usize) -> Vec<&HoopMode> {
+        let mut lowest: Vec<&HoopMode> = self.modes.iter().filter(|m| m.harmonic >= 2).collect();
+        lowest.sort_by(|a, b| a.omega.total_cmp(&b.omega));
+        lowest.truncate(count);
+        lowest
+    }
+
+    /// Whether every stated error is within the tolerance.
+    pub fn met(&self) -> bool {
+        self.met
+    }
+
+    /// Where the modelled stretch begins (m).
+    pub fn from(&self) -> f64 {
+        self.from
+    }
+
+    /// Where it ends (m).
+    pub fn to(&self) -> f64 {
+        self.to
+    }
+
+    /// What was assumed or is worth a warning.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    /// Outer radius at `x` (m).
+    pub fn radius(&self, x: f64) -> f64 {
+        self.spectra.first().map_or(0.0, |spectrum| spectrum.system.radius(x))
+    }
+
+    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not.
+    pub fn covers(&self, patch: &Patch) -> bool {
+        patch.x - patch.half_length >= self.from && patch.x <= self.to
+    }
+
+    /// How each harmonic gives way under a patch.
+    pub fn under(&self, patch: &Patch) -> Vec<Share> {
+        self.under_each(std::slice::from_ref(patch)).remove(0)
+    }
+
+    /// How each harmonic gives way under each of some patches; patches that are neighbours take less time
+    /// together than one by one.
+    pub fn under_each(&self, patches: &[Patch]) -> Vec<Vec<Share>> {
+        let placed: Vec<(Patch, f64)> = patches.iter().map(|p| (*p, self.radius(p.x))).collect();
+        let mut all = vec![vec![]; patches.len()];
+        for spectrum in self.spectra.iter().filter(|spectrum| spectrum.system.n != 1) {
+            let shares = placed.chunks(SIDES).flat_map(|few| shares(spectrum, few));
+            all.iter_mut().zip(shares).for_each(|(all, share)| all.push(share));
+        }
+        all
+    }
+
+    /// Modal mass of mode `mode` of [`Self::modes`] (kg), the largest radial motion of the outer surface being 1:
+    /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, 2π in place of π for n = 0.
+    pub fn modal_mass(&self, mode: usize) -> f64 {
+        let asked = &self.modes[mode];
+        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
+        let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
+        let [largest, ..] =
+            spectrum.system.surface(&spectrum.motions[asked.order - 1], asked.largest_at);
+        let turn = if asked.harmonic == 0 { TAU } else { 0.5 * TAU };
+        turn / (largest * largest)
+    }
+
+    /// The motion of the outer surface in mode `mode` of [`Self::modes`] at so many even places.
+    pub fn outline(&self, mode: usize, points: usize) -> Outline {
+        let asked = &self.modes[mode];
+        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
+        let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
+        let motion = &spectrum.motions[asked.order - 1];
+        let scale = 1.0 / spectrum.system.surface(motion, asked.largest_at)[0];
+        let mut outline = Outline { x: vec![], radial: vec![], around: vec![], along: vec![] };
+        for k in 0..points {
+            let share = k as f64 / (points.max(2) - 1) as f64;
+            let x = self.from + (self.to - self.from) * share;
+            let [u, v, w] = spectrum.system.surface(motion, x);
+            outline.x.push(x);
+            outline.radial.push(scale * u);
+            outline.around.push(scale * v);
+            outline.along.push(scale * w);
+        }
+        outline
+    }
+}
+
+/// The modes of a harmonic with their stated errors.
+fn modes(spectrum: &Spectrum, errors: &[f64]) -> Vec<HoopMode> {
+    let each = spectrum.omegas.iter().zip(&spectrum.losses).zip(errors).enumerate();
+    let modes = each.map(|(k, ((omega, loss), error))| HoopMode {
+        harmonic: spectrum.system.n,
+        order: k + 1,
+        omega: *omega,
+        damping_ratio: 0.5 * loss,
+        error: *error,
+        largest_at: largest_at(spectrum, k),
+    });
+    modes.collect()
+}
+
+/// Samples of a column of elements in which the largest motion is sought.
+const SAMPLES: usize = 8;
+
+/// Where the outer surface moves most, radially (m).
+fn largest_at(spectrum: &Spectrum, mode: usize) -> f64 {
+    let motion = &spectrum.motions[mode];
+    let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
+    let columns = &spectrum.system.mesh.columns;
+    let mut places: Vec<f64> = columns
+        .iter()
+        .flat_map(|c| (0..SAMPLES).map(|k| c.from + (c.to - c.from) * k as f64 / SAMPLES as f64))
+        .collect();
+    places.push(columns[columns.len() - 1].to);
+    let sizes: Vec<f64> = places.iter().map(|x| size(*x)).collect();
+    let k = (0..places.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).expect("some place");
+    let (low, high) = (places[k.saturating_sub(1)], places[(k + 1).min(places.len() - 1)]);
+    let x = golden::least(low, high, |x| -size(x));
+    if size(x) > sizes[k] { x } else { places[k] }
+}
+
+fn notes(layers: &Layers) -> Vec<Note> {
+    let mut notes = vec![];
+    let (at, thickness, radius) = thinnest(layers);
+    if thickness < THIN * radius {
+        notes.push(Note::ThinWall { at, thickness, radius });
+    }
+    let last = &layers.stretches[layers.stretches.len() - 1];
+    if last.radii(last.to)[0] > 0.0 {
+        notes.push(Note::OpenTip);
+    }
+    notes
+}

@@ -1,0 +1,183 @@
+//! What are the lowest modes of the wall in one harmonic, on one mesh?
+
+use crate::base::error::{Error, Result};
+use crate::base::golden;
+use crate::base::linear::dot;
+use crate::beam::wall::unknowns::{EndHold, Unknowns};
+use crate::eigen::fronts::Fronts;
+use crate::eigen::lanczos::{Lanczos, Space, Wanted};
+use crate::modes::hoop::system::{System, Wall};
+
+/// Modes of one harmonic on one mesh.
+#[derive(Debug, Clone)]
+pub struct Spectrum {
+    /// The wall in this harmonic.
+    pub system: System,
+    /// The factors of the stiffness (for n = 1 of `K + shift M`).
+    pub factors: Fronts,
+    /// Angular frequencies (rad/s), rising, from the strains.
+    pub omegas: Vec<f64>,
+    /// Motions in all unknowns, `xᵀMx = 1` without the factor π.
+    pub motions: Vec<Vec<f64>>,
+    /// Loss factors: those of the materials in the proportion of the strain energies.
+    pub losses: Vec<f64>,
+    /// The rigid motion along the bat that harmonic 0 has, of mass 1.
+    pub rigid: Option<Vec<f64>>,
+    /// Products with the inverse.
+    pub steps: usize,
+}
+
+/// Why a wall cannot be solved.
+const TOO_THIN: &str = "round-off makes it indefinite; the wall is too thin for its radius, or \
+                        a layer far softer than the others";
+
+/// Shift of harmonic 1 (1/s²), which has rigid motions: about 100 Hz.
+const SHIFT: f64 = 4e5;
+
+impl Spectrum {
+    /// The `count` lowest modes, rigid ones left out, with that residual.
+    ///
+    /// Lanczos on `D^{−½} L⁻¹ M L⁻ᵀ D^{−½}` of `K = L D Lᵀ`. Harmonic 0 is held at one place along the bat, its
+    /// rigid motion taken out of what M sees; harmonic 1 is shifted.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotConverged`] if a mode does not converge; [`Error::Factorization`] where round-off makes the
+    /// stiffness indefinite.
+    pub fn of(
+        wall: &Wall,
+        n: usize,
+        ends: [EndHold; 2],
+        count: usize,
+        residual: f64,
+    ) -> Result<Self> {
+        Self::solved(wall, n, ends, count, residual, false)
+    }
+
+    /// The frequencies alone, as the iteration has them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`].
+    pub fn frequencies(
+        wall: &Wall,
+        n: usize,
+        ends: [EndHold; 2],
+        count: usize,
+        residual: f64,
+    ) -> Result<Vec<f64>> {
+        Ok(Self::solved(wall, n, ends, count, residual, true)?.omegas)
+    }
+
+    fn solved(
+        wall: &Wall,
+        n: usize,
+        ends: [EndHold; 2],
+        count: usize,
+        residual: f64,
+        quick: bool,
+    ) -> Result<Self> {
+        let system = System::new(wall, n, ends);
+        let shift = if n == 1 { SHIFT } else { 0.0 };
+        let factors = system.factors(shift);
+        let unknowns = &system.unknowns;
+        let (size, all) = (unknowns.count, unknowns.all());
+        let rigid = (unknowns.held > 0).then(|| rigid_along(&system));
+        let skipped = if n == 1 { rigid_motions(n, ends) } else { 0 };
+        if !factors.pivots().iter().all(|pivot| *pivot > 0.0 && pivot.is_finite()) {
+            return Err(Error::Factorization { unknowns: size, reason: TOO_THIN });
+        }
+        let scale: Vec<f64> = factors.pivots().iter().map(|d| 1.0 / d.sqrt()).collect();
+        let back = |z: &[f64], x: &mut [f64]| {
+            x[..size].iter_mut().zip(z).zip(&scale).for_each(|((x, z), s)| *x = z * s);
+            x[size..].fill(0.0);
+            factors.backward(&mut x[..size]);
+            if let Some((motion, momentum)) = &rigid {
+                let part = dot(momentum, x);
+                x.iter_mut().zip(motion).for_each(|(x, r)| *x -= part * r);
+            }
+        };
+        let mut lanczos = Lanczos::<f64>::default();
+        let total = (count + skipped).min(size);
+        let wanted = Wanted { count: total, residual, earliest: 8, clustered: 0 };
+        let space = Space { known: &[], allow: &mut |_| {} };
+        let start = |z: &mut [f64]| {
+            for (k, z) in z.iter_mut().enumerate() {
+                *z = golden::fraction(k) - 0.5;
+            }
+        };
+        let (mut x, mut y) = (vec![0.0; all], vec![0.0; all]);
+        lanczos.largest(size, wanted, space, start, |z, image| {
+            back(z, &mut x);
+            system.mass(&x, &mut y);
+            factors.forward(&mut y[..size]);
+            image.iter_mut().zip(&y).zip(&scale).for_each(|((image, y), s)| *image = y * s);
+        })?;
+        let (mut omegas, mut motions, mut losses) = (vec![], vec![], vec![]);
+        let pairs = lanczos.vectors.chunks_exact(size).zip(&lanczos.values);
+        for (z, value) in pairs.skip(skipped) {
+            if quick {
+                omegas.push((1.0 / value - shift).sqrt());
+                continue;
+            }
+            back(z, &mut x);
+            let (strain, mass) = system.energies(&x);
+            let stored: f64 = strain.iter().sum();
+            let of = system.materials.iter();
+            let lost: f64 = strain.iter().zip(of).map(|(s, m)| s * m.loss_factor).sum();
+            let scale = 1.0 / mass.sqrt();
+            omegas.push((stored / mass).sqrt());
+            losses.push(lost / stored);
+            motions.push(x.iter().map(|x| x * scale).collect());
+        }
+        let (rigid, steps) = (rigid.map(|(motion, _)| motion), lanczos.steps);
+        Ok(Self { system, factors, omegas, motions, losses, rigid, steps })
+    }
+}
+
+impl Spectrum {
+    /// Keeps some of the modes.
+    pub fn keep(&mut self, kept: &[bool]) {
+        let mut each = kept.iter();
+        self.omegas.retain(|_| each.next() == Some(&true));
+        let mut each = kept.iter();
+        self.motions.retain(|_| each.next() == Some(&true));
+        let mut each = kept.iter();
+        self.losses.retain(|_| each.next() == Some(&true));
+    }
+}
+
+/// How many rigid motions harmonic n has between ends that are held so.
+pub fn rigid_motions(n: usize, ends: [EndHold; 2]) -> usize {
+    match n {
+        0 => usize::from(ends.iter().all(|end| *end != EndHold::Clamped)),
+        1 => ends.iter().filter(|end| **end == EndHold::Free).count(),
+        _ => 0,
+    }
+}
+
+/// How many modes of harmonic n are below `omega` (rad/s), by the signs of the pivots of `K − ω²M`.
+pub fn count_below(wall: &Wall, n: usize, ends: [EndHold; 2], omega: f64) -> usize {
+    let unknowns = Unknowns::free(&wall.mesh, n, ends);
+    let below = System::with(wall, n, unknowns).count_below(omega * omega);
+    below.saturating_sub(rigid_motions(n, ends))
+}
+
+/// The rigid motion along the bat in all unknowns, of mass 1, and M times it.
+fn rigid_along(system: &System) -> (Vec<f64>, Vec<f64>) {
+    let all = system.unknowns.all();
+    let mut motion = vec![0.0; all];
+    let mesh = &system.mesh;
+    for (border, range) in mesh.borders.iter().zip(&mesh.at_border) {
+        for function in range.clone().take(border.len()) {
+            if let Some((unknown, share)) = system.unknowns.of[function][2] {
+                motion[unknown] = share;
+            }
+        }
+    }
+    let mut momentum = vec![0.0; all];
+    system.mass(&motion, &mut momentum);
+    let scale = 1.0 / dot(&motion, &momentum).sqrt();
+    motion.iter_mut().chain(&mut momentum).for_each(|x| *x *= scale);
+    (motion, momentum)
+}

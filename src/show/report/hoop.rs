@@ -1,0 +1,229 @@
+//! How a barrel rings and what its wall does to a ball: the table, in sentences, and in short.
+
+use std::fmt::Write;
+
+use crate::base::number::{rounded, significant};
+use crate::base::units::{POUND_FORCE, inches};
+use crate::bat::body::Bat;
+use crate::collision::wall_figures::WallBbcor;
+use crate::modes::hoop::{HoopMode, Share};
+use crate::show::report::columns::{Columns, first, labels, numbers};
+use crate::show::report::hoop_notes::notes;
+use crate::show::report::text::{edited, wrapped};
+use crate::show::report::units::Units;
+use crate::study::trampoline::barrel::{Barrel, Rebound};
+use crate::study::trampoline::pressed::PressedWall;
+use crate::study::trampoline::thickness::WallTried;
+
+const MM: f64 = 1e-3;
+const MEGA: f64 = 1e6;
+
+/// Everything for the terminal, with the lowest modes, at most so many.
+pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
+    let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
+    let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
+    let stretch = format!(
+        "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",
+        units.inline(units.length(from)),
+        units.inline(units.length(to))
+    );
+    out += &wrapped(&stretch, 2);
+    out += &modes(bat, barrel, most, units);
+    out += &sentences(bat, barrel, units);
+    out
+}
+
+/// The lowest modes of two and more waves around.
+fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
+    let columns = Columns::new([
+        numbers(5, "n"),
+        numbers(4, "m"),
+        numbers(15, "frequency"),
+        numbers(3, ""),
+        first(17, "relative error"),
+        labels(24, "largest at, from tip"),
+    ]);
+    let mut out = columns.heads();
+    for mode in barrel.hoop().lowest(most) {
+        out += &columns.row([
+            mode.harmonic.to_string(),
+            mode.order.to_string(),
+            format!("{:.2} Hz", mode.frequency()),
+            String::new(),
+            format!("within {:.0e}", mode.error),
+            units.inline(units.length((bat.length() - mode.largest_at).max(0.0))),
+        ]);
+    }
+    out
+}
+
+/// The wall under the ball, the rebound, the compression and what is to be known, each broken into lines.
+fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+    let mut out = String::from("\n");
+    for line in answers(bat, barrel, units) {
+        out += &wrapped(&line, 2);
+    }
+    for note in notes(barrel, units) {
+        out += &wrapped(&format!("note: {note}"), 2);
+    }
+    out
+}
+
+/// The wall under the ball, the rebound and the compression, a sentence each.
+pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
+    let Some(wall) = &barrel.wall else { return vec![] };
+    let mut all = vec![pressed(bat, barrel, wall, units), harmonics(wall)];
+    match &barrel.rebound {
+        Some(rebound) => all.extend(rebounded(rebound, units)),
+        None => all.push(format!(
+            "BBCOR there: not known, for {} has no force law; --ball-stiffness gives it one.",
+            barrel.test.ball.name
+        )),
+    }
+    let [deflection, force] = wall.compressed(&barrel.test.ball);
+    all.push(format!(
+        "Barrel compression: {} for {} between two opposite sides.",
+        forces(units, force),
+        small(units, deflection)
+    ));
+    all
+}
+
+/// How stiff the wall is.
+fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
+    let ball = barrel.rebound.as_ref().map_or(String::new(), |rebound| {
+        format!(" ({} times the ball)", significant(rebound.figures.over_ball, 2))
+    });
+    format!(
+        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
+        barrel.test.ball.name,
+        units.inline(units.length(bat.length() - wall.patch.x)),
+        significant(wall.stiffness() / MEGA, 3),
+        small(units, wall.thickness),
+        patch(units, wall),
+    )
+}
+
+/// What the harmonics have of the wall's giving way, those with half a per cent and more by name.
+fn harmonics(wall: &PressedWall) -> String {
+    const LEAST: f64 = 0.5;
+    let percent = |share: &Share| 100.0 * share.flexibility / wall.flexibility();
+    let (named, others): (Vec<&Share>, Vec<&Share>) =
+        wall.shares.iter().partition(|share| percent(share) >= LEAST);
+    let told =
+        |share: &&Share| format!("n = {} has {} %", share.harmonic, significant(percent(share), 2));
+    let mut all: Vec<String> = named.iter().map(told).collect();
+    if !others.is_empty() {
+        let rest: f64 = others.into_iter().map(percent).sum();
+        all.push(format!("all others {} %", significant(rest, 1)));
+    }
+    format!("Of how far it gives way {}.", all.join(", "))
+}
+
+/// How the ball comes back.
+fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
+    let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
+    [
+        format!(
+            "BBCOR there: {stiff:.3} stiff, {with:.3} with the wall; {low:.3} to {high:.3} with the patch of a \
+             ball squeezed twice or half as much."
+        ),
+        format!(
+            "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
+            units.energy(rebound.initial, 0),
+            small(units, rebound.figures.dent),
+            units.energy(rebound.left, 1)
+        ),
+    ]
+}
+
+/// Length and width of the patch.
+fn patch(units: Units, wall: &PressedWall) -> String {
+    let sides = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
+    let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
+    let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
+    both(units, format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
+}
+
+/// A small length (m).
+fn small(units: Units, length: f64) -> String {
+    let si = format!("{} mm", significant(length / MM, 3));
+    let us = format!("{} in", rounded(inches(length), 3));
+    both(units, si, us)
+}
+
+/// A force (N).
+fn forces(units: Units, force: f64) -> String {
+    let si = format!("{} kN", significant(1e-3 * force, 3));
+    let us = format!("{:.0} lbf", force / POUND_FORCE);
+    both(units, si, us)
+}
+
+fn both(units: Units, si: String, us: String) -> String {
+    match units {
+        Units::Si => si,
+        Units::Us => us,
+        Units::Both => format!("{si} ({us})"),
+    }
+}
+
+/// The first hoop mode and the wall under the ball, in a line.
+pub fn in_a_line(barrel: &Barrel) -> String {
+    let lowest = barrel.hoop().lowest(1);
+    let Some(mode) = lowest.first() else { return String::new() };
+    let wall = barrel.wall.as_ref().map_or(String::new(), |wall| {
+        format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
+    });
+    format!("Hoop modes from {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
+}
+
+/// The first hoop modes, the wall and the rebound, as a part of more.
+pub fn in_short(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+    const FEW: usize = 3;
+    let named = |mode: &&HoopMode| {
+        format!("{:.0} Hz (n = {}, m = {})", mode.frequency(), mode.harmonic, mode.order)
+    };
+    let lowest: Vec<String> = barrel.hoop().lowest(FEW).iter().map(named).collect();
+    let mut out = String::from("How the barrel rings\n");
+    out += &wrapped(&format!("  hoop modes: {}", lowest.join(", ")), 4);
+    for line in answers(bat, barrel, units) {
+        out += &wrapped(&format!("  {line}"), 4);
+    }
+    out + "  More: sweetspot hoop\n"
+}
+
+/// The bat with other walls, a line for each.
+pub fn sweep(tried: &[WallTried], units: Units) -> String {
+    let columns = Columns::new([
+        labels(18, "wall under the ball"),
+        numbers(9, "times"),
+        numbers(11, "n=2, m=1"),
+        numbers(11, "stiffness"),
+        numbers(8, "stiff"),
+        numbers(8, "BBCOR"),
+        labels(15, "range"),
+    ]);
+    let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
+    out += &columns.heads();
+    for WallTried { factor, barrel, .. } in tried {
+        let (Some(wall), Some(rebound)) = (&barrel.wall, &barrel.rebound) else { continue };
+        let hertz = barrel
+            .first()
+            .map_or(String::new(), |omega| format!("{:.0} Hz", omega / std::f64::consts::TAU));
+        let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
+        let _ = write!(
+            out,
+            "{}",
+            columns.row([
+                small(units, wall.thickness),
+                format!("{factor:.1}"),
+                hertz,
+                format!("{} MN/m", significant(wall.stiffness() / MEGA, 3)),
+                format!("{stiff:.3}"),
+                format!("{with:.3}"),
+                format!("{low:.3} to {high:.3}"),
+            ])
+        );
+    }
+    out
+}

@@ -1,0 +1,340 @@
+//! A hollow barrel's wall in a hit: hoop modes between ball and bat.
+//!
+//! The numbers of a patch and of hits come from a program of its own (Python: the wall as a solid of
+//! revolution, contact by Runge and Kutta), which shares no code with this one; its energies close to
+//! 5e-8, its patch was computed on two meshes.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::folder::Folder;
+use serde_json::Value;
+use sweetspot::{Bat, Theory};
+use sweetspot::collision::contact::collider::Collider;
+use sweetspot::collision::contact::encounter::Encounter;
+use sweetspot::collision::contact::power_law;
+use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::hoop_wall::{COMPRESSION, HoopInHit, HoopWall, WallSeries};
+use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
+use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot::collision::{Ball, Hitter, Model, Scene};
+use sweetspot::modes::hoop::HoopRequest;
+use sweetspot::proof::bundled::bundled_bat;
+
+const ALUMINIUM: &str = r#"{ "density": 2810, "youngs_modulus": 71e9, "poisson_ratio": 0.33, "shear_modulus": 26.691729323308e9 }"#;
+
+/// A made-up barrel: handle radius, what it grows by, from and over which length it does, length of the
+/// bat, wall of the handle and of the barrel (m).
+struct Shape {
+    handle: f64,
+    grows: f64,
+    taper: [f64; 2],
+    length: f64,
+    walls: [f64; 2],
+}
+
+impl Shape {
+    fn baseball(wall: f64) -> Self {
+        let (handle, grows) = (0.0115, 0.0218);
+        Self { handle, grows, taper: [0.28, 0.3], length: 0.8382, walls: [0.0026, wall] }
+    }
+
+    fn softball(wall: f64) -> Self {
+        let (handle, grows) = (0.0111, 0.017_475);
+        Self { handle, grows, taper: [0.25, 0.27], length: 0.8636, walls: [0.0019, wall] }
+    }
+
+    /// The bat, with the last 12 mm of its bore filled or open.
+    fn bat(&self, plugged: bool) -> Bat {
+        let Self { handle, grows, taper: [from, over], length, walls: [thick, wall] } = self;
+        let (end, more) = (from + over, wall - thick);
+        let t = format!("((x - {from})/{over})");
+        let barrel = handle + grows;
+        let taper = format!("{handle} + {grows}*(3*{t}^2 - 2*{t}^3)");
+        let pieces = format!(
+            r#"[{{ "from": 0, "to": {from}, "formula": "{handle}", "inner_formula": "{}" }},
+                {{ "from": {from}, "to": {end}, "formula": "{taper}", "inner_formula": "{taper} - {thick} - {more}*{t}" }},
+                {{ "from": {end}, "to": {length}, "formula": "{barrel}", "inner_formula": "{barrel} - {wall}" }}]"#,
+            handle - thick
+        );
+        let plug = format!(
+            r#", "regions": [{{ "from": {}, "to": {length}, "core": {{ "density": 1150, "youngs_modulus": 1e9, "poisson_ratio": 0.40, "shear_modulus": 0.357e9 }} }}]"#,
+            length - 0.012
+        );
+        let plug = if plugged { &plug } else { "" };
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "name": "made up", "material": {ALUMINIUM}, "profile": {{ "pieces": {pieces} }}{plug} }}"#
+        );
+        Bat::from_text("made_up.json", &text, "".as_ref()).unwrap()
+    }
+}
+
+/// The ball of the reference.
+fn baseball() -> Ball {
+    Ball { mass: 0.145, ..Ball::baseball() }
+}
+
+/// That accuracy of exit speeds, with shear.
+fn accuracy_of(exit_speed: f64) -> Accuracy {
+    Accuracy { exit_speed, theory: Theory::Timoshenko, ..Accuracy::default() }
+}
+
+/// `hit` of a free bat at rest, at that distance from its tip (m).
+fn struck(bat: &Bat, ball: &Ball, speed: f64, from_tip: f64, choice: WallChoice) -> Sweep {
+    let still = Scene {
+        swing: 0.0,
+        ball: ball.clone(),
+        ball_speed: speed,
+        cor: ball.cor,
+        ..Scene::default()
+    };
+    let scene = still.with_wall(choice, bat, Model::Contact, Some(1e-4)).unwrap();
+    let accuracy = accuracy_of(1e-4);
+    sweep(bat, Model::Contact, &scene, &accuracy, &[bat.length() - from_tip]).unwrap()
+}
+
+fn bbcor(sweep: &Sweep) -> f64 {
+    sweep.impacts[0].outcome.as_ref().unwrap().bbcor
+}
+
+fn wall(bat: &Bat, last: usize) -> Arc<HoopWall> {
+    let harmonics = std::iter::once(0).chain(2..=last).collect();
+    let request = HoopRequest { tol: 1e-6, harmonics, ..HoopRequest::default() };
+    HoopWall::of(bat, 0.0366, &request).unwrap()
+}
+
+/// A ball of the reference on a bat that recoils with that mass (kg) and does not bend.
+fn met(wall: &HoopWall, series: &WallSeries, recoil: f64, speed: f64) -> Encounter {
+    let stiff = Felt { inverse_mass: 1.0 / 0.145 + 1.0 / recoil, ..Felt::default() };
+    let law = power_law::law(6.53e7, 1.84, 0.5);
+    Collider::new(&wall.modes(), 8e-5).meet(&series.before(stiff), &*law, speed, 1e-7)
+}
+
+/// BBCOR of a bat at rest: `e_A (1 + r) + r`.
+fn bbcor_of(met: &Encounter, recoil: f64, speed: f64) -> f64 {
+    let (efficiency, ratio) = (met.impulse / 0.145 / speed - 1.0, 0.145 / recoil);
+    efficiency * (1.0 + ratio) + ratio
+}
+
+#[test]
+fn the_wall_under_a_ball_is_as_soft_and_as_slow_as_known() {
+    let bat = Shape::baseball(0.0030).bat(false);
+    let wall = wall(&bat, 14);
+    let under = wall.under(0.6858, COMPRESSION);
+    let patch = wall.patch(0.6858, COMPRESSION);
+    assert!((patch.half_length / 17.111_399_7e-3 - 1.0).abs() < 5e-7, "{patch:?}");
+    assert!((patch.half_width / 11.810_521_5e-3 - 1.0).abs() < 5e-7, "{patch:?}");
+    assert!((under.soft / 5.832_87e-8 - 1.0).abs() < 2e-6, "{:e}", under.soft);
+    assert!((under.slow / 2.059_98e-16 - 1.0).abs() < 1e-5, "{:e}", under.slow);
+}
+
+/// Hit at 60.8 m/s, no bending: BBCOR 0.50000 with a stiff wall and 0.59823 with this one.
+#[test]
+fn a_hit_on_the_wall_returns_the_ball_as_known() {
+    const RECOIL: f64 = 0.595_961_30;
+    let bat = Shape::baseball(0.0030).bat(false);
+    let wall = wall(&bat, 14);
+    let under = wall.under(0.6858, COMPRESSION);
+    let none = WallSeries { gains: vec![0.0; wall.modes().len()], rest: 0.0 };
+    let [stiff, soft] = [&none, &under.full]
+        .map(|series| bbcor_of(&met(&wall, series, RECOIL, 60.8), RECOIL, 60.8));
+    assert!((stiff - 0.5).abs() < 1e-6, "{stiff}");
+    assert!((soft - 0.598_23).abs() < 1e-4, "{soft}");
+    let fewer = bbcor_of(&met(&wall, &under.fewer, RECOIL, 60.8), RECOIL, 60.8);
+    println!("wall {soft:.6}, a mode fewer of each harmonic {fewer:.6}");
+    assert!((fewer - soft).abs() < 1e-4, "{fewer}");
+}
+
+/// Walls of made-up bats with a plug, hit 6 in (baseball) and 7 in (softball) from the tip.
+#[test]
+fn thinner_walls_return_faster_balls_as_known() {
+    // Wall (mm), BBCOR of a stiff wall and of this one.
+    const BASEBALL: [[f64; 3]; 7] = [
+        [2.0, 0.495, 0.676],
+        [2.5, 0.498, 0.641],
+        [3.0, 0.499, 0.609],
+        [3.5, 0.500, 0.579],
+        [4.0, 0.501, 0.555],
+        [5.0, 0.501, 0.530],
+        [6.0, 0.501, 0.521],
+    ];
+    const SOFTBALL: [[f64; 3]; 4] =
+        [[1.4, 0.442, 0.672], [1.9, 0.447, 0.553], [2.4, 0.448, 0.501], [3.0, 0.448, 0.490]];
+    let soft = Ball { mass: 0.190, radius: 0.0485, cor: 0.44, ..Ball::softball() };
+    let soft = soft.linear(1.226e6).unwrap();
+    let cases = [(&BASEBALL[..], baseball(), 60.8, 6.0), (&SOFTBALL[..], soft, 44.7, 7.0)];
+    for (rows, ball, speed, inches) in cases {
+        let mut before = f64::INFINITY;
+        for [thickness, stiff, known] in rows {
+            let shape = if inches == 6.0 { Shape::baseball } else { Shape::softball };
+            let bat = shape(1e-3 * thickness).bat(true);
+            let [off, on] = [WallChoice::Off, WallChoice::On]
+                .map(|choice| bbcor(&struck(&bat, &ball, speed, 0.0254 * inches, choice)));
+            println!("{thickness} mm: stiff {off:.4} ({stiff}), with the wall {on:.4} ({known})");
+            assert!((off - stiff).abs() < 3e-3, "{thickness} mm stiff: {off}");
+            assert!((on - known).abs() < 3e-3, "{thickness} mm: {on}");
+            assert!(on < before, "a thicker wall returns less");
+            before = on;
+        }
+    }
+}
+
+/// Energies close to 1e-11, and the harmonics' are the wall's; the ball and the bat share the impulse.
+#[test]
+fn energies_close_along_a_hollow_barrel() {
+    let bat = Shape::baseball(0.0025).bat(true);
+    for cor in [0.3, 0.5, 0.9] {
+        let scene = Scene { ball: Ball { cor, ..Ball::baseball() }, cor, ..Scene::default() };
+        let scene = scene.with_wall(WallChoice::On, &bat, Model::Contact, Some(1e-4)).unwrap();
+        let places: Vec<f64> = (0..24).map(|k| 0.45 + 0.0165 * f64::from(k)).collect();
+        let accuracy = accuracy_of(1e-3);
+        let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &places).unwrap();
+        for impact in &hits.impacts {
+            let outcome = impact.outcome.as_ref().unwrap();
+            let energy = &outcome.energy;
+            let off = energy.imbalance().abs() / energy.initial;
+            assert!(off < 1e-11, "{cor} {} {off:e}", impact.x);
+            let sum: f64 = energy.wall_by_harmonic.iter().map(|(_, energy)| energy).sum();
+            assert!((sum - energy.wall).abs() <= 1e-12 * energy.initial);
+            assert!(energy.wall >= 0.0 && energy.wall < energy.initial);
+            let ball = scene.ball.mass * (outcome.exit_speed + scene.ball_speed);
+            assert!((ball / outcome.impulse - 1.0).abs() < 1e-14);
+        }
+        let most = hits.impacts.iter().map(|i| i.outcome.as_ref().unwrap().energy.wall);
+        assert!(most.fold(0.0, f64::max) > 1.0, "a thin wall goes on ringing");
+    }
+}
+
+/// Exit speeds of usual accuracies beside better ones.
+#[test]
+fn stated_errors_hold_with_a_wall() {
+    for bat in [Shape::baseball(0.0030).bat(true), Shape::softball(0.0019).bat(false)] {
+        let hits = |tolerance: f64| {
+            let scene = Scene::default();
+            let scene =
+                scene.with_wall(WallChoice::On, &bat, Model::Contact, Some(tolerance)).unwrap();
+            let accuracy = accuracy_of(tolerance);
+            let places = [0.55, 0.6, 0.65, 0.7, 0.75, 0.8].map(|share| share * bat.length() / 0.85);
+            (sweep(&bat, Model::Contact, &scene, &accuracy, &places).unwrap(), scene)
+        };
+        let (fine, _) = hits(1e-5);
+        for tolerance in [1e-3, 1e-4] {
+            let (rough, scene) = hits(tolerance);
+            for (rough, fine) in rough.impacts.iter().zip(&fine.impacts) {
+                let [a, b] = [rough, fine].map(|impact| impact.outcome.as_ref().unwrap());
+                let closing = rough.bat_speed + scene.ball_speed;
+                let truth = (a.exit_speed - b.exit_speed).abs() / closing;
+                println!(
+                    "{tolerance:e} {:.3}: {truth:.1e} of {:.1e}, wall {:.1e}",
+                    rough.x, a.error, a.wall
+                );
+                assert!(truth <= 3.0 * a.error + b.error, "{} {truth:e} {:e}", rough.x, a.error);
+            }
+            println!("met: {}", rough.met);
+        }
+    }
+}
+
+/// A wall of one spring-mass is what its stiffness and mass are; as it grows stiff nothing is left of it.
+#[test]
+fn a_thick_wall_changes_nothing() {
+    let gain = |wall: f64| {
+        let bat = Shape::baseball(wall).bat(true);
+        let [off, on] = [WallChoice::Off, WallChoice::On]
+            .map(|choice| bbcor(&struck(&bat, &baseball(), 60.8, 0.1524, choice)));
+        on - off
+    };
+    let [thin, thick] = [0.004, 0.012].map(gain);
+    assert!(thick.abs() < 0.1 * thin, "{thin} {thick}");
+}
+
+#[test]
+fn a_wall_counts_where_it_matters() {
+    let bat = Shape::baseball(0.0030).bat(true);
+    let scene = |choice, tolerance| {
+        let scene = Scene::default();
+        scene.with_wall(choice, &bat, Model::Contact, tolerance).unwrap().hoop
+    };
+    assert!(scene(WallChoice::Auto, Some(1e-4)).wall().is_some());
+    assert!(matches!(scene(WallChoice::Auto, Some(0.5)), HoopInHit::LeftOut(_)));
+    assert!(matches!(scene(WallChoice::Auto, None), HoopInHit::LeftOut(_)));
+    assert!(matches!(scene(WallChoice::Off, Some(1e-4)), HoopInHit::LeftOut(_)));
+    assert!(scene(WallChoice::On, None).wall().is_some());
+    let wood = bundled_bat("meshes/r161.json").unwrap();
+    let of_wood = |choice| Scene::default().with_wall(choice, &wood, Model::Contact, Some(1e-4));
+    assert_eq!(of_wood(WallChoice::Auto).unwrap().hoop, HoopInHit::None);
+    assert!(of_wood(WallChoice::On).is_err());
+    let rigid = Scene::default().with_wall(WallChoice::On, &bat, Model::Rigid, Some(1e-4));
+    assert!(rigid.unwrap_err().to_string().contains("contact"));
+}
+
+/// The patch's compression is the largest unknown: BBCOR with half and twice of it is printed.
+#[test]
+fn the_patch_leaves_open_what_it_does() {
+    let bat = Shape::baseball(0.0030).bat(false);
+    let scene = Scene { swing: 0.0, ball: baseball(), ball_speed: 60.8, ..Scene::default() };
+    let scene = scene.with_wall(WallChoice::On, &bat, Model::Contact, Some(1e-4)).unwrap();
+    let accuracy = accuracy_of(1e-4);
+    let x = bat.length() - 0.1524;
+    let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[x]).unwrap();
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &hits.solution, hits.effort).unwrap();
+    let wall = hitter.wall_figures(x).unwrap();
+    // Open tip, compressions of 4, 8 and 16 mm: 0.611, 0.600, 0.584.
+    for (found, known) in [wall.bbcor.range[1], wall.bbcor.with, wall.bbcor.range[0]]
+        .iter()
+        .zip([0.611, 0.600, 0.584])
+    {
+        assert!((found - known).abs() < 3e-3, "{wall:?}");
+    }
+    assert!((wall.bbcor.with - bbcor(&hits)).abs() < 1e-5);
+    assert!(
+        (wall.stiffness / 17.2e6 - 1.0).abs() < 0.02 && (wall.mass / 0.0605 - 1.0).abs() < 0.02
+    );
+    assert!(wall.is_deep() && (wall.dent - 1.8e-3).abs() < 2e-4, "{wall:?}");
+}
+
+/// A bat with another wall has hoop modes of its own, whatever scene it is hit in.
+#[test]
+fn a_scene_of_one_bat_knows_the_wall_of_another() {
+    let [thin, thick] = [0.0025, 0.0040].map(|wall| Shape::baseball(wall).bat(true));
+    let scene = |bat: &Bat| {
+        Scene::default().with_wall(WallChoice::On, bat, Model::Contact, Some(1e-4)).unwrap()
+    };
+    let accuracy = accuracy_of(1e-4);
+    let hit = |scene: &Scene| sweep(&thick, Model::Contact, scene, &accuracy, &[0.68]).unwrap();
+    assert_eq!(hit(&scene(&thin)).impacts, hit(&scene(&thick)).impacts);
+}
+
+#[test]
+fn the_program_says_what_the_wall_does() {
+    let folder = Folder::new("hoop_hit");
+    let tube = r#"{ "format": "sweetspot-bat/1", "name": "tube", "material": "aluminium-7075",
+        "profile": { "x": [0, 0.3, 0.55, 0.84], "diameter": [0.024, 0.024, 0.066, 0.066],
+                     "wall_thickness": [0.004, 0.004, 0.003, 0.003] } }"#;
+    folder.write("tube.json", tube);
+    folder.write("r161.json", include_str!("../meshes/r161.json"));
+    let hit = |more: &[&str]| folder.text(&[&["hit", "tube.json", "--points", "5"], more].concat());
+    let flat = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat(hit(&[])).contains("the barrel's wall gives way by"));
+    assert!(flat(hit(&["--wall", "off"])).contains("--wall auto counts its hoop modes"));
+    assert!(flat(hit(&["--modes", "5"])).contains("--wall on counts its hoop modes"));
+    assert!(flat(hit(&["--modes", "5", "--wall", "on"])).contains("gives way by"));
+    let json = |more: &[&str]| -> Value {
+        serde_json::from_str(&hit(&[more, &["--json", "-"]].concat())).unwrap()
+    };
+    let on = json(&[]);
+    assert!(on["scene"]["wall"]["hoop"]["modes"].as_u64().unwrap() > 5);
+    let energy = &on["impacts"][3]["energy_j"];
+    assert!(energy["wall"].as_f64().unwrap() > 0.0);
+    assert_eq!(energy["wall_by_harmonic"][1]["harmonic"], 2);
+    assert!(on["figures"]["wall"]["bbcor"]["range"][0].as_f64().unwrap() > 0.5);
+    let given = json(&["--wall-stiffness", "5e6"]);
+    assert_eq!(given["scene"]["wall"]["stiffness_n_m"], 5e6);
+    assert!(given["scene"]["wall"]["hoop"].is_null());
+    let wood = folder.text(&["hit", "r161.json", "--points", "3", "--json", "-"]);
+    let wood: Value = serde_json::from_str(&wood).unwrap();
+    assert!(wood["scene"]["wall"].is_null() && wood["figures"]["wall"].is_null());
+    let refused = folder.run(&["hit", "r161.json", "--wall", "on"]);
+    assert_eq!(refused.status.code(), Some(2));
+}
