@@ -31,6 +31,10 @@ pub struct Spectrum {
 const TOO_THIN: &str = "round-off makes it indefinite; the wall is too thin for its radius, or \
                         a layer far softer than the others";
 
+/// Modes of a high harmonic lie close to each other: half a wave more along the bat is little beside many
+/// around it. So many may have to be told from the last wanted one.
+const CLUSTERED: usize = 40;
+
 /// Shift of harmonic 1 (1/s²), which has rigid motions: about 100 Hz.
 const SHIFT: f64 = 4e5;
 
@@ -99,7 +103,7 @@ impl Spectrum {
         };
         let mut lanczos = Lanczos::<f64>::default();
         let total = (count + skipped).min(size);
-        let wanted = Wanted { count: total, residual, earliest: 8, clustered: 0 };
+        let wanted = Wanted { count: total, residual, earliest: 8, clustered: CLUSTERED };
         let space = Space { known: &[], allow: &mut |_| {} };
         let start = |z: &mut [f64]| {
             for (k, z) in z.iter_mut().enumerate() {
