@@ -61,9 +61,11 @@ impl Shape {
             [end].into_iter().chain(cuts.iter().copied()).chain([*length]).collect();
         let barrels: Vec<String> = barrels
             .windows(2)
-            .map(|ends| {
+            .enumerate()
+            .map(|(k, ends)| {
+                // A formula goes on beyond a border; another one, of the same values, does not.
                 format!(
-                    r#"{{ "from": {}, "to": {}, "formula": "{barrel}", "inner_formula": "{barrel} - {wall}" }}"#,
+                    r#"{{ "from": {}, "to": {}, "formula": "{barrel} + {k}*0*x", "inner_formula": "{barrel} - {wall}" }}"#,
                     ends[0], ends[1]
                 )
             })

@@ -169,6 +169,7 @@ fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
     let trial = Trial { model: Model::Contact, scene: &Scene::default() };
     let usual = BarrelTest::of(bat, shot.ball, trial.accuracy(request, false));
     Ok(BarrelTest {
+        modes: args.count.into(),
         at: at.unwrap_or(usual.at),
         ball_speed: shot.speed,
         cor: shot.cor.unwrap_or(usual.cor),

@@ -298,11 +298,21 @@ pub enum WhyRigid {
         /// Accuracy that was asked for.
         tolerance: f64,
     },
+    /// Many bats are compared that differ a little, and the wall of each would have to be solved.
+    ManyBats,
     /// Its hoop modes could not be found, for that reason.
     Unsolved(String),
 }
 
 impl HoopInHit {
+    /// The same with the wall rigid, for many bats.
+    pub fn left_out(&self) -> Self {
+        match self {
+            Self::Counted(_) => Self::LeftOut(WhyRigid::ManyBats),
+            other => other.clone(),
+        }
+    }
+
     /// The wall, where it gives way.
     pub fn wall(&self) -> Option<&Arc<HoopWall>> {
         match self {

@@ -144,7 +144,8 @@ fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Barrel> {
         return None;
     }
     let test = BarrelTest::of(bat, task.scene.ball.clone(), accuracy);
-    Barrel::of(bat, BarrelTest { cor: task.scene.cor, ..test }).ok()
+    let known = task.scene.hoop.wall().cloned();
+    Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }).ok()
 }
 
 fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {

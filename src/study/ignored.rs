@@ -218,6 +218,9 @@ pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
             "{barrel}: {faster}; a number of modes was told and nothing else is counted, but --wall on \
              counts its hoop modes"
         ),
+        HoopInHit::LeftOut(WhyRigid::ManyBats) => {
+            format!("{barrel}, as many bats are compared: {faster}; hit counts its hoop modes")
+        }
         HoopInHit::LeftOut(WhyRigid::Unsolved(why)) => {
             format!("{barrel}: {faster}; its hoop modes could not be found ({why}), {given}")
         }

@@ -40,8 +40,10 @@ pub(crate) struct Climbed {
     pub spectrum: Spectrum,
     /// Their stated errors.
     pub errors: Vec<f64>,
-    /// The part of them that the cut in the handle has, the largest.
+    /// The part of them that the cut in the handle has as a share of what is allowed, the largest.
     pub cut: f64,
+    /// Whether each is as small as is allowed.
+    pub met: bool,
 }
 
 /// Harmonics on meshes that get finer.
@@ -109,7 +111,7 @@ impl<'a> Climb<'a> {
     /// that move there by more than a tenth of their largest motion are left out.
     pub fn harmonic(&self, n: usize) -> Result<Climbed> {
         let HoopRequest { tol, least, up_to_hz, .. } = *self.request;
-        let first = usize::from(tol < 3e-3);
+        let first = usize::from(self.request.allowed(n, 1.0) < 3e-3);
         let coarse = self.wall(first)?;
         let least = least.max(1);
         let below = count_below(coarse, n, self.ends, TAU * up_to_hz);
@@ -136,14 +138,19 @@ impl<'a> Climb<'a> {
                 let mut kept = kept.into_iter();
                 errors.retain(|_| kept.next() == Some(true));
             }
-            if k + 1 == LADDER.len() || errors.iter().all(|error| *error <= tol) {
+            let lowest = now.omegas.first().copied().unwrap_or(1.0);
+            let allowed = |omega: &f64| self.request.allowed(n, omega / lowest);
+            let allowed: Vec<f64> = now.omegas.iter().map(allowed).collect();
+            let within = |errors: &[f64]| errors.iter().zip(&allowed).all(|(e, a)| e <= a);
+            if k + 1 == LADDER.len() || within(&errors) {
                 // Motions of n = 0 are waves along the whole bat: theirs are of the stretch that is modelled.
                 let dies_out = self.cut && n >= 2;
                 let of_cut = |mode| if dies_out { cut_off(&now, mode) } else { 0.0 };
                 let cut: Vec<f64> = (0..errors.len()).map(of_cut).collect();
                 errors.iter_mut().zip(&cut).for_each(|(error, cut)| *error += cut);
-                let worst = cut.into_iter().fold(0.0, f64::max);
-                return Ok(Climbed { spectrum: now, errors, cut: worst });
+                let met = within(&errors);
+                let cut = cut.iter().zip(&allowed).map(|(cut, allowed)| cut / allowed);
+                return Ok(Climbed { spectrum: now, errors, cut: cut.fold(0.0, f64::max), met });
             }
             before = omegas;
             k += 1;

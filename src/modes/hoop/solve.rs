@@ -121,7 +121,7 @@ impl Hoop {
         let mut extent = Extent::of(bat, lead)?;
         let cut = extent.limit == Limit::Handle;
         let (mut hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
-        if cut && cut_off > 0.5 * tol {
+        if cut && cut_off > 0.5 && !request.eased {
             // High modes may reach far into a thin handle: all of it is modelled then.
             extent = Extent::of(bat, f64::INFINITY)?;
             hoop = Self::solved(bat, [extent.from, extent.to], false, request)?.0;
@@ -134,6 +134,39 @@ impl Hoop {
         Ok(hoop)
     }
 
+    /// The `count` lowest modes of n ≥ 2 within `tol`, with the others that their harmonics have below the highest
+    /// of them, and at least three of each.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`].
+    pub fn first(bat: &Bat, count: usize, tol: f64) -> Result<Self> {
+        const LAST: usize = 20;
+        // On a rough mesh it is seen which harmonics have one of them.
+        let rough = |n: usize, least: usize, up_to_hz: f64| -> Result<Vec<f64>> {
+            let harmonics = vec![n];
+            let request =
+                HoopRequest { tol: 0.1, harmonics, up_to_hz, least, ..HoopRequest::default() };
+            Ok(Self::of(bat, &request)?.modes.iter().map(HoopMode::frequency).collect())
+        };
+        let mut known = rough(2, count, 0.0)?;
+        let mut harmonics = vec![2];
+        let mut top = known.get(count.saturating_sub(1)).copied().unwrap_or(0.0);
+        for n in 3..=LAST {
+            let own = rough(n, 1, top)?;
+            if own.first().is_none_or(|lowest| *lowest > top) {
+                break;
+            }
+            harmonics.push(n);
+            known.extend(own);
+            known.sort_by(f64::total_cmp);
+            known.truncate(count);
+            top = known[known.len() - 1];
+        }
+        let (up_to_hz, least) = ((1.01 * top).min(MOST_HZ), 3);
+        Self::of(bat, &HoopRequest { tol, harmonics, up_to_hz, least, ..HoopRequest::default() })
+    }
+
     /// The hoop modes of a stretch of a bat (m), which is cut off at both ends.
     ///
     /// # Errors
@@ -144,7 +177,7 @@ impl Hoop {
     }
 
     /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there. Besides, what the
-    /// cut costs.
+    /// cut costs, as a share of what may be off.
     fn solved(
         bat: &Bat,
         [from, to]: [f64; 2],
@@ -160,7 +193,7 @@ impl Hoop {
         let solved =
             threads::map(request.harmonics.len(), |k| climb.harmonic(request.harmonics[k]));
         let solved = solved.into_iter().collect::<Result<Vec<_>>>()?;
-        let met = solved.iter().flat_map(|of| &of.errors).all(|error| *error <= request.tol);
+        let met = solved.iter().all(|of| of.met);
         let modes = solved.iter().flat_map(|of| modes(&of.spectrum, &of.errors)).collect();
         let cut_off = solved.iter().map(|of| of.cut).fold(0.0, f64::max);
         let notes = notes(&layers);
@@ -181,7 +214,7 @@ impl Hoop {
         lowest
     }
 
-    /// Whether every stated error is within the tolerance.
+    /// Whether every stated error is within what was allowed.
     pub fn met(&self) -> bool {
         self.met
     }
@@ -220,9 +253,12 @@ impl Hoop {
     /// together than one by one.
     pub fn under_each(&self, patches: &[Patch]) -> Vec<Vec<Share>> {
         let placed: Vec<(Patch, f64)> = patches.iter().map(|p| (*p, self.radius(p.x))).collect();
+        let spectra: Vec<&Spectrum> = self.spectra.iter().filter(|s| s.system.n != 1).collect();
+        let of = |k: usize| -> Vec<Share> {
+            placed.chunks(SIDES).flat_map(|few| shares(spectra[k], few)).collect()
+        };
         let mut all = vec![vec![]; patches.len()];
-        for spectrum in self.spectra.iter().filter(|spectrum| spectrum.system.n != 1) {
-            let shares = placed.chunks(SIDES).flat_map(|few| shares(spectrum, few));
+        for shares in threads::map(spectra.len(), of) {
             all.iter_mut().zip(shares).for_each(|(all, share)| all.push(share));
         }
         all

@@ -18,7 +18,7 @@ const DIAGRAM: f64 = 250.0;
 pub fn picture(sheet: Sheet, name: &str, tried: &[WallTried]) -> Option<Picture> {
     let unit = sheet.small();
     let point = |tried: &WallTried, of: &dyn Fn(&Rebound) -> f64| {
-        let (wall, rebound) = (tried.barrel.wall.as_ref()?, tried.barrel.rebound.as_ref()?);
+        let (wall, rebound) = (tried.struck.wall.as_ref()?, tried.struck.rebound.as_ref()?);
         Some([wall.thickness, of(rebound)])
     };
     let points = |of: &dyn Fn(&Rebound) -> f64| -> Vec<Option<[f64; 2]>> {

@@ -71,9 +71,9 @@ fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
 
 /// The wall under the ball, the rebound and the compression, a sentence each.
 pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
-    let Some(wall) = &barrel.wall else { return vec![] };
+    let Some(wall) = &barrel.struck.wall else { return vec![] };
     let mut all = vec![pressed(bat, barrel, wall, units), harmonics(wall)];
-    match &barrel.rebound {
+    match &barrel.struck.rebound {
         Some(rebound) => all.extend(rebounded(rebound, units)),
         None => all.push(format!(
             "BBCOR there: not known, for {} has no force law; --ball-stiffness gives it one.",
@@ -91,7 +91,7 @@ pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
 
 /// How stiff the wall is.
 fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
-    let ball = barrel.rebound.as_ref().map_or(String::new(), |rebound| {
+    let ball = barrel.struck.rebound.as_ref().map_or(String::new(), |rebound| {
         format!(" ({} times the ball)", significant(rebound.figures.over_ball, 2))
     });
     format!(
@@ -171,7 +171,7 @@ fn both(units: Units, si: String, us: String) -> String {
 pub fn in_a_line(barrel: &Barrel) -> String {
     let lowest = barrel.hoop().lowest(1);
     let Some(mode) = lowest.first() else { return String::new() };
-    let wall = barrel.wall.as_ref().map_or(String::new(), |wall| {
+    let wall = barrel.struck.wall.as_ref().map_or(String::new(), |wall| {
         format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
     });
     format!("Hoop modes from {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
@@ -205,10 +205,10 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
     ]);
     let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
     out += &columns.heads();
-    for WallTried { factor, barrel, .. } in tried {
-        let (Some(wall), Some(rebound)) = (&barrel.wall, &barrel.rebound) else { continue };
-        let hertz = barrel
-            .first()
+    for WallTried { factor, struck, .. } in tried {
+        let (Some(wall), Some(rebound)) = (&struck.wall, &struck.rebound) else { continue };
+        let hertz = struck
+            .first
             .map_or(String::new(), |omega| format!("{:.0} Hz", omega / std::f64::consts::TAU));
         let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
         let _ = write!(

@@ -27,12 +27,12 @@ pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize)
         model: file::HoopModel {
             from_m: barrel.hoop().from(),
             to_m: barrel.hoop().to(),
-            tolerance: barrel.test.hoop.tol,
+            tolerance: barrel.test.tol,
             clamped_change: barrel.clamped_change,
         },
         modes: modes.map(|(k, mode)| hoop_mode(barrel, (k, mode), samples)).collect(),
-        wall: barrel.wall.as_ref().map(|wall| under_ball(bat, barrel, wall)),
-        bbcor: barrel.rebound.as_ref().map(|rebound| bbcor(barrel, rebound)),
+        wall: barrel.struck.wall.as_ref().map(|wall| under_ball(bat, barrel, wall)),
+        bbcor: barrel.struck.rebound.as_ref().map(|rebound| bbcor(barrel, rebound)),
         compression: barrel
             .compressed()
             .map(|[deflection_m, force_n]| file::BarrelCompression { deflection_m, force_n }),
@@ -75,7 +75,7 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::PressedWa
         radius_m: wall.radius,
         thickness_m: wall.thickness,
         stiffness_n_m: wall.stiffness(),
-        over_ball: barrel.rebound.as_ref().map(|rebound| rebound.figures.over_ball),
+        over_ball: barrel.struck.rebound.as_ref().map(|rebound| rebound.figures.over_ball),
         compression_m: COMPRESSION,
         patch_half_length_m: wall.patch.half_length,
         patch_half_width_m: wall.patch.half_width,
@@ -101,13 +101,13 @@ fn bbcor(barrel: &Barrel, rebound: &Rebound) -> file::BbcorOfWall {
 }
 
 fn thickness(tried: &WallTried) -> Option<file::WallThickness> {
-    let (wall, rebound) = (tried.barrel.wall.as_ref()?, tried.barrel.rebound.as_ref()?);
+    let (wall, rebound) = (tried.struck.wall.as_ref()?, tried.struck.rebound.as_ref()?);
     let WallBbcor { stiff, with, range } = rebound.bbcor();
     Some(file::WallThickness {
         factor: tried.factor,
         thickness_m: wall.thickness,
         mass_kg: tried.mass,
-        frequency_hz: tried.barrel.first()? / TAU,
+        frequency_hz: tried.struck.first? / TAU,
         stiffness_n_m: wall.stiffness(),
         stiff,
         wall: with,

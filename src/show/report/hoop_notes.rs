@@ -18,7 +18,7 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     }
     all.extend(alive(barrel));
     all.extend(dented(barrel));
-    if barrel.wall.is_none() {
+    if barrel.struck.wall.is_none() {
         all.push(format!(
             "the ball at {} from the knob end does not meet the stretch that is modelled",
             units.inline(units.length(barrel.test.at))
@@ -29,7 +29,7 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
 
 /// A first mode that reaches the beginning of the stretch.
 fn alive(barrel: &Barrel) -> Option<String> {
-    let change = barrel.clamped_change.filter(|change| change.abs() > barrel.test.hoop.tol)?;
+    let change = barrel.clamped_change.filter(|change| change.abs() > barrel.test.tol)?;
     Some(format!(
         "the first hoop mode is not dead where the model begins: clamped there it is {} % higher, and the \
          true one lies between",
@@ -39,7 +39,7 @@ fn alive(barrel: &Barrel) -> Option<String> {
 
 /// A dent that is too deep for small motions.
 fn dented(barrel: &Barrel) -> Option<String> {
-    let (wall, rebound) = (barrel.wall.as_ref()?, barrel.rebound.as_ref()?);
+    let (wall, rebound) = (barrel.struck.wall.as_ref()?, barrel.struck.rebound.as_ref()?);
     let share = rebound.figures.dent / wall.thickness;
     rebound.figures.is_deep().then(|| {
         format!(

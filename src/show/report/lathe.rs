@@ -82,7 +82,8 @@ pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
         .into_iter()
         .filter_map(|(exponent, law)| line(&format!(" for {law}"), Answer::ExitSpeed, exponent));
     let balls: Vec<String> = balls.collect();
-    lines.extend((!balls.is_empty()).then(|| balls.join("; ")));
+    let wall = if map.piece.has_rigid_wall() { " (the wall rigid)" } else { "" };
+    lines.extend((!balls.is_empty()).then(|| balls.join("; ") + wall));
     lines
 }
 
@@ -98,6 +99,11 @@ fn words(map: &LatheMap, shown: TableUnits) -> String {
         out += &wrapped(&line, 2);
     }
     out += &wholes(map, shown);
+    if map.piece.has_rigid_wall() {
+        let line = "In all hits here the wall of the barrel is rigid, for every cut would need its hoop \
+                    modes anew: sweetspot hit counts them.";
+        out += &wrapped(line, 2);
+    }
     for rival in &map.piece.rivals {
         let [a, b] = rival.peaks;
         let line = format!(

@@ -11,6 +11,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::turned::DiameterChange;
 use crate::collision::hit::{Effort, Model, Scene};
 use crate::collision::hitter::Hitter;
+use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::{Trial, sweep};
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
@@ -157,13 +158,14 @@ impl Workpiece {
         let mut modes = answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let (mut hit, mut met, mut off) = (None, true, 0.0);
         if let Some(terms) = terms.filter(|_| answers.iter().any(|answer| answer.of_a_hit())) {
-            let trial = Trial { model: terms.model, scene: &terms.scene };
+            let scene = Scene { hoop: terms.scene.hoop.left_out(), ..terms.scene.clone() };
+            let trial = Trial { model: terms.model, scene: &scene };
             let accuracy = trial.accuracy(request, terms.exactly);
             let places: Vec<f64> = ALONG.iter().map(|share| share * bat.length()).collect();
-            let sweep = sweep(&bat, terms.model, &terms.scene, &accuracy, &places)?;
+            let sweep = sweep(&bat, terms.model, &scene, &accuracy, &places)?;
             (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met);
             off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
-            let (scene, model, effort) = (terms.scene.clone(), terms.model, sweep.effort);
+            let (model, effort) = (terms.model, sweep.effort);
             hit = Some(Hit { scene, model, effort });
         }
         let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
@@ -217,6 +219,12 @@ impl Workpiece {
             }
         }
         Ok(())
+    }
+
+    /// Whether a wall that could give way is rigid in the answers about a hit.
+    pub fn has_rigid_wall(&self) -> bool {
+        let rigid = HoopInHit::LeftOut(WhyRigid::ManyBats);
+        self.hit.as_ref().is_some_and(|hit| hit.scene.hoop == rigid)
     }
 
     /// What the gauges read of a bat that is hit.

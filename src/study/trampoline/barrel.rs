@@ -32,10 +32,14 @@ pub struct BarrelTest {
     pub ball_speed: f64,
     /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
     pub cor: f64,
-    /// What is asked of the hoop modes.
-    pub hoop: HoopRequest,
+    /// How many of the lowest hoop modes are asked for.
+    pub modes: usize,
+    /// Largest relative error of their frequencies.
+    pub tol: f64,
     /// How accurate the exit speeds are to be.
     pub accuracy: Accuracy,
+    /// The wall of a bat under that ball as it is known already; of another bat it is solved as well.
+    pub known: Option<Arc<HoopWall>>,
 }
 
 impl BarrelTest {
@@ -50,8 +54,10 @@ impl BarrelTest {
             cor: ball.cor,
             ball,
             ball_speed: TEST_SPEED,
-            hoop: HoopRequest { tol, least: 3, ..hoop_request(accuracy.exit_speed) },
+            modes: MODES,
+            tol,
             accuracy,
+            known: None,
         }
     }
 }
@@ -61,14 +67,23 @@ impl BarrelTest {
 pub struct Barrel {
     /// What was asked.
     pub test: BarrelTest,
-    /// The wall with its modes.
-    pub solved: Arc<HoopWall>,
+    /// The lowest hoop modes.
+    hoop: Hoop,
     /// By how much the first mode of harmonic 2 rises where the stretch is clamped at its beginning, relative:
     /// how far the mode is from dead there; None where that cannot be solved.
     pub clamped_change: Option<f64>,
     /// Relative change of the first frequency of harmonic 2 by a Poisson's ratio that is 0.05 smaller and larger;
     /// None where the ratio is known.
     pub by_poisson: Option<[f64; 2]>,
+    /// The wall and the ball.
+    pub struck: BarrelStruck,
+}
+
+/// A barrel that a ball was shot at.
+#[derive(Debug, Clone)]
+pub struct BarrelStruck {
+    /// ω of the first mode of harmonic 2 (rad/s), as accurate as the hit needs it.
+    pub first: Option<f64>,
     /// The wall under the ball; None where the ball does not meet the stretch that is modelled.
     pub wall: Option<PressedWall>,
     /// How the ball comes back; None without a wall under it and for a ball without a force law.
@@ -97,66 +112,72 @@ impl Rebound {
     }
 }
 
+/// So many hoop modes, if nothing else is said.
+const MODES: usize = 10;
+
 impl Barrel {
     /// The barrel of that bat, with what is open of it: a Poisson's ratio that is not known, and an end of the
     /// stretch where the first mode is not dead.
     ///
     /// # Errors
     ///
-    /// As [`Self::struck`].
+    /// As [`Hoop::first`] and [`BarrelStruck::of`].
     pub fn of(bat: &Bat, test: BarrelTest) -> Result<Self> {
-        let mut barrel = Self::struck(bat, test)?;
-        let oval =
-            HoopRequest { harmonics: vec![2], least: 1, up_to_hz: 0.0, ..barrel.test.hoop.clone() };
-        let known = barrel.first();
-        let change = |bat: &Bat, request: &HoopRequest| {
-            Some(first(&Hoop::of(bat, request).ok()?)? / known? - 1.0)
+        let hoop = Hoop::first(bat, test.modes, test.tol)?;
+        let struck = BarrelStruck::of(bat, &test)?;
+        let known = first(&hoop);
+        let change = |bat: &Bat, end: KnobSide| {
+            let (tol, harmonics) = (test.tol, vec![2]);
+            let up_to_hz = 0.0;
+            let request =
+                HoopRequest { tol, harmonics, up_to_hz, least: 1, end, ..HoopRequest::default() };
+            Some(first(&Hoop::of(bat, &request).ok()?)? / known? - 1.0)
         };
-        barrel.clamped_change =
-            change(bat, &HoopRequest { end: KnobSide::Clamped, ..oval.clone() });
-        if !knows_poisson(bat) {
-            let other = |by: f64| change(&assuming(bat, by).ok()?, &oval);
-            barrel.by_poisson = other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]);
-        }
-        Ok(barrel)
+        let clamped_change = change(bat, KnobSide::Clamped);
+        let other = |by: f64| change(&assuming(bat, by).ok()?, KnobSide::Free);
+        let by_poisson = match knows_poisson(bat) {
+            true => None,
+            false => other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]),
+        };
+        Ok(Self { test, hoop, clamped_change, by_poisson, struck })
     }
 
-    /// The barrel of that bat and the ball that comes back from it.
-    ///
-    /// # Errors
-    ///
-    /// As [`HoopWall::of`], and as [`sweep`] for a hit.
-    pub fn struck(bat: &Bat, test: BarrelTest) -> Result<Self> {
-        let solved = HoopWall::of(bat, test.ball.radius, &test.hoop)?;
-        let wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
-        let rebound = match (&wall, test.ball.stiffness) {
-            (Some(_), Some(_)) => rebound(bat, &solved, &test)?,
-            _ => None,
-        };
-        Ok(Self { test, solved, clamped_change: None, by_poisson: None, wall, rebound })
-    }
-
-    /// The modes of the wall.
+    /// The lowest modes of the wall.
     pub fn hoop(&self) -> &Hoop {
-        self.solved.hoop()
-    }
-
-    /// ω of the first mode of harmonic 2 (rad/s).
-    pub fn first(&self) -> Option<f64> {
-        first(self.hoop())
+        &self.hoop
     }
 
     /// Whether every frequency is as accurate as was asked, and BBCOR as accurate as it is said.
     pub fn met(&self) -> bool {
         /// Three digits are said, and the patch leaves ten times as much open and more.
         const SAID: f64 = 1e-3;
-        let modes = self.hoop().modes().iter().all(|mode| mode.error <= self.test.hoop.tol);
-        modes && self.rebound.as_ref().is_none_or(|rebound| rebound.error <= SAID)
+        let rebound = self.struck.rebound.as_ref();
+        self.hoop.met() && rebound.is_none_or(|rebound| rebound.error <= SAID)
     }
 
     /// What a test of the barrel's compression takes: the deflection (m) and the force (N).
     pub fn compressed(&self) -> Option<[f64; 2]> {
-        self.wall.as_ref().map(|wall| wall.compressed(&self.test.ball))
+        self.struck.wall.as_ref().map(|wall| wall.compressed(&self.test.ball))
+    }
+}
+
+impl BarrelStruck {
+    /// The barrel of that bat and the ball that comes back from it.
+    ///
+    /// # Errors
+    ///
+    /// As [`HoopWall::of`], and as [`sweep`] for a hit.
+    pub fn of(bat: &Bat, test: &BarrelTest) -> Result<Self> {
+        let solved = match &test.known {
+            Some(known) => known.on(bat)?,
+            None => HoopWall::of(bat, test.ball.radius, &hoop_request(test.accuracy.exit_speed))?,
+        };
+        let wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
+        let rebound = match (&wall, test.ball.stiffness) {
+            (Some(_), Some(_)) => rebound(bat, &solved, test)?,
+            _ => None,
+        };
+        Ok(Self { first: first(solved.hoop()), wall, rebound })
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::turned::DiameterChange;
-use crate::study::trampoline::barrel::Barrel;
+use crate::study::trampoline::barrel::{Barrel, BarrelStruck};
 
 /// Thicknesses that are tried, over that of the bat.
 pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];
@@ -15,22 +15,22 @@ pub struct WallTried {
     pub factor: f64,
     /// Mass of the bat (kg).
     pub mass: f64,
-    /// Its barrel.
-    pub barrel: Barrel,
+    /// Its barrel under the ball.
+    pub struck: BarrelStruck,
 }
 
 /// The bat with walls of other thicknesses, by rising thickness: those that can be made and are hit. `tell` hears
 /// how far the work has come.
 pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTried> {
-    let barrel = |bat: &Bat, factor: f64| match factor {
-        1.0 => Some(known.clone()),
-        _ => Barrel::struck(bat, known.test.clone()).ok(),
+    let struck = |bat: &Bat, factor: f64| match factor {
+        1.0 => Some(known.struck.clone()),
+        _ => BarrelStruck::of(bat, &known.test).ok(),
     };
     let tried = |(k, factor): (usize, f64)| {
         tell(k as f64 / FACTORS.len() as f64);
         let other = with_wall(bat, known, factor).ok()?;
-        let (barrel, mass) = (barrel(&other, factor)?, other.inertia().mass);
-        barrel.rebound.is_some().then_some(WallTried { factor, mass, barrel })
+        let (struck, mass) = (struck(&other, factor)?, other.inertia().mass);
+        struck.rebound.is_some().then_some(WallTried { factor, mass, struck })
     };
     FACTORS.into_iter().enumerate().filter_map(tried).collect()
 }
