@@ -13,6 +13,7 @@ mod lies;
 #[path = "guarantee/again.rs"]
 mod again;
 
+use common::folder::Folder;
 use sweetspot::bat::fixtures::Tape;
 use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
 use sweetspot::modes::enclosure::within::{Within, band};
@@ -203,4 +204,26 @@ fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
     for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
         assert!(*lower < mode.hertz[0] && mode.hertz[1] < *upper);
     }
+}
+
+/// The same ends, below the answer of `analyze` and in its documents; refused where `modes` refuses.
+#[test]
+fn analyze_says_what_modes_proves() {
+    let folder = Folder::new("guarantee-analyze");
+    let asked = ["r161", "-n", "3", "--tol", "1e-9", "--guarantee"];
+    let modes = folder.json(&[&["modes"], &asked[..], &["--json", "-"]].concat());
+    let more = ["--out", "all", "--json", "all.json"];
+    let text = folder.text(&[&["analyze"], &asked[..], &more].concat());
+    assert!(text.contains("Proven of the exact beam, no mode missing between them"), "{text}");
+    let read =
+        |name: &str| -> serde_json::Value { serde_json::from_str(&folder.read(name)).unwrap() };
+    for document in [&read("all.json")["modes"], &read("all/modes.json")] {
+        assert_eq!(document["proof"], modes["proof"]);
+        for k in 0..3 {
+            let [here, there] = [document, &modes].map(|document| &document["modes"][k]["proven"]);
+            assert!(here == there && here["lower_hz"].is_number(), "{here} {there}");
+        }
+    }
+    let refused = folder.run(&["analyze", "r161", "--guarantee", "--joint", "10 in"]);
+    assert_eq!(refused.status.code(), Some(2));
 }

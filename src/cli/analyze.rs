@@ -19,6 +19,7 @@ use crate::show::page::content::Report;
 use crate::show::page::inputs::Input;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
+use crate::show::report::proven::{self, Proven};
 use crate::show::report::sketch::{self, SketchRow};
 use crate::show::report::text;
 use crate::show::report::units::Units;
@@ -30,6 +31,7 @@ use crate::study::spread::Readings;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
 use crate::cli::delivered::apart;
 use crate::cli::done::Done;
+use crate::cli::guarantee::{self, GuaranteeArgs};
 use crate::cli::hit::verdict as hit_verdict;
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
@@ -54,6 +56,9 @@ pub struct Args {
 
     #[command(flatten)]
     solve: SolveArgs,
+
+    #[command(flatten)]
+    guarantee: GuaranteeArgs,
 
     #[command(flatten)]
     scene: SceneArgs,
@@ -114,7 +119,10 @@ Examples:
       in inches, ounces and miles an hour, with a faster swing
 
   sweetspot analyze r161 --out r161 --plots r161
-      and modes.json, hit.json, curve.csv and pictures in the folder r161";
+      and modes.json, hit.json, curve.csv and pictures in the folder r161
+
+  sweetspot analyze r161 --tol 1e-9 --guarantee
+      and two numbers between which each frequency of the beam is proven to lie";
 
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
@@ -124,7 +132,8 @@ pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
-    let Solved { bat, solution, warning } = args.bat.solve_for(bat, &args.solve, &args.output)?;
+    let (Solved { bat, solution, warning }, proven) =
+        args.guarantee.solve_for(bat, &args.bat, &args.solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
@@ -146,7 +155,7 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     drop(progress);
     if let Some(folder) = &args.out {
-        write_out(args, &analysis, folder)?;
+        write_out(args, &analysis, proven.as_ref(), folder)?;
     }
     if let Some(folder) = &args.plots {
         let sheet = args.output.sheet(&analysis.bat);
@@ -162,13 +171,16 @@ pub fn run(args: &Args) -> Result<Done> {
     let all = || AnalysisFile {
         format: Format::new(),
         generator: Generator::this(),
-        modes: modes_file(args, &analysis),
+        modes: modes_file(args, &analysis, proven.as_ref()),
         hit: hit_file(&analysis),
         strength: aftermath::strengths_file(&analysis.strength),
         open: trust::open(&analysis.spread),
         hoop: hoop_file(&analysis),
     };
-    let code = args.solve.verdict(&analysis.solution, &args.output);
+    let code = match &proven {
+        Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
+        None => args.solve.verdict(&analysis.solution, &args.output),
+    };
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = match args.full {
         true => {
@@ -180,6 +192,10 @@ pub fn run(args: &Args) -> Result<Done> {
             let barrel = analysis.barrel.as_ref().map(report::hoop::in_a_line);
             trust::screen(&analysis, args.output.units) + &barrel.unwrap_or_default() + MORE
         }
+    };
+    let table = match &proven {
+        Some(proven) => format!("{table}\n{}", proven::text(proven)),
+        None => table,
     };
     let table = table + &written(args);
     let text = args.output.deliver(table, all)?;
@@ -261,9 +277,11 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
     ) + &barrel(analysis, units)
 }
 
-fn modes_file(args: &Args, analysis: &Analysis) -> ModesFile {
+fn modes_file(args: &Args, analysis: &Analysis, proven: Option<&Proven>) -> ModesFile {
     let shapes = ShapePoints::Even(101);
-    json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible)
+    let mut document = json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible);
+    proven.iter().for_each(|proven| proven::write(&mut document, proven));
+    document
 }
 
 fn hit_file(analysis: &Analysis) -> HitFile {
@@ -280,10 +298,15 @@ fn hoop_file(analysis: &Analysis) -> Option<HoopFile> {
     Some(hoop_json::document(&analysis.bat, barrel, &[], SAMPLES))
 }
 
-fn write_out(args: &Args, analysis: &Analysis, folder: &Path) -> Result<()> {
+fn write_out(
+    args: &Args,
+    analysis: &Analysis,
+    proven: Option<&Proven>,
+    folder: &Path,
+) -> Result<()> {
     let failed = |source| Error::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
-    let modes = schema::text(&modes_file(args, analysis));
+    let modes = schema::text(&modes_file(args, analysis, proven));
     file::write(&folder.join("modes.json"), modes.as_bytes())?;
     file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
     if let Some(hoop) = hoop_file(analysis) {

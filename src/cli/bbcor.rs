@@ -13,12 +13,11 @@ use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
 use crate::cli::cannon::CannonArgs;
-use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
-use crate::cli::ring_args::on_the_bat;
 use crate::cli::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed

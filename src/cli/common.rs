@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
+use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::files::bat_file::Named;
@@ -86,11 +87,6 @@ impl BatArgs {
     /// Reads the bat, passes its warnings on, and returns the text of its file too.
     pub fn read_with_text(&self, output: &OutputArgs) -> Result<(Bat, String)> {
         read_with_text(&self.bat, &self.edits, output.quiet)
-    }
-
-    /// Reads the bat and finds its modes.
-    pub fn solve(&self, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
-        self.solve_for(self.read(output)?, solve, output)
     }
 
     /// Finds the modes of a bat that was read.
@@ -410,4 +406,13 @@ pub fn command_line() -> String {
     };
     let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
     std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
+}
+
+/// A place on that bat (m); a tip given in inches may be a rounding beyond it.
+pub fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
+    if (0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+        return Ok(x.min(bat.length()));
+    }
+    let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+    Err(Error::value(name, shown_length(x), expected))
 }

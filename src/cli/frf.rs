@@ -13,12 +13,11 @@ use crate::show::plot;
 use crate::show::report::frf::{self as report, Told};
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
-use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
 use crate::cli::frf_grid::GridArgs;
 use crate::cli::pictures;
-use crate::cli::ring_args::on_the_bat;
 use crate::cli::value::{PLACE, file_unit, named};
 
 /// How the bat answers a shaker or a tap, over frequency

@@ -17,12 +17,11 @@ use crate::study::trampoline::barrel::{Barrel, BarrelTest};
 use crate::study::trampoline::thickness::wall_sweep as thicknesses;
 
 use crate::cli::cannon::CannonArgs;
-use crate::cli::common::{OutputArgs, Prepared, examples, prepare, read};
+use crate::cli::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::EditArgs;
 use crate::cli::pictures;
-use crate::cli::ring_args::on_the_bat;
 use crate::cli::value::{PLACE, TheoryChoice, tolerance};
 
 /// How the barrel of a hollow bat rings, and what its wall does to the ball

@@ -12,11 +12,10 @@ use crate::study::lathe::map::{LatheMap, LatheTerms, bands, best_place};
 use crate::study::lathe::workpiece::HitTerms;
 use crate::study::many::answers::Answer;
 
-use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::pictures;
-use crate::cli::ring_args::on_the_bat;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{LITTLE, PLACE, SPACING};
 

@@ -5,8 +5,8 @@
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, files and standard output, pictures, the scene of a hit, the ball of a test |
-//! | `ring_args`, `ring_hit`, `ring_motion`, `frf_grid` | what `ring` is asked, its answers after a hit and after all else; the frequencies of `frf` |
+//! | `common`, `guarantee`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, proofs, files and standard output, pictures, the scene of a hit, the ball of a test |
+//! | `frf_grid` | the frequencies of `frf` |
 //! | `asking`, `tables` | questions to the user; the promises as tables |
 //! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
 
@@ -21,6 +21,7 @@ mod stop;
 mod edits;
 mod common;
 mod csv_option;
+mod guarantee;
 mod bat_text;
 mod pictures;
 mod scene;
@@ -29,9 +30,6 @@ mod asking;
 mod tables;
 mod modes;
 mod hit;
-mod ring_args;
-mod ring_hit;
-mod ring_motion;
 mod ring;
 mod bbcor;
 mod hoop;

@@ -6,21 +6,19 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
 use crate::beam::assembly::{Pencil, write_matrix_market};
-use crate::modes::enclosure::guarantee::guarantee;
-use crate::modes::enclosure::within::{Within, band};
 use crate::modes::solve::Solution;
 use crate::show::csv;
 use crate::show::exchange::npz;
 use crate::show::plot::sets;
 use crate::show::report::json::{self, ShapePoints};
-use crate::show::report::proven::{self, Proven};
+use crate::show::report::proven;
 use crate::show::report::{sketch, text, trust};
 
-use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved, examples};
+use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 use crate::cli::csv_option::CsvArgs;
-use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::done::Done;
+use crate::cli::guarantee::{self, GuaranteeArgs};
 use crate::cli::pictures;
-use crate::cli::value::LITTLE;
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
@@ -37,18 +35,8 @@ pub struct Args {
     #[command(flatten)]
     solve: SolveArgs,
 
-    /// Prove two numbers between which each frequency of the exact beam lies, --tol wide at most
-    ///
-    /// The bat of the file, its decimals exactly as written, as a beam of the theory that stands below: each of
-    /// its frequencies lies between both numbers, rounding included, and no mode is missing. The JSON has
-    /// intervals with the nodes in them and the numbers that the proof rests on. Says nothing of wood.
-    #[arg(long, help_heading = "Accuracy", conflicts_with_all = ["elements", "degree", "budget", "solver"])]
-    guarantee: bool,
-
-    /// And for every bat within this of it: radii and moduli, such as "0.1 mm, 2 %"
-    #[arg(long, value_name = "m, %", help_heading = "Accuracy", requires = "guarantee",
-        allow_hyphen_values = true, value_parser = within)]
-    within: Option<Within>,
+    #[command(flatten)]
+    guarantee: GuaranteeArgs,
 
     /// Samples of each shape in the JSON: a number, or "nodes" for the mesh's
     #[arg(long, value_name = "N", help_heading = "Output", default_value = "101", value_parser = shape_points)]
@@ -91,7 +79,9 @@ Examples:
 pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     let progress = args.output.progress("modes");
-    let (Solved { bat, solution, warning }, proven) = solved(args)?;
+    let bat = args.bat.read(&args.output)?;
+    let (Solved { bat, solution, warning }, proven) =
+        args.guarantee.solve_for(bat, &args.bat, &args.solve, &args.output)?;
     drop(progress);
     if let Some(folder) = &args.matrices {
         write_matrices(folder, &bat, &solution)?;
@@ -118,67 +108,11 @@ pub fn run(args: &Args) -> Result<Done> {
         document
     };
     let code = match &proven {
-        Some(proven) => verdict(args, proven),
+        Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
         None => args.solve.verdict(&solution, &args.output),
     };
     let text = args.csv.deliver(args.output.deliver(table, document)?, || csv::modes(&solution))?;
     Ok(Done::new(text, code).with(warning))
-}
-
-/// The modes, and what is proven of them where that was asked.
-fn solved(args: &Args) -> Result<(Solved, Option<Proven>)> {
-    if !args.guarantee {
-        return Ok((args.bat.solve(&args.solve, &args.output)?, None));
-    }
-    let bat = args.bat.read(&args.output)?;
-    let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
-    let Prepared { bat, request, warning } = prepared;
-    let (solution, guarantee) = guarantee(&bat, &request)?;
-    let band = match args.within {
-        Some(within) => Some((within, band(&bat, &request, within)?)),
-        None => None,
-    };
-    Ok((Solved { bat, solution, warning }, Some(Proven { guarantee, band })))
-}
-
-/// The exit code, after a word about what is not proven as asked.
-fn verdict(args: &Args, Proven { guarantee, band }: &Proven) -> u8 {
-    let tolerance = args.solve.tol;
-    if !guarantee.met {
-        let said = guarantee.shortfall(tolerance);
-        args.output.warn(&format!("not proven as asked: {said}"));
-    }
-    if band.as_ref().is_some_and(|(_, band)| !band.met) {
-        args.output
-            .warn("not proven as asked: the band of the bats within --within has a wider end");
-    }
-    let met = guarantee.met && band.as_ref().is_none_or(|(_, band)| band.met);
-    if met { 0 } else { NOT_REACHED }
-}
-
-/// `"0.1 mm, 2 %"`: a length for the radii, a share of the moduli, or both.
-fn within(text: &str) -> std::result::Result<Within, String> {
-    let expected = "a length for the radii and a share of the moduli, such as \"0.1 mm, 2 %\"";
-    let mut within = Within { radius: 0.0, modulus: 0.0 };
-    let (mut radii, mut moduli) = (0, 0);
-    for part in text.split([',', ';']).map(str::trim) {
-        match part.strip_suffix('%').map(|share| share.trim().parse::<f64>()) {
-            Some(Ok(share)) => {
-                within.modulus = 0.01 * share;
-                moduli += 1;
-            }
-            Some(Err(_)) => return Err(expected.to_owned()),
-            None => {
-                within.radius = LITTLE.read(part).map_err(|said| format!("{said}; {expected}"))?;
-                radii += 1;
-            }
-        }
-    }
-    let possible = within.radius >= 0.0 && (0.0..1.0).contains(&within.modulus);
-    if radii > 1 || moduli > 1 || !possible {
-        return Err(format!("expected {expected}, each once, the share below 100 %"));
-    }
-    Ok(within)
 }
 
 fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {

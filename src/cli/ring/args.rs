@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
 use crate::base::file;
-use crate::base::units::shown_length;
-use crate::bat::body::Bat;
 use crate::modes::solve::Solution;
 use crate::motion::sound::Sound;
 use crate::show::exchange::wav;
@@ -146,15 +144,6 @@ pub fn write_sound(path: &Path, sound: &Sound) -> Result<Option<String>> {
              (give the material a \"loss_factor\")"
         )
     }))
-}
-
-/// A place on that bat (m); a tip given in inches may be a rounding beyond it.
-pub fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
-    if (0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
-        return Ok(x.min(bat.length()));
-    }
-    let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
-    Err(Error::value(name, shown_length(x), expected))
 }
 
 /// The instants asked for, or nine over a period of mode 1.

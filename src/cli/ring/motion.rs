@@ -13,10 +13,10 @@ use crate::motion::shape::InitialShape;
 use crate::motion::sound::Sound;
 use crate::show::plot::ringing::{self, Moving};
 
-use crate::cli::common::Solved;
+use crate::cli::common::{Solved, on_the_bat};
 use crate::cli::done::Done;
 use crate::cli::pictures;
-use crate::cli::ring_args::{Args, csv, on_the_bat, times, write_sound};
+use crate::cli::ring::args::{Args, csv, times, write_sound};
 
 /// The motion, and its table.
 pub fn run(args: &Args, bat: Bat) -> Result<Done> {

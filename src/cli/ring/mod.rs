@@ -1,11 +1,21 @@
 //! `sweetspot ring BAT`: motion after a hit or a blow, under a force or from an initial shape.
+//!
+//! | file | question |
+//! |---|---|
+//! | `args` | what is asked, and what both answers need |
+//! | `hit` | how the bat moves and what it bears after a hit |
+//! | `motion` | how it moves after all else |
+
+mod args;
+mod hit;
+mod motion;
 
 use crate::base::error::Result;
 
 use crate::cli::delivered::apart;
 use crate::cli::done::Done;
-pub use crate::cli::ring_args::Args;
-use crate::cli::{ring_hit, ring_motion};
+
+pub use args::Args;
 
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<Done> {
@@ -18,7 +28,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let _progress = args.output.progress("modes and motion");
     let bat = args.bat.read(&args.output)?;
     match args.hit {
-        Some(x) => ring_hit::run(args, bat, x),
-        None => ring_motion::run(args, bat),
+        Some(x) => hit::run(args, bat, x),
+        None => motion::run(args, bat),
     }
 }

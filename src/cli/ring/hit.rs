@@ -14,11 +14,11 @@ use crate::show::report::text::wrapped;
 use crate::show::report::{hit_json, hit_text};
 use crate::study::ignored;
 
-use crate::cli::common::Prepared;
+use crate::cli::common::{Prepared, on_the_bat};
 use crate::cli::delivered::put;
 use crate::cli::done::Done;
 use crate::cli::pictures;
-use crate::cli::ring_args::{Args, csv, on_the_bat, times, write_sound};
+use crate::cli::ring::args::{Args, csv, times, write_sound};
 
 /// A hit, and what comes of it.
 pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
