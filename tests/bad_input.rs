@@ -1327,8 +1327,14 @@ fn a_wrong_command_line_is_refused() {
         (&["anlyze", "bat.json"], &["unrecognized subcommand 'anlyze'", "'analyze'"]),
         (&["bat.json"], &["expected a verb", "did you mean `sweetspot analyze bat.json`?"]),
         (&["r161", "--units", "us"], &["did you mean `sweetspot analyze r161`?"]),
-        (&["modes", "r16"], &["r16, which is neither", "r161, tanh", "did you mean r161?"]),
-        (&["compare", "r161", "zebra"], &["zebra, which is neither", "built-in bat: cone"]),
+        (
+            &["modes", "r16"],
+            &["r16, which is neither", "r161, softball_made_up", "did you mean r161?"],
+        ),
+        (
+            &["compare", "r161", "zebra"],
+            &["zebra, which is neither", "built-in bat: bbcor_made_up"],
+        ),
         (&["modes"], &["required arguments", "<BAT>"]),
         (&["modes", "bat.json", "bat.json"], &["unexpected argument"]),
         (&["modes", "bat.json", "--mode", "3"], &["unexpected argument '--mode'", "--modes"]),

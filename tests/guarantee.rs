@@ -210,7 +210,7 @@ fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
 #[test]
 fn analyze_says_what_modes_proves() {
     let folder = Folder::new("guarantee-analyze");
-    let asked = ["r161", "-n", "3", "--tol", "1e-9", "--guarantee"];
+    let asked = ["r161", "-n", "3", "--guarantee"];
     let modes = folder.json(&[&["modes"], &asked[..], &["--json", "-"]].concat());
     let more = ["--out", "all", "--json", "all.json"];
     let text = folder.text(&[&["analyze"], &asked[..], &more].concat());

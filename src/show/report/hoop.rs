@@ -196,11 +196,11 @@ pub fn in_short(bat: &Bat, barrel: &Barrel, units: Units) -> String {
 pub fn sweep(tried: &[WallTried], units: Units) -> String {
     let columns = Columns::new([
         labels(18, "wall under the ball"),
-        numbers(9, "times"),
+        numbers(7, "times"),
         numbers(11, "n=2, m=1"),
         numbers(11, "stiffness"),
-        numbers(8, "stiff"),
-        numbers(8, "BBCOR"),
+        numbers(7, "stiff"),
+        numbers(7, "BBCOR"),
         labels(15, "range"),
     ]);
     let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
