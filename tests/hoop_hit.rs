@@ -14,7 +14,7 @@ use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::power_law;
 use sweetspot::collision::contact::touch::Felt;
-use sweetspot::collision::hoop_wall::{COMPRESSION, HoopInHit, HoopWall, WallSeries};
+use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, WallSeries};
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::collision::{Ball, Hitter, Model, Scene};
@@ -22,6 +22,8 @@ use sweetspot::modes::hoop::{Hoop, HoopRequest, Patch};
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Theory};
 
+/// Of a usual ball (m).
+const COMPRESSION: f64 = 0.008;
 const ALUMINIUM: &str = r#"{ "density": 2810, "youngs_modulus": 71e9, "poisson_ratio": 0.33, "shear_modulus": 26.691729323308e9 }"#;
 
 /// A made-up barrel: handle radius, what it grows by, from and over which length it does, length of the
@@ -326,6 +328,34 @@ fn the_patch_leaves_open_what_it_does() {
         (wall.stiffness / 17.2e6 - 1.0).abs() < 0.02 && (wall.mass / 0.0605 - 1.0).abs() < 0.02
     );
     assert!(wall.is_deep() && (wall.dent - 1.8e-3).abs() < 2e-4, "{wall:?}");
+}
+
+/// A ball with a patch of its own presses as one that is compressed so far.
+#[test]
+fn a_ball_may_have_a_patch_of_its_own() {
+    let text = |more: &str| {
+        format!(
+            r#"{{ "format": "sweetspot-ball/1", "mass": "145 g", "radius": "36.6 mm"{more},
+                "stiffness": 6.53e7, "exponent": 1.84, "cor": 0.5 }}"#
+        )
+    };
+    let ball = |more: &str| Ball::from_text("ball.json", &text(more));
+    let bat = Shape::baseball(0.0030).bat(false);
+    let bbcor_of = |ball: &Ball| bbcor(&struck(&bat, ball, 60.8, 0.1524, WallChoice::On));
+    let usual = bbcor_of(&ball("").unwrap());
+    let same = (0.0366_f64 * COMPRESSION).sqrt();
+    let given = ball(&format!(r#", "contact_radius": {same}"#)).unwrap();
+    assert!((given.patch_compression() / COMPRESSION - 1.0).abs() < 1e-14);
+    assert!((bbcor_of(&given) - usual).abs() < 1e-9);
+    // Compressions of 4 and 16 mm: 0.611 and 0.584.
+    let [small, large] = [0.5_f64, 2.0].map(|times| {
+        bbcor_of(&ball(&format!(r#", "contact_radius": {}"#, same * times.sqrt())).unwrap())
+    });
+    assert!((small - 0.611).abs() < 3e-3 && (large - 0.584).abs() < 3e-3, "{small} {large}");
+    for wrong in ["0", "-0.01", "0.05", "\"17\"", "null"] {
+        let told = ball(&format!(r#", "contact_radius": {wrong}"#)).unwrap_err().to_string();
+        assert!(told.contains("contact_radius"), "{wrong}: {told}");
+    }
 }
 
 /// A bat with another wall has hoop modes of its own, whatever scene it is hit in.

@@ -25,6 +25,9 @@ pub struct Ball {
     pub mass: f64,
     /// Radius (m).
     pub radius: f64,
+    /// Radius (m) of the patch on which it presses against a flat wall in a hit; None for that of a ball that is
+    /// compressed by 8 mm. Only a wall that gives way by its hoop modes asks for it.
+    pub contact_radius: Option<f64>,
     /// `k` of the force `k u^α` (N/m^α); not used by the `rigid` and `energy-loss` models.
     pub stiffness: Option<f64>,
     /// `α` of the force `k u^α`.
@@ -48,6 +51,7 @@ impl Ball {
                 .into(),
             mass: 5.125 * 0.028_349_523_125,
             radius: 0.0366,
+            contact_radius: None,
             stiffness: Some(6.53e7),
             exponent: Some(1.84),
             law: LawOf(power_law::law),
@@ -72,6 +76,14 @@ impl Ball {
             cor: (1.0 - 0.037) * dry.cor,
             ..dry
         }
+    }
+
+    /// The compression δ (m) by which it presses on a wall as a patch: by Hertz, of a radius `√(R δ)` on a flat
+    /// wall.
+    pub fn patch_compression(&self) -> f64 {
+        /// Half of the largest of a baseball at game speed.
+        const USUAL: f64 = 0.008;
+        self.contact_radius.map_or(USUAL, |contact| contact * contact / self.radius)
     }
 
     /// The ball as a linear spring of that stiffness (N/m).
@@ -107,6 +119,7 @@ impl Ball {
                 .into(),
             mass: 6.625 * 0.028_349_523_125,
             radius: 12.0 * 0.0254 / std::f64::consts::TAU,
+            contact_radius: None,
             stiffness: None,
             exponent: None,
             law: LawOf(power_law::law),

@@ -13,7 +13,7 @@ use crate::collision::contact::collider::{Collider, Law};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::Felt;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
-use crate::collision::hoop_wall::{COMPRESSION, HoopWall, WallFelt};
+use crate::collision::hoop_wall::{HoopWall, WallFelt};
 use crate::collision::rigid::{RigidBat, RigidVelocity};
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
@@ -240,7 +240,7 @@ impl<'a> Hitter<'a> {
 
     /// The wall at `x` (m), where it gives way by its hoop modes.
     pub(super) fn under(&self, x: f64) -> Option<WallFelt> {
-        Some(self.hoop.as_ref()?.under(x, COMPRESSION))
+        Some(self.hoop.as_ref()?.under(x, self.scene.ball.patch_compression()))
     }
 
     /// The force law with the e₀ of the hit, which later touches of the same hit keep.

@@ -25,10 +25,6 @@ use crate::collision::struck::{complete, taken};
 use crate::collision::wall_table::WallTable;
 use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
 
-/// Compression δ of the ball (m) by which it presses on the wall as a patch: half of the largest at game
-/// speed. Half and twice as much say what that choice does to BBCOR.
-pub const COMPRESSION: f64 = 0.008;
-
 /// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
 pub const CUP: f64 = 0.04;
 
@@ -176,10 +172,11 @@ impl HoopWall {
         Arc::clone(table.or_insert_with(|| Arc::new(WallTable::new(ends, step))))
     }
 
-    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it.
-    pub fn somewhere(&self, x: f64) -> [f64; 2] {
-        let from = self.hoop.from() + self.patch(x, COMPRESSION).half_length;
-        let felt = self.under(x.max(from).min(self.hoop.to()), COMPRESSION);
+    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it, under a ball
+    /// that is compressed by that much (m).
+    pub fn somewhere(&self, x: f64, compression: f64) -> [f64; 2] {
+        let from = self.hoop.from() + self.patch(x, compression).half_length;
+        let felt = self.under(x.max(from).min(self.hoop.to()), compression);
         [felt.soft, felt.slow]
     }
 }
@@ -237,7 +234,7 @@ fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
 ///
 /// # Source
 ///
-/// A fit to hoop modes of bats with walls from 1.4 to 6 mm and a patch of [`COMPRESSION`], good to a
+/// A fit to hoop modes of bats with walls from 1.4 to 6 mm and a patch of a ball compressed by 8 mm, good to a
 /// tenth.
 pub fn rough_stiffness(bat: &Bat) -> Option<f64> {
     let stiffness = |[wall, x]: [f64; 2]| {
@@ -336,7 +333,7 @@ mod tests {
     /// Of harmonics that fall as the estimate assumes, what is beyond is stated within a few per cent.
     #[test]
     fn harmonics_left_out_are_estimated_from_the_last() {
-        let (patch, radius) = (Patch::under(0.7, 0.0366, 0.0333, COMPRESSION), 0.0333);
+        let (patch, radius) = (Patch::under(0.7, 0.0366, 0.0333, 0.008), 0.0333);
         let soft = |n: usize| 1e-8 * patch.share(n, radius).powi(2) * (n as f64).powi(-3);
         for last in [6, 8, 11] {
             let counted: Vec<(usize, f64)> = (2..=last).map(|n| (n, soft(n))).collect();

@@ -6,7 +6,6 @@
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::Felt;
 use crate::collision::hitter::Hitter;
-use crate::collision::hoop_wall::COMPRESSION;
 use crate::collision::strike::SMOOTH;
 
 /// The wall under a ball at one place, and BBCOR of the free bat there.
@@ -69,13 +68,14 @@ impl Hitter<'_> {
         let mut stiff = bent();
         stiff.gains.splice(0..0, stiff_modes);
         let stiff = hit(&stiff)?;
-        let under = hoop.under(x, COMPRESSION);
+        let compression = self.scene.ball.patch_compression();
+        let under = hoop.under(x, compression);
         if under.soft <= 0.0 {
             return None;
         }
         let met = hit(&under.full.before(bent()))?;
         let other = |times: f64| {
-            let under = hoop.under(x, times * COMPRESSION);
+            let under = hoop.under(x, times * compression);
             hit(&under.full.before(bent())).map(|met| bbcor(&met))
         };
         let (half, twice) = (other(0.5)?, other(2.0)?);
@@ -85,7 +85,7 @@ impl Hitter<'_> {
             stiff: rigid[k],
             range: [half[k].min(twice[k]), half[k].max(twice[k])],
         };
-        let patch = hoop.patch(x, COMPRESSION);
+        let patch = hoop.patch(x, compression);
         let section = self.profile.at(x);
         Some(WallFigures {
             x,

@@ -20,6 +20,7 @@ const KEYS: &[&str] = &[
     "source",
     "mass",
     "radius",
+    "contact_radius",
     "stiffness",
     "exponent",
     "cor",
@@ -56,7 +57,12 @@ pub fn written(ball: &Ball) -> Value {
         "mass": ball.mass,
         "radius": ball.radius,
     });
-    for (key, value) in [("stiffness", ball.stiffness), ("exponent", ball.exponent)] {
+    let optional = [
+        ("contact_radius", ball.contact_radius),
+        ("stiffness", ball.stiffness),
+        ("exponent", ball.exponent),
+    ];
+    for (key, value) in optional {
         if let Some(value) = value {
             file[key] = value.into();
         }
@@ -83,20 +89,31 @@ fn from_document(document: &Document) -> Result<Ball> {
     let source = mistakes.note(root.string("source"));
     let mass = mistakes.note(needed("mass", Some(Quantity::Mass)));
     let radius = mistakes.note(needed("radius", Some(Quantity::Length)));
+    let contact_radius = mistakes.note(contact_radius(&root));
     let stiffness = mistakes.note(optional("stiffness"));
     let exponent = mistakes.note(optional("exponent"));
+    if contact_radius.is_some_and(|contact| contact > radius) {
+        let node = root.require("contact_radius", "\"contact_radius\" of the ball")?;
+        mistakes.add(node.error(node.shown(), "no more than the ball's own radius"));
+    }
     let bounce = mistakes.and(bounce(&root, exponent))?;
     Ok(Ball {
         name: name.unwrap_or_else(|| "unnamed ball".to_owned()),
         source: source.unwrap_or_default(),
         mass,
         radius,
+        contact_radius,
         stiffness,
         exponent: if bounce.linear { Some(1.0) } else { exponent },
         law: LawOf(power_law::law),
         cor: bounce.cor,
         cor_by_speed: bounce.by_speed,
     })
+}
+
+/// The radius of the ball's patch, if there is one.
+fn contact_radius(root: &Object) -> Result<Option<f64>> {
+    root.get("contact_radius").map(|node| positive(node, Some(Quantity::Length))).transpose()
 }
 
 /// How a ball comes back, in one of the ways in which it may be written.

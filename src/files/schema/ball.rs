@@ -37,6 +37,11 @@ pub struct BallFile {
     #[schemars(transform = Measures(Quantity::Length), example = &"36.6 mm")]
     #[schemars(extend("exclusiveMinimum" = 1e-100, "exclusiveMaximum" = 1e100))]
     pub radius: Amount,
+    /// Radius of the patch on which it presses against a flat wall in a hit, for hollow bats; without it that of a
+    /// ball that is compressed by 8 mm.
+    #[schemars(transform = Measures(Quantity::Length), example = &"17 mm")]
+    #[schemars(extend("exclusiveMinimum" = 1e-100, "exclusiveMaximum" = 1e100))]
+    pub contact_radius: Option<Amount>,
     /// Stiffness k of the force law (N/m^alpha).
     #[schemars(extend("exclusiveMinimum" = 1e-100, "exclusiveMaximum" = 1e100), example = 6.53e7)]
     pub stiffness: Option<f64>,

@@ -74,6 +74,9 @@ pub struct Ball {
     pub mass_kg: f64,
     /// Radius (m).
     pub radius_m: f64,
+    /// Radius (m) of its patch on a flat wall; left out where none was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_radius_m: Option<f64>,
     /// Stiffness (N/m^exponent); null where no force law is known.
     pub stiffness: Option<f64>,
     /// Exponent of the force law; null where no force law is known.

@@ -283,7 +283,7 @@
       ["Bat as a whole", energy(curve.bat_j[k], 1)],
     ] : [
       ["Exit speed", speed(curve.exit_speed_m_s[k])],
-      ["If it did not bend", speed(curve.rigid_exit_speed_m_s[k])],
+      ["If it were stiff", speed(curve.rigid_exit_speed_m_s[k])],
       ["Left in vibration", energy(curve.vibration_j[k], 2)],
     ])];
   };

@@ -105,20 +105,22 @@ fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
     )
 }
 
-/// As the bat is, and if it did not bend.
+/// As the bat is, and if it did not bend; the wall of a hollow one may give way too.
 fn curves(sheet: Sheet, k: usize, subject: &Subject, alone: bool) -> Vec<Series> {
     let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
         let points = subject.impacts.iter().map(|i| Some([i.x, of(i)?])).collect();
         Series::curve(name, k, points).units(sheet.length().name, sheet.speed().name)
     };
-    let name = if alone { "as it bends" } else { subject.name };
-    let stiff = match alone {
-        true => "if it did not bend".to_owned(),
-        false => format!("{name}, if it did not bend"),
+    let wall = |impact: &Impact| impact.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0);
+    let rings = subject.impacts.iter().any(wall);
+    let [name, stiff] = match (alone, rings) {
+        (true, false) => ["as it bends", "if it did not bend"].map(str::to_owned),
+        (true, true) => ["as bat and wall give way", "if both were stiff"].map(str::to_owned),
+        (false, _) => [subject.name.to_owned(), format!("{}, if it did not bend", subject.name)],
     };
     let rigid = curve(&stiff, &|i| i.rigid_exit_speed);
     let pen = if alone { Pen::new(SERIES[5], 1.4) } else { Pen::new(series(k).0, 1.2) };
-    let bent = curve(name, &|i| i.outcome.as_ref().map(|o| o.exit_speed));
+    let bent = curve(&name, &|i| i.outcome.as_ref().map(|o| o.exit_speed));
     // A bat that does not bend in the model has one curve.
     let rigid =
         if bent.points == rigid.points { vec![] } else { vec![rigid.pen(pen.dashed("5 4"))] };

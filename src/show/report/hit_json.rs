@@ -5,7 +5,6 @@ use crate::collision::ball::Ball;
 use crate::collision::columns;
 use crate::collision::figures::{BarrelSpeed, Figures, Swung};
 use crate::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall, greater};
-use crate::collision::hoop_wall::COMPRESSION;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::files::schema::document::{Format, Generator};
@@ -59,7 +58,8 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
     }
     let wall = scene.hoop.wall()?;
     let (hoop, x) = (wall.hoop(), bat.length() - BarrelSpeed::BROADCAST);
-    let [soft, slow] = wall.somewhere(x);
+    let compression = scene.ball.patch_compression();
+    let [soft, slow] = wall.somewhere(x, compression);
     Some(file::Wall {
         stiffness_n_m: 1.0 / soft,
         mass_kg: slow / (soft * soft),
@@ -68,7 +68,7 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
             modes: hoop.modes().len(),
             frequency_error: hoop.modes().iter().map(|mode| mode.error).fold(0.0, greater),
             stretch_m: [hoop.from(), hoop.to()],
-            patch_compression_m: COMPRESSION,
+            patch_compression_m: compression,
         }),
     })
 }
@@ -80,6 +80,7 @@ pub fn ball_out(ball: &Ball) -> file::Ball {
         source: ball.source.clone(),
         mass_kg: ball.mass,
         radius_m: ball.radius,
+        contact_radius_m: ball.contact_radius,
         stiffness: ball.stiffness,
         exponent: ball.exponent,
         cor: ball.cor,

@@ -104,12 +104,15 @@ pub fn curve(impacts: &[Impact], units: Units) -> String {
     let exit = |i: &Impact| i.outcome.as_ref().map(|o| fast(o.exit_speed));
     let ours: Vec<_> = impacts.iter().map(exit).collect();
     let rigid: Vec<_> = impacts.iter().map(|i| i.rigid_exit_speed.map(fast)).collect();
-    let labels = if us {
-        ["exit speed, mph (* this bat, . if it did not bend)", "in from the knob"]
-    } else {
-        ["exit speed, m/s (* this bat, . if it did not bend)", "cm from the knob"]
+    let wall = |impact: &Impact| impact.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0);
+    let stiff = match impacts.iter().any(wall) {
+        true => "if it and its wall were stiff",
+        false => "if it did not bend",
     };
-    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels, [66, 15])
+    let [speed, place] = if us { ["mph", "in"] } else { ["m/s", "cm"] };
+    let label = format!("exit speed, {speed} (* this bat, . {stiff})");
+    let labels = [&label, &format!("{place} from the knob")];
+    curve::draw(&places, [(&rigid, '.'), (&ours, '*')], labels.map(String::as_str), [66, 15])
 }
 
 /// One sentence: why the ball leaves fastest where it does.

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use crate::bat::body::Bat;
-use crate::collision::hoop_wall::COMPRESSION;
 use crate::collision::wall_figures::WallBbcor;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hoop as file;
@@ -76,7 +75,7 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::PressedWa
         thickness_m: wall.thickness,
         stiffness_n_m: wall.stiffness(),
         over_ball: barrel.struck.rebound.as_ref().map(|rebound| rebound.figures.over_ball),
-        compression_m: COMPRESSION,
+        compression_m: barrel.test.ball.patch_compression(),
         patch_half_length_m: wall.patch.half_length,
         patch_half_width_m: wall.patch.half_width,
         by_harmonic: wall.shares.iter().map(share).collect(),

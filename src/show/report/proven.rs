@@ -78,6 +78,7 @@ pub fn text(proven: &Proven) -> String {
     let Proven { guarantee, band } = proven;
     let (asked, found) = (guarantee.asked, guarantee.modes.len());
     let mut out = match found {
+        0 if asked == 0 => "Proven of the exact beam: no mode was asked for\n".to_owned(),
         0 => format!("Proven of the exact beam: none of {asked} modes\n"),
         _ => "Proven of the exact beam, no mode missing between them\n".to_owned(),
     };

@@ -2,7 +2,6 @@
 
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
-use crate::collision::hoop_wall::COMPRESSION;
 use crate::modes::hoop::{Hoop, Patch, Share};
 
 /// By how much a barrel is pressed in by the test of its compression (m): 0.04 in for baseball bats, 0.07 in
@@ -30,11 +29,12 @@ pub struct PressedWall {
 }
 
 impl PressedWall {
-    /// The wall at `x` (m) under a ball that is compressed by [`COMPRESSION`]; None where the patch is not on
+    /// The wall at `x` (m) under a ball that is compressed by as much as its patch takes
+    /// ([`Ball::patch_compression`]); None where the patch is not on
     /// the stretch that is modelled.
     pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
-        let patch = Patch::under(x, ball.radius, section.outer, COMPRESSION);
+        let patch = Patch::under(x, ball.radius, section.outer, ball.patch_compression());
         (section.inner > 0.0 && hoop.covers(&patch)).then(|| Self {
             radius: section.outer,
             thickness: section.outer - section.inner,
