@@ -5,6 +5,7 @@ mod common;
 use common::folder::Folder;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
+use sweetspot::show::report::resolved::resolved;
 use sweetspot::{Bat, Material, Request, solve};
 
 const INCH: f64 = 0.0254;
@@ -308,6 +309,52 @@ fn sleeves_and_regions_lie_over_each_other() {
     let more = std::f64::consts::PI * 2810.0 * integral(from, to, ring);
     close(mass(&sleeved) - mass(&bat), more, 1e-9);
     assert_eq!(sleeved.fixtures().regions.len(), 3);
+}
+
+/// Layers of the wall, drawn with their surface, are sleeves around the wall that is left inside; a resolved bat
+/// has them too.
+#[test]
+fn layers_of_a_wall_are_sleeves_around_what_is_inside() {
+    let tube = |diameter: &str, thick: &str, more: &str| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile": {{ "x": [0, 0.85],
+               "diameter": [{diameter}, {diameter}], "wall_thickness": [{thick}, {thick}] }}{more} }}"#
+        );
+        Bat::from_text("tube.json", &text, "".as_ref()).map_err(|error| error.to_string())
+    };
+    let metal =
+        r#""material": { "density": 2810, "youngs_modulus": "71 GPa", "poisson_ratio": 0.33 }"#;
+    let layers = |inner: &str| {
+        format!(
+            r#", "regions": [ {{ "from": 0, "to": 0.85, "layers": [
+               {{ "thickness": "{inner} mm", {metal} }}, {{ "thickness": "1 mm", "material": "shagbark-hickory" }} ] }} ]"#
+        )
+    };
+    let layered = tube("0.066", "0.005", &layers("1.5")).unwrap();
+    let sleeve = |thickness: f64, material: Material| {
+        Change::Sleeve(Sleeve { from: 0.0, to: 0.85, thickness, material })
+    };
+    let around = layered.fixtures().regions[0].layup.sleeves[0].material.clone();
+    let hickory = Material::named("shagbark-hickory").unwrap();
+    let inside = tube("0.061", "0.0025", "").unwrap();
+    let sleeved = edited(&inside, [sleeve(1.5e-3, around), sleeve(1e-3, hickory)]);
+    close(mass(&layered), mass(&sleeved), 1e-13);
+    for (a, b) in frequencies(&layered).into_iter().zip(frequencies(&sleeved)) {
+        close(a, b, 1e-9);
+    }
+    let written = serde_json::to_string(&resolved(&layered)).unwrap();
+    let again = Bat::from_text("again.json", &written, "".as_ref()).unwrap();
+    assert_eq!(again.layups(), layered.layups());
+    let thick = tube("0.066", "0.005", &layers("4")).unwrap_err();
+    assert!(thick.contains("layers") && thick.contains("less than the wall's 5 mm"), "{thick}");
+    for wrong in ["[]", "[{}]", r#"[{ "thickness": 0, "material": "shagbark-hickory" }]"#, "3"] {
+        let said = tube(
+            "0.066",
+            "0.005",
+            &format!(r#", "regions": [ {{ "from": 0, "to": 0.5, "layers": {wrong} }} ]"#),
+        );
+        assert!(said.as_ref().is_err_and(|said| said.contains("layers")), "{wrong}: {said:?}");
+    }
 }
 
 /// The tap was heard of the bat before its edits too.

@@ -9,7 +9,9 @@ use serde::Serialize;
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
+use crate::base::number::significant;
 use crate::base::quadrature::{RunningSum, converged, gauss};
+use crate::base::units::shown_length;
 use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
@@ -375,7 +377,11 @@ impl Bat {
             };
             let Layup { outer, core, sleeves, .. } = &region.layup;
             let core = core.iter().map(move |core| (name("core"), core));
-            let sleeves = sleeves.iter().map(move |(sleeve, _)| (name("sleeve"), sleeve));
+            let layer = move |m: usize| match of_file {
+                true => name(&format!("layers[{m}].material")),
+                false => name("sleeve"),
+            };
+            let sleeves = sleeves.iter().enumerate().map(move |(m, own)| (layer(m), &own.material));
             std::iter::once((name("material"), outer)).chain(core).chain(sleeves)
         })
     }
@@ -478,6 +484,37 @@ impl Bat {
         }
     }
 
+    /// Layers are thinner than the wall they are part of; where it comes to a point they are as thick.
+    fn check_layers(&self) -> Result<()> {
+        /// As a share of the wall.
+        const ROOM: f64 = 1e-6;
+        for piece in &self.profile.pieces {
+            let layup = self.layup(piece);
+            let layers: f64 = layup.sleeves.iter().map(|layer| layer.thickness).sum();
+            let too_thick = |(s, room): &(f64, f64)| {
+                let section = piece.at(*s);
+                layers
+                    > (section.outer - section.inner) * (1.0 + room) + room * 1e-6 * section.outer
+            };
+            let places = [(0.0, ROOM), (0.5, -ROOM), (1.0, ROOM)];
+            let Some((s, _)) = places.into_iter().filter(|_| layers > 0.0).find(too_thick) else {
+                continue;
+            };
+            let section = piece.at(s);
+            let regions = self.fixtures.regions.iter();
+            let own = regions.enumerate().find(|(_, r)| piece.is_within(r.from, r.to));
+            let field = own.map_or("layers".to_owned(), |(k, _)| format!("regions[{k}].layers"));
+            let found = format!("{} mm in all", significant(1e3 * layers, 4));
+            let expected = format!(
+                "less than the wall's {} mm at {}: the region's material is what is left inside",
+                significant(1e3 * (section.outer - section.inner), 4),
+                shown_length(piece.start + s * piece.length)
+            );
+            return Err(Error::value(field, found, expected));
+        }
+        Ok(())
+    }
+
     /// Mass, stiffness and the frequencies they make must be numbers a computer can hold.
     fn check_range(&self) -> Result<()> {
         let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
@@ -488,6 +525,7 @@ impl Bat {
         in_range("moment of inertia as a line", line_about_balance, "kg m²")?;
         let outer = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let widest = Section { outer, inner: 0.0 };
+        self.check_layers()?;
         for (k, layup) in self.layups.iter().enumerate() {
             let name = |what: &str| match k {
                 k if (1..=self.fixtures.regions.len()).contains(&k) => {

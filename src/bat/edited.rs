@@ -5,9 +5,9 @@
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::{Bat, Parts};
-use crate::bat::edit::{Change, Edit};
+use crate::bat::edit::{Change, Edit, Sleeve};
 use crate::bat::fixtures::{Attachment, Fixtures, Region, Tape};
-use crate::bat::layup::Layup;
+use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
 use crate::bat::part::{Part as _, shown};
 use crate::bat::profile::SAME_PLACE;
@@ -226,8 +226,9 @@ fn made(change: &Change, parts: &mut Parts) -> Result<()> {
         }
         Change::Sleeve(sleeve) => {
             let stretch = [sleeve.from, sleeve.to];
-            let layer = || (sleeve.material.clone(), sleeve.thickness);
-            layered(parts, stretch, |layup| layup.sleeves.push(layer()));
+            let Sleeve { thickness, material, .. } = sleeve;
+            let layer = Layer { thickness: *thickness, material: material.clone() };
+            layered(parts, stretch, |layup| layup.sleeves.push(layer.clone()));
             parts.profile.thickened(stretch, sleeve.thickness)
         }
         Change::Shorten(shorten) => {

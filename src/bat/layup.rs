@@ -17,13 +17,23 @@ pub struct Layup {
     /// Material that fills the bore, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub core: Option<Material>,
-    /// Layers around the wall, from the inside out: material and thickness (m). The outer radius of a
-    /// section is that of the last of them.
-    #[serde(skip)]
-    pub sleeves: Vec<(Material, f64)>,
+    /// Layers around the wall, from the inside out. The outer radius of a section is that of the last of
+    /// them.
+    #[serde(rename = "layers", default, skip_serializing_if = "Vec::is_empty")]
+    pub sleeves: Vec<Layer>,
     /// Mass of tape on the surface, which adds no stiffness (kg per m of bat).
     #[serde(skip)]
     pub tape: f64,
+}
+
+/// A layer around the wall, bonded to what is below it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Layer {
+    /// Thickness of the layer (m).
+    pub thickness: f64,
+    /// Material of the layer.
+    pub material: Material,
 }
 
 /// Stiffness and mass of a section, per length of bat.
@@ -71,14 +81,14 @@ impl Layup {
         if self.sleeves.is_empty() {
             return section;
         }
-        let sleeves: f64 = self.sleeves.iter().map(|(_, thickness)| thickness).sum();
+        let sleeves: f64 = self.sleeves.iter().map(|sleeve| sleeve.thickness).sum();
         // At the edge of a wall that comes to a point a rounding must not turn it inside out.
         Section { outer: (section.outer - sleeves).max(section.inner), ..section }
     }
 
     /// The sleeves around that wall, from the inside out, as sections of their own.
     pub(super) fn rings(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
-        self.sleeves.iter().scan(wall.outer, |inner, (material, thickness)| {
+        self.sleeves.iter().scan(wall.outer, |inner, Layer { thickness, material }| {
             let ring = Section { outer: *inner + thickness, inner: *inner };
             *inner = ring.outer;
             Some((material, ring))
@@ -136,7 +146,8 @@ impl Layup {
 
     /// κGA (N) of the sleeves around a wall.
     fn shears_of_sleeves(&self, wall: Section) -> impl Iterator<Item = f64> {
-        let below = std::iter::once(&self.outer).chain(self.sleeves.iter().map(|(below, _)| below));
+        let below =
+            std::iter::once(&self.outer).chain(self.sleeves.iter().map(|below| &below.material));
         self.rings(wall).zip(below).map(|((sleeve, ring), below)| {
             let hole = (ring.inner / ring.outer).powi(2);
             shear(sleeve, ring.area(), hole * unfilled(sleeve, Some(below)))
@@ -193,7 +204,7 @@ impl Layup {
         let sheared = [outer, core].into_iter().chain(self.shears_of_sleeves(wall));
         let of_core = self.core.as_ref().map_or(0.0, |core| core.loss_factor);
         let losses = [self.outer.loss_factor, of_core].into_iter();
-        let losses = losses.chain(self.sleeves.iter().map(|(sleeve, _)| sleeve.loss_factor));
+        let losses = losses.chain(self.sleeves.iter().map(|sleeve| sleeve.material.loss_factor));
         let mean = |stiff: Vec<f64>| {
             // Of two that do not give way in shear neither has a share.
             let finite = stiff.iter().all(|k| k.is_finite());
@@ -206,18 +217,18 @@ impl Layup {
 
     /// The material at the surface.
     pub fn surface(&self) -> &Material {
-        self.sleeves.last().map_or(&self.outer, |(sleeve, _)| sleeve)
+        self.sleeves.last().map_or(&self.outer, |sleeve| &sleeve.material)
     }
 
     /// The materials, that of the wall first.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
-        let sleeves = self.sleeves.iter().map(|(sleeve, _)| sleeve);
+        let sleeves = self.sleeves.iter().map(|sleeve| &sleeve.material);
         std::iter::once(&self.outer).chain(&self.core).chain(sleeves)
     }
 
     /// The materials to be changed, that of the wall first.
     pub fn materials_mut(&mut self) -> impl Iterator<Item = &mut Material> {
-        let sleeves = self.sleeves.iter_mut().map(|(sleeve, _)| sleeve);
+        let sleeves = self.sleeves.iter_mut().map(|sleeve| &mut sleeve.material);
         std::iter::once(&mut self.outer).chain(&mut self.core).chain(sleeves)
     }
 
@@ -296,7 +307,7 @@ mod tests {
     #[test]
     fn sleeves_of_the_wall_s_own_material_are_a_thicker_wall() {
         let section = Section { outer: 0.033, inner: 0.01 };
-        let sleeves = vec![(wood(), 0.001), (wood(), 0.002)];
+        let sleeves = [0.001, 0.002].map(|thickness| Layer { thickness, material: wood() }).into();
         let sleeved = Layup { sleeves, ..Layup::of(wood()) };
         let (thick, layered) = (Layup::of(wood()).worth(section), sleeved.worth(section));
         for (a, b) in [
@@ -310,7 +321,8 @@ mod tests {
         let solid = Section { outer: 0.033, inner: 0.0 };
         close(sleeved.worth(solid), Layup::of(wood()).worth(solid));
         let lossy = |loss: f64| Material { loss_factor: loss, ..wood() };
-        let two = Layup { sleeves: vec![(lossy(0.04), 0.003)], ..Layup::of(lossy(0.04)) };
+        let lossy_layer = Layer { thickness: 0.003, material: lossy(0.04) };
+        let two = Layup { sleeves: vec![lossy_layer], ..Layup::of(lossy(0.04)) };
         assert!(two.loss(solid).iter().all(|loss| (loss - 0.04).abs() < 1e-15));
     }
 

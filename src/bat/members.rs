@@ -9,6 +9,7 @@ use crate::base::error::Result;
 use crate::base::units::Quantity;
 use crate::bat::edit::{Bore, Cork, Cup, Cut, ScaleDiameter, Shorten, Sleeve};
 use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, Tape};
+use crate::bat::layup::Layer;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::part::Slot::{self, Number, Unknown};
 use crate::bat::part::{Bound, Field, Instead, Kind, PLACE, Part, Range};
@@ -141,12 +142,29 @@ impl Part for Region {
             Slot::Material(&mut region.layup.outer)
         }),
         Field::<Self>::of_kind("core", Kind::Material, |region| Slot::Core(&mut region.layup.core)),
+        Field::<Self>::of_kind("layers", Kind::Layers, |region| {
+            Slot::Layers(&mut region.layup.sleeves)
+        }),
     ];
-    const SOME: &'static [&'static str] = &["material", "core"];
+    const SOME: &'static [&'static str] = &["material", "core", "layers"];
 
     fn stretch(&self) -> Option<[f64; 2]> {
         Some([self.from, self.to])
     }
+}
+
+impl Part for Layer {
+    const FIELDS: &'static [Field<Self>] = &[
+        Field::<Self>::new("thickness", Quantity::Length, Range::Positive, |layer| {
+            Number(&mut layer.thickness)
+        })
+        .needed("\"thickness\": how thick the layer is")
+        .like("1 mm"),
+        Field::<Self>::of_kind("material", Kind::Material, |layer| {
+            Slot::Material(&mut layer.material)
+        })
+        .needed("\"material\": what the layer is made of"),
+    ];
 }
 
 impl Part for Support {

@@ -5,6 +5,7 @@ use crate::base::mistakes::Mistakes;
 use crate::base::number::significant;
 use crate::base::units::{Quantity, shown_length};
 use crate::bat::fixtures::Held;
+use crate::bat::layup::Layer;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::profile::SAME_PLACE;
 
@@ -42,6 +43,8 @@ pub(crate) enum Kind {
     ShearModuli,
     /// Poisson's ratios of a composite.
     PoissonRatios,
+    /// Layers of a wall, from the inside out.
+    Layers,
 }
 
 /// Where the value of a member is kept.
@@ -60,6 +63,8 @@ pub(crate) enum Slot<'a> {
     ShearModuli(&'a mut Option<ShearModuli>),
     /// Poisson's ratios that may be missing.
     PoissonRatios(&'a mut Option<PoissonRatios>),
+    /// Layers of a wall.
+    Layers(&'a mut Vec<Layer>),
 }
 
 /// How large a number may be.
@@ -152,6 +157,10 @@ impl<P> Field<P> {
             }
             (_, Slot::ShearModuli(Some(moduli))) => Part::check(moduli, &field, length),
             (_, Slot::PoissonRatios(Some(ratios))) => Part::check(ratios, &field, length),
+            (_, Slot::Layers(layers)) => {
+                let each = layers.iter_mut().enumerate();
+                each.try_for_each(|(k, layer)| Part::check(layer, &format!("{field}[{k}]"), length))
+            }
             _ => Ok(()),
         }
     }

@@ -63,7 +63,8 @@ impl Layup {
         let own = |moves| Ring { material: &self.outer, section: wall, moves, empty };
         let bore =
             |core| Ring { material: core, section: wall.bore(), moves: [1.0, 0.0], empty: 1.0 };
-        let below = std::iter::once(&self.outer).chain(self.sleeves.iter().map(|(below, _)| below));
+        let below =
+            std::iter::once(&self.outer).chain(self.sleeves.iter().map(|below| &below.material));
         let sleeves = self.rings(wall).zip(below).map(|((material, section), below)| {
             let empty = unfilled(material, Some(below));
             Ring { material, section, moves: [1.0; 2], empty }
@@ -89,6 +90,7 @@ fn plus(a: Worth, b: Worth) -> Worth {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bat::layup::Layer;
 
     fn wood(shear: f64) -> Material {
         let mut wood = Material::new(650.0, 15e9).unwrap();
@@ -104,7 +106,9 @@ mod tests {
         cork.shear_modulus = Some(1e7);
         let plain = Layup::of(wood(1e9));
         let filled = Layup { core: Some(cork), tape: 0.03, ..Layup::of(wood(1e9)) };
-        let sleeves = vec![(wood(4e9), 0.001), (wood(2e8), 0.002)];
+        let sleeves = [(4e9, 0.001), (2e8, 0.002)]
+            .map(|(shear, thickness)| Layer { thickness, material: wood(shear) })
+            .into();
         let sleeved = Layup { sleeves, ..filled.clone() };
         for layup in [plain, filled, sleeved] {
             for inner in [0.0, 0.01, 0.02] {

@@ -1,8 +1,9 @@
 //! How a material, and a part on the bat, is written down: read as its list of members says.
 
 use crate::base::error::{Error, Result};
-use crate::base::mistakes::Mistakes;
+use crate::base::mistakes::{self, Mistakes};
 use crate::bat::fixtures::Held;
+use crate::bat::layup::Layer;
 use crate::bat::material::{BUILT_IN, Material, PoissonRatios, ShearModuli};
 use crate::bat::part::{Field, Instead, Kind, Part, Slot};
 use crate::files::json_node::{Node, Object};
@@ -147,6 +148,15 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
         }
         Slot::PoissonRatios(ratios) => {
             *ratios = Some(self::part(node, PoissonRatios::default(), None)?);
+        }
+        Slot::Layers(layers) => {
+            let blank = || Material::new(1.0, 1.0).expect("both are above 0");
+            let start = || Layer { thickness: 0.0, material: blank() };
+            let items = node.items()?;
+            if items.is_empty() {
+                return Err(node.error(node.shown(), "one layer at least"));
+            }
+            *layers = mistakes::all(items.iter().map(|item| self::part(item, start(), None)))?;
         }
     }
     Ok(())

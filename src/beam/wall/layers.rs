@@ -173,12 +173,15 @@ impl Layers {
             let core = layup.core.as_ref().filter(|_| bore);
             let filled = core.is_some();
             let sleeves = layup.sleeves.iter();
-            let all = core.into_iter().chain([&layup.outer]).chain(sleeves.clone().map(|(m, _)| m));
+            let all = core
+                .into_iter()
+                .chain([&layup.outer])
+                .chain(sleeves.clone().map(|sleeve| &sleeve.material));
             let mut materials = vec![];
             for material in all {
                 materials.push(layers.index(material, &mut known)?);
             }
-            let sleeves: Vec<f64> = sleeves.map(|(_, thickness)| *thickness).collect();
+            let sleeves: Vec<f64> = sleeves.map(|sleeve| sleeve.thickness).collect();
             let pieces = vec![piece.clone()];
             let next = Stretch { from: start, to: end, materials, pieces, filled, sleeves };
             layers.add(next);

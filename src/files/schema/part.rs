@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::base::units::Quantity;
 use crate::bat::edit::{self, Change, Edit};
 use crate::bat::fixtures::Held;
+use crate::bat::layup::Layer;
 use crate::bat::material::{self as bat, BUILT_IN, BuiltIn};
 use crate::bat::part::{Bound, Field, HEAVIEST, Instead, Kind, MOST, Part, Range, SOFTEST};
 use crate::files::schema::amount::{Amount, Measures};
@@ -211,6 +212,15 @@ fn member<P>(field: &Field<P>, said: &str, generator: &mut SchemaGenerator) -> S
             member
         }
         Kind::ShearModuli => described(generator.subschema_for::<InFile<bat::ShearModuli>>(), said),
+        Kind::Layers => {
+            let layer = generator.subschema_for::<InFile<Layer>>();
+            json_schema!({
+                "description": said,
+                "type": "array",
+                "minItems": 1,
+                "items": layer,
+            })
+        }
         Kind::PoissonRatios => {
             described(generator.subschema_for::<InFile<bat::PoissonRatios>>(), said)
         }

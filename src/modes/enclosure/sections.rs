@@ -3,7 +3,7 @@
 use crate::base::interval::gauss::Gauss;
 use crate::base::interval::tables::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values, down, up};
-use crate::bat::layup::Layup;
+use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
 use crate::modes::enclosure::radii::{Cubic, Curved, NUMBER};
 
@@ -131,9 +131,9 @@ impl<'a> Rings<'a> {
         let bore = curve.inner.map(|inner| Border::of(&inner, curve.degree));
         let mut walls = vec![];
         let (mut outside, mut below) = (surface, vec![]);
-        for (sleeve, thickness) in layup.sleeves.iter().rev() {
+        for Layer { thickness, material } in layup.sleeves.iter().rev() {
             let inside = outside.less(data(*thickness));
-            below.push((sleeve, inside, outside));
+            below.push((material, inside, outside));
             outside = inside;
         }
         let empty = |of: &Material, inside: Option<&Material>| match (

@@ -13,7 +13,7 @@
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Region;
-use crate::bat::layup::Layup;
+use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
 use crate::bat::profile::{Profile, Stations};
 use crate::modes::enclosure::beam::carried;
@@ -103,7 +103,8 @@ fn hybrid(bat: &Bat, within: Within, fast: bool) -> Result<Bat> {
     let stations =
         Stations { x: x.clone(), outer, inner: inner.clone(), interpolation: *interpolation };
     let mut fixtures = bat.fixtures().clone();
-    let layup = Layup { sleeves: vec![(sleeve, 2.0 * off)], ..Layup::of(wall.clone()) };
+    let sleeves = vec![Layer { thickness: 2.0 * off, material: sleeve }];
+    let layup = Layup { sleeves, ..Layup::of(wall.clone()) };
     fixtures.regions.push(Region { from: 0.0, to: bat.length(), layup });
     Bat::builder(Profile::new(stations)?, wall).name(bat.name()).fixtures(fixtures).build()
 }

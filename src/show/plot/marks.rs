@@ -97,7 +97,7 @@ fn made_of(bat: &Bat, region: &Region) -> Option<String> {
     let wall = (outer != bat.material()).then(|| name(outer));
     let core = region.layup.core.as_ref().map(|core| format!("core of {}", name(core)));
     let sleeves =
-        region.layup.sleeves.iter().map(|(sleeve, _)| format!("sleeve of {}", name(sleeve)));
+        region.layup.sleeves.iter().map(|sleeve| format!("sleeve of {}", name(&sleeve.material)));
     let parts: Vec<String> = wall.into_iter().chain(core).chain(sleeves).collect();
     let (first, others) = parts.split_first()?;
     let others: Vec<String> = others.iter().map(|part| format!(" with a {part}")).collect();
