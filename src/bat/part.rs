@@ -158,7 +158,7 @@ impl<P> Field<P> {
             (_, Slot::ShearModuli(Some(moduli))) => Part::check(moduli, &field, length),
             (_, Slot::PoissonRatios(Some(ratios))) => Part::check(ratios, &field, length),
             (_, Slot::Layers(layers)) => {
-                let each = layers.iter_mut().enumerate();
+                let mut each = layers.iter_mut().enumerate();
                 each.try_for_each(|(k, layer)| Part::check(layer, &format!("{field}[{k}]"), length))
             }
             _ => Ok(()),

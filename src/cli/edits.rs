@@ -365,7 +365,8 @@ fn set<P>(field: &Field<P>, value: f64, part: &mut P) {
         | Slot::Material(_)
         | Slot::Core(_)
         | Slot::ShearModuli(_)
-        | Slot::PoissonRatios(_) => {}
+        | Slot::PoissonRatios(_)
+        | Slot::Layers(_) => {}
     }
 }
 
