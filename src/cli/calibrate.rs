@@ -152,10 +152,14 @@ struct Told {
     person: Option<Dialogue<StdinLock<'static>>>,
 }
 
-/// Where answers are kept.
+/// Where answers are kept: they are of one bat.
 fn draft(args: &Args) -> PathBuf {
-    let name = args.readings.as_deref().unwrap_or(Path::new("sweetspot-calibrate"));
-    let mut name = name.as_os_str().to_owned();
+    let of_bat = || {
+        let mut name = args.bat.file_stem().unwrap_or_default().to_owned();
+        name.push("-calibrate");
+        name
+    };
+    let mut name = args.readings.as_deref().map_or_else(of_bat, |path| path.as_os_str().to_owned());
     name.push(".draft");
     name.into()
 }
@@ -172,7 +176,9 @@ fn readings(args: &Args, bat: &Bat) -> Result<Told> {
         if let Some(path) = &args.readings {
             file::write(path, text.as_bytes())?;
         }
-        let readings = readings_file::from_text("the answers", &text)?;
+        // Answers that say nothing must not be given again.
+        let readings =
+            readings_file::from_text("the answers", &text).inspect_err(|_| person.done())?;
         return Ok(Told { readings, name: "answers".to_owned(), person: Some(person) });
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));

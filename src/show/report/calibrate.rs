@@ -145,8 +145,12 @@ pub fn words(found: &Calibration) -> Vec<String> {
         ));
     }
     let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
-    let silent: Vec<&str> =
-        found.parameters.iter().filter(silent).map(|p| short(p.property)).collect();
+    let name = |one: &Estimated| match one.property {
+        // G goes with E: what is sought is their quotient.
+        Property::ShearModulus => "G over E",
+        other => short(other),
+    };
+    let silent: Vec<&str> = found.parameters.iter().filter(silent).map(name).collect();
     if !silent.is_empty() {
         all.push(format!(
             "Of {} the readings say nothing: what stands there is what was taken for known before.",

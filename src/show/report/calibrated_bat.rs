@@ -47,6 +47,10 @@ pub fn text(
             json!([{ "from": from, "to": bat.length(), "material": barrel }]),
         );
     }
+    // What a scale says is said of a bat before its edits.
+    if !old.contains_key("edits") {
+        new.extend(weighed(found).map(|weighed| ("weighed".to_owned(), weighed)));
+    }
     for (key, value) in old {
         if !ANEW.contains(&key.as_str()) && !new.contains_key(&key) {
             new.insert(key, value);
@@ -58,6 +62,20 @@ pub fn text(
         new["profile"] = json!(resolved::profile(bat.unedited().profile()));
     }
     Ok(format!("{:#}\n", Value::Object(new)))
+}
+
+/// What the scale and the tap came to, so that whatever reads the bat knows how well its density and its stiffness
+/// are known: mass and first frequency of the wood that was found. None where neither was read.
+fn weighed(found: &Calibration) -> Option<Value> {
+    let mut weighed = Map::new();
+    if found.readings.mass.is_some() {
+        weighed.insert("mass".to_owned(), json!(found.bat.unedited().inertia().mass));
+    }
+    let first = found.fit.shown.frequencies.first();
+    if let Some(first) = first.filter(|_| found.identified.labels.contains(&Some(1))) {
+        weighed.insert("first_bending_hz".to_owned(), json!(first.value));
+    }
+    (!weighed.is_empty()).then_some(Value::Object(weighed))
 }
 
 /// Regions whose material is written out and was that of the bat have the new one too.

@@ -244,7 +244,8 @@ impl Calibration {
             .filter(|k| fit.residuals[*k].left_out.abs() > OUTLIER)
             .collect();
         let without = without(&search, &fit, &outliers)?;
-        let covariance = |a: &Vec<f64>| parts.iter().map(|b| form(&fit.covariance, a, b)).collect();
+        let open = still_open(&search, &fit);
+        let covariance = |a: &Vec<f64>| parts.iter().map(|b| form(&open, a, b)).collect();
         Ok(Self {
             parameters,
             covariance: parts.iter().map(covariance).collect(),
@@ -383,11 +384,25 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     }
 }
 
+/// The covariance of all unknowns: what the fit left open, and of those that were held what was known before.
+fn still_open(search: &Search, fit: &Fit) -> Vec<Vec<f64>> {
+    let (before, free) = (search.prior(), search.free());
+    let mut open = fit.covariance.clone();
+    for property in Property::of(search.wood.regions()) {
+        let own = property.own();
+        if !free.contains(&own) {
+            let parts = property.parts(open.len());
+            open[own][own] += before[own][own].min(form(&before, &parts, &parts));
+        }
+    }
+    open
+}
+
 /// The parameters and what the fit says of them.
 fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
     let properties = Property::of(search.wood.regions());
     let unknowns = fit.covariance.len();
-    let before = search.prior();
+    let (before, open) = (search.prior(), still_open(search, fit));
     let start = search.wood.materials(&[0.0; UNKNOWNS]);
     let value = |property: Property| {
         let centre = match property {
@@ -406,11 +421,7 @@ fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
         let (centre, value) = value(property);
         let own = property.own();
         let is_free = free.contains(&own);
-        let mut variance = form(&fit.covariance, &parts, &parts);
-        if !is_free {
-            // What was known before still holds.
-            variance = (variance + before[own][own]).min(form(&before, &parts, &parts));
-        }
+        let variance = form(&open, &parts, &parts).min(form(&before, &parts, &parts));
         let prior = Reading { value: centre, deviation: form(&before, &parts, &parts).sqrt() };
         let learned =
             |parts: &[f64]| 1.0 - form(&fit.covariance, parts, parts) / form(&before, parts, parts);
@@ -420,9 +431,8 @@ fn estimated(search: &Search, fit: &Fit) -> Vec<Estimated> {
         let others = properties.iter().filter(|other| **other != property);
         let correlation = |other: &Property| {
             let theirs = other.parts(unknowns);
-            let sizes =
-                form(&fit.covariance, &theirs, &theirs) * form(&fit.covariance, &parts, &parts);
-            let r = form(&fit.covariance, &parts, &theirs) / sizes.sqrt();
+            let sizes = form(&open, &theirs, &theirs) * form(&open, &parts, &parts);
+            let r = form(&open, &parts, &theirs) / sizes.sqrt();
             (sizes > 0.0).then_some((*other, r))
         };
         let correlated =
