@@ -3,7 +3,7 @@
 
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
-use sweetspot::modes::enclosure::energies::Trial;
+use sweetspot::modes::enclosure::moved::Trial;
 use sweetspot::modes::enclosure::trials::trials;
 use sweetspot::modes::plan::Plan;
 use sweetspot::{Bat, Theory};

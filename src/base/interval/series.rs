@@ -171,6 +171,14 @@ impl Series {
         self
     }
 
+    /// The part up to a degree, with exactly these coefficients, and how far the series and every polynomial that it
+    /// stands for may be from it.
+    pub fn lowered(&self, degree: usize) -> (Self, f64) {
+        let terms = self.terms.min(degree + 1);
+        let rest: f64 = self.own()[terms..].iter().map(|c| c.abs()).sum();
+        (Self::exact(&self.own()[..terms]), bound(self.radius + rest))
+    }
+
     /// `∫_{−1}^ξ` of it: `∫P_j = (P_{j+1} − P_{j−1})/(2j + 1)`, which is 0 at both ends but for `j = 0`.
     ///
     /// # Panics

@@ -10,6 +10,7 @@ use crate::bat::body::Bat;
 use crate::bat::fixtures::Attachment;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
+use crate::modes::enclosure::contacts::{Contact, base, contacts};
 use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::modes::enclosure::sections::Rings;
 
@@ -72,6 +73,10 @@ pub struct Proven {
     pub cells: Vec<Cell>,
     /// The masses on it, by rising border.
     pub masses: Vec<Mass>,
+    /// What holds it.
+    pub contacts: Vec<Contact>,
+    /// The two contacts whose reactions are had from balance.
+    pub base: Option<[usize; 2]>,
     /// The cell that sums run outwards from, beginning at its left end.
     pub root: usize,
     /// Mass (kg), first moment (kg m) and moment of inertia (kg m²) about the place that arms are counted from,
@@ -91,17 +96,15 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
         Err(Error::value(field, found.to_owned(), expected.to_owned()))
     };
     let fixtures = bat.fixtures();
-    let springs =
-        fixtures.attachments.iter().any(|a| a.stiffness > 0.0 || a.rotational_stiffness > 0.0);
-    let bare = "a free bat with masses on it at most: nothing is proven of the others yet";
-    if !fixtures.supports.is_empty() {
-        return refuse("supports", "a held bat", bare);
-    }
+    let bare =
+        "a free or a held bat with masses on it at most: nothing is proven of the others yet";
     if fixtures.grip.is_some_and(|grip| grip.stiffness > 0.0) {
         return refuse("grip", "an elastic bed", bare);
     }
-    if springs {
-        return refuse("attachments", "a spring to the ground", bare);
+    if fixtures.holding() && fixtures.rigid_modes() > 0 {
+        let field = if fixtures.supports.is_empty() { "attachments" } else { "supports" };
+        let expected = "a free bat, or one that is held against moving sideways and turning";
+        return refuse(field, "a held bat with a rigid motion that is free", expected);
     }
     if !fixtures.absorbers.is_empty() {
         return refuse("absorbers", "a mass on a spring", bare);
@@ -141,6 +144,8 @@ pub struct Layout {
     /// Masses on it: the piece that begins where they are, and mass (kg), moment of inertia (kg m²), place of the
     /// centre (m) and how far that is beyond where it is fixed (m); by rising place.
     pub masses: Vec<(usize, [Interval; 4])>,
+    /// What holds it, at the border before a piece.
+    pub contacts: Vec<Contact>,
     /// Length (m).
     pub length: Interval,
 }
@@ -162,18 +167,22 @@ impl Layout {
         let length = bat.length();
         let turned = bat.profile().turned.then_some(length);
         let borders = bat.profile().borders();
-        let mass = |attachment: &Attachment| {
-            let near = |k: &usize| (borders[*k] - attachment.x).abs();
+        let border_at = |x: f64| {
+            let near = |k: &usize| (borders[*k] - x).abs();
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
+            border.expect("a bat has borders")
+        };
+        let mass = |attachment: &Attachment| {
             let offset = data(attachment.offset);
             let centre = place(attachment.x, turned) + offset;
             let numbers = [data(attachment.mass), data(attachment.rotary_inertia), centre, offset];
-            (border.expect("a bat has borders"), numbers)
+            (border_at(attachment.x), numbers)
         };
         let mut masses: Vec<_> = bat.fixtures().attachments.iter().map(mass).collect();
         masses.sort_by_key(|(border, _)| *border);
         let whole = place(length, turned);
-        Ok(Self { curves, heavier, masses, length: whole })
+        let contacts = contacts(bat, border_at);
+        Ok(Self { curves, heavier, masses, contacts, length: whole })
     }
 }
 
@@ -225,15 +234,25 @@ impl Proven {
         if before != (layout.curves.len() - 1, 1.0) {
             return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
         }
+        let border = |piece: usize| begin.get(piece).copied().unwrap_or(cells.len());
         let mass = |(piece, [mass, inertia, centre, offset]): &(usize, [Interval; 4])| Mass {
-            border: begin.get(*piece).copied().unwrap_or(cells.len()),
+            border: border(*piece),
             mass: *mass,
             inertia: *inertia,
             offset: *offset,
             arm: *centre - *offset - Interval::point(origin),
         };
         let masses: Vec<Mass> = layout.masses.iter().map(mass).collect();
+        let held = layout.contacts.iter();
+        let held = held.map(|contact| Contact { border: border(contact.border), ..*contact });
+        let contacts: Vec<Contact> = held.collect();
         let root = root(&cells);
+        let (length, stiff) = (bat.length(), cells[root].bending.at[0]);
+        let arm = |contact: &Contact| match cells.get(contact.border) {
+            Some(cell) => (cell.middle - cell.half).middle(),
+            None => length - origin,
+        };
+        let base = base(&contacts, arm, length, stiff / length.powi(3));
         let mut gram = [Interval::point(0.0); 3];
         for cell in &cells {
             let arm = cell.arm();
@@ -252,7 +271,7 @@ impl Proven {
             gram[1] = gram[1] + *mass * arm;
             gram[2] = gram[2] + *mass * arm.square() + *inertia;
         }
-        Ok(Self { theory, cells, masses, root, gram, origin })
+        Ok(Self { theory, cells, masses, contacts, base, root, gram, origin })
     }
 }
 

@@ -7,9 +7,10 @@
 //! | file | question |
 //! |---|---|
 //! | [`radii`], [`sections`] | which radii does the file tell; what are sections worth along a cell |
-//! | [`beam`] | the bat cell by cell, and what is refused |
+//! | [`contacts`], [`beam`] | what holds the bat; the bat cell by cell, and what is refused |
+//! | [`moved`], [`reactions`] | the motion of a trial, and what holds it in balance |
 //! | [`energies`] | Rayleigh quotient and residual of a trial |
-//! | [`norms`] | trace and norm of the compliance, at most |
+//! | [`stretches`], [`holding`], [`norms`] | trace and norm of the compliance, at most |
 //! | [`conclude`](mod@conclude) | which eigenvalues follow, none missing |
 //! | [`nodes`] | where is a node, proven |
 //! | [`trials`](mod@trials), [`guarantee`](mod@guarantee) | which motions are tried; as narrow as asked |
@@ -20,9 +21,19 @@ pub mod radii;
 #[doc(hidden)]
 pub mod sections;
 #[doc(hidden)]
+pub mod contacts;
+#[doc(hidden)]
 pub mod beam;
 #[doc(hidden)]
+pub mod moved;
+#[doc(hidden)]
+pub mod reactions;
+#[doc(hidden)]
 pub mod energies;
+#[doc(hidden)]
+pub mod stretches;
+#[doc(hidden)]
+pub mod holding;
 #[doc(hidden)]
 pub mod norms;
 #[doc(hidden)]

@@ -22,7 +22,7 @@
 use crate::base::interval::{Interval, Series, down, up};
 use crate::modes::enclosure::beam::{Cell, Proven};
 use crate::modes::enclosure::conclude::Conclusion;
-use crate::modes::enclosure::energies::{Moved, Trial};
+use crate::modes::enclosure::moved::{Moved, Trial};
 use crate::modes::enclosure::norms::Norms;
 
 /// What nodes follow from.

@@ -4,7 +4,7 @@ use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::view::View;
-use crate::modes::enclosure::energies::Trial;
+use crate::modes::enclosure::moved::Trial;
 use crate::modes::pairs::pairs_of;
 use crate::modes::plan::Plan;
 use crate::modes::request::CONVERGED;
@@ -46,5 +46,10 @@ fn trial(view: &View<f64>, q: &[f64]) -> Trial {
         }
     }
     let [bending, shear] = all;
-    Trial { terms, bending, shear }
+    let contacts = view.placed().map_or(&[][..], |placed| &placed.contacts);
+    let held = contacts.iter().map(|contact| {
+        let spring = contact.spring.as_ref();
+        spring.map_or(0.0, |spring| q[spring.place] * spring.softness)
+    });
+    Trial { terms, bending, shear, held: held.collect() }
 }

@@ -1,0 +1,297 @@
+//! What do supports and springs take off trace and norm of the free bat's compliance?
+//!
+//! Write `G` for the deflections of the free bat under loads, rigid motions taken out of both, `M` for its mass,
+//! `R` for the two rigid motions, and `b_j` for the loads of unit reactions. The held bat under loads `f` moves by
+//! `y = G(f − Bρ) − R r`, where the loads `f − Bρ` are in balance and every contact has `b_j(y) = s_j ρ_j`, with
+//! the softness `s_j = 1/k_j` of its spring and 0 for a support:
+//!
+//! ```text
+//! K (ρ, r) = Φ* f,    K = [B*GB + s, B*R; R*B, 0],    Φ = [GB, R],    y = G f − Φ K⁻¹ Φ* f
+//! trace T = trace(MG) − tr(K⁻¹ W),                     W  = Φ*MΦ   = diag(⟨Gb_i, Gb_j⟩, R*MR)
+//! |T|² = |MG|² − 2 tr(K⁻¹ W₂) + tr(K⁻¹ W K⁻¹ W),       W₂ = Φ*MGMΦ = diag((T n_i, T n_j), 0)
+//! ```
+//!
+//! for `GMR = 0` and `R*MG = 0`. With `n_j` the strains of the free bat under a unit reaction in balance with its
+//! inertia, `B*GB = (n_i, n_j)` and `⟨Gb_i, Gb_j⟩ = ⟨S n_i, S n_j⟩`. All is worked out for the beam of
+//! [`super::stretches`], of which every integrand is a polynomial, in intervals; that K has an inverse is part of
+//! the answer. Worked out here, and held against closed forms by the tests.
+
+use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::{Interval, Series, Values};
+use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::energies::{from_left, from_right};
+use crate::modes::enclosure::stretches::{Met, Rigid, Stretch};
+
+/// A bat as its stretches and what is on it.
+pub struct Holding<'a> {
+    /// From knob to tip.
+    pub stretches: &'a [Stretch],
+    /// By rising border.
+    pub masses: &'a [Met],
+    /// The border that sums run outwards from.
+    pub split: usize,
+    /// The bat as a rigid body, places counted from the knob.
+    pub rigid: &'a Rigid,
+}
+
+/// Deflection and rotation along the stretches and at their borders.
+struct Motion {
+    cells: Vec<[Series; 2]>,
+    borders: Vec<[Interval; 2]>,
+}
+
+/// Loads along the stretches, and by how much V and m step at borders.
+struct Loads {
+    cells: Vec<(Series, Option<Series>)>,
+    steps: Vec<[Interval; 2]>,
+}
+
+/// V and m on every stretch.
+type Forces = Vec<[Series; 2]>;
+type Matrix = Vec<Vec<Interval>>;
+
+const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
+/// Two polynomials of this degree and one of degree 12 are integrated exactly.
+const DEGREE: usize = 33;
+
+fn point(value: f64) -> Interval {
+    Interval::point(value)
+}
+
+impl Holding<'_> {
+    /// What the contacts take off `Σ τ_n` and `Σ τ_n²`; None where it is not sure that they hold the bat.
+    pub fn less(&self, contacts: &[Contact]) -> Option<[Interval; 2]> {
+        let forces: Vec<Forces> = contacts.iter().map(|contact| self.unit(contact)).collect();
+        let motions: Vec<Motion> = forces.iter().map(|forces| self.motion(forces)).collect();
+        let again: Vec<Forces> =
+            motions.iter().map(|motion| self.forces(&self.inertia(motion))).collect();
+        let (count, size) = (contacts.len(), contacts.len() + 2);
+        let zero = || vec![vec![ZERO; size]; size];
+        let [mut k, mut w, mut w2] = [zero(), zero(), zero()];
+        for i in 0..count {
+            for j in 0..count {
+                k[i][j] = self.strain_energy(&forces[i], &forces[j]);
+                w[i][j] = self.kinetic_energy(&motions[i], &motions[j]);
+                w2[i][j] = self.strain_energy(&again[i], &again[j]);
+            }
+            if let Some(stiffness) = contacts[i].stiffness {
+                k[i][i] = k[i][i] + stiffness.reciprocal()?;
+            }
+            let arm = self.place(contacts[i].border) - self.rigid.balance;
+            let row = if contacts[i].turning { [ZERO, point(1.0)] } else { [point(1.0), arm] };
+            for (r, entry) in row.into_iter().enumerate() {
+                (k[i][count + r], k[count + r][i]) = (entry, entry);
+            }
+        }
+        w[count][count] = self.rigid.over_mass.reciprocal()?;
+        w[count + 1][count + 1] = self.rigid.over_inertia.reciprocal()?;
+        let columns = w.into_iter().zip(w2).map(|(a, b)| [a, b].concat()).collect();
+        let solved = solved(k, columns)?;
+        let (mut trace, mut first, mut second) = (ZERO, ZERO, ZERO);
+        for i in 0..size {
+            trace = trace + solved[i][i];
+            first = first + solved[i][size + i];
+            second = second + (0..size).map(|j| solved[i][j] * solved[j][i]).sum::<Interval>();
+        }
+        Some([trace, first + first - second])
+    }
+
+    /// Where a border is (m).
+    fn place(&self, border: usize) -> Interval {
+        match self.stretches.get(border) {
+            Some(stretch) => stretch.middle - stretch.half,
+            None => self.rigid.length,
+        }
+    }
+
+    /// The mass's centre beyond its border (m).
+    fn offset(&self, mass: &Met) -> Interval {
+        mass.centre - self.place(mass.before)
+    }
+
+    /// V and m of the free bat under a unit force or couple, in balance with the inertia of the rigid motion
+    /// that it makes.
+    fn unit(&self, contact: &Contact) -> Forces {
+        let Rigid { over_mass, over_inertia, balance, .. } = *self.rigid;
+        let arm = self.place(contact.border) - balance;
+        let (push, turn) = match contact.turning {
+            false => (over_mass, arm * over_inertia),
+            true => (ZERO, over_inertia),
+        };
+        let mut loads = self.inertia(&self.line(-push, -turn));
+        let [force, moment] = &mut loads.steps[contact.border];
+        match contact.turning {
+            false => *force = *force + point(1.0),
+            true => *moment = *moment - point(1.0),
+        }
+        self.forces(&loads)
+    }
+
+    /// A rigid motion: deflection of the balance point, and rotation.
+    fn line(&self, push: Interval, turn: Interval) -> Motion {
+        let balance = self.rigid.balance;
+        let at = |x: Interval| push + turn * (x - balance);
+        let cell = |stretch: &Stretch| {
+            [Series::of(&[at(stretch.middle), turn * stretch.half]), Series::of(&[turn])]
+        };
+        let borders = (0..=self.stretches.len()).map(|border| [at(self.place(border)), turn]);
+        Motion { cells: self.stretches.iter().map(cell).collect(), borders: borders.collect() }
+    }
+
+    /// `ρA w`, `ρI θ`, and the steps that masses make: V by `μ w_c`, m by `−(d μ w_c + J θ)`.
+    fn inertia(&self, motion: &Motion) -> Loads {
+        let gauss = &GAUSS_40;
+        let load = |(stretch, [w, turn]): (&Stretch, &[Series; 2])| {
+            let load = Series::through(gauss, &stretch.mass.product(&w.values(gauss)));
+            let couple = stretch
+                .turning
+                .as_ref()
+                .map(|turning| Series::through(gauss, &turning.product(&turn.values(gauss))));
+            (load, couple)
+        };
+        let cells = self.stretches.iter().zip(&motion.cells).map(load).collect();
+        let mut steps = vec![[ZERO; 2]; self.stretches.len() + 1];
+        for mass in self.masses {
+            let [w, turn] = motion.borders[mass.before];
+            let offset = self.offset(mass);
+            let push = mass.mass * (w + offset * turn);
+            let [force, moment] = &mut steps[mass.before];
+            *force = *force + push;
+            *moment = *moment - (offset * push + mass.inertia * turn);
+        }
+        Loads { cells, steps }
+    }
+
+    /// V and m under loads in balance, from 0 at both ends.
+    fn forces(&self, loads: &Loads) -> Forces {
+        let (mut left, mut right) = (vec![], vec![]);
+        let mut at = [ZERO; 2];
+        for k in 0..self.split {
+            let steps = loads.steps[k];
+            at = [at[0] + steps[0], at[1] + steps[1]];
+            let (forces, after) = from_left(self.stretches[k].half, &loads.cells[k], at);
+            left.push(forces);
+            at = after;
+        }
+        at = [ZERO; 2];
+        for k in (self.split..self.stretches.len()).rev() {
+            let steps = loads.steps[k + 1];
+            at = [at[0] - steps[0], at[1] - steps[1]];
+            let (forces, before) = from_right(self.stretches[k].half, &loads.cells[k], at);
+            right.push(forces);
+            at = before;
+        }
+        left.extend(right.into_iter().rev());
+        left
+    }
+
+    /// The motion with the strains of these forces, `(m/EI, −V/κGA)`, rigid motions taken out.
+    fn motion(&self, forces: &Forces) -> Motion {
+        let gauss = &GAUSS_40;
+        let count = self.stretches.len();
+        let mut borders = vec![[ZERO; 2]; count + 1];
+        let mut cells = vec![[Series::exact(&[]); 2]; count];
+        let outwards = (self.split..count).map(|k| (k, true));
+        for (k, tipwards) in outwards.chain((0..self.split).rev().map(|k| (k, false))) {
+            let (stretch, [force, moment]) = (&self.stretches[k], &forces[k]);
+            let half = stretch.half;
+            let bend = stretch.soft.product(&moment.values(gauss));
+            let turned = Series::through(gauss, &bend).integrated().times(half);
+            let slope = match &stretch.slip {
+                Some(slip) => turned - Series::through(gauss, &slip.product(&force.values(gauss))),
+                None => turned,
+            };
+            let turns = half * Series::through(gauss, &bend).integral();
+            let (lifted, lifts) = (slope.integrated().times(half), half * slope.integral());
+            let length = half + half;
+            let [w, theta] = borders[if tipwards { k } else { k + 1 }];
+            let start = match tipwards {
+                true => [w, theta],
+                false => [w - length * (theta - turns) - lifts, theta - turns],
+            };
+            match tipwards {
+                true => borders[k + 1] = [w + length * theta + lifts, theta + turns],
+                false => borders[k] = start,
+            }
+            let [w, theta] = start;
+            let line = Series::of(&[w + half * theta, half * theta]);
+            cells[k] = [lifted + line, turned.plus(theta)];
+        }
+        let motion = Motion { cells, borders };
+        // `⟨y, (1, 0)⟩/M` and `⟨y, (x − x_b, 1)⟩/I`.
+        let Rigid { over_mass, over_inertia, .. } = *self.rigid;
+        let push = self.kinetic_energy(&motion, &self.line(point(1.0), ZERO)) * over_mass;
+        let turn = self.kinetic_energy(&motion, &self.line(ZERO, point(1.0))) * over_inertia;
+        let line = self.line(-push, -turn);
+        let plus = |(a, b): (&[Series; 2], &[Series; 2])| [a[0] + b[0], a[1] + b[1]];
+        let borders = motion.borders.iter().zip(&line.borders);
+        Motion {
+            cells: motion.cells.iter().zip(&line.cells).map(plus).collect(),
+            borders: borders.map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect(),
+        }
+    }
+
+    /// `⟨a, b⟩ = ∫ρA w_a w_b + ρI θ_a θ_b dx` and what the masses add.
+    fn kinetic_energy(&self, a: &Motion, b: &Motion) -> Interval {
+        let gauss = &GAUSS_40;
+        let mut sum = ZERO;
+        for (stretch, (a, b)) in self.stretches.iter().zip(a.cells.iter().zip(&b.cells)) {
+            let product = |k: usize, by: &Values<40>| {
+                by.product(&a[k].values(gauss)).product(&b[k].values(gauss)).integral(gauss)
+            };
+            let turning = stretch.turning.as_ref().map_or(ZERO, |turning| product(1, turning));
+            sum = sum + stretch.half * (product(0, &stretch.mass) + turning);
+        }
+        for mass in self.masses {
+            let offset = self.offset(mass);
+            let [[w_a, turn_a], [w_b, turn_b]] = [a, b].map(|motion| motion.borders[mass.before]);
+            let both = (w_a + offset * turn_a) * (w_b + offset * turn_b);
+            sum = sum + mass.mass * both + mass.inertia * turn_a * turn_b;
+        }
+        sum
+    }
+
+    /// `∫m_a m_b/EI + V_a V_b/κGA dx`.
+    fn strain_energy(&self, a: &Forces, b: &Forces) -> Interval {
+        let mut sum = ZERO;
+        for (stretch, ([v_a, m_a], [v_b, m_b])) in self.stretches.iter().zip(a.iter().zip(b)) {
+            let slip = stretch.slip.as_ref().map_or(ZERO, |slip| weighted(v_a, v_b, slip));
+            sum = sum + stretch.half * (weighted(m_a, m_b, &stretch.soft) + slip);
+        }
+        sum
+    }
+}
+
+/// `∫_{−1}^1 a b c`: of what is beyond degree 33 in `a` and `b`, and of their radii, a bound is added.
+fn weighted(a: &Series, b: &Series, c: &Values<40>) -> Interval {
+    let gauss = &GAUSS_40;
+    let ((a, off_a), (b, off_b)) = (a.lowered(DEGREE), b.lowered(DEGREE));
+    let own = c.product(&a.values(gauss)).product(&b.values(gauss)).integral(gauss);
+    let [size_a, size_b, size_c] = [a.largest(), b.largest(), Series::through(gauss, c).largest()];
+    let off = point(size_a) * point(off_b) + point(off_a) * (point(size_b) + point(off_b));
+    own + Interval::within((point(2.0 * size_c) * off).high)
+}
+
+/// The solution of equations with several right sides by elimination, pivots surely not 0.
+fn solved(mut matrix: Matrix, mut right: Matrix) -> Option<Matrix> {
+    let size = matrix.len();
+    for k in 0..size {
+        let best = |i: &usize| matrix[*i][k].smallest();
+        let pivot = (k..size).max_by(|i, j| best(i).total_cmp(&best(j)))?;
+        matrix.swap(k, pivot);
+        right.swap(k, pivot);
+        let over = matrix[k][k].reciprocal()?;
+        for i in (0..size).filter(|i| *i != k) {
+            let part = matrix[i][k] * over;
+            for j in k + 1..size {
+                matrix[i][j] = matrix[i][j] - part * matrix[k][j];
+            }
+            for j in 0..right[k].len() {
+                right[i][j] = right[i][j] - part * right[k][j];
+            }
+        }
+        matrix[k].iter_mut().skip(k + 1).for_each(|entry| *entry = *entry * over);
+        right[k].iter_mut().for_each(|entry| *entry = *entry * over);
+    }
+    Some(right)
+}

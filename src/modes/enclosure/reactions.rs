@@ -1,0 +1,98 @@
+//! Which reactions of supports and springs balance the inertia of a trial's motion?
+//!
+//! For every motion z that the supports allow, and reactions `R` in balance with the inertia of `y`,
+//!
+//! ```text
+//! ⟨y, z⟩ = ∫m χ_z − V γ_z dx + Σ R_j b_j(z),    V steps by −R_j at a held deflection, m by R_j at a held rotation
+//! ```
+//!
+//! whatever the reactions are otherwise: those of springs are had from their trial, `R = σ k b(y)`, those of supports
+//! from a motion ψ that is 1 there and 0 beyond the two cells beside it, `R = ⟨y, ψ⟩ − σ ∫EI χ χ_ψ`. These are plain
+//! numbers, which nothing is assumed of; the last two are solved for, as intervals, so that force and moment are in
+//! balance exactly.
+
+use crate::base::interval::{Interval, Series};
+use crate::modes::enclosure::beam::Proven;
+use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::moved::Tried;
+
+impl Proven {
+    /// Reactions (N or N m, times s²) of the contacts in balance with the inertia of a motion.
+    pub fn reactions(&self, tried: &Tried) -> Option<Vec<Interval>> {
+        let Tried { moved, z, .. } = tried;
+        if self.contacts.is_empty() {
+            return Some(vec![]);
+        }
+        let [i, j] = self.base?;
+        let arm = |contact: &Contact| self.arm(contact.border);
+        let [mut force, mut moment] = self.inertia(moved);
+        let mut all = vec![Interval::point(0.0); self.contacts.len()];
+        for (k, (contact, value)) in
+            self.contacts.iter().zip(moved.held(&self.contacts)).enumerate()
+        {
+            if k == i || k == j {
+                continue;
+            }
+            let reaction = match contact.stiffness {
+                Some(stiffness) => z * stiffness.middle() * value,
+                None => self.at_support(contact, tried),
+            };
+            let reaction = Interval::point(if reaction.is_finite() { reaction } else { 0.0 });
+            match contact.turning {
+                true => moment = moment - reaction,
+                false => {
+                    force = force - reaction;
+                    moment = moment - reaction * arm(contact);
+                }
+            }
+            all[k] = reaction;
+        }
+        let (first, second) = (&self.contacts[i], &self.contacts[j]);
+        // About the first.
+        let moment = moment - force * arm(first);
+        if second.turning {
+            (all[i], all[j]) = (force, moment);
+        } else {
+            all[j] = moment * (arm(second) - arm(first)).reciprocal()?;
+            all[i] = force - all[j];
+        }
+        Some(all)
+    }
+
+    /// The reaction of a support, nearly: `⟨y, ψ⟩ − z ∫EI χ χ_ψ` with Hermite's cubics ψ.
+    fn at_support(&self, contact: &Contact, tried: &Tried) -> f64 {
+        let Tried { moved, loads, strains, z } = tried;
+        let border = contact.border;
+        let before = border.checked_sub(1).map(|k| (k, 1.0));
+        let beyond = (border < self.cells.len()).then_some((border, -1.0));
+        let mut sum = 0.0;
+        for (k, s) in before.into_iter().chain(beyond) {
+            let h = self.cells[k].half.middle();
+            // Deflection, slope and curvature of ψ in Legendre's polynomials.
+            let [w, slope, bend] = match contact.turning {
+                false => [
+                    vec![0.5, 0.6 * s, 0.0, -0.1 * s],
+                    vec![0.5 * s / h, 0.0, -0.5 * s / h],
+                    vec![0.0, -1.5 * s / (h * h)],
+                ],
+                true => [
+                    vec![-s * h / 6.0, -0.1 * h, s * h / 6.0, 0.1 * h],
+                    vec![0.0, 0.5 * s, 0.5],
+                    vec![0.5 * s / h, 1.5 / h],
+                ],
+            }
+            .map(|coefficients| Series::exact(&coefficients));
+            let couple = loads[k].1.as_ref().map_or(0.0, |couple| couple.inner(&slope).middle());
+            let own = loads[k].0.inner(&w).middle() + couple;
+            sum += h * (own - z * strains[k].0.inner(&bend).middle());
+        }
+        for mass in self.masses.iter().filter(|mass| mass.border == border) {
+            let [w, turn] = moved.borders[border];
+            let offset = mass.offset.middle();
+            let push = mass.mass.middle() * (w + offset * turn);
+            let couple = offset * push + mass.inertia.middle() * turn;
+            sum += if contact.turning { couple } else { push };
+        }
+        sum
+    }
+}
