@@ -19,7 +19,10 @@ use sweetspot::{Bat, Material};
 const FULL: &str = r#"{
   "format": "sweetspot-bat/1", "name": "full", "source": "made up",
   "material": { "density": "0.7 g/cm^3", "youngs_modulus": "14 GPa", "shear_modulus": 1e9,
-                "poisson_ratio": 0.3, "shear_coefficient": 0.9, "loss_factor": 0.01 },
+                "poisson_ratio": 0.3, "shear_coefficient": 0.9, "loss_factor": 0.01,
+                "strength": "100 MPa", "strain_to_failure": 0.01, "hoop_modulus": "9 GPa", "radial_modulus": 8e9,
+                "shear_moduli": { "along_around": "5 GPa", "along_across": 4e9, "around_across": 4e9 },
+                "poisson_ratios": { "along_around": 0.3, "along_across": 0.3, "around_across": 0.4 } },
   "profile": { "interpolation": "linear", "unit": "mm", "measured_from": "knob",
                "x": [0, "40 cm", 840], "diameter": [0, 32, 66], "wall_thickness": [0, 10, "1 in"] },
   "regions": [ { "from": 0.5, "to": "84 cm", "material": "aluminium-7075", "core": {
@@ -56,6 +59,13 @@ const LIGHTER: &str = r#"{
   "material": { "name": "white-ash-dynamic", "density": 631, "shear_modulus": "1.1 GPa" },
   "profile": { "x": [0, 0.84], "radius": [0.02, 0.02] },
   "regions": [ { "from": 0.6, "to": 0.84, "material": { "name": "sugar-maple", "loss_factor": 0.02 } } ]
+}"#;
+
+/// A wall of layers.
+const LAYERED: &str = r#"{
+  "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+  "profile": { "x": [0, 0.84], "radius": [0.03, 0.03] },
+  "regions": [ { "from": 0.5, "to": 0.84, "layers": [ { "thickness": "1 mm", "material": "aluminium-7075" } ] } ]
 }"#;
 
 /// A bat that was changed after it was weighed, in every way there is.
@@ -144,7 +154,7 @@ fn every_bat_of_this_project_is_valid() {
     bats.extend(
         files("validation").iter().map(|case| case["bat"].clone()).filter(Value::is_object),
     );
-    bats.extend([FULL, FORMULAS, CSV, LIGHTER, EDITED].map(parsed));
+    bats.extend([FULL, FORMULAS, CSV, LAYERED, LIGHTER, EDITED].map(parsed));
     assert!(bats.len() > 80, "{}", bats.len());
     let validator = validator();
     for bat in &bats {
@@ -165,7 +175,7 @@ fn what_the_reader_accepts_the_schema_accepts() {
         "tip", "clamped", "csv", "0.02", [], [0], [0, 1], [0, "1 in"], {}, null, true ]"#;
     let strange = parsed(strange);
     let mut accepted = 0;
-    for bat in [FULL, FORMULAS, CSV, EDITED].map(parsed) {
+    for bat in [FULL, FORMULAS, CSV, LAYERED, EDITED].map(parsed) {
         let all = all_paths(&bat);
         let put = all.iter().flat_map(|path| {
             let bat = &bat;
@@ -193,7 +203,7 @@ fn what_the_reader_accepts_the_schema_accepts() {
 fn values_of_another_type_are_refused_by_both() {
     let reader = Reader::new("types");
     let validator = validator();
-    for bat in [FULL, FORMULAS, CSV, EDITED].map(parsed) {
+    for bat in [FULL, FORMULAS, CSV, LAYERED, EDITED].map(parsed) {
         for path in all_paths(&bat) {
             for junk in [json!(null), json!(true), json!({}), json!([]), json!([[]])] {
                 let changed = with(&bat, &path, junk.clone());
@@ -210,6 +220,7 @@ fn broken_bats_are_refused_by_both() {
     let reader = Reader::new("broken");
     let validator = validator();
     let (full, formulas, csv) = (parsed(FULL), parsed(FORMULAS), parsed(CSV));
+    let layered = parsed(LAYERED);
     let broken = |bat: &Value, path: &str, key: &str, value: Value| {
         let mut changed = bat.clone();
         let object = changed.pointer_mut(path).unwrap().as_object_mut().unwrap();
@@ -246,6 +257,10 @@ fn broken_bats_are_refused_by_both() {
     ] {
         broken(&full, path, key, Value::Null);
     }
+    broken(&layered, "/regions/0/layers/0", "thickness", Value::Null);
+    broken(&layered, "/regions/0/layers/0", "material", Value::Null);
+    broken(&layered, "/regions/0", "layers", json!([]));
+    broken(&layered, "/regions/0", "layers", json!("aluminium-7075"));
     broken(&formulas, "/weighed", "mass", Value::Null);
     broken(&formulas, "/weighed", "first_bending_hz", Value::Null);
     broken(&formulas, "/profile/pieces/0", "formula", Value::Null);
@@ -279,14 +294,17 @@ fn broken_bats_are_refused_by_both() {
 }
 
 /// Objects of the schema (its definitions, and itself as "") and where they are in [`FULL`],
-/// [`FORMULAS`] and [`EDITED`].
-const PLACES: [(&str, &str); 21] = [
+/// [`FORMULAS`], [`LAYERED`] and [`EDITED`].
+const PLACES: [(&str, &str); 24] = [
     ("", ""),
     ("MaterialNumbers", "/material"),
     ("MaterialNumbers", "/regions/0/core"),
+    ("ShearModuli", "/material/shear_moduli"),
+    ("PoissonRatios", "/material/poisson_ratios"),
     ("Profile", "/profile"),
     ("Weighed", "/weighed"),
     ("Region", "/regions/0"),
+    ("Layer", "/regions/0/layers/0"),
     ("Attachment", "/attachments/0"),
     ("Tape", "/tapes/0"),
     ("Absorber", "/absorbers/0"),
@@ -308,6 +326,7 @@ const PLACES: [(&str, &str); 21] = [
 fn holder((name, place): (&str, &str)) -> Value {
     parsed(match (name, place) {
         ("Piece", _) => FORMULAS,
+        ("Layer", _) => LAYERED,
         _ if place.starts_with("/edits") => EDITED,
         _ => FULL,
     })
