@@ -79,20 +79,27 @@ pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
     match conflict.members.as_slice() {
         [] => "the search has not met the targets, though no smaller set of them was found that cannot be had"
             .to_owned(),
-        [one] => format!(
-            "{} cannot be had under these limits: {} at best",
-            wish(one.band),
-            reach(one.band, one.value)
-        ),
         members => {
             let all: Vec<String> = members.iter().map(|member| wish(member.band)).collect();
-            let many = if members.len() == 2 { "both" } else { "all" };
-            let mut words = format!("{} cannot {many} be had", all.join(" and "));
-            for member in members {
+            let mut words = match members.len() {
+                1 => format!("{} cannot be had under these limits", all[0]),
+                2 => format!("{} cannot both be had", all.join(" and ")),
+                _ => format!("{} cannot all be had", all.join(" and ")),
+            };
+            // Only what a bat shows that meets the others.
+            for member in members.iter().filter(|member| member.others_met) {
                 let rest = members.iter().filter(|other| other.band != member.band);
                 let rest: Vec<String> = rest.map(|other| wish(other.band)).collect();
-                let at_best = format!("{} at best", reach(member.band, member.value));
-                words += &format!("; with {}, {at_best}", rest.join(" and "));
+                let with = match rest.is_empty() {
+                    true => String::new(),
+                    false => format!("with {}, ", rest.join(" and ")),
+                };
+                let sure = if member.settled { "at best" } else { "as far as was searched" };
+                words += &format!("; {with}{} {sure}", reach(member.band, member.value));
+            }
+            if !conflict.aside.is_empty() {
+                let aside: Vec<String> = conflict.aside.iter().map(|k| wish(*k)).collect();
+                words += &format!("; {} left aside there", aside.join(" and "));
             }
             words
         }

@@ -14,6 +14,8 @@ use crate::study::aim::wish::Band;
 pub struct Conflict {
     /// How near each member comes.
     pub members: Vec<Reach>,
+    /// Numbers of the bands that are no part of it and are missed where a member comes nearest.
+    pub aside: Vec<usize>,
     /// Bats that were computed for it.
     pub bats: usize,
 }
@@ -27,6 +29,8 @@ pub struct Reach {
     pub value: f64,
     /// Whether the others are met there.
     pub others_met: bool,
+    /// Whether the search stood still there: nothing nearer is beside it.
+    pub settled: bool,
 }
 
 /// Whether a search has missed one of these bands.
@@ -36,12 +40,12 @@ pub fn missed(found: &Found, bands: &[Band], of: &[bool]) -> bool {
 }
 
 impl Conflict {
-    /// The conflict of bands that a search has missed.
+    /// The conflict of bands that a search has missed, and the bats in which each member comes nearest.
     ///
     /// # Errors
     ///
     /// Those of [`Search::from`].
-    pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<Self> {
+    pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<(Self, Vec<Found>)> {
         let start = vec![0.0; found.p.len()];
         let mut stay = vec![true; bands.len()];
         let mut nearest_yet = found.p.clone();
@@ -68,17 +72,22 @@ impl Conflict {
         let reached = threads::map(members.len(), |j| {
             search.from(&nearest_yet, bands, &nearest(&stay, members[j]))
         });
-        let reach = |(k, reached): (usize, Result<Found>)| {
-            let reached = reached?;
+        let reached: Vec<Found> = reached.into_iter().collect::<Result<_>>()?;
+        let reach = |(k, reached): (&usize, &Found)| {
             bats += reached.bats;
             let mut others = stay.clone();
-            others[k] = false;
-            let others_met = !missed(&reached, bands, &others);
-            Ok(Reach { band: k, value: reached.values[k], others_met })
+            others[*k] = false;
+            let others_met = !missed(reached, bands, &others);
+            let (value, settled) = (reached.values[*k], reached.stopped.is_none());
+            Reach { band: *k, value, others_met, settled }
         };
-        let members: Result<_> = members.into_iter().zip(reached).map(reach).collect();
-        let members = members?;
-        Ok(Self { members, bats })
+        let members = members.iter().zip(&reached).map(reach).collect();
+        let out = |k: &usize| {
+            let missed = |found: &Found| bands[*k].miss(found.values[*k]) > MISSED;
+            !stay[*k] && reached.iter().any(missed)
+        };
+        let aside = (0..bands.len()).filter(out).collect();
+        Ok((Self { members, aside, bats }, reached))
     }
 
     /// Weights by which everything else is met and the members come as near as they can together, each by its

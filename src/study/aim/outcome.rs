@@ -32,10 +32,10 @@ pub struct Outcome {
     pub bands: Vec<Band>,
     /// What each goal is, of the bat that is written.
     pub values: Vec<f64>,
-    /// How much the norm of the change (mm) would be less if the goal's bound gave way by one SI unit; None
-    /// where the goal is missed, 0 where it does not bind.
+    /// How much the norm of the change (mm) would be less if the goal's bound gave way by one SI unit; 0 where
+    /// it does not bind, None where the change is not a least one that meets all goals.
     pub prices: Vec<Option<f64>>,
-    /// Whether every goal is met and every limit kept by the bat that is written.
+    /// Whether every goal is met and every limit and rule kept by the bat that is written.
     pub met: bool,
     /// The targets that cannot be had together.
     pub conflict: Option<Conflict>,
@@ -167,15 +167,35 @@ impl Outcome {
         let bench = Bench::new(&self.start, wish, terms.clone())?;
         self.values = bench.of(&written)?;
         self.bat = written;
-        self.met = self.is_met();
         self.answers = told(&bench, &self.start, &self.bat)?;
         self.rules = rules(wish, &self.bat, &bench)?;
+        self.judge();
         Ok(self)
     }
 
     fn is_met(&self) -> bool {
-        let inside = self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value));
-        inside && self.broken <= KEPT && self.steeper <= KEPT
+        self.targets_met()
+            && self.broken <= KEPT
+            && self.steeper <= KEPT
+            && self.broken_rules() == 0
+    }
+
+    /// Says whether it is met; targets that are met are in no conflict.
+    fn judge(&mut self) {
+        self.met = self.is_met();
+        if self.targets_met() {
+            self.conflict = None;
+        }
+    }
+
+    /// Whether every target, and every rule that is one, is met.
+    pub fn targets_met(&self) -> bool {
+        self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value))
+    }
+
+    /// How many rules are broken.
+    pub fn broken_rules(&self) -> usize {
+        self.rules.iter().filter(|(.., kept)| *kept == Some(false)).count()
     }
 
     /// The largest amount taken off a diameter, and the largest put on (m).
@@ -212,15 +232,9 @@ impl Writing<'_> {
         let all = vec![true; self.bands.len()];
         let limits = Limits::new(self.wish, bench.bat());
         let search = Search::new(&bench, &limits);
-        let conflict = match missed(&found, &self.bands, &all) {
-            true => Some(Conflict::of(&search, &self.bands, &found)?),
-            false => None,
-        };
-        if let Some(conflict) = conflict.as_ref().filter(|c| c.members.len() < self.bands.len()) {
-            let start = vec![0.0; bench.unknowns()];
-            let before = found.bats;
-            found = search.from(&start, &self.bands, &conflict.nearest(self.bands.len()))?;
-            found.bats += before;
+        let mut conflict = None;
+        if missed(&found, &self.bands, &all) {
+            (found, conflict) = self.nearest(&bench, &search, found)?;
         }
         let mut best: Option<Rounded> = None;
         let mut bands = self.bands.clone();
@@ -284,23 +298,61 @@ impl Writing<'_> {
             extras,
             wood,
         };
-        outcome.met = outcome.is_met();
+        outcome.judge();
         Ok(outcome)
+    }
+
+    /// The nearest bat to bands that a search has missed, and their conflict: None where the bat that is found
+    /// beside it meets them all.
+    fn nearest(
+        &self,
+        bench: &Bench,
+        search: &Search,
+        found: Found,
+    ) -> Result<(Found, Option<Conflict>)> {
+        let bands = &self.bands;
+        let (conflict, mut known) = Conflict::of(search, bands, &found)?;
+        let before = found.bats;
+        if conflict.members.len() < bands.len() {
+            let start = vec![0.0; bench.unknowns()];
+            let weighted = search.from(&start, bands, &conflict.nearest(bands.len()))?;
+            known.insert(0, Found { bats: before + weighted.bats, ..weighted });
+        }
+        known.insert(0, found);
+        let nearest = |a: &Found, b: &Found| total(bands, a).total_cmp(&total(bands, b));
+        let bats = known.iter().map(|found| found.bats).max().unwrap_or(0);
+        let best = known.into_iter().min_by(nearest).expect("one was found");
+        let all = vec![true; bands.len()];
+        if missed(&best, bands, &all) {
+            return Ok((Found { bats, ..best }, Some(conflict)));
+        }
+        let least = search.from(&best.p, bands, &Weights::met(bands.len()))?;
+        let bats = bats + conflict.bats + least.bats;
+        Ok((Found { bats, ..least }, None))
     }
 
     fn name(&self, parts: &mut crate::bat::body::Parts) {
         parts.name = format!("{}, aimed", self.bat.name());
     }
 
-    /// What the norm would be less by, per SI unit of each goal.
+    /// What the norm would be less by, per SI unit of each goal: of a least change only, which a bat that misses
+    /// something, one that is hardly changed and one at which the search stopped short are not.
     fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
+        /// A change of less than that (mm) is none.
+        const NONE: f64 = 1e-3;
+        let all = vec![true; self.bands.len()];
+        let least = !missed(found, &self.bands, &all) && found.stopped.is_none() && norm > NONE;
         let of = |(k, band): (usize, &Band)| {
-            let bound = band.miss(found.values[k]) <= MISSED;
-            let price = found.prices[k].abs() / (2.0 * norm.max(1e-9)) / band.scale;
-            bound.then_some(if found.prices[k].abs() > 1e-6 { price } else { 0.0 })
+            let price = found.prices[k].abs() / (2.0 * norm) / band.scale;
+            least.then_some(if found.prices[k].abs() > 1e-6 { price } else { 0.0 })
         };
         self.bands.iter().enumerate().map(of).collect()
     }
+}
+
+/// All that a bat misses, in tolerances: of two bats the one with less of it is nearer.
+fn total(bands: &[Band], found: &Found) -> f64 {
+    bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
 }
 
 /// The largest difference of two bats' diameters where `kept` (m).

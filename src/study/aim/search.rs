@@ -2,7 +2,8 @@
 //!
 //! Each step makes the goals linear in the unknowns and solves [`Program`] for the next unknowns. The
 //! objective is exactly quadratic and the goals are nearly linear over a millimetre, so that some steps do. A
-//! step is halved until the penalty function `pᵀHp + Σ μ_i miss_i` falls.
+//! step is halved until the penalty function `pᵀHp + Σ μ_i miss_i` falls. From a bat beyond the limits, such as one
+//! that is thicker than the rules allow, the first step is taken whole: what is gained beyond them counts for nothing.
 
 use crate::base::error::{Error, Result};
 use crate::study::aim::bench::{Bench, Look};
@@ -12,7 +13,7 @@ use crate::study::aim::program::{Bounded, Elastic, Least, Program};
 use crate::study::aim::wish::Band;
 
 /// Steps at most.
-const MOST: usize = 12;
+const MOST: usize = 24;
 /// A step changes no coefficient by more than that (mm).
 const TRUST: f64 = 3.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
@@ -151,6 +152,7 @@ impl<'a> Search<'a> {
         let mut found = None;
         let mut slopes = vec![];
         let mut of_slopes: Vec<f64> = vec![];
+        let mut beyond = self.is_beyond(start);
         for iteration in 1..=MOST {
             if slopes.is_empty() || largest(&p, &of_slopes) > SAME_SLOPES {
                 slopes = self.bench.slopes(&look)?;
@@ -170,7 +172,10 @@ impl<'a> Search<'a> {
                 stopped,
             };
             let step = largest(&p, &least.p);
-            let merit = self.merit(&p, &look.values, bands, weights);
+            let merit = match std::mem::take(&mut beyond) {
+                true => f64::INFINITY,
+                false => self.merit(&p, &look.values, bands, weights),
+            };
             let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
             else {
                 let stopped = (step > 10.0 * STILL).then_some("no step makes it better");
@@ -179,9 +184,10 @@ impl<'a> Search<'a> {
             count += tried;
             (p, look) = (taken, next);
             let gained = merit - self.merit(&p, &look.values, bands, weights);
-            let still = step < STILL || gained.abs() < NO_GAIN * merit.abs();
+            let no_gain = merit.is_finite() && gained.abs() < NO_GAIN * merit.abs();
+            let still = step < STILL || no_gain;
             found =
-                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("12 steps")));
+                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("24 steps")));
             let asked = bands.iter().zip(&look.values).zip(&weights.miss);
             let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
             if still || end == End::Met && misses.all(|miss| miss <= MISSED) {
@@ -319,6 +325,16 @@ impl<'a> Search<'a> {
         let low = if now - reach > low { f64::NEG_INFINITY } else { low };
         let high = if now + reach < high { f64::INFINITY } else { high };
         Bounded { row, low, high }
+    }
+
+    /// Whether those unknowns break a limit or the range of a free choice.
+    fn is_beyond(&self, p: &[f64]) -> bool {
+        let out = |range: &Bounded| {
+            let value: f64 = range.row.iter().zip(p).map(|(a, p)| a * p).sum();
+            value < range.low - STILL || value > range.high + STILL
+        };
+        let broken = self.broken(p).iter().any(|broken| broken.by.abs() > ROUGHLY);
+        broken || self.ranges().iter().any(out)
     }
 
     /// Where the change of those unknowns breaks a limit.
