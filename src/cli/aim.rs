@@ -71,7 +71,7 @@ pub struct Args {
     diameter: Vec<String>,
 
     /// The greatest slope of the surface where it is changed, such as 0.25: radius over length
-    #[arg(long, value_name = "SLOPE", value_parser = slope)]
+    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true, value_parser = slope)]
     slope: Option<f64>,
 
     /// Rules of a game: mlb, ncaa, ncaa-wood, nfhs, nfhs-wood, usa-baseball, softball, or a rule file
@@ -86,11 +86,11 @@ pub struct Args {
     free: Vec<String>,
 
     /// Distance of the stations that are written [default: 10 mm, of a bat in inches 0.5 in]
-    #[arg(long, value_name = "m", value_parser = spacing)]
+    #[arg(long, value_name = "m", allow_hyphen_values = true, value_parser = spacing)]
     stations: Option<f64>,
 
     /// What diameters are rounded to [default: 0.1 mm, of a bat in inches 0.005 in]
-    #[arg(long, value_name = "m", value_parser = spacing)]
+    #[arg(long, value_name = "m", allow_hyphen_values = true, value_parser = spacing)]
     round: Option<f64>,
 
     /// Write the new bat into this file
@@ -102,7 +102,8 @@ pub struct Args {
     cuts: Option<PathBuf>,
 
     /// What a pass of the lathe takes off the diameter at most
-    #[arg(long, value_name = "m", default_value = "1 mm", value_parser = spacing, help_heading = "Output")]
+    #[arg(long, value_name = "m", default_value = "1 mm", allow_hyphen_values = true, value_parser = spacing,
+          help_heading = "Output")]
     pass: f64,
 
     /// Write a template of the new bat in its own size into this folder: PDF and SVG, for A4 and letter

@@ -48,7 +48,11 @@ pub fn goal(name: &str) -> Said<Goal> {
     Goal::named(name.trim()).map_err(|error| match error {
         Error::Value(complaint) => {
             let names: Vec<&str> = CALLED.iter().map(|(called, _)| *called).collect();
-            let complaint = Complaint { field: String::new(), ..complaint };
+            let expected = "sweet spot, swing weight, mass, balance point, centre of percussion, best ball, \
+                            vibration, bbcor, drop, f1 to f40, node 1 to node 3, or a number's name in the \
+                            documents, such as modal_mass_mode_1_kg";
+            let complaint =
+                Complaint { field: String::new(), expected: expected.to_owned(), ..complaint };
             match complaint.hint.is_empty() {
                 true => complaint.or_nearest(&plain, &names),
                 false => complaint,
@@ -190,8 +194,13 @@ fn named(text: &str) -> Said<(Goal, &str)> {
         // Of two words the first may be half a name.
         let words: Vec<&str> = lower.split(' ').take(2).collect();
         let names: Vec<&str> = CALLED.iter().map(|(called, _)| *called).collect();
-        match nearest(&words.join(" "), &names) {
-            Some(near) => Complaint { hint: format!("did you mean {near}?"), ..complaint },
+        let both = words.join(" ");
+        match nearest(&both, &names) {
+            Some(near) => Complaint {
+                found: format!("\"{both}\""),
+                hint: format!("did you mean {near}?"),
+                ..complaint
+            },
             None => complaint,
         }
     })
@@ -322,7 +331,7 @@ mod tests {
             ("mass -3 lbf", "ozf"),
             ("mass", "what is wished of it"),
             ("f1 180 Hz within 0 Hz", "a tolerance above 0"),
-            ("beauty +3 %", "expected mass_kg"),
+            ("beauty +3 %", "expected sweet spot, swing weight"),
         ] {
             let found = target(text).unwrap_err().to_string();
             assert!(found.contains(said) || text.contains("lbf"), "{text}: {found}");

@@ -2,17 +2,20 @@
 
 use std::fmt::Write;
 
-use crate::base::number::{rounded, shortest, signed};
+use crate::base::number::{rounded, shortest, signed, significant};
 use crate::base::units::{inches, ounce_square_inches, ounces};
 use crate::show::report::aimed::{asked, called, conflict_words, shown};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
 use crate::study::aim::cuts::cuts;
+use crate::study::aim::limits::KEPT;
 use crate::study::aim::outcome::Outcome;
 use crate::study::aim::rules::{Rule, RuleSet};
 use crate::study::aim::wish::{Band, Goal};
 use crate::study::many::answers::Answer;
 
+/// A section that has less of its strength left is told.
+const WEAK: f64 = 0.5;
 /// Stations of the cut list that are shown.
 const SHOWN: usize = 24;
 
@@ -38,10 +41,25 @@ fn across(value: f64, us: bool) -> String {
     if us { format!("{:.3} in", inches(value)) } else { format!("{:.2} mm", 1e3 * value) }
 }
 
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// A place on the bat, in the maker's unit.
+fn place(x: f64, us: bool) -> String {
+    match us {
+        true => format!("{:.2} in", inches(x)),
+        false => format!("{} mm", shortest(rounded(1e3 * x, 1))),
+    }
+}
+
 fn head(outcome: &Outcome, us: bool) -> String {
-    let verdict = match (outcome.met, &outcome.conflict) {
-        (true, _) => "every target is met by the bat as it is written",
-        (_, Some(_)) => "the targets cannot all be had; this bat comes nearest",
+    let limits = outcome.broken > KEPT || outcome.steeper > KEPT;
+    let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
+        (true, false, false) => "every target is met by the bat as it is written",
+        (true, true, _) => "every target is met by the bat as it is written, but a rule is broken",
+        (true, _, true) => "every target is met by the bat as it is written, but a limit is broken",
+        _ if outcome.conflict.is_some() => "the targets cannot all be had; this bat comes nearest",
         _ => "not every target is met by the bat as it is written; this one comes nearest",
     };
     let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
@@ -52,19 +70,28 @@ fn head(outcome: &Outcome, us: bool) -> String {
         "nothing added".into()
     };
     let line = format!(
-        "of its diameter at most {} off, {added}; norm of the change {:.3} mm; {} steps, {} bats",
+        "of its diameter at most {} off, {added}; norm of the change {:.3} mm; {}, {}",
         across(cut, us),
         outcome.norm,
-        outcome.iterations,
-        outcome.bats
+        counted(outcome.iterations, "step"),
+        counted(outcome.bats, "bat")
     );
     out += &wrapped(&line, 2);
-    if outcome.broken > 1e-9 {
+    if let Some((x, left)) = outcome.weakest().filter(|(_, left)| *left < WEAK) {
+        let line = format!(
+            "at {} the section has {} % of its strength in bending left: --diameter \"at least ...\" and --keep \
+             set limits",
+            place(x, us),
+            significant(100.0 * left, 2)
+        );
+        out += &wrapped(&line, 2);
+    }
+    if outcome.broken > KEPT {
         let line = format!("a limit of the diameter is broken by {:.4} mm", 1e3 * outcome.broken);
         out += &wrapped(&line, 2);
     }
     if let Some(slope) = outcome.slope {
-        let kept = match outcome.steeper > 1e-9 {
+        let kept = match outcome.steeper > KEPT {
             true => format!("is broken by {:.4}", outcome.steeper),
             false => "is kept".to_owned(),
         };
@@ -89,7 +116,6 @@ fn targets(outcome: &Outcome, us: bool) -> String {
     ]);
     let mut out = columns.heads();
     for (band, value) in outcome.bands.iter().zip(&outcome.values) {
-        let met = if band.has(*value) { "" } else { " missed" };
         let name = match band.rule {
             Some(_) => format!("{} (rule)", called(band.goal)),
             None => called(band.goal),
@@ -98,8 +124,11 @@ fn targets(outcome: &Outcome, us: bool) -> String {
             name,
             asked(band, us),
             shown(band.goal, band.start, us),
-            shown(band.goal, *value, us) + met,
+            shown(band.goal, *value, us),
         ]);
+        if !band.has(*value) {
+            out += &format!("  missed by {}\n", missed_by(band, *value, us));
+        }
     }
     let priced: Vec<String> = outcome
         .bands
@@ -111,6 +140,18 @@ fn targets(outcome: &Outcome, us: bool) -> String {
         out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
     }
     out + "\n"
+}
+
+/// By how much a target is missed, with digits of its own where that is little.
+fn missed_by(band: &Band, value: f64, us: bool) -> String {
+    let limit = if value > band.high { band.high } else { band.low };
+    let by = (value - limit).abs();
+    match shown(band.goal, by, us) {
+        little if little == shown(band.goal, 0.0, us) => {
+            format!("{} {}", significant(by, 2), band.goal.unit()).trim_end().to_owned()
+        }
+        said => said,
+    }
 }
 
 /// What a little more of a target that binds would cost.
@@ -126,7 +167,7 @@ fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
         ("", _) => (0.1, "0.1".to_owned()),
         (unit, _) => (1.0, format!("1 {unit}")),
     };
-    let cost = crate::base::number::significant(price * step, 2);
+    let cost = significant(price * step, 2);
     Some(format!("{words} more of the {} changes the norm by {cost} mm", called(band.goal)))
 }
 
@@ -229,10 +270,7 @@ fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
     let mut out = columns.heads();
     let every = all.len().div_ceil(SHOWN);
     for cut in all.iter().step_by(every) {
-        let place = match us {
-            true => format!("{:.2} in", inches(cut.x)),
-            false => format!("{} mm", shortest(rounded(1e3 * cut.x, 1))),
-        };
+        let place = place(cut.x, us);
         let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
         let passes = match passes.len() {
             1 => "one pass".to_owned(),

@@ -4,8 +4,10 @@
 //! the shape, in units of its own (see [`Extra`]).
 
 use crate::base::error::{Error, Result};
+use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::fixtures::{Attachment, Fixtures};
+use crate::bat::profile::SAME_PLACE;
 use crate::bat::turned::DiameterChange;
 use crate::collision::figures::SwingLaw;
 use crate::modes::solve::Request;
@@ -81,9 +83,9 @@ impl Bench {
     pub fn new(bat: &Bat, wish: &Wish, terms: Terms) -> Result<Self> {
         let length = bat.length();
         for (k, keep) in wish.keep.iter().enumerate() {
-            if !(keep[0] < keep[1] && keep[0] < length) {
-                let found = format!("{} m to {} m", keep[0], keep[1]);
-                let expected = format!("a stretch of the bat, 0 to {length} m");
+            if !(keep[0] < keep[1] && keep[1] <= length * (1.0 + SAME_PLACE)) {
+                let found = format!("{} to {}", shown_length(keep[0]), shown_length(keep[1]));
+                let expected = format!("a stretch of the bat, 0 to {}", shown_length(length));
                 return Err(Error::value(format!("keep[{k}]"), found, expected));
             }
         }

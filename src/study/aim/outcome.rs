@@ -198,6 +198,18 @@ impl Outcome {
         self.rules.iter().filter(|(.., kept)| *kept == Some(false)).count()
     }
 
+    /// Where a section that was cut has least of its strength in bending left, and the share that is left: the
+    /// section modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
+    pub fn weakest(&self) -> Option<(f64, f64)> {
+        let modulus = |across: f64, bore: f64| (across.powi(4) - bore.powi(4)) / across;
+        let left = |station: &Station| {
+            let [old, new] = [station.old, station.new].map(|d| modulus(d, 2.0 * station.inner));
+            new / old
+        };
+        let cut = self.stations.iter().filter(|station| station.new < station.old);
+        cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The largest amount taken off a diameter, and the largest put on (m).
     pub fn largest(&self) -> [f64; 2] {
         let changes = self.stations.iter().map(|station| station.new - station.old);

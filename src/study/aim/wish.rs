@@ -349,6 +349,12 @@ impl Wish {
             let found = format!("at least {} and at most {}", said(band.low), said(band.high));
             return Err(Error::value(field, found, "limits that leave something between them"));
         }
+        // Masses, swing weights and frequencies are more than nothing.
+        let positive = matches!(band.goal.unit(), "kg" | "kg m²" | "Hz");
+        if positive && band.high <= band.scale {
+            let found = format!("{} {}", band.goal.name(), range(band));
+            return Err(Error::value(field, found, "more than nothing"));
+        }
         let same = bands[..k].iter().position(|other| other.goal == band.goal);
         let apart = |other: &Band| band.low > other.high || other.low > band.high;
         if let Some(other) = same.filter(|other| apart(&bands[*other])) {

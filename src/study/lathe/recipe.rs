@@ -19,7 +19,7 @@ use crate::study::many::answers::Answer;
 pub struct RecipeCut {
     /// From where to where (m).
     pub ends: [f64; 2],
-    /// Depth, of the diameter (m): the mean over the stretch.
+    /// Depth, of the diameter (m).
     pub depth: f64,
 }
 
@@ -44,25 +44,58 @@ pub fn least_wood(
         .collect();
     let width = |k: usize| map.bands[k].ends[1] - map.bands[k].ends[0];
     let rows: Vec<[f64; 3]> = usable.iter().map(|(k, [a, b])| [*a, *b, width(*k)]).collect();
-    let alone = least(&rows, [Some(by), None])?;
-    let lost: f64 = -rows.iter().zip(&alone).map(|(row, depth)| row[1] * depth).sum::<f64>();
-    let depths = if lost <= most { alone } else { least(&rows, [Some(by), Some(-most)])? };
-    let deepest = depths.iter().fold(0.0_f64, |most, depth| most.max(*depth));
-    // What is a tenth of the deepest is no cut to be told.
-    let told = usable.iter().zip(&depths).filter(|(_, depth)| **depth > 0.1 * deepest);
-    let mut cuts: Vec<RecipeCut> = vec![];
-    for ((k, _), depth) in told {
+    let depths = allowed(&rows, by, most)?;
+    let mut cuts: Vec<Stretch> = vec![];
+    for ((k, _), (row, depth)) in usable.iter().zip(rows.iter().zip(&depths)) {
         let ends = map.bands[*k].ends;
-        match cuts.last_mut().filter(|last| (last.ends[1] - ends[0]).abs() < 1e-9) {
-            Some(last) => {
-                let (was, more) = (last.ends[1] - last.ends[0], ends[1] - ends[0]);
-                last.depth = (last.depth * was + depth * more) / (was + more);
-                last.ends[1] = ends[1];
+        if *depth > LEAST_TOLD * deepest(&depths) {
+            match cuts.last_mut().filter(|last| (last.ends[1] - ends[0]).abs() < 1e-9) {
+                Some(last) => last.grow(ends, *row),
+                None => cuts.push(Stretch { ends, row: *row }),
             }
-            None => cuts.push(RecipeCut { ends, depth: *depth }),
         }
     }
-    (!cuts.is_empty()).then_some(cuts)
+    // Of one depth for each stretch the least wood is another, which does the whole again.
+    loop {
+        let rows: Vec<[f64; 3]> = cuts.iter().map(|cut| cut.row).collect();
+        let depths = allowed(&rows, by, most).or_else(|| least(&rows, [Some(by), None]))?;
+        let told = |depth: f64| depth > LEAST_TOLD * deepest(&depths);
+        if depths.iter().all(|depth| told(*depth)) {
+            let both = cuts.iter().zip(&depths);
+            return Some(both.map(|(cut, d)| RecipeCut { ends: cut.ends, depth: *d }).collect());
+        }
+        let mut all = depths.iter();
+        cuts.retain(|_| all.next().is_some_and(|depth| told(*depth)));
+    }
+}
+
+/// What is a tenth of the deepest is no cut to be told.
+const LEAST_TOLD: f64 = 0.1;
+
+/// A stretch of bands that are cut alike.
+struct Stretch {
+    /// From where to where (m).
+    ends: [f64; 2],
+    /// Both slopes and the width of all of it.
+    row: [f64; 3],
+}
+
+impl Stretch {
+    fn grow(&mut self, ends: [f64; 2], row: [f64; 3]) {
+        self.ends[1] = ends[1];
+        self.row.iter_mut().zip(row).for_each(|(all, more)| *all += more);
+    }
+}
+
+fn deepest(depths: &[f64]) -> f64 {
+    depths.iter().fold(0.0, |most, depth| most.max(*depth))
+}
+
+/// The least depths that change the first answer by so much and the second by no more than is allowed.
+fn allowed(rows: &[[f64; 3]], by: f64, most: f64) -> Option<Vec<f64>> {
+    let alone = least(rows, [Some(by), None])?;
+    let lost: f64 = -rows.iter().zip(&alone).map(|(row, depth)| row[1] * depth).sum::<f64>();
+    if lost <= most { Some(alone) } else { least(rows, [Some(by), Some(-most)]) }
 }
 
 /// Depths of bands whose rows are the two slopes and the width, that change the first by one target and the second
