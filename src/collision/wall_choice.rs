@@ -118,12 +118,12 @@ const USUAL: f64 = 1e-4;
 pub fn hoop_request(tolerance: f64) -> HoopRequest {
     let (last, up_to_hz) = match tolerance {
         t if t >= 1e-3 => (8, 6e3),
-        t if t >= 1e-4 => (10, 13e3),
+        t if t >= 1e-4 => (11, 15e3),
         // Finer than this the wall is not known: the patch leaves a thousand times as much open.
         _ => (14, 24e3),
     };
     let harmonics = std::iter::once(0).chain(2..=last).collect();
     // A frequency may be off by more than what it does: half of a hit's spring is the ball.
-    let tol = (3.0 * tolerance).clamp(1e-5, 3e-3);
+    let tol = (2.0 * tolerance).clamp(1e-5, 3e-3);
     HoopRequest { tol, harmonics, up_to_hz, least: 1, eased: true, ..HoopRequest::default() }
 }

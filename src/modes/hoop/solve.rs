@@ -121,7 +121,7 @@ impl Hoop {
         let mut extent = Extent::of(bat, lead)?;
         let cut = extent.limit == Limit::Handle;
         let (mut hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
-        if cut && cut_off > 0.5 && !request.eased {
+        if cut && cut_off > 0.5 {
             // High modes may reach far into a thin handle: all of it is modelled then.
             extent = Extent::of(bat, f64::INFINITY)?;
             hoop = Self::solved(bat, [extent.from, extent.to], false, request)?.0;
