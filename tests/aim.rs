@@ -287,7 +287,9 @@ fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
         (r#""targets": ["mass same"], "rules": "none.json""#, "none.json"),
         (r#""targets": []"#, "one target at least"),
         (r#""targets": ["mass 3 % more"], "remove_only": true"#, "at most the 0.8689934 kg"),
-        (r#""targets": ["mass same"], "keep": [{ "from": 0, "to": "2 m" }]"#, "all of the bat"),
+        (r#""targets": ["mass same"], "keep": [{ "from": 0, "to": "2 m" }]"#, "a stretch of the bat"),
+        (r#""targets": ["f1 -200 %"]"#, "more than nothing"),
+        (r#""targets": ["mass 0 oz"]"#, "more than nothing"),
         (
             r#""targets": ["mass same"], "rules": "softball", "keep": ["0 to 840 mm"]"#,
             "all of the bat",
@@ -308,6 +310,8 @@ fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
         (["--rules", "mbl"], "did you mean mlb?"),
         (["--free", "colour red"], "--free"),
         (["--round", "0"], "--round"),
+        (["--round", "-1 mm"], "a length above 0"),
+        (["--keep", "40 in to 50 in"], "a stretch of the bat"),
         (["--slope", "0"], "a slope from 0.01 to 10"),
     ] {
         let args = ["aim", "r161.json", "--out", "new.json"];
@@ -409,7 +413,7 @@ fn a_limit_of_the_slope_is_kept_by_the_file() {
     let bat = Bat::from_text("cone.json", text, Path::new("")).unwrap();
     let lighter = target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), None));
     let of = |slope: Option<f64>| {
-        let keep = vec![[0.0, 0.03], [0.6, 0.9]];
+        let keep = vec![[0.0, 0.03], [0.6, 0.8382]];
         let wish =
             Wish { targets: vec![lighter], slope, keep, remove_only: true, ..Wish::default() };
         let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();

@@ -417,8 +417,10 @@ pub fn inches(length: f64) -> f64 {
 
 /// A length as messages say it, whichever unit it came in.
 pub(crate) fn shown_length(length: f64) -> String {
-    let inches: f64 = format!("{:.5e}", inches(length)).parse().unwrap_or(f64::NAN);
-    format!("{length:?} m ({inches:?} in)")
+    let rounded = |text: String| text.parse().unwrap_or(f64::NAN);
+    let meters: f64 = rounded(format!("{length:.11e}"));
+    let inches: f64 = rounded(format!("{:.5e}", inches(length)));
+    format!("{meters:?} m ({inches:?} in)")
 }
 
 /// Kilograms to avoirdupois ounces.

@@ -451,6 +451,7 @@ impl Bat {
         let mut warnings: Vec<String> = strange.collect();
         warnings.extend(strange_material("", self.material(), WALL));
         self.warn_of_regions(&mut warnings);
+        warnings.extend(self.warning_of_balance());
         let attached = self.fixtures.attached_mass();
         if attached > mass - attached {
             let [attached, own] = [attached, mass - attached].map(plain);
@@ -465,6 +466,21 @@ impl Bat {
             }
         }
         warnings
+    }
+
+    /// A balance point that was measured far from where the profile has it.
+    fn warning_of_balance(&self) -> Option<String> {
+        /// Beyond what a rule and an edge of a table tell (m).
+        const FAR: f64 = 0.01;
+        let measured = self.weighed.balance_point?;
+        let computed = self.unedited().inertia().balance_point;
+        ((computed - measured).abs() > FAR).then(|| {
+            let [computed, measured] = [computed, measured].map(shown_length);
+            format!(
+                "the balance point was measured at {measured}, and is at {computed} by the profile: the \
+                 diameters, the mass or the measured place is off, or the wood is not alike everywhere"
+            )
+        })
     }
 
     fn warn_of_regions(&self, warnings: &mut Vec<String>) {

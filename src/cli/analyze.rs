@@ -124,6 +124,9 @@ Examples:
   sweetspot analyze r161 --guarantee
       and two numbers between which each frequency of the beam is proven to lie";
 
+/// Modes that hits are computed by at first.
+const MODES: usize = 10;
+
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     // A report that cannot be written is told before it is computed.
@@ -132,14 +135,18 @@ pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
+    let solve = match args.bat.count() < MODES {
+        true => args.solve.of_hits(&bat, args.solve.modes_within(MODES, bat.profile().pieces.len()))?,
+        false => args.solve.clone(),
+    };
     let (Solved { bat, solution, warning }, proven) =
-        args.guarantee.solve_for(bat, &args.bat, &args.solve, &args.output)?;
+        args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
-    let modes = args.solve.modes_within(10, bat.profile().pieces.len());
+    let modes = args.solve.modes_within(MODES, bat.profile().pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
-    let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(10), 1));
+    let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
     let readings = Readings {
         diameter: args.calipers,
         length: args.rule,

@@ -144,7 +144,7 @@ fn named(option: &str, error: Error) -> Error {
 }
 
 /// How the modes are found.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(next_help_heading = "Accuracy")]
 pub struct SolveArgs {
     /// Wanted relative accuracy, such as 1e-6 or 0.01%
@@ -187,6 +187,14 @@ impl SolveArgs {
         let degree = self.degree.map(usize::from);
         let theory = self.theory.0.unwrap_or_default();
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
+    }
+
+    /// The same with the theory that so many modes need, where none was named: hits need it of ten modes, though
+    /// fewer are shown.
+    pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<Self> {
+        let needed = || theory_choice::theory(bat, &self.request(modes)).map(|it| it.theory);
+        let theory = self.theory.0.map_or_else(needed, Ok)?;
+        Ok(Self { theory: TheoryChoice(Some(theory)), ..self.clone() })
     }
 
     /// Prepares a bat to be solved: chooses the theory for it and makes it as stiff as it was tapped.

@@ -187,15 +187,20 @@ fn difference(key: &str, way: &'static str, node: &Node) -> Result<Difference> {
     };
     let deviation =
         object.require(way, &format!("\"{way}\": a standard deviation, such as {example}"));
-    let length = |node: &Node| {
+    let length = |node: &Node, most: f64, said: &str| {
         let value = node.quantity(Quantity::Length)?;
-        match value > 0.0 && value < 0.2 {
+        match value > 0.0 && value <= most {
             true => Ok(value),
-            false => Err(node.error(node.shown(), "a length above 0 and below 0.2 m")),
+            false => Err(node.error(node.shown(), said)),
         }
     };
     let deviation = deviation.and_then(|node| match key {
-        "turning" | "impact" => length(node),
+        "turning" => length(node, 2e-3, "a length above 0 and up to 2 mm"),
+        "impact" => length(node, 0.2, "a length above 0 and up to 0.2 m"),
+        "cor" => match share(node)? {
+            cor if cor <= 0.1 => Ok(cor),
+            _ => Err(node.error(node.shown(), "a standard deviation above 0 and up to 0.1")),
+        },
         _ => share(node),
     });
     let along = object.get("along").map(|node| {

@@ -20,8 +20,10 @@ pub fn text(report: &Report, pictures: &str) -> String {
     }
     let units = if report.us { Units::Us } else { Units::Si };
     for Section { title, parts, .. } in report.sections(units) {
-        let _ = writeln!(out, "## {title}\n");
-        parts.iter().for_each(|one| out += &part(report, one, pictures));
+        let text: String = parts.iter().map(|one| part(report, one, pictures)).collect();
+        if !text.is_empty() {
+            let _ = write!(out, "## {title}\n\n{text}");
+        }
     }
     out
 }

@@ -35,9 +35,9 @@ pub fn text(bat: &Bat, found: &Calibration) -> String {
 fn parameters(all: &[Estimated]) -> String {
     let columns = Columns::new([
         first(14, "property"),
-        numbers(12, "value"),
+        numbers(13, "value"),
         numbers(8, "within"),
-        numbers(12, "before"),
+        numbers(13, "before"),
         numbers(8, "learned"),
         labels(22, "the readings"),
     ]);

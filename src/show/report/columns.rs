@@ -44,6 +44,9 @@ impl Columns {
         for (Column { width, gap, left, .. }, cell) in self.0.iter().zip(cells) {
             let cell = cell.as_ref();
             line += gap;
+            // Two numbers do not touch, even where one is too wide.
+            let touches = !left && cell.chars().count() >= *width && !line.ends_with(' ');
+            line += if touches && !line.is_empty() { " " } else { "" };
             line += &if *left { format!("{cell:<width$}") } else { format!("{cell:>width$}") };
         }
         line.truncate(line.trim_end().len());
@@ -61,5 +64,6 @@ mod tests {
         assert_eq!(columns.heads(), "bat     Hz  why\n");
         assert_eq!(columns.row(["ash", "174.5", "met"]), "ash  174.5  met\n");
         assert_eq!(columns.row(["ash", "", ""]), "ash\n");
+        assert_eq!(columns.row(["willow", "174.512", "met"]), "willow 174.512  met\n");
     }
 }

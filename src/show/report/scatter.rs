@@ -55,7 +55,12 @@ fn spread(output: &OutputSpread) -> String {
             .collect::<Vec<_>>()
     };
     out += &columns.row(row("", &|one| significant(one.value, 5)));
-    let error = |one: &Percentile| one.error.map_or("-".to_owned(), |error| significant(error, 2));
+    let error = |one: &Percentile| match one.error {
+        None => "-".to_owned(),
+        // Rounding of an output that does not vary.
+        Some(error) if error <= 1e-12 * one.value.abs() => "0".to_owned(),
+        Some(error) => significant(error, 2),
+    };
     out + &columns.row(row("  ±", &error))
 }
 

@@ -178,8 +178,13 @@ impl<'a> Search<'a> {
             };
             let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
             else {
-                let stopped = (step > 10.0 * STILL).then_some("no step makes it better");
-                return Ok(ended(p, look.values, count, stopped));
+                // Of slopes of its own no part of a step makes it better: nothing nearer is beside it.
+                if of_slopes == p || step <= 10.0 * STILL {
+                    return Ok(ended(p, look.values, count, None));
+                }
+                found = Some(ended(p.clone(), look.values.clone(), count, Some("24 steps")));
+                slopes.clear();
+                continue;
             };
             count += tried;
             (p, look) = (taken, next);
@@ -213,7 +218,7 @@ impl<'a> Search<'a> {
         bands: &[Band],
         weights: &Weights,
     ) -> Option<(Look, Vec<f64>, usize)> {
-        const HALVINGS: i32 = 6;
+        const HALVINGS: i32 = 10;
         let small = largest(p, to) < STILL;
         for k in 0..HALVINGS {
             let share = 0.5_f64.powi(k);
