@@ -287,7 +287,10 @@ fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
         (r#""targets": ["mass same"], "rules": "none.json""#, "none.json"),
         (r#""targets": []"#, "one target at least"),
         (r#""targets": ["mass 3 % more"], "remove_only": true"#, "at most the 0.8689934 kg"),
-        (r#""targets": ["mass same"], "keep": [{ "from": 0, "to": "2 m" }]"#, "a stretch of the bat"),
+        (
+            r#""targets": ["mass same"], "keep": [{ "from": 0, "to": "2 m" }]"#,
+            "a stretch of the bat",
+        ),
         (r#""targets": ["f1 -200 %"]"#, "more than nothing"),
         (r#""targets": ["mass 0 oz"]"#, "more than nothing"),
         (

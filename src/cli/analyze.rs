@@ -136,7 +136,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let (bat, text) = args.bat.read_with_text(&args.output)?;
     let progress = args.output.progress("modes");
     let solve = match args.bat.count() < MODES {
-        true => args.solve.of_hits(&bat, args.solve.modes_within(MODES, bat.profile().pieces.len()))?,
+        true => {
+            args.solve.of_hits(&bat, args.solve.modes_within(MODES, bat.profile().pieces.len()))?
+        }
         false => args.solve.clone(),
     };
     let (Solved { bat, solution, warning }, proven) =

@@ -9,6 +9,33 @@ use crate::study::calibrate::readings::Reading;
 /// Marks between a reading and how far it may be off.
 const MARKS: [&str; 3] = ["±", "+/-", "+-"];
 
+/// The parts of a reading that is followed by how far it may be off.
+pub(crate) fn with_deviation(text: &str) -> Option<(&str, &str)> {
+    let (first, second) = MARKS.iter().find_map(|mark| text.split_once(mark))?;
+    Some((first.trim(), second.trim()))
+}
+
+/// How far a reading (SI) may be off that was written so: `second` a share, a bare number in the unit of the first,
+/// or with its own.
+///
+/// # Errors
+///
+/// What is wrong with it.
+pub(crate) fn deviation(
+    value: f64,
+    (first, second): (&str, &str),
+    quantity: Quantity,
+) -> std::result::Result<f64, Complaint> {
+    match (percent(second), typed::number(second)) {
+        (Some(share), _) => Ok(share * value),
+        (None, Some(number)) => {
+            let unit = typed::split(&typed::plain(first)).1.to_owned();
+            Ok(number * units::factor(&unit, quantity)?)
+        }
+        (None, None) => units::parse(second, quantity),
+    }
+}
+
 /// A share as a number or in per cent, `0.04` or `"4 %"`, from 0 to 1, the ends excluded.
 pub(crate) fn share(node: &Node) -> Result<f64> {
     let expected = "a share such as \"4 %\" or 0.04";
@@ -56,22 +83,12 @@ pub(crate) fn reading(
         Ok(text) => text,
         Err(_) => return of(node.quantity(quantity)?, usual),
     };
-    let parts = MARKS.iter().find_map(|mark| text.split_once(mark));
     let complain = |complaint: Complaint| node.complain(complaint);
-    let (first, second) = match parts {
-        None => return of(units::parse(&text, quantity).map_err(complain)?, usual),
-        Some((first, second)) => (first.trim(), second.trim()),
+    let Some(parts) = with_deviation(&text) else {
+        return of(units::parse(&text, quantity).map_err(complain)?, usual);
     };
-    let value = units::parse(first, quantity).map_err(complain)?;
-    let deviation = match (percent(second), typed::number(second)) {
-        (Some(share), _) => share * value,
-        // A bare uncertainty is in the unit of the reading.
-        (None, Some(number)) => {
-            let unit = typed::split(&typed::plain(first)).1.to_owned();
-            number * units::factor(&unit, quantity).map_err(complain)?
-        }
-        (None, None) => units::parse(second, quantity).map_err(complain)?,
-    };
+    let value = units::parse(parts.0, quantity).map_err(complain)?;
+    let deviation = deviation(value, parts, quantity).map_err(complain)?;
     of(value, deviation)
 }
 
