@@ -314,7 +314,6 @@ fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
         (["--free", "colour red"], "--free"),
         (["--round", "0"], "--round"),
         (["--round", "-1 mm"], "a length above 0"),
-        (["--keep", "40 in to 50 in"], "a stretch of the bat"),
         (["--slope", "0"], "a slope from 0.01 to 10"),
     ] {
         let args = ["aim", "r161.json", "--out", "new.json"];

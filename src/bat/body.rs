@@ -451,7 +451,6 @@ impl Bat {
         let mut warnings: Vec<String> = strange.collect();
         warnings.extend(strange_material("", self.material(), WALL));
         self.warn_of_regions(&mut warnings);
-        warnings.extend(self.warning_of_balance());
         let attached = self.fixtures.attached_mass();
         if attached > mass - attached {
             let [attached, own] = [attached, mass - attached].map(plain);
@@ -468,8 +467,8 @@ impl Bat {
         warnings
     }
 
-    /// A balance point that was measured far from where the profile has it.
-    fn warning_of_balance(&self) -> Option<String> {
+    /// What there is to say of a balance point that was measured far from where the profile has it.
+    pub fn balance_off(&self) -> Option<String> {
         /// Beyond what a rule and an edge of a table tell (m).
         const FAR: f64 = 0.01;
         let measured = self.weighed.balance_point?;

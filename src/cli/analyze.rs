@@ -134,6 +134,9 @@ pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
+    if let Some(off) = bat.balance_off() {
+        args.output.warn(&format!("note: {off}"));
+    }
     let progress = args.output.progress("modes");
     let solve = match args.bat.count() < MODES {
         true => {
