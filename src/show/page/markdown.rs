@@ -11,6 +11,9 @@ use crate::show::page::table::Table;
 use crate::show::plot::picture::Picture;
 use crate::show::report::units::Units;
 
+/// In place of a section of which everything moves or sounds.
+const MOVES: &str = "What moves and sounds needs the page: write the report as HTML.\n\n";
+
 /// The whole text; `pictures` is the folder of the pictures as seen from it.
 pub fn text(report: &Report, pictures: &str) -> String {
     let bat = &report.analysis.bat;
@@ -21,9 +24,8 @@ pub fn text(report: &Report, pictures: &str) -> String {
     let units = if report.us { Units::Us } else { Units::Si };
     for Section { title, parts, .. } in report.sections(units) {
         let text: String = parts.iter().map(|one| part(report, one, pictures)).collect();
-        if !text.is_empty() {
-            let _ = write!(out, "## {title}\n\n{text}");
-        }
+        let text = if text.is_empty() { MOVES } else { &text };
+        let _ = write!(out, "## {title}\n\n{text}");
     }
     out
 }
