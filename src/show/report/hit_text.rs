@@ -278,8 +278,8 @@ pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[St
     let [along, around] = wall.patch.map(|half| 2.0 * half);
     let [low, high] = bbcor.range;
     let deep =
-        if wall.is_deep() { ": deeper than half the wall, where this theory ends" } else { "" };
-    [
+        wall.is_deep().then(|| ("  more than half the wall", "this theory ends there".to_owned()));
+    let lines = [
         ("BBCOR with a stiff wall", format!("{:.3}", bbcor.stiff)),
         ("  with half and twice the patch's press", format!("{low:.3} to {high:.3}")),
         (
@@ -287,10 +287,9 @@ pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[St
             format!("{:.1} MN/m, {:.1} times the ball's", 1e-6 * wall.stiffness, wall.over_ball),
         ),
         ("  patch, along and around", format!("{} by {}", short(along), short(around))),
-        ("  it dents by", format!("{}{deep}", short(wall.dent))),
-    ]
-    .map(|(what, value)| [what.to_owned(), value])
-    .into()
+        ("  it dents by", short(wall.dent)),
+    ];
+    lines.into_iter().chain(deep).map(|(what, value)| [what.to_owned(), value]).collect()
 }
 
 fn millimetres(x: f64) -> String {
