@@ -6,7 +6,7 @@ use common::folder::Folder;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
 use sweetspot::show::report::resolved::resolved;
-use sweetspot::{Bat, Material, Request, solve};
+use sweetspot::{Bat, Material, Request, Theory, solve};
 
 const INCH: f64 = 0.0254;
 const OUNCE: f64 = 0.028_349_523_125;
@@ -359,6 +359,45 @@ fn layers_of_a_wall_are_sleeves_around_what_is_inside() {
             &format!(r#", "regions": [ {{ "from": 0, "to": 0.5, "layers": {wrong} }} ]"#),
         );
         assert!(said.as_ref().is_err_and(|said| said.contains("layers")), "{wrong}: {said:?}");
+    }
+}
+
+/// However a tube is cut into layers, bonded it is the tube: in shear too, with what is on it or in it.
+#[test]
+fn layers_of_one_metal_are_the_tube_that_they_make() {
+    let metal = r#"{ "density": 2810, "youngs_modulus": "71 GPa", "poisson_ratio": 0.33 }"#;
+    let tube = |layers: &[&str], core: &str| {
+        let layer = |thick: &&str| format!(r#"{{ "thickness": "{thick}", "material": {metal} }}"#);
+        let layers: Vec<String> = layers.iter().map(layer).collect();
+        let layers = match layers.is_empty() {
+            true => String::new(),
+            false => format!(r#", "layers": [ {} ]"#, layers.join(", ")),
+        };
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": {metal}, "profile": {{ "unit": "mm", "x": [0, 250, 550, 840],
+               "radius": [11, 11, 33, 33], "wall_thickness": [2.5, 2.5, 2.8, 2.8] }},
+               "regions": [ {{ "from": 0, "to": 0.84, "material": {metal} {core} {layers} }} ] }}"#
+        );
+        Bat::from_text("tube.json", &text, "".as_ref()).unwrap()
+    };
+    let of = |bat: &Bat| {
+        let request = Request {
+            modes: 5,
+            tolerance: 1e-10,
+            theory: Theory::Timoshenko,
+            ..Request::default()
+        };
+        let modes = solve(bat, &request).unwrap().modes;
+        modes.iter().map(|mode| mode.frequency()).collect::<Vec<_>>()
+    };
+    let foam = format!(r#", "core": {}"#, metal.replace("71 GPa", "5 GPa"));
+    for core in ["", &foam] {
+        let whole = of(&tube(&[], core));
+        for layers in [&["1 mm"][..], &["0.5 mm", "0.5 mm", "0.5 mm"]] {
+            for (a, b) in of(&tube(layers, core)).into_iter().zip(&whole) {
+                close(a, *b, 1e-9);
+            }
+        }
     }
 }
 

@@ -133,14 +133,16 @@ fn a_plugged_barrel_rings_as_published() {
     }
 }
 
-/// Kinks of the profile. The published numbers are for the density of the file, not for the weighed mass.
+/// Kinks of the profile. The published numbers are for the density of the file, not for the weighed mass. They bound
+/// from above and are themselves 1 to 4e-9 too high: with degrees 12 and 7, and 14 and 9, frequencies fall that far
+/// below them.
 #[test]
 fn a_barrel_with_kinks_rings_as_published() {
     let bat = northwestern();
     let scale = (bat.material().density / 4793.91).sqrt();
     let grading = Grading { tip: 3, kink: 5, ..EVEN };
     let of = |n| {
-        let found = frequencies(&bat, 0.01905, [10, 6], grading, n, FREE, 3);
+        let found = frequencies(&bat, 0.01905, [12, 7], grading, n, FREE, 3);
         found.into_iter().map(|f| f * scale).collect::<Vec<_>>()
     };
     for n in [2, 3] {

@@ -101,6 +101,12 @@ impl Material {
         Ok(material)
     }
 
+    /// Poisson's ratio for κ: the material's own, of a composite that of the plane of its wall, else 0.3.
+    pub(crate) fn poisson(&self) -> f64 {
+        let of_wall = self.poisson_ratios.map(|ratios| ratios.along_around);
+        self.poisson_ratio.or(of_wall).unwrap_or(0.3)
+    }
+
     /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own,
     /// else Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means
     /// nothing for wood): `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
@@ -110,7 +116,7 @@ impl Material {
     /// G. R. Cowper, J. Appl. Mech. 33 (1966) 335.
     pub fn kappa(&self, hole: f64) -> f64 {
         self.shear_coefficient.unwrap_or_else(|| {
-            let nu = self.poisson_ratio.unwrap_or(0.3);
+            let nu = self.poisson();
             let square = (1.0 + hole).powi(2);
             6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * hole)
         })
@@ -122,7 +128,7 @@ impl Material {
         if self.shear_coefficient.is_some() {
             return 0.0;
         }
-        let nu = self.poisson_ratio.unwrap_or(0.3);
+        let nu = self.poisson();
         let (a, b) = (7.0 + 6.0 * nu, 20.0 + 12.0 * nu);
         let below = a * (1.0 + hole).powi(2) + b * hole;
         -6.0 * (1.0 + nu) * b * (1.0 - hole * hole) / (below * below)
@@ -133,7 +139,7 @@ impl Material {
         if let Some(kappa) = self.shear_coefficient {
             return Some(kappa);
         }
-        let nu = self.poisson_ratio.unwrap_or(0.3);
+        let nu = self.poisson();
         let square = (outer + inner).square();
         let number = Rectangle::point;
         let below = number(7.0 + 6.0 * nu) * square + number(20.0 + 12.0 * nu) * outer * inner;

@@ -4,14 +4,14 @@
 //! and sleeves as they are:
 //!
 //! ```text
-//! ∂EI/∂r = Eπr³    ∂ρA/∂r = 2πρr    ∂ρI/∂r = πρr³    ∂κGA/∂r = 2πκGr + GA ∂κ/∂h ∂h/∂r,  h = (r_i/r)²
+//! ∂EI/∂r = Eπr³    ∂ρA/∂r = 2πρr    ∂ρI/∂r = πρr³    ∂κGA/∂r = 2πκGr + GA ∂κ/∂h ∂h/∂r
 //! ```
 //!
-//! and the same in r_i, negative. Layer is added to layer.
+//! and the same in r_i, negative, with h that stands for `(r_i/r)²`. Layer is added to layer.
 
 use std::f64::consts::PI;
 
-use crate::bat::layup::{Layup, Worth, unfilled};
+use crate::bat::layup::{Hole, Layup, Worth};
 use crate::bat::material::Material;
 use crate::bat::profile::Section;
 
@@ -21,8 +21,9 @@ struct Ring<'a> {
     section: Section,
     /// Of the outer and of the inner radius, 0 or 1.
     moves: [f64; 2],
-    /// How empty the ring is of what bears shear.
-    empty: f64,
+    /// What stands for `m²` in its κ, and how that moves with the radius that is changed (1/m).
+    hole: f64,
+    widens: f64,
 }
 
 impl Ring<'_> {
@@ -32,17 +33,14 @@ impl Ring<'_> {
             material,
             section: Section { outer: r, inner: ri },
             moves: [out, inside],
-            empty,
+            hole,
+            widens,
         } = *self;
         let area = 2.0 * PI * (out * r - inside * ri);
         let second = PI * (out * r.powi(3) - inside * ri.powi(3));
         let shear = material.shear_modulus.map_or(0.0, |modulus| {
-            let hole = if r > 0.0 { (ri / r).powi(2) } else { 0.0 };
-            // Of h = (r_i/r)²: 2 r_i/r² of r_i, −2 h/r of r.
-            let widens = if r > 0.0 { 2.0 * (inside * ri / r - out * hole) / r } else { 0.0 };
-            let [kappa, by_hole] =
-                [material.kappa(hole * empty), material.kappa_slope(hole * empty)];
-            modulus * (kappa * area + self.section.area() * by_hole * empty * widens)
+            let [kappa, by_hole] = [material.kappa(hole), material.kappa_slope(hole)];
+            modulus * (kappa * area + self.section.area() * by_hole * widens)
         });
         Worth {
             bending: material.youngs_modulus * second,
@@ -59,21 +57,27 @@ impl Layup {
     /// known does not change.
     pub fn slopes(&self, section: Section) -> [Worth; 2] {
         let wall = self.wall(section);
-        let empty = self.emptiness();
-        let own = |moves| Ring { material: &self.outer, section: wall, moves, empty };
-        let bore =
-            |core| Ring { material: core, section: wall.bore(), moves: [1.0, 0.0], empty: 1.0 };
-        let below =
-            std::iter::once(&self.outer).chain(self.sleeves.iter().map(|below| &below.material));
-        let sleeves = self.rings(wall).zip(below).map(|((material, section), below)| {
-            let empty = unfilled(material, Some(below));
-            Ring { material, section, moves: [1.0; 2], empty }
-        });
+        let holes = self.holes(wall);
+        let parts = || std::iter::once((&self.outer, wall)).chain(self.rings(wall)).zip(&holes);
+        // The outer radius takes both of a sleeve's along; the bore moves the wall's alone, and what all have inside.
+        let moved = |of: usize, moves: [[f64; 2]; 2]| {
+            let ring = move |(k, ((material, section), hole)): (
+                usize,
+                ((&'_ Material, Section), &Hole),
+            )| {
+                let moves = moves[k.min(1)];
+                Ring { material, section, moves, hole: hole.share, widens: hole.slopes[of] }.slope()
+            };
+            parts().enumerate().map(ring).fold(Worth::default(), plus)
+        };
         let taped = Worth { turning: self.tape * section.outer, ..Worth::default() };
-        let outer =
-            sleeves.fold(plus(own([1.0, 0.0]).slope(), taped), |sum, ring| plus(sum, ring.slope()));
-        let inner = own([0.0, 1.0]).slope();
-        [outer, self.core.as_ref().map_or(inner, |core| plus(inner, bore(core).slope()))]
+        let outer = plus(moved(0, [[1.0, 0.0], [1.0; 2]]), taped);
+        let inner = moved(1, [[0.0, 1.0], [0.0; 2]]);
+        let bore = |material| {
+            let (section, moves) = (wall.bore(), [1.0, 0.0]);
+            Ring { material, section, moves, hole: 0.0, widens: 0.0 }.slope()
+        };
+        [outer, self.core.as_ref().map_or(inner, |core| plus(inner, bore(core)))]
     }
 }
 

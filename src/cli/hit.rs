@@ -186,6 +186,9 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
         let limit = match sweep.settles {
+            _ if outcome.wall > 0.5 * outcome.error => {
+                ": how far the wall gives way under the ball is known no better"
+            }
             true => "",
             false => {
                 ": the hit there magnifies small changes, and neither more modes nor finer \

@@ -184,6 +184,10 @@ impl Setup {
             let expected = "`model` contact: only there a wall gives way";
             return Err(Error::value("`wall_stiffness`", found, expected));
         }
+        if self.wall == WallChoice::Off {
+            let expected = "one of both: a stiffness is that of a wall that gives way";
+            return Err(Error::value("`wall_stiffness`", "it with `wall` off", expected));
+        }
         let mass = self.wall_mass.unwrap_or(0.0);
         if !(1.0..=1e15).contains(&stiffness) {
             let found = format!("{stiffness:?} N/m");

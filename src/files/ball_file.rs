@@ -113,7 +113,13 @@ fn from_document(document: &Document) -> Result<Ball> {
 
 /// The radius of the ball's patch, if there is one.
 fn contact_radius(root: &Object) -> Result<Option<f64>> {
-    root.get("contact_radius").map(|node| positive(node, Some(Quantity::Length))).transpose()
+    /// Smaller ones press holes (m).
+    const LEAST: f64 = 1e-3;
+    let read = |node: &Node| match positive(node, Some(Quantity::Length))? {
+        radius if radius >= LEAST => Ok(radius),
+        _ => Err(node.error(node.shown(), "1 mm at least")),
+    };
+    root.get("contact_radius").map(read).transpose()
 }
 
 /// How a ball comes back, in one of the ways in which it may be written.

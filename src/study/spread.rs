@@ -251,6 +251,12 @@ impl Spread {
     /// What is open of the answers of a bat that was measured so.
     pub fn new(analysed: &Analysed, readings: &Readings) -> Self {
         let mut left_out = vec![];
+        if analysed.scene.hoop.wall().is_some() {
+            left_out.push(
+                "how large a patch of the wall the ball presses on (hit says what that does)"
+                    .to_owned(),
+            );
+        }
         let settled = settled(analysed, readings, &mut left_out);
         let open = open(analysed.bat, readings, &settled, &mut left_out);
         let changes = open.iter().map(|(change, _)| change.clone());

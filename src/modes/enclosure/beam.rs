@@ -8,6 +8,7 @@ use crate::base::interval::tables::GAUSS_24;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::fixtures::Attachment;
+use crate::bat::profile::Piece;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::modes::enclosure::contacts::{Contact, base, contacts};
@@ -130,6 +131,16 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
     }
     if theory.shears() && !bat.knows_shear() {
         return refuse("theory", "timoshenko without a shear modulus", "a shear modulus");
+    }
+    // Of the rest what stands for m² in κ is a quotient of polynomials that nothing here bounds.
+    let plain = |piece: &Piece| match bat.layup(piece).sleeves.len() {
+        0 => true,
+        1 => piece.at(0.0).inner == 0.0 && piece.at(1.0).inner == 0.0,
+        _ => false,
+    };
+    if theory.shears() && !bat.profile().pieces.iter().all(plain) {
+        let expected = "rayleigh or euler-bernoulli, or one layer at most, around a solid wall";
+        return refuse("theory", "timoshenko with layers around a hollow wall", expected);
     }
     Ok(())
 }

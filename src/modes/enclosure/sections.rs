@@ -260,7 +260,7 @@ fn kappa(material: &Material, hole: Interval) -> Interval {
     if let Some(kappa) = material.shear_coefficient {
         return data(kappa);
     }
-    let nu = data(material.poisson_ratio.unwrap_or(0.3));
+    let nu = data(material.poisson());
     let (top, [below, mixed]) = cowper(nu);
     // Divided by (1 + m²)², so that the ratio m²/(1 + m²)² is all that goes with the place.
     let square = (number(1.0) + hole).square();
@@ -279,7 +279,7 @@ fn cowper(nu: Interval) -> (Interval, [Interval; 2]) {
 /// `|D c − N|` is bounded on the whole cell, and so is `|c/κGA − 1| = |D c − N|/N`.
 fn of_tube(ring: &Ring, area: &Values<40>) -> Option<Nearly> {
     let gauss = &GAUSS_40;
-    let nu = data(ring.material.poisson_ratio.unwrap_or(0.3));
+    let nu = data(ring.material.poisson());
     let (top, [below, mixed]) = cowper(nu);
     let b = ring.outside.series.values(gauss);
     let a = ring.inside.as_ref()?.series.values(gauss);

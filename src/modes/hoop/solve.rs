@@ -77,6 +77,8 @@ pub enum Note {
     },
     /// The bore is open at the tip: no end cap was given.
     OpenTip,
+    /// Tape or weights are on the modelled stretch, whose mass is not in the wall.
+    WithoutMasses,
 }
 
 /// Hoop modes of a bat.
@@ -130,6 +132,11 @@ impl Hoop {
             Limit::Step => hoop.notes.push(Note::BeginsBeyondStep { at: extent.from }),
             Limit::Wood => hoop.notes.push(Note::BeginsBeyondWood { at: extent.from }),
             Limit::Handle | Limit::Knob => {}
+        }
+        let (fixtures, from) = (bat.fixtures(), extent.from);
+        let on_it = fixtures.attachments.iter().any(|a| a.mass > 0.0 && a.x > from);
+        if on_it || fixtures.tapes.iter().any(|tape| tape.mass > 0.0 && tape.to > from) {
+            hoop.notes.push(Note::WithoutMasses);
         }
         Ok(hoop)
     }

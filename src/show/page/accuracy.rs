@@ -185,9 +185,13 @@ pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
         return Some("Further out the bat gives way more than its speed makes up for.".to_owned());
     };
+    let wall = match here.energy.wall {
+        0.0 => String::new(),
+        kept => format!(", and {} to its wall", units.energy(kept, 0)),
+    };
     Some(format!(
         "A bat that does not bend would be best at {}, but there this one loses {} to vibration, and \
-         at its sweet spot, {} from there, {}.",
+         at its sweet spot, {} from there, {}{wall}.",
         length(units, rigid.x),
         units.energy(there, 0),
         length(units, (peak.x - rigid.x).abs()),

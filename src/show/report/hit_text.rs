@@ -41,16 +41,21 @@ fn legend(impacts: &[Impact]) -> String {
 /// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration, and what
 /// is unusual.
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
-    let mut out =
-        row(["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-"].map(str::to_owned));
-    out += &row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion"].map(str::to_owned));
+    // A wall that gives way has a column of its own.
+    let walls = impacts.iter().any(|i| i.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0));
+    let row = |cells: [String; 9]| row(cells, walls);
+    let heads = ["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-", "wall"];
+    let mut out = row(heads.map(str::to_owned));
+    let heads = ["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""];
+    out += &row(heads.map(str::to_owned));
     let (near, far) = if units == Units::Us { ("in", "mph") } else { ("cm", "m/s") };
     let (tip, second) = match units {
         Units::Si => ("cm", ""),
         Units::Us => ("in", ""),
         Units::Both => ("in", "mph"),
     };
-    out += &row([near, tip, far, far, second, far, "", units.of_energy().0].map(str::to_owned));
+    let energy = units.of_energy().0;
+    out += &row([near, tip, far, far, second, far, "", energy, energy].map(str::to_owned));
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
         // Adding 0 turns a length of −0 into 0.
@@ -59,7 +64,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
     for impact in impacts {
         let from_tip = (bat.length() - impact.x).max(0.0);
-        let mut cells = [const { String::new() }; 8];
+        let mut cells = [const { String::new() }; 9];
         cells[0] = length(impact.x, near);
         cells[1] = length(from_tip, tip);
         let told = |column: Column, shown: &dyn Fn(f64) -> String| {
@@ -76,8 +81,9 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         }
         cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
         cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
-        cells[7] =
-            told(columns::VIBRATION, &|energy| format!("{:.2}", units.of_energy().1 * energy));
+        let energy = |energy: f64| format!("{:.2}", units.of_energy().1 * energy);
+        cells[7] = told(columns::VIBRATION, &energy);
+        cells[8] = impact.outcome.as_ref().map_or(String::new(), |o| energy(o.energy.wall));
         let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
         let marks: String = letters.collect();
         let gap = if marks.is_empty() { "" } else { " " };
@@ -86,11 +92,16 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     out + &legend(impacts)
 }
 
-/// Eight right-aligned cells, 76 columns.
-fn row(cells: [String; 8]) -> String {
+/// Right-aligned cells, 76 columns: eight, or nine with that of the wall.
+fn row(cells: [String; 9], walls: bool) -> String {
+    let widths = match walls {
+        true => [8, 8, 9, 9, 8, 9, 8, 9, 8],
+        false => [10, 9, 10, 10, 9, 10, 9, 9, 0],
+    };
     let line: String = cells
         .iter()
-        .zip([10, 9, 10, 10, 9, 10, 9, 9])
+        .zip(widths)
+        .take(if walls { 9 } else { 8 })
         .fold(String::new(), |line, (cell, width)| format!("{line}{cell:>width$}"));
     format!("{}\n", line.trim_end())
 }
@@ -126,11 +137,16 @@ pub fn why(figures: &Figures, units: Units) -> String {
         let text = "Why there: further out the bat gives way more than its speed makes up for.";
         return wrapped(text, 0);
     };
+    let kept = here.energy.wall;
+    let (wall, of_wall) = match kept > 0.0 {
+        true => ("the wall, ", format!(", where the wall keeps {}", units.energy(kept, 2))),
+        false => ("", String::new()),
+    };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
     let text = format!(
         "Why there: a bat that does not bend would be best at {}; vibration takes {} there and {} \
-         at the sweet spot, {} {way}. Further out recoil and vibration take more than the \
-         bat's speed there makes up for.",
+         at the sweet spot, {} {way}{of_wall}. Further out {wall}recoil and vibration take more than \
+         the bat's speed there makes up for.",
         place(rigid.x),
         units.energy(there, 2),
         units.energy(here.energy.vibration(), 2),
@@ -281,7 +297,7 @@ pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[St
         wall.is_deep().then(|| ("  more than half the wall", "this theory ends there".to_owned()));
     let lines = [
         ("BBCOR with a stiff wall", format!("{:.3}", bbcor.stiff)),
-        ("  with half and twice the patch's press", format!("{low:.3} to {high:.3}")),
+        ("  ball squeezed twice to half as much", format!("{low:.3} to {high:.3}")),
         (
             "wall under the ball",
             format!("{:.1} MN/m, {:.1} times the ball's", 1e-6 * wall.stiffness, wall.over_ball),

@@ -13,7 +13,7 @@ use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
 use crate::study::trampoline::barrel::{Barrel, Rebound};
 use crate::study::trampoline::pressed::PressedWall;
-use crate::study::trampoline::thickness::WallTried;
+use crate::study::trampoline::thickness::{FACTORS, WallTried};
 
 const MM: f64 = 1e-3;
 const MEGA: f64 = 1e6;
@@ -224,6 +224,11 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
                 format!("{low:.3} to {high:.3}"),
             ])
         );
+    }
+    if tried.len() < FACTORS.len() {
+        let missing = "Walls of the other thicknesses cannot be made of this bat: its layers or its bore \
+                       leave no room for them.";
+        out += &wrapped(missing, 0);
     }
     out
 }

@@ -12,8 +12,9 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     if let Some([less, more]) = barrel.by_poisson {
         let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
         all.push(format!(
-            "Poisson's ratio is not known and taken as {ASSUMED_POISSON_RATIO}; one that is 0.05 smaller or larger changes the first hoop mode by {less} or \
-             {more} % (\"poisson_ratio\" in the bat file)"
+            "Poisson's ratio is not known and taken as {ASSUMED_POISSON_RATIO}; one that is 0.05 smaller or larger changes the \
+             first hoop mode by {less} or {more} % (\"poisson_ratio\" in the bat file, of every material: without it \
+             the beam is computed without shear, which moves BBCOR too)"
         ));
     }
     all.extend(alive(barrel));
@@ -70,6 +71,9 @@ fn said(note: &Note, units: Units) -> String {
              revolution",
             place(*at)
         ),
+        Note::WithoutMasses => "tape and weights on the barrel are left out of its wall: bonded to it, they would make \
+                                the hoop modes slower by half their share of its mass"
+            .to_owned(),
         Note::OpenTip => "the tip is open: a plug in it (a \"core\" in a region of the last 12 mm) raises the \
                           first hoop mode by about 5 % and moves its largest motion from the tip to the barrel"
             .to_owned(),

@@ -11,7 +11,7 @@
 //! kept to the last digit: where the least wood for the first wish alone lowers it by more than is allowed, what is
 //! allowed is the second row of G.
 
-use crate::study::lathe::map::LatheMap;
+use crate::study::lathe::map::{LatheMap, TurnedBand};
 use crate::study::many::answers::Answer;
 
 /// A stretch (m from the knob end) and the depth that comes off its diameter (m).
@@ -33,39 +33,47 @@ pub fn least_wood(
 ) -> Option<Vec<RecipeCut>> {
     let index = |wanted: Answer| map.terms.answers.iter().position(|answer| *answer == wanted);
     let first = index(answer)?;
-    let usable: Vec<(usize, [f64; 2])> = map
-        .bands
-        .iter()
-        .enumerate()
-        .filter_map(|(k, band)| {
-            let slopes = band.slopes.as_ref()?;
-            Some((k, [slopes.same_swing[first]?.value, slopes.inertia]))
-        })
-        .collect();
-    let width = |k: usize| map.bands[k].ends[1] - map.bands[k].ends[0];
-    let rows: Vec<[f64; 3]> = usable.iter().map(|(k, [a, b])| [*a, *b, width(*k)]).collect();
+    let of_band = |band: &TurnedBand| {
+        let slopes = band.slopes.as_ref()?;
+        let width = band.ends[1] - band.ends[0];
+        let row = [slopes.same_swing[first]?.value, slopes.inertia, width];
+        Some(Stretch { ends: band.ends, row })
+    };
+    recipe(&map.bands.iter().filter_map(of_band).collect::<Vec<_>>(), by, most)
+}
+
+/// The least cuts of bands: one depth for all of a stretch of neighbours where that does it, else one for each.
+fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
+    let rows: Vec<[f64; 3]> = bands.iter().map(|band| band.row).collect();
     let depths = allowed(&rows, by, most)?;
-    let mut cuts: Vec<Stretch> = vec![];
-    for ((k, _), (row, depth)) in usable.iter().zip(rows.iter().zip(&depths)) {
-        let ends = map.bands[*k].ends;
-        if *depth > LEAST_TOLD * deepest(&depths) {
-            match cuts.last_mut().filter(|last| (last.ends[1] - ends[0]).abs() < 1e-9) {
-                Some(last) => last.grow(ends, *row),
-                None => cuts.push(Stretch { ends, row: *row }),
-            }
+    let deep = |least: f64| bands.iter().zip(&depths).filter(move |(_, depth)| **depth > least);
+    let told = LEAST_TOLD * deepest(&depths);
+    let mut merged: Vec<Stretch> = vec![];
+    for (band, _) in deep(told) {
+        match merged.last_mut().filter(|last| (last.ends[1] - band.ends[0]).abs() < 1e-9) {
+            Some(last) => last.grow(band),
+            None => merged.push(*band),
         }
     }
-    // Of one depth for each stretch the least wood is another, which does the whole again.
+    // Every band that is cut at all does it in any case.
+    let apart = || deep(told).map(|(band, _)| *band).collect();
+    let every = || deep(0.0).map(|(cut, depth)| RecipeCut { ends: cut.ends, depth: *depth });
+    let cuts = cuts(merged, by, most).or_else(|| cuts(apart(), by, most));
+    cuts.or_else(|| Some(every().collect())).filter(|cuts: &Vec<RecipeCut>| !cuts.is_empty())
+}
+
+/// The least cuts of those stretches that do all of it, one depth for each, without what is too little to be told.
+fn cuts(mut stretches: Vec<Stretch>, by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     loop {
-        let rows: Vec<[f64; 3]> = cuts.iter().map(|cut| cut.row).collect();
-        let depths = allowed(&rows, by, most).or_else(|| least(&rows, [Some(by), None]))?;
+        let rows: Vec<[f64; 3]> = stretches.iter().map(|stretch| stretch.row).collect();
+        let depths = allowed(&rows, by, most)?;
         let told = |depth: f64| depth > LEAST_TOLD * deepest(&depths);
         if depths.iter().all(|depth| told(*depth)) {
-            let both = cuts.iter().zip(&depths);
-            return Some(both.map(|(cut, d)| RecipeCut { ends: cut.ends, depth: *d }).collect());
+            let both = stretches.iter().zip(&depths);
+            return Some(both.map(|(of, d)| RecipeCut { ends: of.ends, depth: *d }).collect());
         }
         let mut all = depths.iter();
-        cuts.retain(|_| all.next().is_some_and(|depth| told(*depth)));
+        stretches.retain(|_| all.next().is_some_and(|depth| told(*depth)));
     }
 }
 
@@ -73,6 +81,7 @@ pub fn least_wood(
 const LEAST_TOLD: f64 = 0.1;
 
 /// A stretch of bands that are cut alike.
+#[derive(Clone, Copy)]
 struct Stretch {
     /// From where to where (m).
     ends: [f64; 2],
@@ -81,9 +90,9 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn grow(&mut self, ends: [f64; 2], row: [f64; 3]) {
-        self.ends[1] = ends[1];
-        self.row.iter_mut().zip(row).for_each(|(all, more)| *all += more);
+    fn grow(&mut self, next: &Self) {
+        self.ends[1] = next.ends[1];
+        self.row.iter_mut().zip(next.row).for_each(|(all, more)| *all += more);
     }
 }
 
@@ -162,6 +171,34 @@ mod tests {
             assert!(norm(&other) > norm(&depths));
         }
         assert!(depths.iter().all(|depth| *depth > 0.0), "{depths:?}");
+    }
+
+    /// What is told does all of it and loses no more than is allowed, where one depth for a stretch would lose more too.
+    /// Slopes of the sweet spot (mm) and the swing weight (kg cm²) per mm off an R161's last bands of an inch.
+    #[test]
+    fn what_is_told_does_the_whole() {
+        let slopes = [[0.02, -4.39], [0.09, -4.86], [0.12, -5.36], [-0.06, -5.88]];
+        let slopes = slopes.into_iter().chain([[-0.24, -6.43], [-0.41, -6.99], [-0.63, -8.11]]);
+        let bands: Vec<Stretch> = slopes
+            .enumerate()
+            .map(|(k, [a, b])| Stretch { ends: [k, k + 1].map(|k| k as f64), row: [a, b, 1.0] })
+            .collect();
+        for (by, most) in [(-1.0, 100.0), (-1.0, 19.06), (0.1, 19.06), (-1.2, 19.06)] {
+            let cuts = recipe(&bands, by, most).unwrap();
+            let sum = |which: usize| {
+                let inside = |cut: &RecipeCut, band: &Stretch| {
+                    cut.ends[0] <= band.ends[0] && band.ends[1] <= cut.ends[1]
+                };
+                let of = |cut: &RecipeCut| {
+                    let own = bands.iter().filter(|band| inside(cut, band));
+                    own.map(|band| cut.depth * band.row[which]).sum::<f64>()
+                };
+                cuts.iter().map(of).sum::<f64>()
+            };
+            assert!((sum(0) - by).abs() < 1e-12, "{by} {most}: {cuts:?}");
+            assert!(-sum(1) <= most + 1e-12, "{by} {most}: {cuts:?}");
+        }
+        assert!(recipe(&bands, -2.0, 19.06).is_none());
     }
 
     /// A band that would have to grow is left alone, and a wish that only growing meets is not met.
