@@ -121,7 +121,7 @@ impl Layup {
     /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core
     /// is as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is
     /// no core, the solid rod where it is of the same material, an interpolation between. With sleeves every
-    /// ring is a part of the whole section in the same way, as [`Self::holes`] says: layers of one material are
+    /// ring is a part of the whole section in the same way, as `holes` says: layers of one material are
     /// the tube that they make together.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
