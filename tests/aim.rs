@@ -182,6 +182,37 @@ fn what_cannot_be_had_together_is_named_with_how_near_each_comes() {
     assert!(words.contains("cannot both be had") && words.contains("29.38 oz at best"), "{words}");
 }
 
+/// Targets that are met under a rule that is not: no conflict, and the exit code of what is not reached.
+#[test]
+fn a_broken_rule_is_not_met() {
+    let folder = Folder::new("aim-rule");
+    let rules = r#"{ "format": "sweetspot-rules/1", "name": "short", "game": "made up", "source": "made up",
+        "date": "2026", "length_at_most": "30 in" }"#;
+    folder.write("short.json", rules);
+    let aimed = ["aim", "r161", "--target", "mass -2 %", "--remove-only"];
+    let output = folder.run(&[&aimed[..], &["--rules", "short.json", "--json", "-"]].concat());
+    assert_eq!(output.status.code(), Some(3), "{}", String::from_utf8_lossy(&output.stderr));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(document["conflict"].is_null() && document["met"] == false, "{document}");
+    assert_eq!(folder.run(&aimed).status.code(), Some(0));
+}
+
+/// Two wishes that pull one way and a limit: both are met, though a first search misses one by a little.
+#[test]
+fn what_can_be_had_is_no_conflict() {
+    let share = |by: f64| Ask::Change(Amount::Share(by), None);
+    let targets = vec![
+        target(Answer::Frequency(1), Ask::Change(Amount::Si(10.0), None)),
+        target(Answer::Mass, share(-0.1)),
+    ];
+    let wish = Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() };
+    let outcome = Outcome::of(&r161(), &wish, &terms()).unwrap();
+    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.values);
+    // A tip that is turned to a cone has lost nearly all of its strength there.
+    let (x, left) = outcome.weakest().unwrap();
+    assert!(x > 0.8 && left < 0.15, "{x} {left}");
+}
+
 /// The price of a target is the derivative of the norm: a little more of it costs as much as was said.
 #[test]
 fn a_price_is_what_a_little_more_costs() {

@@ -2113,6 +2113,8 @@ fn readings_and_scatters_that_cannot_be_are_told() {
             &["contradict each other", "positive definite"],
         ),
         (r#""turning": { "normal": "3 oz" }"#, &["turning.normal: found unit \"oz\""]),
+        (r#""turning": { "normal": "5 in" }"#, &["turning.normal: found \"5 in\"", "up to 2 mm"]),
+        (r#""cor": { "normal": 0.9 }"#, &["cor.normal: found 0.9", "up to 0.1"]),
         (r#""turning": { "normal": "0.1 mm", "along": "9 m" }"#, &["turning.along", "0.02 to 2 m"]),
         (
             r#""shear_over_young": { "lognormal": "9 %" }"#,

@@ -189,6 +189,16 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     for (name, reason) in reasons {
         assert!(refused(name).contains(reason), "{name}: {}", refused(name));
     }
+    // What is empty to a layer is no polynomial where the wall is hollow; without shear nothing asks for it.
+    let layered = r#"{ "format": "sweetspot-bat/1", "material": "aluminium-7075",
+        "profile": { "x": [0, 0.84], "diameter": [0.05, 0.06], "wall_thickness": [0.004, 0.004] },
+        "regions": [ { "from": 0, "to": 0.84, "layers": [
+            { "thickness": "1 mm", "material": "aluminium-7075" } ] } ] }"#;
+    let layered = sweetspot::Bat::from_text("layered.json", layered, "".as_ref()).unwrap();
+    let by = |theory| guarantee(&layered, &Request { modes: 2, theory, ..Request::default() });
+    let said = by(Theory::Timoshenko).unwrap_err().to_string();
+    assert!(said.contains("layers around a hollow wall"), "{said}");
+    assert!(by(Theory::Rayleigh).unwrap().1.met);
     // A bat on one pin may turn about it, one on one spring too; hands are an elastic bed.
     let pin = Support { x: 0.1, kind: Held::Pinned };
     let spring = Attachment { x: 0.1, stiffness: 1e4, ..Attachment::default() };

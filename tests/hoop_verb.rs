@@ -281,6 +281,18 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
     let notes = document["notes"].to_string();
     assert!(notes.contains("0.33") && notes.contains("0.05 smaller or larger"), "{notes}");
     assert!(notes.contains("the tip is open"), "{notes}");
+    // The mass of what is on the barrel is not in its wall.
+    let tape = r#", "tapes": [ { "from": 0.6, "to": 0.8, "mass": "100 g" } ] }"#;
+    let metal = r#"{ "density": 2810, "youngs_modulus": "71 GPa", "poisson_ratio": 0.33 }"#;
+    let bare = tube(metal);
+    folder.write("tube.json", &bare);
+    folder
+        .write("taped.json", format!("{}{tape}", bare.trim_end().trim_end_matches('}').trim_end()));
+    let notes =
+        |bat: &str| folder.json(&["hoop", bat, "--quiet", "--json", "-"])["notes"].to_string();
+    assert!(
+        notes("taped.json").contains("tape and weights") && !notes("tube.json").contains("tape")
+    );
     // Beside the knob the patch is not on the wall that is modelled.
     let handle = folder.json(&["hoop", "bbcor_made_up", "--at", "0.5 in", "--json", "-"]);
     assert_eq!([&handle["wall"], &handle["bbcor"], &handle["compression"]], [&Value::Null; 3]);
@@ -383,6 +395,10 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     assert_eq!(document["hoop"]["format"], "sweetspot-hoop/1");
     let without = folder.json(&["analyze", solid, "--quiet", "--json", "-"]);
     assert!(without.get("hoop").is_none());
+    // How large the ball's patch is stays open, of hollow bats alone.
+    let open = |document: &Value| document["open"]["left_out"].to_string();
+    assert!(open(&document).contains("patch of the wall"), "{}", open(&document));
+    assert!(!open(&without).contains("patch"), "{}", open(&without));
     assert!(!folder.text(&["analyze", solid, "--full", "--quiet"]).contains("hoop mode "));
     // The report: a section with what moves, its picture and its numbers.
     folder.text(&["analyze", bat, "--quiet", "--report", "page.html"]);

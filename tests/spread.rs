@@ -292,3 +292,32 @@ fn a_tapped_bat_s_screen_has_no_wood_in_it_and_a_reading_that_cannot_be_is_refus
         assert!(said.contains(option) && said.contains("expected"), "{said}");
     }
 }
+
+/// Fewer modes that are shown change nothing of the hits, nor what is said of the wood; a measured balance point far
+/// from the profile's is told.
+#[test]
+fn an_analysis_that_shows_one_mode_hits_as_one_that_shows_ten() {
+    let folder = Folder::new("spread-shown");
+    let of = |count: &str| folder.json(&["analyze", "r161", "-n", count, "--quiet", "--json", "-"]);
+    let (one, ten) = (of("1"), of("10"));
+    assert_eq!(one["modes"]["model"]["theory"], "timoshenko");
+    assert_eq!(one["modes"]["modes"].as_array().unwrap().len(), 1);
+    assert_eq!(one["hit"]["impacts"], ten["hit"]["impacts"]);
+    let said = |args: &[&str]| {
+        let output = folder.run(&[&["analyze"], args].concat());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    for count in ["1", "10"] {
+        assert!(said(&["northwestern_wood", "-n", count]).contains("shear is left out"), "{count}");
+    }
+    let bat = |balance: f64| {
+        format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+               "profile": {{ "x": [0, 0.8], "diameter": [0.04, 0.04] }}, "weighed": {{ "balance_point": {balance} }} }}"#
+        )
+    };
+    folder.write("near.json", bat(0.405));
+    folder.write("far.json", bat(0.42));
+    assert!(said(&["far.json"]).contains("balance point was measured at 0.42 m"));
+    assert_eq!(said(&["near.json"]), "");
+}

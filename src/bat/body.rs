@@ -167,7 +167,7 @@ impl Bat {
         Builder { parts, weighed: Weighed::default() }
     }
 
-    /// The same bat with something changed. What was weighed stays as it led to densities and moduli: it
+    /// A bat like this one with something changed. What was weighed stays as it led to densities and moduli: it
     /// was said of the bat before the change, and is not asked again. Its edits stay on its list.
     ///
     /// # Errors

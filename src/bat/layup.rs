@@ -121,7 +121,7 @@ impl Layup {
     /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core
     /// is as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is
     /// no core, the solid rod where it is of the same material, an interpolation between. With sleeves every
-    /// ring is a part of the whole section in the same way, as `holes` says: layers of one material are
+    /// ring is a part of the whole section in the same way, as `hole` says: layers of one material are
     /// the tube that they make together.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
@@ -149,7 +149,7 @@ impl Layup {
     fn shears(&self, wall: Section) -> [f64; 2] {
         let hole = match self.sleeves.is_empty() {
             true => (wall.inner / wall.outer).powi(2) * self.emptiness(),
-            false => self.holes(wall)[0].share,
+            false => self.hole(wall, 0).share,
         };
         let bore = wall.bore();
         let core = self.core.as_ref().filter(|_| bore.outer > 0.0);
@@ -159,46 +159,46 @@ impl Layup {
 
     /// κGA (N) of the sleeves around a wall.
     fn shears_of_sleeves(&self, wall: Section) -> impl Iterator<Item = f64> {
-        let holes = if self.sleeves.is_empty() { vec![] } else { self.holes(wall) };
-        let rings = self.rings(wall).zip(holes.into_iter().skip(1));
-        rings.map(|((sleeve, ring), hole)| shear(sleeve, ring.area(), hole.share))
+        self.rings(wall).enumerate().map(move |(k, (sleeve, ring))| {
+            shear(sleeve, ring.area(), self.hole(wall, k + 1).share)
+        })
     }
 
-    /// What stands in the place of Cowper's `m² = (r_i/r)²` for the wall and every sleeve: of the section that has the
-    /// ring's own shear modulus, how much is empty. With the unfilled share `u = 1 − G_other/G`, 0 at least, of every
+    /// The wall and the sleeves around it, from the inside out.
+    pub(super) fn parts(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
+        std::iter::once((&self.outer, wall)).chain(self.rings(wall))
+    }
+
+    /// What stands in the place of Cowper's `m² = (r_i/r)²` for one of [`Self::parts`]: of the section that has its
+    /// own shear modulus, how much is empty. With the unfilled share `u = 1 − G_other/G`, 0 at least, of every
     /// other part, and `s` the difference of its radii squared,
     ///
     /// ```text
     /// h = (Σ_inside s u) / (r² + Σ_outside s (1 − u))
     /// ```
-    pub(super) fn holes(&self, wall: Section) -> Vec<Hole> {
-        let parts: Vec<(&Material, Section)> =
-            std::iter::once((&self.outer, wall)).chain(self.rings(wall)).collect();
-        let of = |own: usize| {
-            let (material, section) = parts[own];
-            let core = unfilled(material, self.core.as_ref());
-            // Each with its derivative by the wall's outer radius, with which the sleeves move, and by its inner one.
-            let mut empty = [wall.inner * wall.inner * core, 0.0, 2.0 * wall.inner * core];
-            let mut whole = [section.outer * section.outer, 2.0 * section.outer, 0.0];
-            for (k, (other, Section { outer, inner })) in parts.iter().enumerate() {
-                let square = (outer - inner) * (outer + inner);
-                let [moves, bores] = match k {
-                    0 => [2.0 * outer, -2.0 * inner],
-                    _ => [2.0 * (outer - inner), 0.0],
-                };
-                let unfilled = unfilled(material, Some(other));
-                let (sum, share) = match k.cmp(&own) {
-                    Ordering::Less => (&mut empty, unfilled),
-                    Ordering::Equal => continue,
-                    Ordering::Greater => (&mut whole, 1.0 - unfilled),
-                };
-                sum.iter_mut().zip([square, moves, bores]).for_each(|(sum, by)| *sum += share * by);
-            }
-            let over = if whole[0] > 0.0 { 1.0 / whole[0] } else { 0.0 };
-            let share = over * empty[0];
-            Hole { share, slopes: [1, 2].map(|k| over * (empty[k] - share * whole[k])) }
-        };
-        (0..parts.len()).map(of).collect()
+    pub(super) fn hole(&self, wall: Section, own: usize) -> Hole {
+        let (material, section) = self.parts(wall).nth(own).unwrap_or((&self.outer, wall));
+        let core = unfilled(material, self.core.as_ref());
+        // Each with its derivative by the wall's outer radius, with which the sleeves move, and by its inner one.
+        let mut empty = [wall.inner * wall.inner * core, 0.0, 2.0 * wall.inner * core];
+        let mut whole = [section.outer * section.outer, 2.0 * section.outer, 0.0];
+        for (k, (other, Section { outer, inner })) in self.parts(wall).enumerate() {
+            let square = (outer - inner) * (outer + inner);
+            let [moves, bores] = match k {
+                0 => [2.0 * outer, -2.0 * inner],
+                _ => [2.0 * (outer - inner), 0.0],
+            };
+            let unfilled = unfilled(material, Some(other));
+            let (sum, share) = match k.cmp(&own) {
+                Ordering::Less => (&mut empty, unfilled),
+                Ordering::Equal => continue,
+                Ordering::Greater => (&mut whole, 1.0 - unfilled),
+            };
+            sum.iter_mut().zip([square, moves, bores]).for_each(|(sum, by)| *sum += share * by);
+        }
+        let over = if whole[0] > 0.0 { 1.0 / whole[0] } else { 0.0 };
+        let share = over * empty[0];
+        Hole { share, slopes: [1, 2].map(|k| over * (empty[k] - share * whole[k])) }
     }
 
     /// `κG` of the core, as a share of the tube's G.

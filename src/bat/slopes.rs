@@ -11,7 +11,7 @@
 
 use std::f64::consts::PI;
 
-use crate::bat::layup::{Hole, Layup, Worth};
+use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
 use crate::bat::profile::Section;
 
@@ -57,18 +57,16 @@ impl Layup {
     /// known does not change.
     pub fn slopes(&self, section: Section) -> [Worth; 2] {
         let wall = self.wall(section);
-        let holes = self.holes(wall);
-        let parts = || std::iter::once((&self.outer, wall)).chain(self.rings(wall)).zip(&holes);
         // The outer radius takes both of a sleeve's along; the bore moves the wall's alone, and what all have inside.
         let moved = |of: usize, moves: [[f64; 2]; 2]| {
-            let ring = move |(k, ((material, section), hole)): (
-                usize,
-                ((&'_ Material, Section), &Hole),
-            )| {
-                let moves = moves[k.min(1)];
+            let ring = |k: usize, material, section| {
+                let (hole, moves) = (self.hole(wall, k), moves[k.min(1)]);
                 Ring { material, section, moves, hole: hole.share, widens: hole.slopes[of] }.slope()
             };
-            parts().enumerate().map(ring).fold(Worth::default(), plus)
+            let parts = self.parts(wall).enumerate();
+            parts.fold(Worth::default(), |sum, (k, (material, section))| {
+                plus(sum, ring(k, material, section))
+            })
         };
         let taped = Worth { turning: self.tape * section.outer, ..Worth::default() };
         let outer = plus(moved(0, [[1.0, 0.0], [1.0; 2]]), taped);

@@ -138,18 +138,17 @@ pub fn run(args: &Args) -> Result<Done> {
         args.output.warn(&format!("note: {off}"));
     }
     let progress = args.output.progress("modes");
-    let solve = match args.bat.count() < MODES {
-        true => {
-            args.solve.of_hits(&bat, args.solve.modes_within(MODES, bat.profile().pieces.len()))?
-        }
-        false => args.solve.clone(),
+    let modes = args.solve.modes_within(MODES, bat.profile().pieces.len());
+    // Fewer are shown than hits need.
+    let (solve, of_theory) = match args.bat.count() < MODES {
+        true => args.solve.of_hits(&bat, modes)?,
+        false => (args.solve.clone(), None),
     };
     let (Solved { bat, solution, warning }, proven) =
         args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
     let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
     args.scene.warn(&args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
-    let modes = args.solve.modes_within(MODES, bat.profile().pieces.len());
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
     let readings = Readings {
@@ -211,6 +210,7 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     let table = table + &written(args);
     let text = args.output.deliver(table, all)?;
+    let warning = warning.or(of_theory.filter(|_| !args.output.quiet));
     Ok(Done::new(text, code).with(warning))
 }
 

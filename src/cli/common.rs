@@ -18,7 +18,7 @@ use crate::show::plot::sheet::Sheet;
 use crate::show::report::sketch::{self, Glyphs, SketchRow};
 use crate::show::report::text::wrapped;
 use crate::show::report::units::Units;
-use crate::study::theory_choice;
+use crate::study::theory_choice::{self, Choice};
 use crate::study::tuned;
 use serde::Serialize;
 
@@ -189,12 +189,13 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
     }
 
-    /// The same with the theory that so many modes need, where none was named: hits need it of ten modes, though
-    /// fewer are shown.
-    pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<Self> {
-        let needed = || theory_choice::theory(bat, &self.request(modes)).map(|it| it.theory);
-        let theory = self.theory.0.map_or_else(needed, Ok)?;
-        Ok(Self { theory: TheoryChoice(Some(theory)), ..self.clone() })
+    /// These arguments with the theory that so many modes need, where none was named, and what is to be said of it.
+    pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<(Self, Option<String>)> {
+        let Choice { theory, warning } = match self.theory.0 {
+            Some(theory) => Choice { theory, warning: None },
+            None => theory_choice::theory(bat, &self.request(modes))?,
+        };
+        Ok((Self { theory: TheoryChoice(Some(theory)), ..self.clone() }, warning))
     }
 
     /// Prepares a bat to be solved: chooses the theory for it and makes it as stiff as it was tapped.

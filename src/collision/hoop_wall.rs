@@ -207,7 +207,7 @@ impl fmt::Debug for HoopWall {
 }
 
 impl PartialEq for HoopWall {
-    /// The same bat, ball and accuracy: the answers are then the same.
+    /// Walls of one bat, for one ball, to one accuracy: their answers are equal.
     fn eq(&self, other: &Self) -> bool {
         (&self.bat, self.ball_radius, &self.request)
             == (&other.bat, other.ball_radius, &other.request)
@@ -302,7 +302,7 @@ pub enum WhyRigid {
 }
 
 impl HoopInHit {
-    /// The same with the wall rigid, for many bats.
+    /// What is done with the wall where many bats are compared: one that is counted is left rigid.
     pub fn left_out(&self) -> Self {
         match self {
             Self::Counted(_) => Self::LeftOut(WhyRigid::ManyBats),

@@ -49,7 +49,7 @@ pub trait Pairs: Send + Sync {
     fn solve_apart(&mut self, residual: f64) -> Result<usize>;
     /// What the iteration found.
     fn lanczos(&mut self) -> &mut Lanczos<f64>;
-    /// The same by a solver that factors the stiffness.
+    /// So many of the lowest modes by a solver that factors the stiffness.
     ///
     /// # Errors
     ///

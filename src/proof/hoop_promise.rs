@@ -149,7 +149,7 @@ fn open_barrel() -> Result<Bat> {
     Bat::builder(Profile::from_formulas(pieces)?, aluminium()?).build()
 }
 
-/// The same with the bore filled beyond a place (m).
+/// A bat with its bore filled beyond a place (m), with a material of that modulus (Pa).
 fn plugged(bat: &Bat, from: f64, modulus: f64) -> Result<Bat> {
     let mut plug = Material::new(1150.0, modulus)?;
     plug.poisson_ratio = Some(0.40);

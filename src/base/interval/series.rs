@@ -265,7 +265,7 @@ impl Sub for Series {
 }
 
 impl<const N: usize> Values<N> {
-    /// The same number everywhere.
+    /// Values that are one number everywhere.
     pub fn constant(number: Interval) -> Self {
         let middle = number.middle();
         Self { at: [middle; N], radius: bound(number.distance(middle)), degree: 0 }

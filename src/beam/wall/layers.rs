@@ -91,7 +91,7 @@ impl Stretch {
         radii
     }
 
-    /// The same along a part of the stretch, as polynomials.
+    /// Radii of the layers from the bore out, along a part of the stretch, as polynomials.
     pub fn along(&self, from: f64, to: f64) -> Vec<Radius> {
         let cubic = matches!(self.pieces[0].radii, Radii::Cubic(_));
         let points = gauss(if cubic { 4 } else { FORMULA_POINTS });

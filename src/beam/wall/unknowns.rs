@@ -222,7 +222,7 @@ impl Unknowns {
         Self::of(mesh, n, ends, rigid)
     }
 
-    /// The same, with nothing held against a rigid motion.
+    /// The unknowns of harmonic n on that mesh, with nothing held against a rigid motion.
     pub fn free(mesh: &WallMesh, n: usize, ends: [EndHold; 2]) -> Self {
         Self::of(mesh, n, ends, false)
     }

@@ -92,7 +92,7 @@ pub struct Meeting<'a> {
     history: Option<&'a mut Vec<Piece>>,
 }
 
-/// The same with the ball's law.
+/// A meeting of ball and bat by the ball's law.
 struct Struck<'a, L> {
     law: L,
     meeting: Meeting<'a>,

@@ -32,7 +32,7 @@ pub struct HoopFile {
     pub bbcor: Option<BbcorOfWall>,
     /// What a test of the barrel's compression would show; null where there is no wall under the ball.
     pub compression: Option<BarrelCompression>,
-    /// The same bat with thinner and thicker walls; left out where that was not asked.
+    /// The bat with thinner and thicker walls, its surface where it is; left out where that was not asked.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall_sweep: Vec<WallThickness>,
     /// What was assumed, and where the model ends, a sentence each.

@@ -50,7 +50,7 @@ impl System {
         Self::with(wall, n, Unknowns::new(&wall.mesh, n, ends))
     }
 
-    /// The same with given unknowns.
+    /// The wall on that mesh in harmonic n, with these unknowns.
     pub fn with(wall: &Wall, n: usize, unknowns: Unknowns) -> Self {
         let Wall { mesh, materials } = wall.clone();
         let mut links = vec![];

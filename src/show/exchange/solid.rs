@@ -38,7 +38,7 @@ impl Grid {
         Self::through(x, &stops, around)
     }
 
-    /// The same surface open at both ends: a tube.
+    /// The surface of a tube of these radii (m) at these places (m), open at both ends.
     pub fn tube(x: &[f64], r: &[f64], around: usize) -> Self {
         let stops: Vec<(usize, f64)> = r.iter().copied().enumerate().collect();
         Self::through(x, &stops, around)

@@ -19,7 +19,7 @@ pub enum Paper {
     File,
     /// A page that has the title beside it.
     Page,
-    /// The same page on a telephone: as wide as one, the letters as large.
+    /// A page on a telephone, title beside it: as wide as one, the letters as large.
     Narrow,
 }
 

@@ -11,9 +11,9 @@ use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::hit_json::{ball_out, wall_under_ball};
-use crate::show::report::hit_text::{wall_lines, wall_words};
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
+use crate::show::report::wall_text::{wall_lines, wall_words};
 use crate::study::ignored;
 
 /// Where the ball's restitution is from: the source of the default, the ball's file, or who asked.

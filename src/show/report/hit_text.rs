@@ -2,20 +2,19 @@
 
 use std::fmt::Write;
 
-use crate::base::number::{signed, significant};
+use crate::base::number::signed;
 use crate::base::units::{gravities, inches, miles_per_hour};
 use crate::bat::body::Bat;
 use crate::collision::columns::{self, Column};
 use crate::collision::figures::{BarrelSpeed, Figures};
 use crate::collision::hit::{Impact, Model, Scene};
-use crate::collision::hoop_wall::HoopWall;
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
-use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::show::report::curve;
 use crate::show::report::edits;
 use crate::show::report::text::wrapped;
 use crate::show::report::units::Units;
+use crate::show::report::wall_text::{wall_lines, wall_words};
 use crate::study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.
@@ -288,30 +287,6 @@ pub fn figures(figures: &Figures, units: Units) -> String {
     out
 }
 
-/// What a hollow barrel's wall does at a place, and to that BBCOR there: names and values.
-pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[String; 2]> {
-    let short = |x: f64| units.inline(units.show(millimetres(x), in_inches(x)));
-    let [along, around] = wall.patch.map(|half| 2.0 * half);
-    let [low, high] = bbcor.range;
-    let deep =
-        wall.is_deep().then(|| ("  more than half the wall", "this theory ends there".to_owned()));
-    let lines = [
-        ("BBCOR with a stiff wall", format!("{:.3}", bbcor.stiff)),
-        ("  ball squeezed twice to half as much", format!("{low:.3} to {high:.3}")),
-        (
-            "wall under the ball",
-            format!("{:.1} MN/m, {:.1} times the ball's", 1e-6 * wall.stiffness, wall.over_ball),
-        ),
-        ("  patch, along and around", format!("{} by {}", short(along), short(around))),
-        ("  it dents by", short(wall.dent)),
-    ];
-    lines.into_iter().chain(deep).map(|(what, value)| [what.to_owned(), value]).collect()
-}
-
-fn millimetres(x: f64) -> String {
-    format!("{:.1} mm", 1e3 * x)
-}
-
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
 pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
     if figures.spot.exit_speed_max.is_none() {
@@ -352,20 +327,6 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
         out += &row(&format!("  {what}"), cells);
     }
     out
-}
-
-/// What of the wall gives way, and why it is counted.
-pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
-    let modes = wall.hoop().modes();
-    let last = modes.iter().map(|mode| mode.harmonic).max().unwrap_or(0);
-    let why = scene.gain_by_wall(bat).map_or(String::new(), |gain| {
-        format!(": by estimate that is {} of BBCOR", significant(gain, 1))
-    });
-    format!(
-        "the barrel's wall gives way by {} hoop modes of its own, of harmonics 0 and 2 to {last} around \
-         it{why}",
-        modes.len()
-    )
 }
 
 /// The scene in words.

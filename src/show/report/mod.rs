@@ -14,6 +14,7 @@ pub mod text;
 pub mod proven;
 pub mod frf;
 pub mod sketch;
+pub mod wall_text;
 pub mod hit_text;
 pub mod hit_json;
 pub mod bbcor;

@@ -14,6 +14,8 @@ use crate::study::aim::wish::Band;
 
 /// Steps at most.
 const MOST: usize = 24;
+/// Why a search ended that took them all.
+const STEPS_TAKEN: &str = "24 steps";
 /// A step changes no coefficient by more than that (mm).
 const TRUST: f64 = 3.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
@@ -182,7 +184,7 @@ impl<'a> Search<'a> {
                 if of_slopes == p || step <= 10.0 * STILL {
                     return Ok(ended(p, look.values, count, None));
                 }
-                found = Some(ended(p.clone(), look.values.clone(), count, Some("24 steps")));
+                found = Some(ended(p.clone(), look.values.clone(), count, Some(STEPS_TAKEN)));
                 slopes.clear();
                 continue;
             };
@@ -192,7 +194,7 @@ impl<'a> Search<'a> {
             let no_gain = merit.is_finite() && gained.abs() < NO_GAIN * merit.abs();
             let still = step < STILL || no_gain;
             found =
-                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some("24 steps")));
+                Some(ended(p.clone(), look.values.clone(), count, (!still).then_some(STEPS_TAKEN)));
             let asked = bands.iter().zip(&look.values).zip(&weights.miss);
             let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
             if still || end == End::Met && misses.all(|miss| miss <= MISSED) {

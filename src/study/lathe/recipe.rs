@@ -46,20 +46,16 @@ pub fn least_wood(
 fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     let rows: Vec<[f64; 3]> = bands.iter().map(|band| band.row).collect();
     let depths = allowed(&rows, by, most)?;
-    let deep = |least: f64| bands.iter().zip(&depths).filter(move |(_, depth)| **depth > least);
-    let told = LEAST_TOLD * deepest(&depths);
+    let cut = || bands.iter().zip(&depths).filter(|(_, depth)| **depth > 0.0);
     let mut merged: Vec<Stretch> = vec![];
-    for (band, _) in deep(told) {
+    for (band, _) in cut().filter(|(_, depth)| **depth > LEAST_TOLD * deepest(&depths)) {
         match merged.last_mut().filter(|last| (last.ends[1] - band.ends[0]).abs() < 1e-9) {
             Some(last) => last.grow(band),
             None => merged.push(*band),
         }
     }
-    // Every band that is cut at all does it in any case.
-    let apart = || deep(told).map(|(band, _)| *band).collect();
-    let every = || deep(0.0).map(|(cut, depth)| RecipeCut { ends: cut.ends, depth: *depth });
-    let cuts = cuts(merged, by, most).or_else(|| cuts(apart(), by, most));
-    cuts.or_else(|| Some(every().collect())).filter(|cuts: &Vec<RecipeCut>| !cuts.is_empty())
+    let each = || cut().map(|(band, depth)| RecipeCut { ends: band.ends, depth: *depth }).collect();
+    cuts(merged, by, most).or_else(|| Some(each())).filter(|cuts: &Vec<_>| !cuts.is_empty())
 }
 
 /// The least cuts of those stretches that do all of it, one depth for each, without what is too little to be told.
