@@ -1,6 +1,6 @@
 //! Trials that are wrong in every way: no interval may leave out the frequency that it is of.
 
-use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support};
+use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
@@ -58,6 +58,7 @@ fn with(a: &Trial, part: f64, b: &Trial) -> Trial {
         bending: sum(&a.bending, &b.bending),
         shear: sum(&a.shear, &b.shear),
         held: sum(&a.held, &b.held),
+        gives: sum(&a.gives, &b.gives),
     }
 }
 
@@ -68,13 +69,14 @@ fn nonsense(like: &Trial, random: &mut Random) -> Trial {
         let most = all.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
         all.iter().map(|_| most * random.signed()).collect()
     };
-    let (bending, shear) = (of(&like.bending), of(&like.shear));
+    let (bending, shear, gives) = (of(&like.bending), of(&like.shear), of(&like.gives));
     Trial {
         terms: like.terms,
         bending,
         shear,
         // What is said of supports is not even asked.
         held: like.held.iter().map(|held| (held.abs() + 0.01 * bent) * random.signed()).collect(),
+        gives,
     }
 }
 
@@ -107,6 +109,8 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         ("clamped_tip_mass", 8, 10),
         ("timo_pinned_pinned", 8, 10),
         ("timo_clamped_tip_mass", 9, 8),
+        ("joint", 9, 10),
+        ("absorber", 9, 10),
     ];
     for (case, elements, degree) in scenes {
         let scene = Scene::new(case, elements, degree);
@@ -214,13 +218,29 @@ fn holding(random: &mut Random) -> Fixtures {
     fixtures
 }
 
+/// Joints, and masses on springs, on a free or a held bat.
+fn giving(random: &mut Random, fixtures: Fixtures) -> Fixtures {
+    let mut place = || 0.02 + 0.8 * random.share();
+    let [first, second] = [place(), place()];
+    let mut of = |low: f64, decades: f64| 10f64.powf(low + decades * random.share());
+    let joint = |x: f64, rotational_stiffness: f64| Joint { x, rotational_stiffness };
+    let joints = vec![joint(first, of(2.0, 4.0)), joint(second, of(3.0, 4.0))];
+    let mut hung =
+        |x: f64| Absorber { x, mass: of(-2.5, 2.0), stiffness: of(3.0, 4.0), damping: 0.0 };
+    // One at a joint's place, one at the end of the bat or the knob.
+    let absorbers = vec![hung(first), hung(if second > 0.4 { 0.84 } else { 0.0 })];
+    Fixtures { joints, absorbers, ..fixtures }
+}
+
 /// Any two enclosures of one frequency overlap, from whatever meshes they are.
 #[test]
 fn enclosures_from_different_meshes_overlap() {
     let mut random = Random::new(21);
     let (mut pairs, mut ten) = (0, 0);
-    for round in 0..80 {
-        let fixtures = if round < 40 { Fixtures::default() } else { holding(&mut random) };
+    for round in 0..120 {
+        let held = (40..80).contains(&round) || round >= 100;
+        let fixtures = if held { holding(&mut random) } else { Fixtures::default() };
+        let fixtures = if round < 80 { fixtures } else { giving(&mut random, fixtures) };
         let bat = random_bat(&mut random, fixtures);
         let theory = Theory::ALL[round % 3];
         let layout = Layout::of(&bat, theory).unwrap();
@@ -241,5 +261,5 @@ fn enclosures_from_different_meshes_overlap() {
             }
         }
     }
-    assert!(pairs > 3000 && ten > 60, "{pairs} {ten}");
+    assert!(pairs > 4500 && ten > 90, "{pairs} {ten}");
 }

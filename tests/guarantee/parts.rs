@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
 use sweetspot::base::interval::{Interval, Values};
-use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support};
+use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Held, Joint, Support};
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
 use sweetspot::modes::enclosure::conclude::conclude;
 use sweetspot::modes::enclosure::energies::Energies;
@@ -97,6 +97,68 @@ fn norms_of_the_held_uniform_bat_are_those_in_closed_form() {
             // The more contacts there are, the more of the free bat's norm they take off and leave its rounding.
             let most = if holds.len() > 3 { 1e-6 } else { 1e-8 };
             assert!((-1e-13..most).contains(&above), "{holds:?} {above:e}");
+        }
+    }
+}
+
+/// Trace and square of the norm in units of ρA L⁴/EI of uniform bats that give way, by Green's functions in rational
+/// numbers: a joint in the middle of the free and of the clamped bat; a mass on a spring, in the middle of the free bat
+/// beside the same mass without a spring, and at the tip of the clamped one.
+#[test]
+fn norms_of_uniform_bats_that_give_way_are_those_in_closed_form() {
+    let stiff = MODULUS * std::f64::consts::PI * RADIUS.powi(4) / 4.0;
+    let weight = DENSITY * std::f64::consts::PI * RADIUS * RADIUS * LENGTH;
+    let joint = |share: f64, soft: f64| Fixtures {
+        joints: vec![Joint { x: share * LENGTH, rotational_stiffness: stiff / LENGTH / soft }],
+        ..Fixtures::default()
+    };
+    let hung = |share: f64, mass: f64, soft: f64| Fixtures {
+        absorbers: vec![Absorber {
+            x: share * LENGTH,
+            mass: mass * weight,
+            stiffness: stiff / LENGTH.powi(3) / soft,
+            damping: 0.0,
+        }],
+        ..Fixtures::default()
+    };
+    let clamped = |fixtures: Fixtures| Fixtures {
+        supports: vec![Support { x: 0.0, kind: Held::Clamped }],
+        ..fixtures
+    };
+    let of = |fixtures: Fixtures| {
+        let bat = dowel().with(|parts| parts.fixtures = fixtures).unwrap();
+        let found = norms(&bat, Theory::EulerBernoulli);
+        let unit = 4.0 * DENSITY * LENGTH.powi(4) / (MODULUS * RADIUS * RADIUS);
+        [found.trace / unit, found.square / unit / unit]
+    };
+    let free = [1.0 / 420.0, 1.0 / (420.0 * 420.0) - 2.0 / 1_247_400.0];
+    let fixed = [1.0 / 12.0, 11.0 / 1680.0];
+    let mut all = vec![];
+    for soft in [1e-3, 0.2, 30.0] {
+        let own = soft / 192.0;
+        let square = free[1] + 2.0 * soft * 13.0 / (10_080.0 * 128.0) + own * own;
+        all.push((joint(0.5, soft), [free[0] + own, square]));
+        let own = soft / 24.0;
+        let square = fixed[1] + 2.0 * soft * 61.0 / 20_160.0 + own * own;
+        all.push((clamped(joint(0.5, soft)), [fixed[0] + own, square]));
+        for mass in [0.02, 3.0] {
+            let share: f64 = mass / (1.0 + mass);
+            let mut bare = hung(0.5, mass, soft);
+            let Absorber { x, mass: own, .. } = bare.absorbers.remove(0);
+            bare.attachments.push(Attachment { x, mass: own, ..Attachment::default() });
+            let [trace, square] = of(bare);
+            let own = soft * share;
+            let square = square + 2.0 * soft * share * share / 320.0 + own * own;
+            all.push((hung(0.5, mass, soft), [trace + own, square]));
+            let own = mass * (1.0 / 3.0 + soft);
+            let square = fixed[1] + 2.0 * mass * 11.0 / 420.0 + own * own;
+            all.push((clamped(hung(1.0, mass, soft)), [fixed[0] + own, square]));
+        }
+    }
+    for (fixtures, exact) in all {
+        for (found, exact) in of(fixtures.clone()).into_iter().zip(exact) {
+            let above = found / exact - 1.0;
+            assert!((-1e-13..1e-8).contains(&above), "{fixtures:?} {above:e}");
         }
     }
 }

@@ -7,11 +7,12 @@ use crate::base::error::{Error, Result};
 use crate::base::interval::tables::GAUSS_24;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
-use crate::bat::fixtures::Attachment;
+use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
 use crate::bat::profile::Piece;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::modes::enclosure::contacts::{Contact, base, contacts};
+use crate::modes::enclosure::gives::{Give, Way, stretch};
 use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::modes::enclosure::sections::Rings;
 
@@ -50,7 +51,7 @@ pub struct Shear {
     pub least: f64,
 }
 
-/// A point mass.
+/// A point mass, or a joint, which weighs nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct Mass {
     /// It is at the border before the cell of this number.
@@ -63,6 +64,8 @@ pub struct Mass {
     pub offset: Interval,
     /// Where the border is: its arm (m).
     pub arm: Interval,
+    /// What gives way there: the spring that it hangs on, or the joint.
+    pub give: Option<Give>,
 }
 
 /// The bat that is proven of.
@@ -97,21 +100,14 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
         Err(Error::value(field, found.to_owned(), expected.to_owned()))
     };
     let fixtures = bat.fixtures();
-    let bare =
-        "a free or a held bat with masses on it at most: nothing is proven of the others yet";
     if fixtures.grip.is_some_and(|grip| grip.stiffness > 0.0) {
-        return refuse("grip", "an elastic bed", bare);
+        let expected = "supports or springs, at places: nothing is proven of beds yet";
+        return refuse("grip", "an elastic bed", expected);
     }
     if fixtures.holding() && fixtures.rigid_modes() > 0 {
         let field = if fixtures.supports.is_empty() { "attachments" } else { "supports" };
         let expected = "a free bat, or one that is held against moving sideways and turning";
         return refuse(field, "a held bat with a rigid motion that is free", expected);
-    }
-    if !fixtures.absorbers.is_empty() {
-        return refuse("absorbers", "a mass on a spring", bare);
-    }
-    if !fixtures.joints.is_empty() {
-        return refuse("joints", "a joint that gives way", bare);
     }
     if bat.profile().formulas.is_some() {
         let expected = "a profile of stations: what is proven is proven of polynomials";
@@ -152,13 +148,29 @@ pub struct Layout {
     pub curves: Vec<Curved>,
     /// The factor on densities that a weighed mass leads to, beside that which the bat's own have already.
     pub heavier: Interval,
-    /// Masses on it: the piece that begins where they are, and mass (kg), moment of inertia (kg m²), place of the
-    /// centre (m) and how far that is beyond where it is fixed (m); by rising place.
-    pub masses: Vec<(usize, [Interval; 4])>,
+    /// What is on it, by rising place, joints last at one.
+    pub masses: Vec<Placed>,
     /// What holds it, at the border before a piece.
     pub contacts: Vec<Contact>,
     /// Length (m).
     pub length: Interval,
+}
+
+/// A point mass where it is on the bat, or a joint, which weighs nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Placed {
+    /// The piece of the profile that begins there.
+    pub piece: usize,
+    /// Its mass (kg).
+    pub mass: Interval,
+    /// Its own moment of inertia (kg m²).
+    pub inertia: Interval,
+    /// Where its centre is (m).
+    pub centre: Interval,
+    /// How far that is beyond where it is fixed (m).
+    pub offset: Interval,
+    /// What gives way there: the spring that it hangs on, or the joint.
+    pub give: Option<Give>,
 }
 
 fn data(value: f64) -> Interval {
@@ -183,14 +195,31 @@ impl Layout {
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
             border.expect("a bat has borders")
         };
-        let mass = |attachment: &Attachment| {
-            let offset = data(attachment.offset);
-            let centre = place(attachment.x, turned) + offset;
-            let numbers = [data(attachment.mass), data(attachment.rotary_inertia), centre, offset];
-            (border_at(attachment.x), numbers)
+        let placed = |on: &Attachment, give: Option<Give>| Placed {
+            piece: border_at(on.x),
+            mass: data(on.mass),
+            inertia: data(on.rotary_inertia),
+            centre: place(on.x, turned) + data(on.offset),
+            offset: data(on.offset),
+            give,
         };
-        let mut masses: Vec<_> = bat.fixtures().attachments.iter().map(mass).collect();
-        masses.sort_by_key(|(border, _)| *border);
+        let Fixtures { attachments, absorbers, joints, .. } = bat.fixtures();
+        // Strains are counted as the solver does: joints, then springs that masses hang on.
+        let hung = |(number, absorber): (usize, &Absorber)| {
+            let Absorber { x, mass, stiffness, .. } = *absorber;
+            let give = Give { number, way: Way::Hung, stiffness: data(stiffness) };
+            placed(&Attachment { x, mass, ..Attachment::default() }, Some(give))
+        };
+        let joint = |(number, joint): (usize, &Joint)| {
+            let stiffness = data(joint.rotational_stiffness);
+            let give = Give { number, way: Way::Joint, stiffness };
+            placed(&Attachment { x: joint.x, ..Attachment::default() }, Some(give))
+        };
+        let fixed = attachments.iter().map(|on| placed(on, None));
+        let hung = (joints.len()..).zip(absorbers).map(hung);
+        let joints = joints.iter().enumerate().map(joint);
+        let mut masses: Vec<Placed> = fixed.chain(hung).chain(joints).collect();
+        masses.sort_by_key(|placed| placed.piece);
         let whole = place(length, turned);
         let contacts = contacts(bat, border_at);
         Ok(Self { curves, heavier, masses, contacts, length: whole })
@@ -209,8 +238,8 @@ fn heavier(bat: &Bat, curves: &[Curved]) -> Result<Interval> {
         own = own + half * rings.mass::<POINTS>(gauss).integral(gauss) - tape;
         other = other + tape;
     }
-    for attachment in &bat.fixtures().attachments {
-        other = other + data(attachment.mass);
+    for [mass, ..] in bat.fixtures().masses() {
+        other = other + data(mass);
     }
     let over = own.reciprocal().filter(|over| over.low > 0.0);
     over.map(|over| (data(weighed) - other) * over).ok_or_else(|| {
@@ -246,12 +275,13 @@ impl Proven {
             return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
         }
         let border = |piece: usize| begin.get(piece).copied().unwrap_or(cells.len());
-        let mass = |(piece, [mass, inertia, centre, offset]): &(usize, [Interval; 4])| Mass {
-            border: border(*piece),
-            mass: *mass,
-            inertia: *inertia,
-            offset: *offset,
-            arm: *centre - *offset - Interval::point(origin),
+        let mass = |placed: &Placed| Mass {
+            border: border(placed.piece),
+            mass: placed.mass,
+            inertia: placed.inertia,
+            offset: placed.offset,
+            arm: placed.centre - placed.offset - Interval::point(origin),
+            give: placed.give,
         };
         let masses: Vec<Mass> = layout.masses.iter().map(mass).collect();
         let held = layout.contacts.iter();
@@ -283,6 +313,13 @@ impl Proven {
             gram[2] = gram[2] + *mass * arm.square() + *inertia;
         }
         Ok(Self { theory, cells, masses, contacts, base, root, gram, origin })
+    }
+}
+
+impl Mass {
+    /// How far its centre moves (m), where the bat moves and turns by that much and what gives way has these strains.
+    pub fn at(&self, [w, turn]: [Interval; 2], strains: &[Interval]) -> Interval {
+        w + self.offset * turn + stretch(self.give, strains)
     }
 }
 

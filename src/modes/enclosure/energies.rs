@@ -15,12 +15,13 @@
 //! ε² = |Tk − σk|²/a₀ ≤ (1/a₀) Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA],   z any number
 //! ```
 //!
-//! for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
+//! and for each spring that gives way its `K` and `(Tk)` of [`super::gives`] likewise, for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
 //! `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
 use crate::base::interval::tables::GAUSS_24;
 use crate::base::interval::{Interval, Series, up};
-use crate::modes::enclosure::beam::{Cell, Proven};
+use crate::modes::enclosure::beam::{Cell, Mass, Proven};
+use crate::modes::enclosure::gives::{Give, Way};
 use crate::modes::enclosure::moved::{Moved, Trial, Tried};
 
 /// What is proven of a trial.
@@ -41,7 +42,11 @@ impl Proven {
     pub fn energies(&self, trial: &Trial) -> Option<Energies> {
         let own = trial.terms * self.cells.len();
         let sheared = if self.theory.shears() { own } else { 0 };
+        let gives = self.masses.iter().filter(|mass| mass.give.is_some()).count();
         if trial.terms == 0 || trial.bending.len() != own || trial.shear.len() != sheared {
+            return None;
+        }
+        if trial.gives.len() != gives || !trial.gives.iter().all(|strain| strain.is_finite()) {
             return None;
         }
         let moved = self.moved(trial)?;
@@ -82,8 +87,11 @@ impl Proven {
         }
         for mass in &self.masses {
             let [w, turn] = moved.borders[mass.border].map(Interval::point);
-            let at = w + mass.offset * turn;
+            let at = mass.at([w, turn], &moved.gives);
             kinetic = kinetic + mass.mass * at.square() + mass.inertia * turn.square();
+            if let Some(give) = mass.give {
+                strain = strain + give.stiffness * moved.gives[give.number].square();
+            }
         }
         for (contact, value) in self.contacts.iter().zip(moved.held(&self.contacts)) {
             let stiffness = contact.stiffness.unwrap_or(ZERO);
@@ -124,8 +132,8 @@ impl Proven {
         up(sum * sum)
     }
 
-    /// `Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA] + Σ_springs (R_j − z k_j b_j)²/k_j`, and `Σ (kink |m| + jump |V|)`, at
-    /// most.
+    /// `Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA] + Σ_springs (R_j − z k_j b_j)²/k_j` with what gives way likewise, and
+    /// `Σ (kink |m| + jump |V|)`, at most.
     fn residual(&self, tried: &Tried, reactions: &[Interval]) -> (f64, f64) {
         let Tried { moved, loads, strains, z } = tried;
         let (mut sum, mut work) = (0.0, 0.0);
@@ -137,18 +145,26 @@ impl Proven {
             sum = up(sum + up(off.square().high / stiffness.low));
         }
         let count = self.cells.len();
+        // What gives way at a border, of the moment on a joint there.
+        let given = |border: usize, moment: Interval, drift: [f64; 2]| {
+            let here = self.masses.iter().filter(|mass| mass.border == border);
+            here.fold(0.0, |sum, mass| up(sum + mass.residual(moved, moment, drift, *z)))
+        };
         // Inwards from both ends, where V and m are 0.
         let mut at = [ZERO; 2];
         for k in 0..self.root {
             work = up(work + self.cross(moved, reactions, k, 1.0, &mut at));
+            sum = up(sum + given(k, at[1], moved.drift_at(k, 1.0)));
             let (series, after) = from_left(self.cells[k].half, &loads[k], at);
             at = after;
             sum = up(sum + of_cell(&self.cells[k], &series, &strains[k], *z));
         }
         let _ = self.cross(moved, reactions, self.root, 1.0, &mut at);
+        sum = up(sum + given(self.root, at[1], moved.drift_at(self.root, 1.0)));
         let left = at;
         at = [ZERO; 2];
         for k in (self.root..count).rev() {
+            sum = up(sum + given(k + 1, at[1], moved.drift_at(k + 1, -1.0)));
             work = up(work + self.cross(moved, reactions, k + 1, -1.0, &mut at));
             let (series, before) = from_right(self.cells[k].half, &loads[k], at);
             at = before;
@@ -176,15 +192,11 @@ impl Proven {
             up(up(kink * moment.largest()) + up(jump * force.largest()))
         };
         let outer = worth(at);
+        let drift = moved.drift_at(border, sign);
         let sign = Interval::point(sign);
-        // What the cell inside of the border drifts, and the step at the border.
-        let drift = moved.drift[if sign.low > 0.0 { border } else { border - 1 }];
-        let drift: [f64; 2] = std::array::from_fn(|i| up(drift[i] + moved.steps[border][i]));
         for mass in self.masses.iter().filter(|mass| mass.border == border) {
-            let off = |i: usize| Interval::within(drift[i]);
-            let [w, turn] = moved.borders[border].map(Interval::point);
-            let [w, turn] = [w + off(0), turn + off(1)];
-            let push = mass.mass * (w + mass.offset * turn);
+            let [w, turn] = mass.drifting(moved, drift);
+            let push = mass.mass * mass.at([w, turn], &moved.gives);
             at[0] = at[0] + sign * push;
             at[1] = at[1] - sign * (mass.offset * push + mass.inertia * turn);
         }
@@ -197,6 +209,34 @@ impl Proven {
             }
         }
         outer.max(worth(at))
+    }
+}
+
+impl Moved {
+    /// By how much the trial's own motion may differ at a border at most, seen from the cell inside of it, towards the
+    /// tip for `sign` 1: what that cell drifts, and the step at the border.
+    fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
+        let drift = self.drift[if sign > 0.0 { border } else { border - 1 }];
+        std::array::from_fn(|i| up(drift[i] + self.steps[border][i]))
+    }
+}
+
+impl Mass {
+    /// Deflection and rotation at its border, of the trial's own motion.
+    fn drifting(&self, moved: &Moved, drift: [f64; 2]) -> [Interval; 2] {
+        let at = moved.borders[self.border];
+        std::array::from_fn(|i| Interval::point(at[i]) + Interval::within(drift[i]))
+    }
+
+    /// The part of what gives way here in the residual, `(K (Tk) − z K s)²/K`, at most.
+    fn residual(&self, moved: &Moved, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
+        let Some(Give { number, way, stiffness }) = self.give else { return 0.0 };
+        let load = match way {
+            Way::Joint => moment,
+            Way::Hung => self.mass * self.at(self.drifting(moved, drift), &moved.gives),
+        };
+        let off = load - Interval::point(z) * stiffness * moved.gives[number];
+        up(off.square().high / stiffness.low)
     }
 }
 

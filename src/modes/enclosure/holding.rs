@@ -20,6 +20,7 @@ use crate::base::interval::tables::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::modes::enclosure::contacts::Contact;
 use crate::modes::enclosure::energies::{from_left, from_right};
+use crate::modes::enclosure::gives::{Give, Way, kink, softness, stretch};
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch};
 
 /// A bat as its stretches and what is on it.
@@ -34,20 +35,28 @@ pub struct Holding<'a> {
     pub rigid: &'a Rigid,
 }
 
-/// Deflection and rotation along the stretches and at their borders.
+/// Deflection and rotation along the stretches and at their borders, there on the knob side of joints.
 struct Motion {
     cells: Vec<[Series; 2]>,
     borders: Vec<[Interval; 2]>,
+    /// The strains of what gives way.
+    gives: Vec<Interval>,
 }
 
 /// Loads along the stretches, and by how much V and m step at borders.
 struct Loads {
     cells: Vec<(Series, Option<Series>)>,
     steps: Vec<[Interval; 2]>,
+    /// The force on every mass (N).
+    masses: Vec<Interval>,
 }
 
 /// V and m on every stretch.
-type Forces = Vec<[Series; 2]>;
+struct Forces {
+    cells: Vec<[Series; 2]>,
+    /// Moment on a joint, force on what hangs on a spring: by the numbers of what gives way.
+    gives: Vec<Interval>,
+}
 type Matrix = Vec<Vec<Interval>>;
 
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
@@ -104,6 +113,18 @@ impl Holding<'_> {
         }
     }
 
+    /// What gives way, with its mass.
+    fn gives(&self) -> impl Iterator<Item = (usize, &Met, Give)> {
+        let all = self.masses.iter().enumerate();
+        all.filter_map(|(k, mass)| mass.give.map(|give| (k, mass, give)))
+    }
+
+    /// How far a mass's centre is moved (m).
+    fn moved(&self, mass: &Met, motion: &Motion) -> Interval {
+        let [w, turn] = motion.borders[mass.before];
+        w + self.offset(mass) * turn + stretch(mass.give, &motion.gives)
+    }
+
     /// The mass's centre beyond its border (m).
     fn offset(&self, mass: &Met) -> Interval {
         mass.centre - self.place(mass.before)
@@ -135,7 +156,11 @@ impl Holding<'_> {
             [Series::of(&[at(stretch.middle), turn * stretch.half]), Series::of(&[turn])]
         };
         let borders = (0..=self.stretches.len()).map(|border| [at(self.place(border)), turn]);
-        Motion { cells: self.stretches.iter().map(cell).collect(), borders: borders.collect() }
+        Motion {
+            cells: self.stretches.iter().map(cell).collect(),
+            borders: borders.collect(),
+            gives: vec![ZERO; self.gives().count()],
+        }
     }
 
     /// `ρA w`, `ρI θ`, and the steps that masses make: V by `μ w_c`, m by `−(d μ w_c + J θ)`.
@@ -151,24 +176,28 @@ impl Holding<'_> {
         };
         let cells = self.stretches.iter().zip(&motion.cells).map(load).collect();
         let mut steps = vec![[ZERO; 2]; self.stretches.len() + 1];
+        let mut masses = Vec::with_capacity(self.masses.len());
         for mass in self.masses {
-            let [w, turn] = motion.borders[mass.before];
-            let offset = self.offset(mass);
-            let push = mass.mass * (w + offset * turn);
+            let push = mass.mass * self.moved(mass, motion);
+            let turn = motion.borders[mass.before][1];
             let [force, moment] = &mut steps[mass.before];
             *force = *force + push;
-            *moment = *moment - (offset * push + mass.inertia * turn);
+            *moment = *moment - (self.offset(mass) * push + mass.inertia * turn);
+            masses.push(push);
         }
-        Loads { cells, steps }
+        Loads { cells, steps, masses }
     }
 
     /// V and m under loads in balance, from 0 at both ends.
     fn forces(&self, loads: &Loads) -> Forces {
         let (mut left, mut right) = (vec![], vec![]);
+        // On the tip side of every border, where joints are.
+        let mut moments = vec![ZERO; self.stretches.len() + 1];
         let mut at = [ZERO; 2];
         for k in 0..self.split {
             let steps = loads.steps[k];
             at = [at[0] + steps[0], at[1] + steps[1]];
+            moments[k] = at[1];
             let (forces, after) = from_left(self.stretches[k].half, &loads.cells[k], at);
             left.push(forces);
             at = after;
@@ -176,24 +205,39 @@ impl Holding<'_> {
         at = [ZERO; 2];
         for k in (self.split..self.stretches.len()).rev() {
             let steps = loads.steps[k + 1];
+            moments[k + 1] = at[1];
             at = [at[0] - steps[0], at[1] - steps[1]];
             let (forces, before) = from_right(self.stretches[k].half, &loads.cells[k], at);
             right.push(forces);
             at = before;
         }
+        moments[self.split] = at[1];
         left.extend(right.into_iter().rev());
-        left
+        let mut gives = vec![ZERO; self.gives().count()];
+        for (k, mass, Give { number, way, .. }) in self.gives() {
+            gives[number] = match way {
+                Way::Joint => moments[mass.before],
+                Way::Hung => loads.masses[k],
+            };
+        }
+        Forces { cells: left, gives }
     }
 
     /// The motion with the strains of these forces, `(m/EI, −V/κGA)`, rigid motions taken out.
     fn motion(&self, forces: &Forces) -> Motion {
         let gauss = &GAUSS_40;
         let count = self.stretches.len();
+        let mut gives = vec![ZERO; forces.gives.len()];
+        let mut kinks = vec![ZERO; count + 1];
+        for (_, mass, give) in self.gives() {
+            gives[give.number] = forces.gives[give.number] * softness(&give);
+            kinks[mass.before] = kinks[mass.before] + kink(Some(give), &gives);
+        }
         let mut borders = vec![[ZERO; 2]; count + 1];
         let mut cells = vec![[Series::exact(&[]); 2]; count];
         let outwards = (self.split..count).map(|k| (k, true));
         for (k, tipwards) in outwards.chain((0..self.split).rev().map(|k| (k, false))) {
-            let (stretch, [force, moment]) = (&self.stretches[k], &forces[k]);
+            let (stretch, [force, moment]) = (&self.stretches[k], &forces.cells[k]);
             let half = stretch.half;
             let bend = stretch.soft.product(&moment.values(gauss));
             let turned = Series::through(gauss, &bend).integrated().times(half);
@@ -206,18 +250,18 @@ impl Holding<'_> {
             let length = half + half;
             let [w, theta] = borders[if tipwards { k } else { k + 1 }];
             let start = match tipwards {
-                true => [w, theta],
+                true => [w, theta + kinks[k]],
                 false => [w - length * (theta - turns) - lifts, theta - turns],
             };
+            let [w, theta] = start;
             match tipwards {
                 true => borders[k + 1] = [w + length * theta + lifts, theta + turns],
-                false => borders[k] = start,
+                false => borders[k] = [w, theta - kinks[k]],
             }
-            let [w, theta] = start;
             let line = Series::of(&[w + half * theta, half * theta]);
             cells[k] = [lifted + line, turned.plus(theta)];
         }
-        let motion = Motion { cells, borders };
+        let motion = Motion { cells, borders, gives };
         // `⟨y, (1, 0)⟩/M` and `⟨y, (x − x_b, 1)⟩/I`.
         let Rigid { over_mass, over_inertia, .. } = *self.rigid;
         let push = self.kinetic_energy(&motion, &self.line(point(1.0), ZERO)) * over_mass;
@@ -228,6 +272,7 @@ impl Holding<'_> {
         Motion {
             cells: motion.cells.iter().zip(&line.cells).map(plus).collect(),
             borders: borders.map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect(),
+            gives: motion.gives,
         }
     }
 
@@ -243,20 +288,24 @@ impl Holding<'_> {
             sum = sum + stretch.half * (product(0, &stretch.mass) + turning);
         }
         for mass in self.masses {
-            let offset = self.offset(mass);
-            let [[w_a, turn_a], [w_b, turn_b]] = [a, b].map(|motion| motion.borders[mass.before]);
-            let both = (w_a + offset * turn_a) * (w_b + offset * turn_b);
+            let [turn_a, turn_b] = [a, b].map(|motion| motion.borders[mass.before][1]);
+            let both = self.moved(mass, a) * self.moved(mass, b);
             sum = sum + mass.mass * both + mass.inertia * turn_a * turn_b;
         }
         sum
     }
 
-    /// `∫m_a m_b/EI + V_a V_b/κGA dx`.
+    /// `∫m_a m_b/EI + V_a V_b/κGA dx`, and what gives way likewise.
     fn strain_energy(&self, a: &Forces, b: &Forces) -> Interval {
         let mut sum = ZERO;
-        for (stretch, ([v_a, m_a], [v_b, m_b])) in self.stretches.iter().zip(a.iter().zip(b)) {
+        for (stretch, ([v_a, m_a], [v_b, m_b])) in
+            self.stretches.iter().zip(a.cells.iter().zip(&b.cells))
+        {
             let slip = stretch.slip.as_ref().map_or(ZERO, |slip| weighted(v_a, v_b, slip));
             sum = sum + stretch.half * (weighted(m_a, m_b, &stretch.soft) + slip);
+        }
+        for (.., give) in self.gives() {
+            sum = sum + a.gives[give.number] * b.gives[give.number] * softness(&give);
         }
         sum
     }

@@ -7,7 +7,8 @@
 //! | file | question |
 //! |---|---|
 //! | [`radii`], [`sections`] | which radii does the file tell; what are sections worth along a cell |
-//! | [`contacts`], [`beam`] | what holds the bat; the bat cell by cell, and what is refused |
+//! | [`contacts`], [`gives`] | what holds the bat; what on it gives way |
+//! | [`beam`] | the bat cell by cell, and what is refused |
 //! | [`moved`], [`reactions`] | the motion of a trial, and what holds it in balance |
 //! | [`energies`] | Rayleigh quotient and residual of a trial |
 //! | [`stretches`], [`holding`], [`norms`] | trace and norm of the compliance, at most |
@@ -22,6 +23,8 @@ pub mod radii;
 pub mod sections;
 #[doc(hidden)]
 pub mod contacts;
+#[doc(hidden)]
+pub mod gives;
 #[doc(hidden)]
 pub mod beam;
 #[doc(hidden)]

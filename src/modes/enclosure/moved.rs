@@ -17,6 +17,7 @@ use crate::base::interval::{Interval, Series, up};
 use crate::base::linear::solve_two;
 use crate::modes::enclosure::beam::{Mass, Proven};
 use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::gives::kink;
 
 /// Strains of a motion as Legendre coefficients on every cell, taken to be exact.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,8 @@ pub struct Trial {
     /// Deflection (m) or rotation (rad) where the bat is held, contact by contact; what a support holds is 0,
     /// whatever stands here.
     pub held: Vec<f64>,
+    /// Kinks of joints (rad), then stretches of the springs that masses hang on (m), in the order of the bat's file.
+    pub gives: Vec<f64>,
 }
 
 /// A motion along the bat that is nearly that of a trial: begun anew with plain numbers on every cell.
@@ -51,8 +54,10 @@ pub struct Moved {
     pub bending: Vec<Series>,
     /// Deflection and rotation on every cell, begun anew.
     pub cells: Vec<[Series; 2]>,
-    /// Deflection and rotation at every border, where the cell beyond it begins.
+    /// Deflection and rotation at every border, on the knob side of a joint.
     pub borders: Vec<[f64; 2]>,
+    /// Kinks of joints (rad) and stretches of springs (m), of the trial.
+    pub gives: Vec<Interval>,
     /// Jump (m) and kink (rad) at every border, at most.
     pub steps: Vec<[f64; 2]>,
     /// By how much deflection (m) and rotation (rad) of the trial's own motion may differ at most on every
@@ -143,23 +148,19 @@ impl Proven {
         moved.steps.fill([0.0; 2]);
         moved.drift = vec![[0.0; 2]; self.cells.len()];
         for k in 0..self.cells.len() {
-            (moved.bending[k], moved.cells[k]) = self.between_borders(trial, k, &moved.borders);
+            (moved.bending[k], moved.cells[k]) = self.between_borders(trial, k, &moved);
         }
         Some(moved)
     }
 
     /// The curvature on a cell that leads from what is at its left border to what is at its right one, and the
     /// motion.
-    fn between_borders(
-        &self,
-        trial: &Trial,
-        k: usize,
-        borders: &[[f64; 2]],
-    ) -> (Series, [Series; 2]) {
+    fn between_borders(&self, trial: &Trial, k: usize, moved: &Moved) -> (Series, [Series; 2]) {
         let half = self.cells[k].half;
         let over = half.reciprocal().expect("cells have a length");
         let [[w, theta], [w_end, theta_end]] =
-            [borders[k], borders[k + 1]].map(|border| border.map(Interval::point));
+            [moved.borders[k], moved.borders[k + 1]].map(|border| border.map(Interval::point));
+        let theta = theta + self.kink(k, &moved.gives);
         let by_half = Interval::point(0.5);
         let slip = trial.shear_on(k);
         let own = slip.map_or(ZERO, |slip| Interval::point(slip.coefficient(0)));
@@ -182,6 +183,12 @@ impl Proven {
         }
     }
 
+    /// By how much the bat turns at once at a border (rad), strains of what gives way being these.
+    fn kink(&self, border: usize, gives: &[Interval]) -> Interval {
+        let there = self.masses.iter().filter(|mass| mass.border == border);
+        there.fold(ZERO, |sum, mass| sum + kink(mass.give, gives))
+    }
+
     /// The cells outwards from the root, and whether that is towards the tip.
     fn outwards(&self) -> impl Iterator<Item = (usize, bool)> + use<> {
         let tip = (self.root..self.cells.len()).map(|k| (k, true));
@@ -191,6 +198,7 @@ impl Proven {
     /// `θ′ = χ`, `w′ = θ + γ` from these values at the root, outwards, on every cell from plain numbers.
     fn integrated(&self, trial: &Trial, start: [f64; 2]) -> Moved {
         let count = self.cells.len();
+        let gives: Vec<Interval> = trial.gives.iter().copied().map(Interval::point).collect();
         let mut borders = vec![[0.0; 2]; count + 1];
         let mut steps = vec![[0.0; 2]; count + 1];
         borders[self.root] = start;
@@ -210,12 +218,16 @@ impl Proven {
             let length = half + half;
             let (inner, outer) = if tipwards { (k, k + 1) } else { (k + 1, k) };
             let [w, theta] = borders[inner].map(Interval::point);
+            let kink = self.kink(k, &gives);
             let (line, end) = match tipwards {
-                true => ([w, theta], [w + length * theta + lifts, theta + turns]),
+                true => {
+                    let theta = theta + kink;
+                    ([w, theta], [w + length * theta + lifts, theta + turns])
+                }
                 false => {
                     let theta = theta - turns;
                     let w = w - length * theta - lifts;
-                    ([w, theta], [w, theta])
+                    ([w, theta], [w, theta - kink])
                 }
             };
             borders[outer] = end.map(Interval::middle);
@@ -225,7 +237,7 @@ impl Proven {
             cells[k] = [lifted + line, turned.plus(theta)];
         }
         let bending = (0..count).map(|k| trial.bending_on(k)).collect();
-        Moved { bending, cells, borders, steps, drift: vec![], rigid: [ZERO; 2] }
+        Moved { bending, cells, borders, gives, steps, drift: vec![], rigid: [ZERO; 2] }
     }
 
     /// Bounds of [`Moved::drift`] from kinks, jumps and the rigid motion.
@@ -289,11 +301,12 @@ impl Proven {
                 moment = moment + cell.half * turning.inner(turn);
             }
         }
-        for Mass { border, mass, inertia, offset, arm } in &self.masses {
-            let [w, turn] = moved.borders[*border].map(Interval::point);
-            let push = *mass * (w + *offset * turn);
+        for mass in &self.masses {
+            let Mass { inertia, offset, arm, .. } = *mass;
+            let [w, turn] = moved.borders[mass.border].map(Interval::point);
+            let push = mass.mass * mass.at([w, turn], &moved.gives);
             force = force + push;
-            moment = moment + push * (*arm + *offset) + *inertia * turn;
+            moment = moment + push * (arm + offset) + inertia * turn;
         }
         [force, moment]
     }

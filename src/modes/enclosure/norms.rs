@@ -17,9 +17,14 @@
 //! trace T = ∫ Σ_b u_b·v_b/C_b dt        |T|² = Σ τ² = 2 ∫ Σ_b v_bᵀ U v_b/C_b dt,   U′ = Σ_a u_a u_aᵀ/C_a
 //! ```
 //!
-//! over each side of the balance point from its own end, `x` counted from the beginning of every stretch anew,
-//! so that nothing cancels at thin ends and little elsewhere, and `2 tr(U_l G U_r G)` for pairs of strains on different sides, whose own motions do not meet. Every integrand
-//! with `1/C` is not negative and rises with `1/C`: a polynomial above `1/C` gives a bound from above.
+//! What gives way at a place ([`super::gives`]) is met as a strain there with `C = K`: a joint with the `u_χ` and `v_χ`
+//! of its place, a spring under a mass with `u = μ (1, x)`, `v = −G u` and `μ + u·v` in place of `u·v` on itself. Of
+//! `|T|²` it has `(u·v/C)²` besides.
+//!
+//! Sums run over each side of the balance point from its own end, `x` counted from the beginning of every stretch anew,
+//! so that nothing cancels at thin ends and little elsewhere; pairs of strains on different sides, whose own motions do
+//! not meet, add `2 tr(U_l G U_r G)`. Every integrand with `1/C` is not negative and rises with `1/C`: a polynomial
+//! above `1/C` gives a bound from above.
 //!
 //! # Source
 //!
@@ -33,6 +38,7 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::modes::enclosure::beam::Layout;
 use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::gives::{Give, Way, softness};
 use crate::modes::enclosure::holding::Holding;
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch, rigid, stretches};
 
@@ -79,11 +85,12 @@ impl Norms {
         let masses: Vec<Met> = layout
             .masses
             .iter()
-            .map(|(piece, [mass, inertia, centre, _])| Met {
-                before: borders[*piece],
-                centre: *centre,
-                mass: *mass,
-                inertia: *inertia,
+            .map(|placed| Met {
+                before: borders[placed.piece],
+                centre: placed.centre,
+                mass: placed.mass,
+                inertia: placed.inertia,
+                give: placed.give,
             })
             .collect();
         let length = layout.length;
@@ -113,12 +120,12 @@ impl Norms {
             true => [ZERO; 2],
             false => holding.less(&contacts).ok_or_else(unheld)?,
         };
-        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &rigid);
         let count = stretches.len();
         let border = match stretches.get(split) {
             Some(stretch) => stretch.middle - stretch.half,
             None => length,
         };
+        let (parts_l, outer_l) = from_end(&stretches[..split], &knob, &rigid, border);
         let mirrored: Vec<Stretch> =
             stretches.drain(split..).rev().map(|stretch| stretch.mirrored(length)).collect();
         // Seen from the tip, where x′ = L − x.
@@ -129,7 +136,7 @@ impl Norms {
             .rev()
             .collect();
         let turned = Rigid { balance: length - rigid.balance, ..rigid };
-        let (parts_r, outer_r) = from_end(&mirrored, &tip, &turned);
+        let (parts_r, outer_r) = from_end(&mirrored, &tip, &turned, length - border);
         let [trace, square, reach] = std::array::from_fn(|k| parts_l[k] + parts_r[k]);
         // Both about the border between them, moments the other way round.
         let [a, b, c] = outer_r;
@@ -139,8 +146,9 @@ impl Norms {
         let across = both[0][0] + both[1][1];
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
         let norm = square + square + across + across;
-        // How far a held bat is moved at most is not worked out: none of its nodes is proven.
-        let reach = if contacts.is_empty() { reach.high } else { f64::INFINITY };
+        // How far a bat that is held, or gives way, is moved at most is not worked out: none of its nodes is proven.
+        let bare = contacts.is_empty() && masses.iter().all(|mass| mass.give.is_none());
+        let reach = if bare { reach.high } else { f64::INFINITY };
         Ok(Self {
             trace: (trace - less[0]).high,
             square: (norm - less[1]).high,
@@ -173,28 +181,54 @@ fn from_end(
     stretches: &[Stretch],
     masses: &[Met],
     rigid: &Rigid,
+    inner: Interval,
 ) -> ([Interval; 3], [Interval; 3]) {
     let mut parts = [ZERO; 3];
     let mut sums = Sums { line: [ZERO; 2], kink: [ZERO; 2], outer: [ZERO; 3] };
     // Masses that were passed, as `u` of a strain beyond them has them: `Σμ`, `Σμc`, `Σμc² + J`.
     let mut masses = masses.iter().peekable();
-    for (k, stretch) in stretches.iter().enumerate() {
+    let mut add = |own: [Interval; 3]| {
+        parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
+    };
+    for k in 0..=stretches.len() {
+        let stretch = stretches.get(k);
+        let begin = stretch.map_or(inner, |stretch| stretch.middle - stretch.half);
         while let Some(met) = masses.next_if(|met| met.before <= k) {
             // `(s − c) μ` and `(s − c) μ c − J` at the place where it is passed, and their slopes.
-            let centre = met.centre - (stretch.middle - stretch.half);
+            let centre = met.centre - begin;
             let push = -(met.mass * centre);
             sums.kink[0] = sums.kink[0] + push;
             sums.kink[1] = sums.kink[1] + push * centre - met.inertia;
             sums.line[0] = sums.line[0] + met.mass;
             sums.line[1] = sums.line[1] + met.mass * centre;
+            met.give.into_iter().for_each(|give| add(sums.given(give, met, begin, rigid)));
         }
-        let own = sums.over(stretch, rigid);
-        parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
+        stretch.into_iter().for_each(|stretch| add(sums.over(stretch, rigid)));
     }
     (parts, sums.outer)
 }
 
 impl Sums {
+    /// Goes over what gives way at a place: its parts of trace and half the square of the norm; Γ is not asked.
+    fn given(&mut self, give: Give, met: &Met, at: Interval, rigid: &Rigid) -> [Interval; 3] {
+        let [g11, g12, g22] = rigid.inverse(at);
+        // Counted from the place itself.
+        let (u, own) = match give.way {
+            Way::Joint => (self.kink, [ZERO, point(-1.0)]),
+            Way::Hung => ([met.mass, met.mass * (met.centre - at)], [ZERO; 2]),
+        };
+        let v = [own[0] - g11 * u[0] - g12 * u[1], own[1] - g12 * u[0] - g22 * u[1]];
+        // What the stretch of a spring moves by itself, without the rigid motion, is the mass alone.
+        let alone = if give.way == Way::Hung { met.mass } else { ZERO };
+        let soft = softness(&give);
+        let trace = soft * (alone + u[0] * v[0] + u[1] * v[1]);
+        let [o11, o12, o22] = self.outer;
+        let before = o11 * v[0].square() + point(2.0) * o12 * v[0] * v[1] + o22 * v[1].square();
+        let products = [u[0].square(), u[0] * u[1], u[1].square()];
+        self.outer = std::array::from_fn(|k| self.outer[k] + soft * products[k]);
+        [trace, soft * before + point(0.5) * trace.square(), ZERO]
+    }
+
     /// Goes over a stretch: its parts of `∫Σ u·v/C`, `∫Σ vᵀUv/C` and Γ.
     fn over(&mut self, stretch: &Stretch, rigid: &Rigid) -> [Interval; 3] {
         let gauss = &GAUSS_40;

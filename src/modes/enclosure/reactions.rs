@@ -87,10 +87,9 @@ impl Proven {
             sum += h * (own - z * strains[k].0.inner(&bend).middle());
         }
         for mass in self.masses.iter().filter(|mass| mass.border == border) {
-            let [w, turn] = moved.borders[border];
-            let offset = mass.offset.middle();
-            let push = mass.mass.middle() * (w + offset * turn);
-            let couple = offset * push + mass.inertia.middle() * turn;
+            let [w, turn] = moved.borders[border].map(Interval::point);
+            let push = mass.mass.middle() * mass.at([w, turn], &moved.gives).middle();
+            let couple = mass.offset.middle() * push + mass.inertia.middle() * turn.middle();
             sum += if contact.turning { couple } else { push };
         }
         sum

@@ -10,6 +10,7 @@ use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::modes::enclosure::beam::Layout;
+use crate::modes::enclosure::gives::Give;
 use crate::modes::enclosure::radii::Curved;
 use crate::modes::enclosure::sections::{Rings, inverse};
 
@@ -45,7 +46,7 @@ pub struct Stretch {
     pub above: f64,
 }
 
-/// A mass as it is met from one end.
+/// A mass as it is met from one end, or a joint, which weighs nothing.
 #[derive(Clone, Copy)]
 pub struct Met {
     /// It is at the border before the stretch of this number.
@@ -56,6 +57,8 @@ pub struct Met {
     pub mass: Interval,
     /// Its own moment of inertia (kg m²).
     pub inertia: Interval,
+    /// What gives way there.
+    pub give: Option<Give>,
 }
 
 /// The stretches of a bat, and the border at which each piece of its profile begins, the end of the bat last.

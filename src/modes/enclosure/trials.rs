@@ -51,5 +51,9 @@ fn trial(view: &View<f64>, q: &[f64]) -> Trial {
         let spring = contact.spring.as_ref();
         spring.map_or(0.0, |spring| q[spring.place] * spring.softness)
     });
-    Trial { terms, bending, shear, held: held.collect() }
+    let joints = view.placed().map_or(&[][..], |placed| &placed.joints);
+    let points = view.placed().map_or(&[][..], |placed| &placed.points);
+    let springs = joints.iter().copied().chain(points.iter().filter_map(|point| point.spring));
+    let gives = springs.map(|spring| q[spring.place] * spring.softness);
+    Trial { terms, bending, shear, held: held.collect(), gives: gives.collect() }
 }
