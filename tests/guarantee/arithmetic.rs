@@ -125,7 +125,7 @@ fn every_number_of_the_tables_is_the_nearest_double() {
 }
 
 /// A value of a series in twice the digits.
-fn exact(coefficients: &[Twofold], x: Twofold) -> Twofold {
+pub fn exact(coefficients: &[Twofold], x: Twofold) -> Twofold {
     let p = legendre(coefficients.len(), x);
     coefficients.iter().zip(p).fold(number(0.0), |sum, (c, p)| sum + *c * p)
 }

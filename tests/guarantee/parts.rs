@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
 use sweetspot::base::interval::{Interval, Values};
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Held, Joint, Support};
+use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
 use sweetspot::modes::enclosure::conclude::conclude;
 use sweetspot::modes::enclosure::energies::Energies;
@@ -13,9 +14,11 @@ use sweetspot::modes::enclosure::radii::curved;
 use sweetspot::modes::enclosure::sections::{Rings, inverse};
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::proof::validation::Truth;
-use sweetspot::{Bat, Theory};
+use sweetspot::{Bat, Material, Profile, Theory};
 
+use crate::arithmetic;
 use crate::common::{DENSITY, LENGTH, MODULUS, RADIUS, cone, dowel};
+use crate::twofold::{self, Twofold};
 
 fn norms(bat: &Bat, theory: Theory) -> Norms {
     Norms::of(bat, &Layout::of(bat, theory).unwrap(), theory).unwrap()
@@ -282,6 +285,56 @@ fn sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least
         }
     }
     assert!(looked > 1000, "{looked}");
+}
+
+/// A tube's κGA by Cowper's formula in twice the digits, of every tube that rounds to the radii and moduli in the file:
+/// within its share of the polynomial, and the share is small on thin walls too.
+#[test]
+fn the_shear_stiffness_of_a_tube_is_within_its_share() {
+    let one = twofold::number(1.0);
+    for wall in [0.4, 0.1, 0.02, 0.003] {
+        let wood = Material { shear_modulus: Some(1.0), ..Material::new(DENSITY, 2.7).unwrap() };
+        let radii = [0.031, 0.028];
+        let profile = Profile::new(Stations {
+            x: vec![0.0, 0.11],
+            outer: radii.to_vec(),
+            inner: radii.map(|r| r * (1.0 - wall)).to_vec(),
+            interpolation: Interpolation::Linear,
+        })
+        .unwrap();
+        let bat = Bat::builder(profile, wood).build().unwrap();
+        let (curve, piece) = (&curved(&bat).unwrap()[0], &bat.profile().pieces[0]);
+        let shear = Rings::of(bat.layup(piece), curve, Interval::point(1.0)).shear().unwrap();
+        assert!(shear.share < 1e-14 / wall + 5e-13, "{wall} {:e}", shear.share);
+        let coefficients: Vec<Twofold> = (0..=shear.series.degree())
+            .map(|j| twofold::number(shear.series.coefficient(j)))
+            .collect();
+        let nu = twofold::number(0.5) * twofold::number(2.7) + -one;
+        let times = |by: f64, of: Twofold| twofold::number(by) * of;
+        // Radii of the file are off by 3u of the outer one at most, inner ones by 6u.
+        for (outer, inner) in [(0.0, 0.0), (3.0, 6.0), (-3.0, -6.0), (3.0, -6.0), (-3.0, 6.0)] {
+            let near = |by: f64| twofold::number(1.0 + by * 0.5 * f64::EPSILON);
+            for k in 0..=20 {
+                let xi = f64::from(k) / 10.0 - 1.0;
+                let along = |of: [f64; 2]| {
+                    let half = |x: f64| twofold::number(0.5) * (one + twofold::number(x));
+                    half(-xi) * twofold::number(of[0]) + half(xi) * twofold::number(of[1])
+                };
+                let b = along(radii) * near(outer);
+                let a = along(radii.map(|r| r * (1.0 - wall))) + b * near(inner) - b;
+                let (b2, a2) = (b * b, a * a);
+                let square = (b2 + a2) * (b2 + a2);
+                let below = (times(7.0, one) + times(6.0, nu)) * square
+                    + (times(20.0, one) + times(12.0, nu)) * a2 * b2;
+                let kappa = times(6.0, one + nu) * square / below;
+                let pi = Twofold { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+                let exact = kappa * pi * (b2 - a2);
+                let found = arithmetic::exact(&coefficients, twofold::number(xi));
+                let off = ((exact - found) / found).high.abs();
+                assert!(off <= shear.share, "{wall} {xi} {off:e} {:e}", shear.share);
+            }
+        }
+    }
 }
 
 /// The mass of a bat that was weighed is what the scale said.

@@ -108,7 +108,7 @@ pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> 
     carried(bat, request.theory)?;
     let layout = Layout::of(bat, request.theory)?;
     let norms = Norms::of(bat, &layout, request.theory)?;
-    let mut planned = (0.1 * request.tolerance).min(COARSEST);
+    let (mut planned, mut cut) = ((0.1 * request.tolerance).min(COARSEST), 1);
     let mut more = (request.modes / 2).max(6);
     let mut best: Option<(Solution, Guarantee)> = None;
     for round in 0..MOST_ROUNDS {
@@ -116,7 +116,7 @@ pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> 
         let solution = solve(bat, &Request { tolerance, ..*request })?;
         let (mesh, degree) = (&solution.mesh, solution.degree);
         let proven = Attempt { bat, layout: &layout, norms: &norms, theory: request.theory };
-        let found = proven.of(mesh, degree, request.modes, more)?;
+        let found = proven.of(mesh, degree, cut, request.modes, more)?;
         let found = Guarantee { met: found.width() <= request.tolerance, ..found };
         let (met, enough) = (found.met, found.modes.len() == request.modes);
         let width = |of: &Guarantee| of.width();
@@ -130,8 +130,10 @@ pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> 
             break;
         }
         // More trials where a mode is not told from the others, a finer mesh where intervals are wide.
-        if enough {
+        if enough && planned > FINEST {
             planned *= 1e-2;
+        } else if enough {
+            cut *= 2;
         } else {
             more += more.max(request.modes);
             planned *= 1e-1;
@@ -149,12 +151,20 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    fn of(&self, mesh: &Mesh, degree: usize, asked: usize, more: usize) -> Result<Guarantee> {
+    /// On that mesh, each element in so many pieces or more.
+    fn of(
+        &self,
+        mesh: &Mesh,
+        degree: usize,
+        cut: usize,
+        asked: usize,
+        more: usize,
+    ) -> Result<Guarantee> {
         let Self { bat, layout, norms, theory } = *self;
         let count = asked + more;
         // Room for the trials beyond the asked modes.
         let strains = mesh.len() * (degree - 1);
-        let parts = (2 * count).div_ceil(strains);
+        let parts = (2 * count).div_ceil(strains).max(cut);
         let mesh = if parts > 1 { mesh.refined(bat, |_| parts) } else { mesh.clone() };
         let plan = Plan { mesh, degree, ..Plan::default() };
         let tried = trials(bat, &plan, count, theory)?;

@@ -103,17 +103,20 @@ impl Ring<'_> {
         self.squares(gauss).product(&b.sum(&a.product(&a)))
     }
 
-    /// `b² − a²` and `b⁴ − a⁴` at least: each factor by the least of its Bernstein coefficients.
+    /// `b² − a²` and `b⁴ − a⁴` at least: each factor by its least.
     fn least_powers(&self) -> [f64; 2] {
-        let b = &self.outside.cubic;
-        let a = self.inside.as_ref().map_or([number(0.0); 4], |inside| inside.cubic);
-        let least =
-            |of: [Interval; 4]| of.iter().fold(f64::INFINITY, |least, of| least.min(of.low));
-        let difference = least(std::array::from_fn(|k| b[k] - a[k])).max(0.0);
-        let sum = least(std::array::from_fn(|k| b[k] + a[k])).max(0.0);
-        let squares = number(difference) * number(sum);
-        let own = number(least(*b).max(0.0)).square() + number(least(a).max(0.0)).square();
-        [squares.low.max(0.0), (squares * own).low.max(0.0)]
+        let [difference, sum] =
+            [self.least(|b, a| b - a), self.least(|b, a| b + a)].map(|of| number(of.max(0.0)));
+        let [b, a] = [self.least(|b, _| b), self.least(|_, a| a)].map(|of| number(of.max(0.0)));
+        let squares = difference * sum;
+        [squares.low.max(0.0), (squares * (b.square() + a.square())).low.max(0.0)]
+    }
+
+    /// What a sum of multiples of `b` and `a` is at least: the least of its Bernstein coefficients.
+    fn least(&self, of: impl Fn(Interval, Interval) -> Interval) -> f64 {
+        let inside = self.inside.as_ref().map_or([number(0.0); 4], |inside| inside.cubic);
+        let both = self.outside.cubic.into_iter().zip(inside);
+        both.fold(f64::INFINITY, |least, (b, a)| least.min(of(b, a).low))
     }
 
     /// Whether κ does not depend on the place.
@@ -220,15 +223,15 @@ impl<'a> Rings<'a> {
         let gauss = &GAUSS_40;
         let mut sum = Nearly { series: Series::exact(&[]), share: 0.0 };
         for ring in self.all() {
-            let modulus = data(ring.material.shear_modulus?) * Interval::pi();
-            let area = ring.squares(gauss).times(modulus);
             let part = match ring.even() {
                 true => {
+                    let modulus = data(ring.material.shear_modulus?) * Interval::pi();
+                    let area = ring.squares(gauss).times(modulus);
                     let kappa = kappa(ring.material, number(0.0));
                     let series = Series::through(gauss, &area.times(kappa));
                     Nearly { series, share: 0.0 }
                 }
-                false => of_tube(ring, &area)?,
+                false => of_tube(ring)?,
             };
             sum = Nearly { series: sum.series + part.series, share: sum.share.max(part.share) };
         }
@@ -274,27 +277,89 @@ fn cowper(nu: Interval) -> (Interval, [Interval; 2]) {
     (top, [number(7.0) + number(6.0) * nu, number(20.0) + number(12.0) * nu])
 }
 
-/// κGA of a tube with `G π (b² − a²)` as given: with `m = e a²/b²`,
+/// κGA of a tube, `G π (b² − a²)` with `m = e a²/b²` and
 /// `κ = 6 (1 + ν)(b² + ea²)²/D`, `D = (7 + 6ν)(b² + ea²)² + (20 + 12ν) e a² b²`. A polynomial `c` stands for it;
 /// `|D c − N|` is bounded on the whole cell, and so is `|c/κGA − 1| = |D c − N|/N`.
-fn of_tube(ring: &Ring, area: &Values<40>) -> Option<Nearly> {
+///
+/// That is asked of plain numbers in the middle of what is known. How far κGA may be from theirs is bounded apart, for
+/// in a polynomial of degree d what is not known of numbers counts d times.
+fn of_tube(ring: &Ring) -> Option<Nearly> {
     let gauss = &GAUSS_40;
+    let inside = ring.inside.as_ref()?;
     let nu = data(ring.material.poisson());
     let (top, [below, mixed]) = cowper(nu);
-    let b = ring.outside.series.values(gauss);
-    let a = ring.inside.as_ref()?.series.values(gauss);
-    let (b, a) = (b.product(&b), a.product(&a).times(ring.empty));
+    let modulus = data(ring.material.shear_modulus?) * Interval::pi();
+    let sure = Sure::of(ring, inside)?;
+    let middle = |of: Interval| number(of.middle());
+    let own = Ring {
+        outside: Border { series: sure.outside, ..ring.outside },
+        inside: Some(Border { series: sure.inside, ..*inside }),
+        empty: middle(ring.empty),
+        material: ring.material,
+    };
+    let area = own.squares(gauss).times(middle(modulus));
+    let [b, a] = [sure.outside, sure.inside].map(|series| series.values(gauss));
+    let (b, a) = (b.product(&b), a.product(&a).times(own.empty));
     let sum = b.sum(&a);
     let square = sum.product(&sum);
-    let numerator = square.times(top).product(area);
-    let denominator = square.times(below).sum(&a.product(&b).times(mixed));
+    let numerator = square.times(middle(top)).product(&area);
+    let denominator = square.times(middle(below)).sum(&a.product(&b).times(middle(mixed)));
     let values = std::array::from_fn(|g| numerator.at[g] / denominator.at[g]);
-    let least = |border: &Border| number(border.range().low.max(0.0)).square();
-    let squares = least(&ring.outside) + ring.empty * least(ring.inside.as_ref()?);
-    let modulus = data(ring.material.shear_modulus?) * Interval::pi();
-    let numerator_least = top * squares.square() * modulus * number(ring.least_powers()[0]);
+    let squares = sure.outer.square() + own.empty * sure.inner.square();
+    let area_least = sure.wall * (sure.outer + sure.inner);
+    let numerator_least = middle(top) * squares.square() * middle(modulus) * area_least;
     // `|c D − N| ≤ β N` bounds `|κGA − c| ≤ β κGA`.
-    stands_for(&values, &denominator, &numerator, numerator_least.low)
+    let nearly = stands_for(&values, &denominator, &numerator, numerator_least.low)?;
+    // The ratio `q = m/(1 + m)²` moves by no more than m, and `6 (1 + ν)/κ = (7 + 6ν) + (20 + 12ν) q`.
+    let empty = number(ring.empty.distance(ring.empty.middle()));
+    let turned = mixed * below.reciprocal()? * (ring.empty * sure.ratio + empty);
+    let one = number(1.0);
+    let mut factor = one + number(nearly.share);
+    for share in [off(top)?, off(modulus)?, off(below)?, off(mixed)?, turned, sure.area] {
+        factor = factor * (one + share);
+    }
+    let share = (factor - one).high;
+    (share < 0.5).then_some(Nearly { series: nearly.series, share })
+}
+
+/// The share `δ` with which a number is its middle times something in `[1/(1 + δ), 1 + δ]`.
+fn off(of: Interval) -> Option<Interval> {
+    Some(number(of.distance(of.middle())) * number(of.smallest()).reciprocal()?)
+}
+
+/// The radii of a tube as plain polynomials, and what follows from how far they may be off.
+struct Sure {
+    outside: Series,
+    inside: Series,
+    /// `b`, `a` and `b − a` (m) of the plain ones, at least.
+    outer: Interval,
+    inner: Interval,
+    wall: Interval,
+    /// By how much `a²/b²` may differ.
+    ratio: Interval,
+    /// The share `δ` with which `b² − a²` is that of the plain ones times something in `[1/(1 + δ), 1 + δ]`.
+    area: Interval,
+}
+
+impl Sure {
+    /// None where a radius or the wall may be 0.
+    fn of(ring: &Ring, inside: &Border) -> Option<Self> {
+        let plain = |border: &Border| border.series.lowered(border.series.degree());
+        let ((outside, of_outer), (inside, of_inner)) = (plain(&ring.outside), plain(inside));
+        let (of_outer, of_inner) = (number(of_outer), number(of_inner));
+        let both = of_outer + of_inner;
+        // True and plain ones are no less than this.
+        let least = |of: Interval| number(of.low.max(0.0));
+        let outer = least(number(ring.least(|b, _| b)) - of_outer);
+        let inner = least(number(ring.least(|_, a| a)) - of_inner);
+        let wall = least(number(ring.least(|b, a| b - a)) - both);
+        let one = number(1.0);
+        let [of_wall, of_sum] = [wall, outer + inner].map(Interval::reciprocal);
+        let area = (one + both * of_wall?) * (one + both * of_sum?) - one;
+        // `|a/b − a₀/b₀| ≤ (|a − a₀| + |b − b₀|)/b`, both at most 1.
+        let ratio = number(2.0) * both * outer.reciprocal()?;
+        Some(Self { outside, inside, outer, inner, wall, ratio, area })
+    }
 }
 
 /// A polynomial near these values of `N/D`, and by what share of itself it may be off, `N` being at least
