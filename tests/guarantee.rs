@@ -14,7 +14,7 @@ mod lies;
 mod again;
 
 use common::folder::Folder;
-use sweetspot::bat::fixtures::{Attachment, Fixtures, Grip, Held, Support, Tape};
+use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support, Tape};
 use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
 use sweetspot::modes::enclosure::within::{Within, band};
 use sweetspot::proof::promise::{BATS, KNOWN_TO};
@@ -51,10 +51,12 @@ fn every_known_frequency_is_between_its_bounds() {
             }
         };
         // Two equal halves ring alike: what is exactly double is not told apart, and nothing is said. Where
-        // the first frequency is some 1e-4 of the next, intervals are wider than what is left of the norm.
+        // the first frequency is some 1e-4 of the next, or 1e-3 of the ninth, intervals are wider than what is left of
+        // the norm.
         let modes = match *name {
             "clamped in middle" => 0,
             "1e6 kg at the tip" => 1,
+            "hands, cone, shear" => 8,
             _ => modes,
         };
         assert_eq!(found.modes.len(), modes, "{name}");
@@ -74,7 +76,7 @@ fn every_known_frequency_is_between_its_bounds() {
     }
     assert!(held > 300, "{held}");
     // What is not carried says why.
-    let reasons = ["supports", "grip", "profile"];
+    let reasons = ["supports", "profile"];
     for (name, said) in &refused {
         assert!(reasons.iter().any(|reason| said.contains(reason)), "{name}: {said}");
     }
@@ -198,14 +200,12 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     let said = by(Theory::Timoshenko).unwrap_err().to_string();
     assert!(said.contains("layers around a hollow wall"), "{said}");
     assert!(by(Theory::Rayleigh).unwrap().1.met);
-    // A bat on one pin may turn about it, one on one spring too; hands are an elastic bed.
+    // A bat on one pin may turn about it, one on one spring too.
     let pin = Support { x: 0.1, kind: Held::Pinned };
     let spring = Attachment { x: 0.1, stiffness: 1e4, ..Attachment::default() };
-    let grip = Grip { from: 0.0, to: 0.2, stiffness: 1e4, damping: 0.0 };
     let held = [
         (Fixtures { supports: vec![pin], ..Fixtures::default() }, "rigid motion"),
         (Fixtures { attachments: vec![spring], ..Fixtures::default() }, "rigid motion"),
-        (Fixtures { grip: Some(grip), ..Fixtures::default() }, "bed"),
     ];
     for (fixtures, reason) in held {
         let bat = mesh_bat("r161").with(|parts| parts.fixtures = fixtures.clone()).unwrap();

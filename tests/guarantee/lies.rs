@@ -1,6 +1,6 @@
 //! Trials that are wrong in every way: no interval may leave out the frequency that it is of.
 
-use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Held, Joint, Support};
+use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
@@ -58,6 +58,7 @@ fn with(a: &Trial, part: f64, b: &Trial) -> Trial {
         bending: sum(&a.bending, &b.bending),
         shear: sum(&a.shear, &b.shear),
         held: sum(&a.held, &b.held),
+        bed: std::array::from_fn(|end| a.bed[end] + part * b.bed[end]),
         gives: sum(&a.gives, &b.gives),
     }
 }
@@ -76,6 +77,7 @@ fn nonsense(like: &Trial, random: &mut Random) -> Trial {
         shear,
         // What is said of supports is not even asked.
         held: like.held.iter().map(|held| (held.abs() + 0.01 * bent) * random.signed()).collect(),
+        bed: like.bed.map(|held| (held.abs() + 0.01 * bent) * random.signed()),
         gives,
     }
 }
@@ -111,6 +113,8 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         ("timo_clamped_tip_mass", 9, 8),
         ("joint", 9, 10),
         ("absorber", 9, 10),
+        ("grip_bed", 9, 10),
+        ("grip_bed_cone_timo", 9, 9),
     ];
     for (case, elements, degree) in scenes {
         let scene = Scene::new(case, elements, degree);
@@ -241,6 +245,15 @@ fn enclosures_from_different_meshes_overlap() {
         let held = (40..80).contains(&round) || round >= 100;
         let fixtures = if held { holding(&mut random) } else { Fixtures::default() };
         let fixtures = if round < 80 { fixtures } else { giving(&mut random, fixtures) };
+        // Hands on some of all kinds.
+        let mut grip = || Grip {
+            from: 0.05 * random.share(),
+            to: 0.1 + 0.2 * random.share(),
+            stiffness: 10f64.powf(3.0 + 3.0 * random.share()),
+            damping: 0.0,
+        };
+        let grip = (round % 4 == 3).then(&mut grip);
+        let fixtures = Fixtures { grip, ..fixtures };
         let bat = random_bat(&mut random, fixtures);
         let theory = Theory::ALL[round % 3];
         let layout = Layout::of(&bat, theory).unwrap();

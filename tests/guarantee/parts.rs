@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
 use sweetspot::base::interval::{Interval, Values};
-use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Held, Joint, Support};
+use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::modes::enclosure::beam::{Layout, Proven};
 use sweetspot::modes::enclosure::conclude::conclude;
@@ -166,6 +166,37 @@ fn norms_of_uniform_bats_that_give_way_are_those_in_closed_form() {
     }
 }
 
+/// A uniform bat all of which lies on a bed keeps its shapes: `1/τ = k/ρA + ω_n²`, with ω = 0 of both rigid motions. Of
+/// the bed eight Legendre coefficients are held, so that norms are above and little so.
+#[test]
+fn norms_on_a_bed_are_above_those_in_closed_form_and_near_them() {
+    let stiff = MODULUS * std::f64::consts::PI * RADIUS.powi(4) / 4.0;
+    let unit = 4.0 * DENSITY * LENGTH.powi(4) / (MODULUS * RADIUS * RADIUS);
+    // βL of the free beam; from the sixth on (n + ½)π to 1e-15.
+    let first = [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_671];
+    let beta = |n: usize| match first.get(n - 1) {
+        Some(beta) => *beta,
+        None => (n as f64 + 0.5) * std::f64::consts::PI,
+    };
+    for (soft, most) in [(1e4, 1e-9), (1.0, 1e-7), (1e-3, 1e-2)] {
+        let grip =
+            Grip { from: 0.0, to: LENGTH, stiffness: stiff / LENGTH.powi(4) / soft, damping: 0.0 };
+        let bat = dowel().with(|parts| parts.fixtures.grip = Some(grip)).unwrap();
+        let found = norms(&bat, Theory::EulerBernoulli);
+        let taus = || (1..2000).map(|n| 1.0 / (1.0 / soft + beta(n).powi(4)));
+        let exact = [
+            2.0 * soft + taus().sum::<f64>(),
+            2.0 * soft * soft + taus().map(|t| t * t).sum::<f64>(),
+        ];
+        for (found, exact) in
+            [found.trace / unit, found.square / unit / unit].into_iter().zip(exact)
+        {
+            let above = found / exact - 1.0;
+            assert!((-1e-9..most).contains(&above), "{soft} {above:e}");
+        }
+    }
+}
+
 /// Every known eigenvalue is part of the sums; the first few are most of them.
 #[test]
 fn norms_are_above_the_sums_over_known_modes_and_near_them() {
@@ -293,7 +324,7 @@ fn sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least
 fn the_shear_stiffness_of_a_tube_is_within_its_share() {
     let one = twofold::number(1.0);
     for wall in [0.4, 0.1, 0.02, 0.003] {
-        let wood = Material { shear_modulus: Some(1.0), ..Material::new(DENSITY, 2.7).unwrap() };
+        let wood = Material { shear_modulus: Some(1.0), ..Material::new(DENSITY, 2.6).unwrap() };
         let radii = [0.031, 0.028];
         let profile = Profile::new(Stations {
             x: vec![0.0, 0.11],
@@ -309,7 +340,7 @@ fn the_shear_stiffness_of_a_tube_is_within_its_share() {
         let coefficients: Vec<Twofold> = (0..=shear.series.degree())
             .map(|j| twofold::number(shear.series.coefficient(j)))
             .collect();
-        let nu = twofold::number(0.5) * twofold::number(2.7) + -one;
+        let nu = twofold::number(0.3);
         let times = |by: f64, of: Twofold| twofold::number(by) * of;
         // Radii of the file are off by 3u of the outer one at most, inner ones by 6u.
         for (outer, inner) in [(0.0, 0.0), (3.0, 6.0), (-3.0, -6.0), (3.0, -6.0), (-3.0, 6.0)] {

@@ -3,6 +3,8 @@
 //! [`Proven::of`] lays the bat out on the stretches of a mesh, each in one piece of the profile, with all that
 //! the energies of a motion need; what is not carried is refused with its reason.
 
+use std::ops::Range;
+
 use crate::base::error::{Error, Result};
 use crate::base::interval::tables::GAUSS_24;
 use crate::base::interval::{Interval, Series, Values};
@@ -11,7 +13,7 @@ use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
 use crate::bat::profile::Piece;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
-use crate::modes::enclosure::contacts::{Contact, base, contacts};
+use crate::modes::enclosure::contacts::{Bed, Contact, base, bed, contacts};
 use crate::modes::enclosure::gives::{Give, Way, stretch};
 use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::modes::enclosure::sections::Rings;
@@ -77,8 +79,10 @@ pub struct Proven {
     pub cells: Vec<Cell>,
     /// The masses on it, by rising border.
     pub masses: Vec<Mass>,
-    /// What holds it.
+    /// What holds it at places.
     pub contacts: Vec<Contact>,
+    /// The bed that holds it.
+    pub bed: Option<Bed>,
     /// The two contacts whose reactions are had from balance.
     pub base: Option<[usize; 2]>,
     /// The cell that sums run outwards from, beginning at its left end.
@@ -100,10 +104,6 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
         Err(Error::value(field, found.to_owned(), expected.to_owned()))
     };
     let fixtures = bat.fixtures();
-    if fixtures.grip.is_some_and(|grip| grip.stiffness > 0.0) {
-        let expected = "supports or springs, at places: nothing is proven of beds yet";
-        return refuse("grip", "an elastic bed", expected);
-    }
     if fixtures.holding() && fixtures.rigid_modes() > 0 {
         let field = if fixtures.supports.is_empty() { "attachments" } else { "supports" };
         let expected = "a free bat, or one that is held against moving sideways and turning";
@@ -152,6 +152,8 @@ pub struct Layout {
     pub masses: Vec<Placed>,
     /// What holds it, at the border before a piece.
     pub contacts: Vec<Contact>,
+    /// The bed that holds it, between borders of pieces.
+    pub bed: Option<Bed>,
     /// Length (m).
     pub length: Interval,
 }
@@ -221,8 +223,8 @@ impl Layout {
         let mut masses: Vec<Placed> = fixed.chain(hung).chain(joints).collect();
         masses.sort_by_key(|placed| placed.piece);
         let whole = place(length, turned);
-        let contacts = contacts(bat, border_at);
-        Ok(Self { curves, heavier, masses, contacts, length: whole })
+        let (contacts, bed) = (contacts(bat, border_at), bed(bat, border_at));
+        Ok(Self { curves, heavier, masses, contacts, bed, length: whole })
     }
 }
 
@@ -248,6 +250,16 @@ fn heavier(bat: &Bat, curves: &[Curved]) -> Result<Interval> {
 }
 
 impl Proven {
+    /// Whether anything holds it.
+    pub fn is_held(&self) -> bool {
+        !self.contacts.is_empty() || self.bed.is_some()
+    }
+
+    /// The cells on the bed.
+    pub fn in_bed(&self) -> Range<usize> {
+        self.bed.map_or(0..0, |bed| bed.borders[0]..bed.borders[1])
+    }
+
     /// The bat on the stretches of that mesh.
     ///
     /// # Errors
@@ -287,6 +299,7 @@ impl Proven {
         let held = layout.contacts.iter();
         let held = held.map(|contact| Contact { border: border(contact.border), ..*contact });
         let contacts: Vec<Contact> = held.collect();
+        let bed = layout.bed.map(|bed| Bed { borders: bed.borders.map(border), ..bed });
         let root = root(&cells);
         let (length, stiff) = (bat.length(), cells[root].bending.at[0]);
         let arm = |contact: &Contact| match cells.get(contact.border) {
@@ -312,7 +325,7 @@ impl Proven {
             gram[1] = gram[1] + *mass * arm;
             gram[2] = gram[2] + *mass * arm.square() + *inertia;
         }
-        Ok(Self { theory, cells, masses, contacts, base, root, gram, origin })
+        Ok(Self { theory, cells, masses, contacts, bed, base, root, gram, origin })
     }
 }
 

@@ -1,7 +1,7 @@
-//! What holds the bat: supports, and springs to the ground?
+//! What holds the bat: supports, springs to the ground, and the bed of the hands?
 //!
 //! A contact holds the deflection or the rotation of one place, `b(y) = w(x)` or `θ(x)`: to 0, or by a spring whose
-//! energy is `½ k b(y)²`.
+//! energy is `½ k b(y)²`. A bed holds the deflection of a stretch with the energy `½ ∫k w² dx`.
 
 use crate::base::interval::Interval;
 use crate::bat::body::Bat;
@@ -17,6 +17,22 @@ pub struct Contact {
     pub turning: bool,
     /// Stiffness of its spring (N/m or N m/rad); None of a support.
     pub stiffness: Option<Interval>,
+}
+
+/// The hands as an elastic bed.
+#[derive(Debug, Clone, Copy)]
+pub struct Bed {
+    /// The borders at which it begins and ends, each before the piece, cell or stretch of this number.
+    pub borders: [usize; 2],
+    /// Force per deflection and per length (N/m²).
+    pub stiffness: Interval,
+}
+
+/// The bed under a bat, if any, with the piece of the profile that begins at a place.
+pub fn bed(bat: &Bat, piece_at: impl Fn(f64) -> usize) -> Option<Bed> {
+    let grip = bat.fixtures().grip.filter(|grip| grip.stiffness > 0.0)?;
+    let borders = [grip.from, grip.to].map(piece_at);
+    Some(Bed { borders, stiffness: Interval::around(grip.stiffness, NUMBER) })
 }
 
 /// The contacts of a bat in the order of the solver, with the piece of the profile that begins at a place.

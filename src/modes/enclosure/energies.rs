@@ -23,6 +23,7 @@ use crate::base::interval::{Interval, Series, up};
 use crate::modes::enclosure::beam::{Cell, Mass, Proven};
 use crate::modes::enclosure::gives::{Give, Way};
 use crate::modes::enclosure::moved::{Moved, Trial, Tried};
+use crate::modes::enclosure::reactions::Reactions;
 
 /// What is proven of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,10 +98,26 @@ impl Proven {
             let stiffness = contact.stiffness.unwrap_or(ZERO);
             strain = strain + stiffness * Interval::point(value).square();
         }
+        for k in self.in_bed() {
+            let w = moved.cells[k][0].values(gauss);
+            let stiffness = self.bed.map_or(ZERO, |bed| bed.stiffness);
+            strain = strain + stiffness * self.cells[k].half * w.product(&w).integral(gauss);
+        }
         let over = strain.reciprocal().filter(|over| over.low > 0.0)?;
         let z = (kinetic * over).middle();
-        let tried = Tried { moved, loads, strains, z };
-        let (left, work) = self.residual(&tried, &self.reactions(&tried)?);
+        let mut tried = Tried { moved, loads, strains, z };
+        for k in self.in_bed() {
+            tried.loads[k].0 = tried.loads[k].0 - self.pressed(&tried, k);
+        }
+        let Reactions { contacts, line } = self.reactions(&tried)?;
+        let mut beyond = 0.0;
+        for k in self.in_bed() {
+            let line = self.line(line, k)?;
+            tried.loads[k].0 = tried.loads[k].0 - line;
+            beyond = up(beyond + up(self.cells[k].half.high * line.square_at_most()));
+        }
+        let (left, work) = self.residual(&tried, &contacts);
+        let left = up(left + self.bed.map_or(0.0, |bed| up(beyond / bed.stiffness.low)));
         let moved = &tried.moved;
         kinetic = kinetic - self.of_rigid(moved.rigid) + Interval::within(up(2.0 * work));
         let rest = self.of_steps(&moved.steps);
@@ -172,7 +189,7 @@ impl Proven {
         }
         // What is in balance has one V and one m at the root, from either side.
         let one = |k: usize| left[k].low <= at[k].high && at[k].low <= left[k].high;
-        debug_assert!(self.contacts.is_empty() || one(0) && one(1) || !sum.is_finite());
+        debug_assert!(!self.is_held() || one(0) && one(1) || !sum.is_finite());
         (sum, work)
     }
 

@@ -1,4 +1,4 @@
-//! What do supports and springs take off trace and norm of the free bat's compliance?
+//! What do supports, springs and a bed take off trace and norm of the free bat's compliance?
 //!
 //! Write `G` for the deflections of the free bat under loads, rigid motions taken out of both, `M` for its mass,
 //! `R` for the two rigid motions, and `b_j` for the loads of unit reactions. The held bat under loads `f` moves by
@@ -15,13 +15,28 @@
 //! inertia, `B*GB = (n_i, n_j)` and `⟨Gb_i, Gb_j⟩ = ⟨S n_i, S n_j⟩`. All is worked out for the beam of
 //! [`super::stretches`], of which every integrand is a polynomial, in intervals; that K has an inverse is part of
 //! the answer. Worked out here, and held against closed forms by the tests.
+//!
+//! Of a bed of length ℓ the first few Legendre coefficients of its deflection are held, `c_j = (2j + 1)/ℓ ∫w P_j dx` by
+//! springs `k ℓ/(2j + 1)`: by Bessel's inequality it holds no less, so that no `τ_n` is less than the bat's.
 
 use crate::base::interval::tables::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
-use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::contacts::{Bed, Contact};
 use crate::modes::enclosure::energies::{from_left, from_right};
 use crate::modes::enclosure::gives::{Give, Way, kink, softness, stretch};
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch};
+
+/// How many Legendre coefficients of a bed's deflection are held.
+pub const OF_A_BED: usize = 8;
+
+/// One number of a motion that is held.
+#[derive(Debug, Clone, Copy)]
+pub enum Hold {
+    /// A contact's.
+    Place(Contact),
+    /// A Legendre coefficient of the deflection on the bed.
+    Bed(Bed, usize),
+}
 
 /// A bat as its stretches and what is on it.
 pub struct Holding<'a> {
@@ -69,12 +84,12 @@ fn point(value: f64) -> Interval {
 
 impl Holding<'_> {
     /// What the contacts take off `Σ τ_n` and `Σ τ_n²`; None where it is not sure that they hold the bat.
-    pub fn less(&self, contacts: &[Contact]) -> Option<[Interval; 2]> {
-        let forces: Vec<Forces> = contacts.iter().map(|contact| self.unit(contact)).collect();
+    pub fn less(&self, holds: &[Hold]) -> Option<[Interval; 2]> {
+        let forces: Vec<Forces> = holds.iter().map(|hold| self.unit(hold)).collect();
         let motions: Vec<Motion> = forces.iter().map(|forces| self.motion(forces)).collect();
         let again: Vec<Forces> =
             motions.iter().map(|motion| self.forces(&self.inertia(motion))).collect();
-        let (count, size) = (contacts.len(), contacts.len() + 2);
+        let (count, size) = (holds.len(), holds.len() + 2);
         let zero = || vec![vec![ZERO; size]; size];
         let [mut k, mut w, mut w2] = [zero(), zero(), zero()];
         for i in 0..count {
@@ -83,12 +98,10 @@ impl Holding<'_> {
                 w[i][j] = self.kinetic_energy(&motions[i], &motions[j]);
                 w2[i][j] = self.strain_energy(&again[i], &again[j]);
             }
-            if let Some(stiffness) = contacts[i].stiffness {
+            if let Some(stiffness) = self.stiffness(&holds[i]) {
                 k[i][i] = k[i][i] + stiffness.reciprocal()?;
             }
-            let arm = self.place(contacts[i].border) - self.rigid.balance;
-            let row = if contacts[i].turning { [ZERO, point(1.0)] } else { [point(1.0), arm] };
-            for (r, entry) in row.into_iter().enumerate() {
+            for (r, entry) in self.of_rigid(&holds[i]).into_iter().enumerate() {
                 (k[i][count + r], k[count + r][i]) = (entry, entry);
             }
         }
@@ -130,22 +143,77 @@ impl Holding<'_> {
         mass.centre - self.place(mass.before)
     }
 
-    /// V and m of the free bat under a unit force or couple, in balance with the inertia of the rigid motion
-    /// that it makes.
-    fn unit(&self, contact: &Contact) -> Forces {
-        let Rigid { over_mass, over_inertia, balance, .. } = *self.rigid;
-        let arm = self.place(contact.border) - balance;
-        let (push, turn) = match contact.turning {
-            false => (over_mass, arm * over_inertia),
-            true => (ZERO, over_inertia),
-        };
-        let mut loads = self.inertia(&self.line(-push, -turn));
-        let [force, moment] = &mut loads.steps[contact.border];
-        match contact.turning {
-            false => *force = *force + point(1.0),
-            true => *moment = *moment - point(1.0),
+    /// Stiffness of the spring that holds (N/m or N m/rad); None of a support.
+    fn stiffness(&self, hold: &Hold) -> Option<Interval> {
+        match hold {
+            Hold::Place(contact) => contact.stiffness,
+            Hold::Bed(bed, term) => {
+                let share = point((2 * term + 1) as f64).reciprocal()?;
+                Some(bed.stiffness * self.length(bed) * share)
+            }
+        }
+    }
+
+    /// What is held of the two rigid motions, `(1, 0)` and `(x − x_b, 1)`: force and moment of a unit reaction.
+    fn of_rigid(&self, hold: &Hold) -> [Interval; 2] {
+        match hold {
+            Hold::Place(Contact { turning: true, .. }) => [ZERO, point(1.0)],
+            Hold::Place(contact) => [point(1.0), self.place(contact.border) - self.rigid.balance],
+            Hold::Bed(bed, 0) => [point(1.0), self.middle(bed) - self.rigid.balance],
+            Hold::Bed(bed, 1) => [ZERO, point(0.5) * self.length(bed)],
+            Hold::Bed(..) => [ZERO; 2],
+        }
+    }
+
+    /// V and m of the free bat under a unit reaction, in balance with the inertia of the rigid motion that it
+    /// makes.
+    fn unit(&self, hold: &Hold) -> Forces {
+        let Rigid { over_mass, over_inertia, .. } = *self.rigid;
+        let [push, turn] = self.of_rigid(hold);
+        let mut loads = self.inertia(&self.line(-push * over_mass, -turn * over_inertia));
+        match hold {
+            Hold::Place(contact) => {
+                let [force, moment] = &mut loads.steps[contact.border];
+                match contact.turning {
+                    false => *force = *force + point(1.0),
+                    true => *moment = *moment - point(1.0),
+                }
+            }
+            Hold::Bed(bed, term) => {
+                for k in bed.borders[0]..bed.borders[1] {
+                    loads.cells[k].0 = loads.cells[k].0 + self.on_bed(bed, *term, k);
+                }
+            }
         }
         self.forces(&loads)
+    }
+
+    /// Length of the bed (m).
+    fn length(&self, bed: &Bed) -> Interval {
+        self.place(bed.borders[1]) - self.place(bed.borders[0])
+    }
+
+    /// The middle of the bed (m).
+    fn middle(&self, bed: &Bed) -> Interval {
+        point(0.5) * (self.place(bed.borders[0]) + self.place(bed.borders[1]))
+    }
+
+    /// `(2j + 1)/ℓ P_j` of the bed, on one of its stretches.
+    fn on_bed(&self, bed: &Bed, term: usize, stretch: usize) -> Series {
+        let gauss = &GAUSS_40;
+        let over = self.length(bed).reciprocal().unwrap_or(Interval::within(f64::INFINITY));
+        let Stretch { middle, half, .. } = &self.stretches[stretch];
+        let along = [(*middle - self.middle(bed)) * (over + over), *half * (over + over)];
+        let xi = Series::of(&along).values(gauss);
+        let (mut before, mut own) = (Values::constant(ZERO), Values::constant(point(1.0)));
+        // `(j + 1) P_{j+1} = (2j + 1) ξ P_j − j P_{j−1}`.
+        for j in 0..term {
+            let next = xi.product(&own).times(point((2 * j + 1) as f64));
+            let next = next.difference(&before.times(point(j as f64)));
+            let share = point((j + 1) as f64).reciprocal().expect("not 0");
+            (before, own) = (own, next.times(share));
+        }
+        Series::through(gauss, &own.times(point((2 * term + 1) as f64) * over))
     }
 
     /// A rigid motion: deflection of the balance point, and rotation.

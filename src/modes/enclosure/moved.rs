@@ -31,6 +31,8 @@ pub struct Trial {
     /// Deflection (m) or rotation (rad) where the bat is held, contact by contact; what a support holds is 0,
     /// whatever stands here.
     pub held: Vec<f64>,
+    /// Deflections (m) at both ends of the bed, if there is one.
+    pub bed: [f64; 2],
     /// Kinks of joints (rad), then stretches of the springs that masses hang on (m), in the order of the bat's file.
     pub gives: Vec<f64>,
 }
@@ -104,7 +106,7 @@ impl Proven {
     /// The motion of a trial, begun anew on every cell so that hardly any rigid motion is in it; any other
     /// beginning is as right, and wider.
     pub fn moved(&self, trial: &Trial) -> Option<Moved> {
-        if !self.contacts.is_empty() {
+        if self.is_held() {
             return self.held(trial);
         }
         let first = self.integrated(trial, [0.0; 2]);
@@ -118,21 +120,27 @@ impl Proven {
 
     /// The motion of a held bat.
     fn held(&self, trial: &Trial) -> Option<Moved> {
-        let [i, j] = self.base?;
         if trial.terms < 2 || trial.held.len() != self.contacts.len() {
             return None;
         }
         let value = |k: usize| self.contacts[k].stiffness.map_or(0.0, |_| trial.held[k]);
         let rest = self.integrated(trial, [0.0; 2]);
-        let row = |k: usize| match self.contacts[k].turning {
+        // What the rigid motion is told by: rotation or deflection at two borders.
+        let known = match (self.base, self.bed) {
+            (Some(pair), _) => pair.map(|k| {
+                let Contact { border, turning, .. } = self.contacts[k];
+                (border, turning, value(k))
+            }),
+            (None, Some(bed)) => [0, 1].map(|end| (bed.borders[end], false, trial.bed[end])),
+            (None, None) => return None,
+        };
+        let rows = known.map(|(border, turning, _)| match turning {
             true => [0.0, 1.0],
-            false => [1.0, self.arm(self.contacts[k].border).middle()],
-        };
-        let off = |k: usize| {
-            let contact = &self.contacts[k];
-            value(k) - rest.borders[contact.border][usize::from(contact.turning)]
-        };
-        let [push, turn] = solve_two([row(i), row(j)], [off(i), off(j)]);
+            false => [1.0, self.arm(border).middle()],
+        });
+        let off = known
+            .map(|(border, turning, value)| value - rest.borders[border][usize::from(turning)]);
+        let [push, turn] = solve_two(rows, off);
         let root = self.arm(self.root).middle();
         let mut moved = self.integrated(trial, [push + turn * root, turn]);
         // Supports last: where a spring is at the same place, it is not moved either.

@@ -37,9 +37,9 @@ use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::modes::enclosure::beam::Layout;
-use crate::modes::enclosure::contacts::Contact;
+use crate::modes::enclosure::contacts::{Bed, Contact};
 use crate::modes::enclosure::gives::{Give, Way, softness};
-use crate::modes::enclosure::holding::Holding;
+use crate::modes::enclosure::holding::{Hold, Holding, OF_A_BED};
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch, rigid, stretches};
 
 /// Trace (s²) and square of the Hilbert-Schmidt norm (s⁴) of T.
@@ -116,9 +116,14 @@ impl Norms {
             .map(|contact| Contact { border: borders[contact.border], ..*contact })
             .collect();
         let holding = Holding { stretches: &stretches, masses: &masses, split, rigid: &rigid };
-        let less = match contacts.is_empty() {
+        let mut holds: Vec<Hold> = contacts.into_iter().map(Hold::Place).collect();
+        if let Some(bed) = layout.bed {
+            let bed = Bed { borders: bed.borders.map(|piece| borders[piece]), ..bed };
+            holds.extend((0..OF_A_BED).map(|term| Hold::Bed(bed, term)));
+        }
+        let less = match holds.is_empty() {
             true => [ZERO; 2],
-            false => holding.less(&contacts).ok_or_else(unheld)?,
+            false => holding.less(&holds).ok_or_else(unheld)?,
         };
         let count = stretches.len();
         let border = match stretches.get(split) {
@@ -147,7 +152,7 @@ impl Norms {
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
         let norm = square + square + across + across;
         // How far a bat that is held, or gives way, is moved at most is not worked out: none of its nodes is proven.
-        let bare = contacts.is_empty() && masses.iter().all(|mass| mass.give.is_none());
+        let bare = holds.is_empty() && masses.iter().all(|mass| mass.give.is_none());
         let reach = if bare { reach.high } else { f64::INFINITY };
         Ok(Self {
             trace: (trace - less[0]).high,

@@ -1,4 +1,4 @@
-//! Which reactions of supports and springs balance the inertia of a trial's motion?
+//! Which reactions of supports, springs and the bed balance the inertia of a trial's motion?
 //!
 //! For every motion z that the supports allow, and reactions `R` in balance with the inertia of `y`,
 //!
@@ -10,27 +10,45 @@
 //! from a motion ψ that is 1 there and 0 beyond the two cells beside it, `R = ⟨y, ψ⟩ − σ ∫EI χ χ_ψ`. These are plain
 //! numbers, which nothing is assumed of; the last two are solved for, as intervals, so that force and moment are in
 //! balance exactly.
+//!
+//! A bed presses by `r = σ k w` and, where two contacts do not hold the bat, by a line `α + β (x − x_m)` besides, which
+//! is solved for in their place; the residual has `∫(r − σ k w)²/k`.
 
 use crate::base::interval::{Interval, Series};
 use crate::modes::enclosure::beam::Proven;
 use crate::modes::enclosure::contacts::Contact;
 use crate::modes::enclosure::moved::Tried;
 
+/// What holds a motion in balance with its inertia (times s²).
+pub struct Reactions {
+    /// Of every contact (N or N m).
+    pub contacts: Vec<Interval>,
+    /// The line of the bed: α (N/m), and β (N/m²).
+    pub line: [Interval; 2],
+}
+
 impl Proven {
-    /// Reactions (N or N m, times s²) of the contacts in balance with the inertia of a motion.
-    pub fn reactions(&self, tried: &Tried) -> Option<Vec<Interval>> {
+    /// The reactions in balance with the inertia of a motion, of which the bed bears `z k w` already.
+    pub fn reactions(&self, tried: &Tried) -> Option<Reactions> {
         let Tried { moved, z, .. } = tried;
-        if self.contacts.is_empty() {
-            return Some(vec![]);
+        let mut line = [Interval::point(0.0); 2];
+        if !self.is_held() {
+            return Some(Reactions { contacts: vec![], line });
         }
-        let [i, j] = self.base?;
         let arm = |contact: &Contact| self.arm(contact.border);
         let [mut force, mut moment] = self.inertia(moved);
+        for k in self.in_bed() {
+            let (cell, pressed) = (&self.cells[k], self.pressed(tried, k));
+            let arm = Series::of(&[cell.middle, cell.half]);
+            force = force - cell.half * pressed.integral();
+            moment = moment - cell.half * arm.inner(&pressed);
+        }
+        let of_base = |k: usize| self.base.is_some_and(|base| base.contains(&k));
         let mut all = vec![Interval::point(0.0); self.contacts.len()];
         for (k, (contact, value)) in
             self.contacts.iter().zip(moved.held(&self.contacts)).enumerate()
         {
-            if k == i || k == j {
+            if of_base(k) {
                 continue;
             }
             let reaction = match contact.stiffness {
@@ -47,6 +65,14 @@ impl Proven {
             }
             all[k] = reaction;
         }
+        let Some([i, j]) = self.base else {
+            let [length, middle] = self.bed_figures()?;
+            let over = length.reciprocal()?;
+            let moment = moment - force * middle;
+            let slope = Interval::point(12.0) * moment * over * over.square();
+            line = [force * over, slope];
+            return Some(Reactions { contacts: all, line });
+        };
         let (first, second) = (&self.contacts[i], &self.contacts[j]);
         // About the first.
         let moment = moment - force * arm(first);
@@ -56,7 +82,26 @@ impl Proven {
             all[j] = moment * (arm(second) - arm(first)).reciprocal()?;
             all[i] = force - all[j];
         }
-        Some(all)
+        Some(Reactions { contacts: all, line })
+    }
+
+    /// What the bed bears of a motion on a cell, `z k w`.
+    pub fn pressed(&self, Tried { moved, z, .. }: &Tried, cell: usize) -> Series {
+        let stiffness = self.bed.map_or(Interval::point(0.0), |bed| bed.stiffness);
+        moved.cells[cell][0].times(Interval::point(*z) * stiffness)
+    }
+
+    /// The line of the bed on a cell.
+    pub fn line(&self, [level, slope]: [Interval; 2], cell: usize) -> Option<Series> {
+        let [_, middle] = self.bed_figures()?;
+        let cell = &self.cells[cell];
+        Some(Series::of(&[level + slope * (cell.middle - middle), slope * cell.half]))
+    }
+
+    /// Length of the bed and the arm of its middle (m).
+    fn bed_figures(&self) -> Option<[Interval; 2]> {
+        let [from, to] = self.bed?.borders.map(|border| self.arm(border));
+        Some([to - from, Interval::point(0.5) * (from + to)])
     }
 
     /// The reaction of a support, nearly: `⟨y, ψ⟩ − z ∫EI χ χ_ψ` with Hermite's cubics ψ.

@@ -1,8 +1,11 @@
 //! Which motions are tried: those of the solver, as strains on the stretches of its mesh?
 
+use std::ops::Range;
+
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
+use crate::beam::attached::Contact;
 use crate::beam::view::View;
 use crate::modes::enclosure::moved::Trial;
 use crate::modes::pairs::pairs_of;
@@ -47,13 +50,27 @@ fn trial(view: &View<f64>, q: &[f64]) -> Trial {
     }
     let [bending, shear] = all;
     let contacts = view.placed().map_or(&[][..], |placed| &placed.contacts);
-    let held = contacts.iter().map(|contact| {
+    let of = |contact: &Contact<f64>| {
         let spring = contact.spring.as_ref();
         spring.map_or(0.0, |spring| q[spring.place] * spring.softness)
-    });
+    };
+    let held = contacts.iter().filter(|contact| !contact.in_a_bed()).map(of);
+    // Legendre coefficients of the deflection on the bed's first and last element, counted outwards.
+    let element = |number: usize| if number < split { split - 1 - number } else { number };
+    let on_bed = (0..count).filter_map(|number| Some((element(number), number, view.bed(number)?)));
+    let end = |number: usize, bed: Range<usize>, tipwards: bool| -> f64 {
+        let sign = if (number < split) == tipwards { -1.0_f64 } else { 1.0 };
+        contacts[bed].iter().zip(0..).map(|(contact, j)| sign.powi(j) * of(contact)).sum()
+    };
+    let first = on_bed.clone().min_by_key(|(element, ..)| *element);
+    let last = on_bed.max_by_key(|(element, ..)| *element);
+    let end = |on: Option<(usize, usize, Range<usize>)>, tipwards: bool| {
+        on.map_or(0.0, |(_, number, bed)| end(number, bed, tipwards))
+    };
+    let bed = [end(first, false), end(last, true)];
     let joints = view.placed().map_or(&[][..], |placed| &placed.joints);
     let points = view.placed().map_or(&[][..], |placed| &placed.points);
     let springs = joints.iter().copied().chain(points.iter().filter_map(|point| point.spring));
     let gives = springs.map(|spring| q[spring.place] * spring.softness);
-    Trial { terms, bending, shear, held: held.collect(), gives: gives.collect() }
+    Trial { terms, bending, shear, held: held.collect(), bed, gives: gives.collect() }
 }
