@@ -27,9 +27,27 @@ fn plan(bat: &Bat, elements: usize, degree: usize) -> Plan {
     Plan { mesh: Mesh::along(bat, elements), degree, ..Plan::default() }
 }
 
+/// A bat from its other end, with its joints and what hangs on it.
+fn reversed(bat: &Bat) -> Bat {
+    let length = bat.length();
+    bat.with(|parts| {
+        let mut stations = parts.profile.stations.clone();
+        stations.x.iter_mut().for_each(|x| *x = length - *x);
+        [&mut stations.x, &mut stations.outer, &mut stations.inner].map(|all| all.reverse());
+        parts.profile = Profile::new(stations).unwrap();
+        parts.fixtures.joints.iter_mut().for_each(|joint| joint.x = length - joint.x);
+        parts.fixtures.absorbers.iter_mut().for_each(|hung| hung.x = length - hung.x);
+    })
+    .unwrap()
+}
+
 impl Scene {
     fn new(case: &str, elements: usize, degree: usize) -> Self {
-        let truth = Truth::of_cases(&[case]).unwrap();
+        let (name, turned) = case.split_once(", ").map_or((case, false), |(name, _)| (name, true));
+        let mut truth = Truth::of_cases(&[name]).unwrap();
+        if turned {
+            truth.bat = reversed(&truth.bat);
+        }
         let (bat, theory) = (&truth.bat, truth.theory);
         let plan = plan(bat, elements, degree);
         let trials = trials(bat, &plan, 16, theory).unwrap();
@@ -113,6 +131,8 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         ("timo_clamped_tip_mass", 9, 8),
         ("joint", 9, 10),
         ("absorber", 9, 10),
+        ("joint, from its tip", 9, 10),
+        ("absorber, from its tip", 9, 10),
         ("grip_bed", 9, 10),
         ("grip_bed_cone_timo", 9, 9),
     ];
@@ -120,7 +140,9 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         let scene = Scene::new(case, elements, degree);
         let own = &scene.trials;
         let told = format!("{case} on {elements} of degree {degree}");
-        scene.proven_by(own, &told);
+        // Motions that are wrong for what is on the bat prove little.
+        let good = scene.proven_by(own, &told);
+        assert!(good >= 8, "{told}: {good}");
         for round in 0..140 {
             let size = 10f64.powf(-12.0 * random.share());
             let mut lies = own.clone();

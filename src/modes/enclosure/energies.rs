@@ -15,7 +15,8 @@
 //! ε² = |Tk − σk|²/a₀ ≤ (1/a₀) Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA],   z any number
 //! ```
 //!
-//! and for each spring that gives way its `K` and `(Tk)` of [`super::gives`] likewise, for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
+//! and for each spring that gives way its `K` and `(Tk)` of [`super::gives`] likewise, m on the tip side of what is at
+//! its place; for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
 //! `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
 use crate::base::interval::tables::GAUSS_24;
@@ -232,7 +233,7 @@ impl Proven {
 impl Moved {
     /// By how much the trial's own motion may differ at a border at most, seen from the cell inside of it, towards the
     /// tip for `sign` 1: what that cell drifts, and the step at the border.
-    fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
+    pub fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
         let drift = self.drift[if sign > 0.0 { border } else { border - 1 }];
         std::array::from_fn(|i| up(drift[i] + self.steps[border][i]))
     }

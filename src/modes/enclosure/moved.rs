@@ -261,7 +261,9 @@ impl Proven {
             side[0] = up(up(side[0] + jump) + up(2.0 * self.cells[k].half.high * side[1]));
             moved.drift[k] = *side;
         }
-        let [own, turned] = self.rigid_of(moved.drift.iter());
+        // What is on an end of the bat moves by the step there too.
+        let ends = [moved.drift_at(0, 1.0), moved.drift_at(self.cells.len(), -1.0)];
+        let [own, turned] = self.rigid_of(moved.drift.iter().chain(&ends));
         for (cell, drift) in self.cells.iter().zip(&mut moved.drift) {
             let arm = cell.middle + cell.half * Interval::within(1.0);
             let rigid = up((push + turn * arm).largest() + up(own + up(turned * arm.largest())));
