@@ -130,6 +130,8 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         ("timo_pinned_pinned", 8, 10),
         ("timo_clamped_tip_mass", 9, 8),
         ("joint", 9, 10),
+        // On the knob side of the root, where it was at the root.
+        ("joint", 14, 9),
         ("absorber", 9, 10),
         ("joint, from its tip", 9, 10),
         ("absorber, from its tip", 9, 10),
