@@ -33,7 +33,9 @@ fn reversed(bat: &Bat) -> Bat {
     bat.with(|parts| {
         let mut stations = parts.profile.stations.clone();
         stations.x.iter_mut().for_each(|x| *x = length - *x);
-        [&mut stations.x, &mut stations.outer, &mut stations.inner].map(|all| all.reverse());
+        for all in [&mut stations.x, &mut stations.outer, &mut stations.inner] {
+            all.reverse();
+        }
         parts.profile = Profile::new(stations).unwrap();
         parts.fixtures.joints.iter_mut().for_each(|joint| joint.x = length - joint.x);
         parts.fixtures.absorbers.iter_mut().for_each(|hung| hung.x = length - hung.x);
