@@ -6,7 +6,7 @@ use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
 use crate::collision::hit::{Effort, Model, Separation};
 use crate::collision::hitter::Hitter;
 use crate::collision::pulse::Pulse;
-use crate::collision::stated::Answered;
+use crate::collision::stated::{Answered, fewer};
 use crate::modes::mode::Mode;
 
 /// What a model says.
@@ -118,17 +118,21 @@ impl Hitter<'_> {
         let (ball, count) = (self.scene.ball.mass, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
-        let felt = self.felt_with(x, count, beyond);
-        let (met, accuracy) = self.meet(x, &felt, closing, accuracy)?;
+        let modes = self.struck.with_modes(x, ball, count);
+        let few = if completed && known.is_none() { fewer(count) } else { vec![] };
+        let other = |few: &usize| {
+            let gains = modes.gains[..*few].to_vec();
+            self.with_wall(x, self.with_others(x, Felt { gains, ..modes }, beyond))
+        };
+        let others: Vec<Felt> = few.iter().map(other).collect();
+        let felt = self.with_wall(x, self.with_others(x, modes, beyond));
+        let (met, accuracy) = self.meet_beside(x, &felt, &others, closing, accuracy)?;
         let from_other = |felt: &Felt, accuracy: f64, faster: f64| {
             let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
             other.map_or(1.0, |(other, _)| {
                 (other.impulse / faster - met.impulse).abs() / (ball * closing)
             })
-        };
-        let apart = |count: usize, accuracy: f64, faster: f64| {
-            from_other(&self.felt_with(x, count, beyond), accuracy, faster)
         };
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
@@ -137,11 +141,12 @@ impl Hitter<'_> {
         let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
-                let [left_out, steps] =
-                    answered.errors(shears, |few, accuracy| match completed || few == count {
-                        true => apart(few, accuracy, 1.0),
-                        false => 0.0,
-                    });
+                let changes: Vec<f64> = match answered.is_delicate() {
+                    true => others.iter().map(|other| from_other(other, accuracy, 1.0)).collect(),
+                    false => met.changes.iter().map(|by| by.abs() / (ball * closing)).collect(),
+                };
+                let left_out = answered.left_out(shears, few.iter().copied().zip(changes));
+                let steps = answered.steps(|accuracy| from_other(&felt, accuracy, 1.0));
                 /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
                 const FEWER: f64 = 0.5;
                 // A wall of fewer modes, and one softer by all that may be missing.
@@ -152,7 +157,7 @@ impl Hitter<'_> {
                 });
                 [left_out, steps, wall]
             });
-        let [magnified, round_off] = answered.magnified(|by| apart(count, accuracy, 1.0 + by));
+        let [magnified, round_off] = answered.magnified(|by| from_other(&felt, accuracy, 1.0 + by));
         answer.steps += round_off;
         // What touches beyond those that were followed could give, and a ball deader than any law.
         answer.error +=

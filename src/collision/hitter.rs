@@ -217,7 +217,11 @@ impl<'a> Hitter<'a> {
     /// The bat as the ball feels it at `x` (m), with `count` modes; `beyond` is the flexibility of all
     /// modes where those beyond `count` are to be included.
     pub(super) fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
-        let mut felt = self.bent(x, count, beyond);
+        self.with_wall(x, self.bent(x, count, beyond))
+    }
+
+    /// A bat that is felt so at `x` (m), with its wall.
+    pub(super) fn with_wall(&self, x: f64, mut felt: Felt) -> Felt {
         match self.wall {
             Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
             Some(wall) => felt.rest += 1.0 / wall.stiffness,
@@ -232,6 +236,11 @@ impl<'a> Hitter<'a> {
     /// The bat as the ball feels it at `x` (m) where its wall is stiff.
     pub(super) fn bent(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
         let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
+        self.with_others(x, modes, beyond)
+    }
+
+    /// Those modes at `x` (m), and all beyond them where these are to be included.
+    pub(super) fn with_others(&self, x: f64, modes: Felt, beyond: Option<[f64; 2]>) -> Felt {
         match beyond {
             None => modes,
             Some(beyond) => self.struck.completed(x, modes, beyond),
@@ -257,8 +266,22 @@ impl<'a> Hitter<'a> {
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
+        self.meet_beside(x, felt, &[], closing, accuracy)
+    }
+
+    /// As [`Self::meet`], with bats of fewer modes beside it.
+    pub(super) fn meet_beside(
+        &self,
+        x: f64,
+        felt: &Felt,
+        others: &[Felt],
+        closing: f64,
+        accuracy: f64,
+    ) -> Option<(Encounter, f64)> {
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
-        let meet = |accuracy| (collider.meet(felt, &*law, closing, accuracy), accuracy);
+        let meet = |accuracy| {
+            (collider.meet_beside(felt, others, &*law, closing, accuracy), accuracy)
+        };
         resolved(accuracy, meet, |(met, _)| met.is_sound(felt, closing))
     }
 }

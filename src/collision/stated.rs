@@ -49,20 +49,25 @@ impl Answered<'_> {
         self.met.reloads > 0 || self.met.late || self.met.again()
     }
 
-    /// What modes left out and steps may change, relative to the closing speed, where
-    /// `apart(count, accuracy)` is how far such an answer is from this one.
-    pub fn errors(&self, shears: bool, apart: impl Fn(usize, f64) -> f64) -> [f64; 2] {
+    /// What modes left out may change, relative to the closing speed, by how far answers of [`fewer`]
+    /// modes are from this one: their numbers of modes, and how far each is.
+    pub fn left_out(&self, shears: bool, apart: impl Iterator<Item = (usize, f64)>) -> f64 {
         let [near, far] = FALLS[usize::from(shears)];
-        let left_out = fewer(self.count).map(|few| {
+        let stated = apart.map(|(few, apart)| {
             let rate = if 2 * few < self.count + 2 { far } else { near };
             let fall = (self.count as f64 / few as f64).powf(rate) - 1.0;
-            LEFT_OUT * apart(few, self.accuracy) / fall
+            LEFT_OUT * apart / fall
         });
+        stated.fold(0.0, greater)
+    }
+
+    /// What steps may change, relative to the closing speed, where `apart(accuracy)` is how far the
+    /// answer by such steps is from this one.
+    pub fn steps(&self, apart: impl Fn(f64) -> f64) -> f64 {
         let finer = FINER * self.accuracy;
         let other = if finer < FINEST { self.accuracy / FINER } else { finer };
         let least = self.speed_of(CORRECTED * self.met.corrected);
-        let steps = apart(self.count, other).max(least);
-        [left_out.fold(0.0, greater), steps]
+        apart(other).max(least)
     }
 
     /// Change of the exit speed, relative to the closing speed u, by a share dE of the energy `μu²/2`:
@@ -89,9 +94,12 @@ impl Answered<'_> {
 
 /// Numbers of modes that are few beside `count`: one, two, three, a quarter and a half less. Several,
 /// since one such answer may agree by chance.
-fn fewer(count: usize) -> impl Iterator<Item = usize> {
-    let less = [1, 2, 3, (count / 4).max(2), count - count / 2];
-    less.into_iter().map(move |less| count.saturating_sub(less)).filter(|few| *few > 0)
+pub fn fewer(count: usize) -> Vec<usize> {
+    let mut less = vec![1, 2, 3, count / 4, count - count / 2];
+    less.retain(|less| (1..count).contains(less));
+    less.sort_unstable();
+    less.dedup();
+    less.into_iter().map(|less| count - less).collect()
 }
 
 #[cfg(test)]
@@ -111,11 +119,13 @@ mod tests {
             for count in [10, 20, 43, 80] {
                 let answered = Answered { count, ..answered(&met) };
                 let error = |n: usize| (n as f64).powf(-power);
-                let [stated, steps] = answered.errors(shears, |n, _| error(n) - error(count));
-                let ratio = stated / error(count);
-                assert!((0.5..4.0).contains(&ratio) && steps == 0.0, "{count} {ratio}");
-                let agreeing = |n: usize, _| if n + 2 == count { 0.0 } else { error(n) };
-                assert!(answered.errors(shears, agreeing)[0] > 0.5 * error(count));
+                let stated = |apart: &dyn Fn(usize) -> f64| {
+                    answered.left_out(shears, fewer(count).into_iter().map(|n| (n, apart(n))))
+                };
+                let ratio = stated(&|n| error(n) - error(count)) / error(count);
+                assert!((0.5..4.0).contains(&ratio), "{count} {ratio}");
+                let agreeing = |n: usize| if n + 2 == count { 0.0 } else { error(n) };
+                assert!(stated(&agreeing) > 0.5 * error(count));
             }
         }
     }
@@ -125,8 +135,7 @@ mod tests {
         let met = Encounter { touches: 1, ..Encounter::default() };
         for accuracy in [1e-3, 1e-9, 1e-11, 1e-12] {
             let answered = Answered { accuracy, ..answered(&met) };
-            let apart = |count: usize, other: f64| f64::from(count == 10 && other != accuracy);
-            assert_eq!(answered.errors(false, apart)[1], 1.0);
+            assert_eq!(answered.steps(|other| f64::from(other != accuracy)), 1.0);
         }
     }
 

@@ -94,9 +94,19 @@ pub fn differences<const COUNT: usize>(a: c64, b: c64) -> (c64, [c64; COUNT]) {
 /// `v(h)` after a `memory` v(0), under the force with the coefficients `f_k`.
 #[inline(always)]
 pub fn driven<const COUNT: usize>(s: c64, memory: c64, force: &[f64; COUNT], h: f64) -> c64 {
-    let (whole, all) = moments::<COUNT>(s * h);
+    joined(&moments(s * h), memory, force, h)
+}
+
+/// What [`driven`] returns, from the [`moments`] of `sh`.
+#[inline(always)]
+pub fn joined<const COUNT: usize>(
+    (whole, all): &(c64, [c64; COUNT]),
+    memory: c64,
+    force: &[f64; COUNT],
+    h: f64,
+) -> c64 {
     let mut sum = whole * memory;
-    for (f, moment) in force.iter().zip(&all) {
+    for (f, moment) in force.iter().zip(all) {
         sum += moment * (h * f);
     }
     sum

@@ -66,7 +66,20 @@ impl Collider {
     /// The encounter at that place, ball and bat nearing at `speed` (m/s), with as many modes as there
     /// are gains, in steps whose force is off by about `accuracy`, relative.
     pub fn meet(&self, felt: &Felt, law: &dyn Law, speed: f64, accuracy: f64) -> Encounter {
-        law.meet(Meeting { collider: self, felt, speed, accuracy, history: None })
+        self.meet_beside(felt, &[], law, speed, accuracy)
+    }
+
+    /// The encounter, and how its impulse changes to first order for each of other bats, of no more
+    /// modes.
+    pub fn meet_beside(
+        &self,
+        felt: &Felt,
+        others: &[Felt],
+        law: &dyn Law,
+        speed: f64,
+        accuracy: f64,
+    ) -> Encounter {
+        law.meet(Meeting { collider: self, felt, others, speed, accuracy, history: None })
     }
 
     /// The encounter, and its force in time, piece by piece, from the first touch to the last.
@@ -79,7 +92,8 @@ impl Collider {
     ) -> (Encounter, Vec<Piece>) {
         let mut pieces = Vec::new();
         let history = Some(&mut pieces);
-        (law.meet(Meeting { collider: self, felt, speed, accuracy, history }), pieces)
+        let meeting = Meeting { collider: self, felt, others: &[], speed, accuracy, history };
+        (law.meet(meeting), pieces)
     }
 }
 
@@ -87,6 +101,7 @@ impl Collider {
 pub struct Meeting<'a> {
     collider: &'a Collider,
     felt: &'a Felt,
+    others: &'a [Felt],
     speed: f64,
     accuracy: f64,
     history: Option<&'a mut Vec<Piece>>,
@@ -123,7 +138,8 @@ impl<L: ForceLaw> WithSimd for Struck<'_, L> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Encounter {
-        let Self { law, meeting: Meeting { collider, felt, speed, accuracy, history } } = self;
+        let Self { law, meeting } = self;
+        let Meeting { collider, felt, others, speed, accuracy, history } = meeting;
         let Collider { rule, poles: all, decay, swing, square, tables, longest, tuning } = collider;
         let count = felt.gains.len().next_multiple_of(LANES);
         let poles = &all[..count];
@@ -149,7 +165,7 @@ impl<L: ForceLaw> WithSimd for Struck<'_, L> {
             accuracy,
             tuning: *tuning,
         };
-        touch.go(Means { all, tables, longest: *longest, history })
+        touch.go(Means { all, tables, longest: *longest, history, others })
     }
 }
 
@@ -175,8 +191,17 @@ impl<L: ForceLaw> Touch<'_, L> {
     fn go(&self, mut means: Means) -> Encounter {
         let mut met = Encounter { touches: 1, ..Encounter::default() };
         let [now, next] = [0, 1].map(|_| State::at_first(self.poles.len(), self.speed));
-        let (top, last, couplings) = (None, None, [None; LEVELS]);
-        let mut run = Run { now, next, top, last, level: 0, faint: false, steps: 0, couplings };
+        let mut run = Run {
+            now,
+            next,
+            top: None,
+            last: None,
+            level: 0,
+            faint: false,
+            steps: 0,
+            couplings: [None; LEVELS],
+            tangents: means.others.iter().map(|other| self.tangent(other)).collect(),
+        };
         run.level = self.first_level(&run.now, means.longest);
         let longest = LONGEST_FLIGHT * means.longest;
         let mut began = 0.0;
@@ -223,13 +248,16 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// The ball leaves and is round again.
     fn part(&self, run: &mut Run, met: &mut Encounter) {
-        let Run { now, top, .. } = run;
+        let Run { now, top, tangents, .. } = run;
         now.spent += self.law.energy(0.0, *top)[1];
         met.compression = top.map_or(0.0, |top| top.compression).max(met.compression);
         (now.compression, now.force, *top) = (0.0, 0.0, None);
         (met.impulse, met.end) = (now.impulse, now.time);
         if met.touches == 1 {
             (met.first_impulse, met.first_end) = (met.impulse, met.end);
+            met.changes = tangents.drain(..).map(|tangent| tangent.impulse()).collect();
+        } else {
+            met.changes.clear();
         }
         (met.lost_in_ball, met.lost_in_bat) = (now.spent, now.lost);
         met.in_modes = (0..self.felt.gains.len()).map(|n| self.in_mode(now, n)).collect();

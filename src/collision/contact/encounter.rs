@@ -17,7 +17,8 @@
 //! a mode swings, and the tables for that depend on the modes and the step's length alone. A small
 //! bump is added to the force of every step so that the energy is right to round-off; how much
 //! energy that takes shows how good the steps are. The loading's end and the ball's departure are
-//! located inside a step by Newton's method on the exact motion.
+//! located inside a step by Newton's method on the exact motion. How the impulse would change with the
+//! bat goes along ([`crate::collision::contact::tangent`]).
 //!
 //! The ball may be caught again ([`crate::collision::contact::flight`]), while its force has almost gone or after it
 //! has left. One that left is round again: a later touch begins on the first branch of the law, with
@@ -66,6 +67,9 @@ pub struct Encounter {
     pub open: f64,
     /// Steps that were tried.
     pub steps: usize,
+    /// Change of the impulse (N s) for each bat beside this one, to first order; none where the ball
+    /// was pressed anew or met again.
+    pub changes: Vec<f64>,
     /// The steps came to no end.
     pub endless: bool,
 }

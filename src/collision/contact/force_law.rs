@@ -35,6 +35,19 @@ pub trait ForceLaw: Copy + Send + Sync {
         self.force(x, top)[1]
     }
 
+    /// Change (N/m) of the force (N) at a compression on the way back with the largest compression.
+    #[inline(always)]
+    fn by_top(&self, x: f64, _force: f64, top: Top) -> f64 {
+        /// Share of it by which the largest one is moved to both sides.
+        const BY: f64 = 1e-5;
+        let of = |compression: f64| {
+            let force = self.force(compression, None)[0];
+            self.force(x, Some(Top { compression, force }))[0]
+        };
+        let [more, less] = [1.0 + BY, 1.0 - BY].map(|by| of(by * top.compression));
+        (more - less) / (2.0 * BY * top.compression)
+    }
+
     /// The forces (N) a little way from compressions where they are known, if there is a shorter way to
     /// them than by [`Self::force`].
     #[inline(always)]

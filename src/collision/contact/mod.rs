@@ -8,6 +8,7 @@
 //! | [`table`], [`step`], [`energy`] | what a step does to the modes; one step; its energy put right |
 //! | [`events`] | where the force turns, ends or begins again |
 //! | [`flight`] | when do they touch again |
+//! | [`tangent`] | what would another bat change, to first order |
 //! | [`encounter`] | the equations; what an encounter leaves behind |
 //! | [`pressing`], [`collider`] | one touch; the whole encounter, until the ball is gone for good |
 //! | [`power_law`] | the law of a baseball: how hard it pushes back |
@@ -20,6 +21,7 @@ pub mod step;
 pub mod energy;
 pub mod events;
 pub mod flight;
+pub mod tangent;
 pub mod encounter;
 pub mod pressing;
 pub mod collider;

@@ -63,6 +63,12 @@ impl ForceLaw for PowerLaw {
         if force > 0.0 { self.exponent(top) * force / x } else { 0.0 }
     }
 
+    /// `F ∝ x_m^{α − β}`.
+    #[inline(always)]
+    fn by_top(&self, _x: f64, force: f64, top: Top) -> f64 {
+        (self.exponent - self.unloading) * force / top.compression
+    }
+
     #[inline(always)]
     fn exponent(&self, top: Option<Top>) -> f64 {
         top.map_or(self.exponent, |_| self.unloading)
@@ -146,6 +152,33 @@ mod tests {
             assert!((change / (2.0 * h) / force - 1.0).abs() < 1e-6);
             let change = LAW.force(x + h, top)[0] - LAW.force(x - h, top)[0];
             assert!((change / (2.0 * h) / slope - 1.0).abs() < 1e-6);
+        }
+    }
+
+    /// What a law that says nothing of its own gets by differences.
+    #[test]
+    fn the_force_on_the_way_back_moves_with_the_largest_compression() {
+        #[derive(Clone, Copy)]
+        struct Bare(PowerLaw);
+        impl ForceLaw for Bare {
+            fn force(&self, x: f64, top: Option<Top>) -> [f64; 2] {
+                self.0.force(x, top)
+            }
+            fn energy_of(&self, x: f64, force: f64, top: Option<Top>) -> [f64; 2] {
+                self.0.energy_of(x, force, top)
+            }
+            fn compression(&self, energy: f64) -> f64 {
+                self.0.compression(energy)
+            }
+            fn exponent(&self, top: Option<Top>) -> f64 {
+                ForceLaw::exponent(&self.0, top)
+            }
+        }
+        let top = Top { compression: 0.01, force: LAW.force(0.01, None)[0] };
+        for x in [0.002, 0.006, 0.0099] {
+            let force = LAW.force(x, Some(top))[0];
+            let [own, bare] = [LAW.by_top(x, force, top), Bare(LAW).by_top(x, force, top)];
+            assert!((own / bare - 1.0).abs() < 1e-8, "{x} {own} {bare}");
         }
     }
 

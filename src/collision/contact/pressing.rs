@@ -12,7 +12,8 @@ use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::{Coupling, Course, Step};
 use crate::collision::contact::table::{Piece, StepTable};
-use crate::collision::contact::touch::{State, Touch};
+use crate::collision::contact::tangent::{Tangent, Walked};
+use crate::collision::contact::touch::{Felt, State, Touch};
 
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
@@ -41,6 +42,8 @@ pub(super) struct Run {
     pub faint: bool,
     pub steps: usize,
     pub couplings: [Option<Coupling>; LEVELS],
+    /// What is followed beside it, to the end of the first touch.
+    pub tangents: Vec<Tangent>,
 }
 
 /// What became of a step.
@@ -59,6 +62,8 @@ pub(super) struct Means<'a> {
     pub tables: &'a [OnceLock<StepTable>],
     pub longest: f64,
     pub history: Option<&'a mut Vec<Piece>>,
+    /// Bats beside it.
+    pub others: &'a [Felt],
 }
 
 impl Means<'_> {
@@ -119,6 +124,9 @@ impl<L: ForceLaw> Touch<'_, L> {
             return Taken::Finer;
         }
         self.advance(table, now, &step, next);
+        if self.damped {
+            next.lost += self.loss(now, &step, length);
+        }
         let event = self.event(&step, next, *top);
         if self.is_coarse(event, run, &step) {
             return Taken::Finer;
@@ -130,6 +138,16 @@ impl<L: ForceLaw> Touch<'_, L> {
             Some(event) => self.stop_short(event, limits, step, run),
         };
         let Some(Part { off, piece, course }) = taken else { return Taken::Finer };
+        match event {
+            Some(Event::Again) => run.tangents.clear(),
+            _ if run.tangents.is_empty() => {}
+            _ => {
+                let Run { now, next, top, tangents, .. } = &mut *run;
+                let coupling = &coupling;
+                let step = &step;
+                self.follow(tangents, Walked { now, next, top: *top, table, coupling, step, event });
+            }
+        }
         met.corrected += off;
         means.record(piece);
         run.last = Some(course);

@@ -1,11 +1,13 @@
 //! A step of a contact: the force at its points by Newton's method, and the motions under that force.
 
+use faer::c64;
+
 use crate::base::linear::dot;
 use crate::collision::contact::collocation::{LANES, POINTS, lanes, polynomial, total};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::touch::{State, Touch};
-use crate::motion::phi::{driven, pushed, shortened};
+use crate::motion::phi::{driven, joined, moments, pushed, shortened};
 
 /// A step whose force is known at the points.
 #[derive(Debug, Clone, Copy, Default)]
@@ -43,11 +45,14 @@ impl Step {
 }
 
 /// Points of a step that lie ahead.
-const AHEAD: usize = POINTS - 1;
+pub(super) const AHEAD: usize = POINTS - 1;
 
 /// Share of the compression, times the branch's `fine`, by which a round of Newton's method raises it
 /// at most: the force grows by `e²` then.
 const RISE: f64 = 0.2;
+
+/// What a time does to a mode ([`moments`]).
+type Move = (c64, [c64; POINTS]);
 
 /// What the force at each point does to the compression at each one ahead (m/N).
 pub type Coupling = [[f64; POINTS]; AHEAD];
@@ -126,7 +131,7 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// How far ball and bat would come together (m) at the points ahead without the force there.
     #[inline(always)]
-    fn free(&self, table: &StepTable, coupling: &Coupling, now: &State) -> [f64; AHEAD] {
+    pub(super) fn free(&self, table: &StepTable, coupling: &Coupling, now: &State) -> [f64; AHEAD] {
         let [w, a, b] = [&self.weights, &now.real, &now.imaginary].map(|v| lanes(v));
         let mut free = [0.0; AHEAD];
         for i in 0..AHEAD {
@@ -191,7 +196,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             }
             matrix[i][i] += 1.0 + rest * slope[i];
         }
-        eliminate(&mut matrix, left)
+        eliminate(&mut matrix, left.map(|left| [left])).map(|[by]| by)
     }
 
     /// The compression of a step, to go on from its end.
@@ -212,7 +217,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         last.max(expected) * step.length * self.felt.inverse_mass / self.speed
     }
 
-    /// The state at the end of a step, but for compression and force.
+    /// The state at the end of a step, but for compression, force and what damping takes.
     #[inline(always)]
     pub fn advance(&self, table: &StepTable, now: &State, step: &Step, next: &mut State) {
         let (h, end) = (table.length, POINTS - 1);
@@ -225,9 +230,6 @@ impl<L: ForceLaw> Touch<'_, L> {
         self.memories(table, now, step, end, next);
         (next.compression, next.force) = (step.compression[end], step.force[end]);
         (next.lost, next.spent) = (now.lost, now.spent);
-        if self.damped {
-            next.lost += self.loss(now, step, h);
-        }
     }
 
     /// The modes' memories at point i of a step.
@@ -269,6 +271,25 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// The state at a time within a step, without compression.
     #[inline(always)]
     pub fn within(&self, now: &State, step: &Step, time: f64, next: &mut State) {
+        self.moved(&self.moves(time), now, step, time, next);
+    }
+
+    /// What [`Self::within`] needs of every mode for that time.
+    #[inline(always)]
+    pub(super) fn moves(&self, time: f64) -> Vec<Move> {
+        self.modes().map(|(_, s)| moments(s * time)).collect()
+    }
+
+    /// The state at a time within a step, from the [`Self::moves`] of that time.
+    #[inline(always)]
+    pub(super) fn moved(
+        &self,
+        moves: &[Move],
+        now: &State,
+        step: &Step,
+        time: f64,
+        next: &mut State,
+    ) {
         let powers = shortened(step.powers, time / step.length);
         let [by, faster] = pushed(&powers, time);
         (next.time, next.bump, next.defect) = (now.time + time, 0.0, now.defect);
@@ -277,8 +298,8 @@ impl<L: ForceLaw> Touch<'_, L> {
         next.closing = now.closing + time * now.speed - self.felt.inverse_mass * by;
         next.compression = f64::NAN;
         (next.lost, next.spent) = (now.lost, now.spent);
-        for (n, s) in self.modes() {
-            next.remember(n, driven(*s, now.memory(n), &powers, time));
+        for (n, by) in moves.iter().enumerate() {
+            next.remember(n, joined(by, now.memory(n), &powers, time));
         }
     }
 
@@ -297,19 +318,25 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 }
 
-/// Solves for the points ahead, by Gauss's and Jordan's method: so few unknowns fit the registers.
+/// Solves for the points ahead, for some right sides at once, by Gauss's and Jordan's method: so few
+/// unknowns fit the registers.
 #[inline(always)]
-fn eliminate(matrix: &mut [[f64; AHEAD]; AHEAD], mut left: [f64; AHEAD]) -> [f64; AHEAD] {
+pub(super) fn eliminate<const SIDES: usize>(
+    matrix: &mut [[f64; AHEAD]; AHEAD],
+    mut left: [[f64; SIDES]; AHEAD],
+) -> [[f64; SIDES]; AHEAD] {
     for c in 0..AHEAD {
         let inverse = 1.0 / matrix[c][c];
         let row = matrix[c].map(|part| part * inverse);
-        let value = left[c] * inverse;
+        let value = left[c].map(|part| part * inverse);
         for i in 0..AHEAD {
             let factor = if i == c { 0.0 } else { matrix[i][c] };
             for j in 0..AHEAD {
                 matrix[i][j] -= factor * row[j];
             }
-            left[i] -= factor * value;
+            for j in 0..SIDES {
+                left[i][j] -= factor * value[j];
+            }
         }
         (matrix[c], left[c]) = (row, value);
     }

@@ -1,0 +1,206 @@
+//! How the impulse would change, to first order, if the bat gave way a little differently: beside the
+//! meeting itself, on its own steps.
+//!
+//! Of a bat with `c_n + δc_n` and `C + δC` the force is another by δF, and the compression by δx:
+//!
+//! ```text
+//! δx + C δF = δz + Σ δy_n + q,    q = Σ y_n δc_n/c_n − F δC
+//! δz″ = −δF/μ                     and δy_n follows δF as y_n follows F
+//! δF = ∂F/∂x δx                   on the way to the largest compression x_m
+//! δF = ∂F/∂x δx + ∂F/∂x_m δx_m    on the way back, with the δx_m = δx of the moment it turned
+//! ```
+//!
+//! When it turns and when it is gone come at other moments too, which is of second order: the rate of
+//! x is 0 at the first, and the force at the second. A ball that is pressed anew, or met again, is not
+//! followed: there a small change may be magnified.
+//!
+//! # Source
+//!
+//! Derivatives of a motion by its parameters: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
+//! Differential Equations I (1993), section I.14.
+
+use crate::base::linear::dot;
+use crate::collision::contact::collocation::{POINTS, lanes, total};
+use crate::collision::contact::events::Event;
+use crate::collision::contact::force_law::{ForceLaw, Top};
+use crate::collision::contact::step::{AHEAD, Coupling, Step, eliminate};
+use crate::collision::contact::table::StepTable;
+use crate::collision::contact::touch::{Felt, State, Touch};
+
+/// A bat that gives way a little differently, and how ball and bat differ for it.
+pub(super) struct Tangent {
+    /// `δc/ω_d` of every mode (s/kg).
+    weights: Vec<f64>,
+    /// δC (m/N).
+    rest: f64,
+    /// δx_m (m), once the ball is on its way back.
+    top: f64,
+    /// `q` (m) at the points ahead of a step.
+    given: [f64; AHEAD],
+    now: State,
+    next: State,
+}
+
+impl Tangent {
+    /// Change of the impulse so far (N s).
+    pub(super) fn impulse(&self) -> f64 {
+        self.now.impulse
+    }
+}
+
+/// A step that was taken, to its end or to the event in it.
+pub(super) struct Walked<'a> {
+    pub now: &'a State,
+    pub next: &'a State,
+    /// The largest compression, if the ball was on its way back from it.
+    pub top: Option<Top>,
+    pub table: &'a StepTable,
+    pub coupling: &'a Coupling,
+    pub step: &'a Step,
+    pub event: Option<Event>,
+}
+
+impl<L: ForceLaw> Touch<'_, L> {
+    /// The difference of another bat, with no more modes, at the moment of the first touch.
+    pub(super) fn tangent(&self, other: &Felt) -> Tangent {
+        let gains = other.gains.iter().copied().chain(std::iter::repeat(0.0));
+        let weights = self.weights.iter().zip(gains).zip(self.swing);
+        let [now, next] = [0, 1].map(|_| State::at_first(self.poles.len(), 0.0));
+        Tangent {
+            weights: weights.map(|((weight, gain), swing)| gain / swing - weight).collect(),
+            rest: other.rest - self.felt.rest,
+            top: 0.0,
+            given: [0.0; AHEAD],
+            now,
+            next,
+        }
+    }
+
+    /// Takes tangents along a step.
+    #[inline(always)]
+    pub(super) fn follow(&self, tangents: &mut [Tangent], walked: Walked) {
+        let Walked { now, next, top, table, coupling, step, event } = walked;
+        let (rest, law) = (self.felt.rest, &self.law);
+        let [mut slope, mut by_top] = [[0.0; AHEAD]; 2];
+        let mut between = State::at_first(self.poles.len(), 0.0);
+        for i in 0..AHEAD {
+            let [x, force] = [step.compression[i + 1], step.force[i + 1]];
+            slope[i] = law.slope(x, force, top);
+            by_top[i] = top.map_or(0.0, |top| law.by_top(x, force, top));
+            self.memories(table, now, step, i + 1, &mut between);
+            for tangent in &mut *tangents {
+                tangent.given[i] = self.given(tangent, &between, force);
+            }
+        }
+        // The matrix is the last one of Newton's method, the same for all.
+        let [mut matrix, mut inverse] = [[[0.0; AHEAD]; AHEAD]; 2];
+        for i in 0..AHEAD {
+            for j in 0..AHEAD {
+                matrix[i][j] = coupling[i][j + 1] * slope[j];
+            }
+            matrix[i][i] += 1.0 + rest * slope[i];
+            inverse[i][i] = 1.0;
+        }
+        let inverse = eliminate(&mut matrix, inverse);
+        let time = next.time - now.time;
+        let moves = event.map(|_| self.moves(time));
+        for tangent in tangents {
+            let mut reach = self.free(table, coupling, &tangent.now);
+            let force = by_top.map(|by| by * tangent.top);
+            for i in 0..AHEAD {
+                reach[i] += tangent.given[i] - rest * force[i] - dot(&coupling[i][1..], &force);
+            }
+            let mut all = [tangent.now.force; POINTS];
+            for i in 0..AHEAD {
+                all[i + 1] = force[i] + slope[i] * dot(&inverse[i], &reach);
+            }
+            let powers = self.rule.through(&all);
+            let change = Step { length: step.length, force: all, powers, ..Step::default() };
+            match &moves {
+                None => self.advance(table, &tangent.now, &change, &mut tangent.next),
+                Some(moves) => {
+                    self.moved(moves, &tangent.now, &change, time, &mut tangent.next);
+                }
+            }
+            if event == Some(Event::Turned) {
+                let slope = law.slope(next.compression, next.force, None);
+                let given = self.given(tangent, next, next.force);
+                tangent.top = (self.reach(&tangent.next) + given) / (1.0 + rest * slope);
+                tangent.next.force = slope * tangent.top;
+            }
+            std::mem::swap(&mut tangent.now, &mut tangent.next);
+        }
+    }
+
+    /// `q` (m) of a tangent at a moment of that force (N).
+    #[inline(always)]
+    fn given(&self, tangent: &Tangent, state: &State, force: f64) -> f64 {
+        let [w, im] = [&tangent.weights, &state.imaginary].map(|v| lanes(v));
+        -total(self.chunks(), |k, l| w[k][l] * im[k][l]) - tangent.rest * force
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::contact::collider::Collider;
+    use crate::collision::contact::power_law::PowerLaw;
+
+    const MODES: [[f64; 2]; 3] = [[1100.0, 0.0], [3700.0, 0.02], [8000.0, 0.0]];
+
+    fn bat() -> Felt {
+        Felt { inverse_mass: 1.0 / 0.145 + 1.0 / 0.8, gains: vec![0.5, 0.8, 1.0], rest: 2e-8 }
+    }
+
+    /// Another bat, the gain of a mode or (of none) the flexibility larger by that share.
+    fn other(which: usize, share: f64) -> Felt {
+        let mut other = bat();
+        match other.gains.get_mut(which) {
+            Some(gain) => *gain *= 1.0 + share,
+            None => other.rest *= 1.0 + share,
+        }
+        other
+    }
+
+    /// Against differences of meetings to both sides, whose own error is of second order.
+    #[test]
+    fn the_change_is_the_derivative_of_the_impulse() {
+        const SHARE: f64 = 1e-3;
+        for restitution in [0.4, 0.55, 0.8, 1.0] {
+            let law = PowerLaw::new(6.53e7, 1.84, restitution);
+            let collider = Collider::new(&MODES, 8e-5);
+            let others: Vec<Felt> = (0..4).map(|which| other(which, SHARE)).collect();
+            let met = collider.meet_beside(&bat(), &others, &law, 60.0, 1e-6);
+            assert_eq!(met.impulse, collider.meet(&bat(), &law, 60.0, 1e-6).impulse);
+            assert_eq!([met.reloads, met.touches], [0, 1], "{restitution}");
+            for (which, change) in met.changes.iter().enumerate() {
+                let at = |share| collider.meet(&other(which, share), &law, 60.0, 1e-9).impulse;
+                let difference = 0.5 * (at(SHARE) - at(-SHARE));
+                let off = (change - difference).abs();
+                assert!(off < 2e-4 * difference.abs(), "{restitution} {which} {change} {difference}");
+            }
+        }
+    }
+
+    /// A bat of fewer modes is one whose last gains are 0.
+    #[test]
+    fn a_mode_fewer_is_a_gain_of_zero() {
+        let law = PowerLaw::new(6.53e7, 1.84, 0.5);
+        let none = other(2, -1.0);
+        let fewer = Felt { gains: none.gains[..2].to_vec(), ..none.clone() };
+        let met = Collider::new(&MODES, 8e-5).meet_beside(&bat(), &[none, fewer], &law, 60.0, 1e-3);
+        assert_eq!(met.changes[0], met.changes[1]);
+        assert!(met.changes[0].abs() > 1e-5 * met.impulse);
+    }
+
+    /// A dead ball is pressed anew by the ringing bat: then nothing is said.
+    #[test]
+    fn where_the_ball_is_pressed_anew_there_is_no_tangent() {
+        let law = PowerLaw::new(6.53e7, 1.84, 0.1);
+        let felt = Felt { gains: vec![6.0, 9.0, 12.0], ..bat() };
+        let others = [other(0, 0.0)];
+        let met = Collider::new(&MODES, 8e-5).meet_beside(&felt, &others, &law, 60.0, 1e-3);
+        assert!(met.reloads > 0 || met.again(), "{met:?}");
+        assert!(met.changes.is_empty());
+    }
+}
