@@ -1,6 +1,6 @@
 //! The modes against closed forms, and the stated errors against the true ones.
 
-mod common;
+use crate::common;
 
 use std::time::Duration;
 

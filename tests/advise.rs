@@ -1,6 +1,6 @@
 //! The advisor: effects against exact ones, their signs, and a smallest model that really will do.
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 //! prototype.
 #![cfg(feature = "cli")]
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 

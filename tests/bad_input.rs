@@ -1,7 +1,7 @@
 //! Every malformed file and command line is answered by clear messages about nothing else, and exit
 //! code 2.
 
-mod common;
+use crate::common;
 
 use std::fs;
 

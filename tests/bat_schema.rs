@@ -1,6 +1,6 @@
 //! The schema of a bat file says what the reader does: the same members, types and bounds.
 
-mod common;
+use crate::common;
 
 use std::collections::BTreeSet;
 use std::fs;

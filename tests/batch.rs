@@ -1,6 +1,6 @@
 //! Many bats at once are the same bats.
 
-mod common;
+use crate::common;
 
 use common::{cone, dowel};
 use sweetspot::bat::fixtures::Attachment;

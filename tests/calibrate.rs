@@ -1,6 +1,6 @@
 //! What `sweetspot calibrate` finds: the numbers of an independent solver, and closed forms.
 
-mod common;
+use crate::common;
 
 use std::io::Write;
 use std::process::Stdio;

@@ -1,7 +1,5 @@
 //! The hit on whole bats: the rigid limit, the ledger, and the WPI report's own dowel.
 
-mod common;
-
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};

@@ -1,6 +1,6 @@
 //! Every command that README.md, docs/ and the help texts show does what it says it does.
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::Path;

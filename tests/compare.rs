@@ -1,6 +1,6 @@
 //! Bats side by side: differences that are known, and errors that hold.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use common::{bat, cone};

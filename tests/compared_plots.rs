@@ -1,7 +1,7 @@
 //! Pictures of bats side by side, and of a bat beside its measurement.
 #![cfg(feature = "png")]
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use common::pictures::{check, number, scale, texts, ticks};

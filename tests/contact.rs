@@ -1,8 +1,6 @@
 //! The contact on whole bats: what must hold at every impact point, limits, and other people's
 //! numbers.
 
-mod common;
-
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 use sweetspot::bat::theory::Theory;

@@ -1,6 +1,6 @@
 //! How many motions are slower than a frequency, where the frequencies have closed forms.
 
-mod common;
+use crate::common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, dowel};
 use sweetspot::Bat;

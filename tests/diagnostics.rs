@@ -1,6 +1,6 @@
 //! What a person sees of a mistake in a file: the line, a caret, what to do.
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! README.md is short, its links lead somewhere, and what it and docs/ show of the program's answers
 //! is what the program prints now.
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! What-ifs hold: a bat is weighed once, and its edits come after it.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use sweetspot::bat::body::STANDARD_PIVOT;

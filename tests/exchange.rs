@@ -2,7 +2,7 @@
 //!
 //! `tests/foreign/read_back.py` reads the same files with the programs they are for.
 
-mod common;
+use crate::common;
 
 use std::io::Read;
 use std::path::Path;

@@ -2,7 +2,7 @@
 //! which shares no code with the program and knows where each feature is, has a frequency within
 //! three times the stated error.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;

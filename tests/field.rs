@@ -1,6 +1,6 @@
 //! Facts of the field: what laboratories, broadcasts and makers say of bats and balls.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use serde_json::Value;

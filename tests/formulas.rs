@@ -1,6 +1,6 @@
 //! A profile in formulas is the same bat as one in stations, where stations can say the same.
 
-mod common;
+use crate::common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, bat, cone, dowel, dowel_frequency};
 use serde_json::{Value, json};

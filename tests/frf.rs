@@ -1,6 +1,6 @@
 //! A frequency response with its peaks, alone and beside a measured one.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -4,7 +4,7 @@
 //! every member there is; of the others, lists are kept as far as their second item. Numbers are
 //! compared where the answer is defined, not where it says how it was found.
 
-mod common;
+use crate::common;
 
 use common::documents::{Numbers, WRITTEN, error, folder, manifest, page, written};
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! What weights, springs and supports do to a bat, whatever its shape.
 
-mod common;
+use crate::common;
 
 use common::{LENGTH, cone};
 use sweetspot::bat::fixtures::{

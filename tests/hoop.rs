@@ -1,6 +1,7 @@
 //! Hoop modes against exact three-dimensional elasticity, against published numbers and against laws that
 //! hold for every wall.
 
+#[path = "hoop_walls/mod.rs"]
 mod hoop_walls;
 
 use std::f64::consts::TAU;

@@ -4,7 +4,7 @@
 //! revolution, contact by Runge and Kutta), which shares no code with this one; its energies close to
 //! 5e-8, its patch was computed on two meshes.
 
-mod common;
+use crate::common;
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! What people see of a hollow bat: the verb `hoop`, its files, and what `analyze` and the report say.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use serde_json::{Value, json};

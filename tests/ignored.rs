@@ -1,6 +1,6 @@
 //! What the program says shear and rotary inertia would do, against Timoshenko's beam.
 
-mod common;
+use crate::common;
 
 use sweetspot::bat::material::Material;
 use sweetspot::bat::theory::Theory;

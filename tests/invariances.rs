@@ -1,7 +1,7 @@
 //! What must not change when nothing physical does, and how it changes when something does: what
 //! the extremes do not hold.
 
-mod common;
+use crate::common;
 
 use common::{LENGTH, bat, cone, dowel};
 use sweetspot::bat::material::Material;

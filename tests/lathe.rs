@@ -1,6 +1,6 @@
 //! Where a cut does what: derivatives against numbers found by another solver, and against identities.
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Pictures of the verbs for makers of bats: each can be read, and shows what was found.
 #![cfg(feature = "png")]
 
-mod common;
+use crate::common;
 
 use common::pictures::{check, number, texts};
 use resvg::usvg::roxmltree::Document;

@@ -1,7 +1,7 @@
 //! Measured modes beside computed ones, with measurements that are known: the closed form of the
 //! dowel, scaled, turned, shifted, and with known faults.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 

@@ -3,7 +3,7 @@
 //! The truth is a solve to 1e-12, which needs another mesh; `search/bats.py` has a reference that
 //! shares nothing with the program.
 
-mod common;
+use crate::common;
 
 use common::bat;
 use sweetspot::base::error::Error;

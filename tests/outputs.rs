@@ -1,6 +1,6 @@
 //! What the program writes: whole or not at all, the same every time, and what the contract says.
 
-mod common;
+use crate::common;
 
 use std::collections::BTreeSet;
 use std::fs;

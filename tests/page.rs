@@ -1,6 +1,6 @@
 //! The report: one page that needs nothing, tells what was computed and shows any text as text.
 
-mod common;
+use crate::common;
 
 use std::collections::BTreeSet;
 

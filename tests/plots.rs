@@ -1,7 +1,7 @@
 //! Pictures: what is drawn is what was computed, in its place, and can be read.
 #![cfg(feature = "png")]
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use common::pictures::{check, number, scale, texts, ticks};

@@ -1,6 +1,6 @@
 //! What `sweetspot scatter` finds: closed forms, known indices, and the same bytes whoever computes them.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! What is written is what its schema says, and a schema is one.
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Hollow and layered sections, regions, joints, wood, and bats that were weighed and tapped.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The solvers that factor K + σM, held to closed forms, to the dense solver and to themselves.
 
-mod common;
+use crate::common;
 
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel};
 use nalgebra_sparse::{CooMatrix, CscMatrix};

@@ -1,6 +1,6 @@
 //! A struck bat as a sound file: it reads as WAV and sounds at the bat's own frequencies.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::PI;
 

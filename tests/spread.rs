@@ -1,6 +1,6 @@
 //! What calipers, scale and wood leave open: closed forms, and samples of bats that are made anew.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 use sweetspot::bat::edit::{Change, Edit};

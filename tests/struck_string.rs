@@ -1,9 +1,9 @@
 //! The damped string of `examples/struck_string.rs`: modes against travelling fronts.
 
 #[path = "../examples/struck_string.rs"]
-mod struck_string;
+mod example;
 
-use struck_string::{Blow, DampedString, example};
+use example::{Blow, DampedString, example};
 
 /// Places and times (in lengths, and periods of `2l/v`) at least 0.04 l from every front.
 const CALM: [(f64, f64); 6] =
@@ -83,5 +83,5 @@ fn the_damping_ratio_falls_as_the_frequency_rises() {
 
 #[test]
 fn the_example_runs_and_finds_itself_right() {
-    struck_string::main();
+    example::main();
 }

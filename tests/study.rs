@@ -1,6 +1,6 @@
 //! Many bats: every row is right by itself, whoever makes it, and nothing that was made is lost.
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 use std::process::Stdio;

@@ -1,6 +1,6 @@
 //! What a person sees at a terminal, and what a pipe gets.
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! The three theories beside each other: each the limit of the next, none stiffer than it should
 //! be.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::{PI, TAU};
 

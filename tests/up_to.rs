@@ -1,6 +1,6 @@
 //! All modes up to a frequency, and no other: against beams whose frequencies are known.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 use std::fs;

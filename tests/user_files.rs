@@ -1,6 +1,6 @@
 //! Nothing that the user had is lost to a name given twice.
 
-mod common;
+use crate::common;
 
 use common::folder::Folder;
 

@@ -403,31 +403,35 @@ impl Bat {
     /// Formulas take as many points as agree to 2e-14.
     pub fn inertia(&self) -> Inertia {
         let attached = |f: &dyn Fn([f64; 3]) -> f64| self.fixtures.masses().map(f).sum::<f64>();
-        let [mass, first, own] =
-            self.integrals(|x, worth| [worth.mass, x * worth.mass, worth.turning]);
+        let [mass, first, own] = self.integrals(|x, layup, section| {
+            let mass = layup.mass(section);
+            [mass, x * mass, layup.turning(section)]
+        });
         let mass = mass + attached(&|[mass, ..]| mass);
         let first = first + attached(&|[mass, x, _]| mass * x);
         let balance_point = first / mass;
         let arm = |x: f64| (x - balance_point).powi(2);
-        let [line] = self.integrals(|x, worth| [arm(x) * worth.mass]);
+        let [line] = self.integrals(|x, layup, section| [arm(x) * layup.mass(section)]);
         let line = line + attached(&|[mass, x, own]| mass * arm(x) + own);
         Inertia { mass, balance_point, about_balance: line + own, line_about_balance: line }
     }
 
-    /// `∫ f dx` over the bat of what the section at `x` is worth.
-    fn integrals<const N: usize>(&self, f: impl Fn(f64, Worth) -> [f64; N]) -> [f64; N] {
+    /// `∫ f dx` over the bat of something about the section at `x`.
+    fn integrals<const N: usize>(&self, f: impl Fn(f64, &Layup, Section) -> [f64; N]) -> [f64; N] {
         let rule = gauss(7);
         let mut totals = [RunningSum::<f64>::default(); N];
         for piece in &self.profile.pieces {
             let layup = self.layup(piece);
-            let at = |s: f64| f(piece.start + s * piece.length, layup.worth(piece.at(s)));
+            let of = |s: f64, section: Section| f(piece.start + s * piece.length, layup, section);
             let mut add = |weight: f64, values: [f64; N]| {
                 let parts = totals.iter_mut().zip(values);
                 parts.for_each(|(total, value)| total.add(weight * piece.length * value));
             };
-            match piece.radii {
-                Radii::Cubic(_) => rule.iter().for_each(|(s, weight)| add(*weight, at(*s))),
-                Radii::Formula(_) => add(1.0, converged(at).values),
+            match &piece.radii {
+                Radii::Cubic(cubics) => {
+                    rule.iter().for_each(|(s, weight)| add(*weight, of(*s, cubics.at(*s))));
+                }
+                Radii::Formula(curves) => add(1.0, converged(|s| of(s, curves.at(s))).values),
             }
         }
         totals.map(|total| total.value())

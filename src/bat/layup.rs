@@ -84,6 +84,12 @@ impl Layup {
         [bending, mass]
     }
 
+    /// ρA (kg/m).
+    #[inline(always)]
+    pub fn mass(&self, section: Section) -> f64 {
+        self.bending_and_mass(section)[1]
+    }
+
     /// The section without the sleeves.
     #[inline(always)]
     pub(super) fn wall(&self, section: Section) -> Section {

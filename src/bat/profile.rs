@@ -282,6 +282,16 @@ impl Piece {
         middle > from && middle < to
     }
 
+    /// The sections at both ends.
+    pub fn ends(&self) -> [Section; 2] {
+        match &self.radii {
+            Radii::Cubic(Cubics { outer, inner, .. }) => {
+                [0, 3].map(|k| Section { outer: outer[k], inner: inner[k] })
+            }
+            Radii::Formula(curves) => [0.0, 1.0].map(|s| curves.at(s)),
+        }
+    }
+
     /// The section at `s` in [0, 1] along the piece.
     pub fn at(&self, s: f64) -> Section {
         match &self.radii {
@@ -318,7 +328,8 @@ impl Cubics {
     /// The section at `s` in [0, 1] along the piece.
     #[inline]
     pub fn at(&self, s: f64) -> Section {
-        Section { outer: bernstein(&self.outer, s), inner: bernstein(&self.inner, s) }
+        let inner = if self.inner == [0.0; 4] { 0.0 } else { bernstein(&self.inner, s) };
+        Section { outer: bernstein(&self.outer, s), inner }
     }
 
     /// Where between its ends, in (0, 1), the wall is gone, two cubics having crossed.

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::base::quadrature::{gauss, legendre};
 use crate::base::real::Real;
 use crate::bat::body::Bat;
-use crate::bat::profile::Radii;
+use crate::bat::profile::{Cubics, Radii, Section};
 
 /// Lowest and highest degree of the elements' deflection.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
@@ -48,6 +48,24 @@ pub struct GaussPoint {
     pub weight: f64,
     /// Values of the four cubic Bernstein polynomials at the point.
     pub bernstein: [f64; 4],
+}
+
+impl GaussPoint {
+    /// The point with that place in (0, 1) and that weight.
+    pub fn new((s, weight): (f64, f64)) -> Self {
+        let t = 1.0 - s;
+        let bernstein = [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s];
+        Self { s, weight, bernstein }
+    }
+
+    /// The section there between the ends of these cubics.
+    #[inline(always)]
+    pub fn section(&self, cubics: &Cubics) -> Section {
+        let v = &self.bernstein;
+        let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
+        let inner = if cubics.inner == [0.0; 4] { 0.0 } else { radius(&cubics.inner) };
+        Section { outer: radius(&cubics.outer), inner }
+    }
 }
 
 /// Kinds of profile: constant, linear and cubic radii, formulas, and what lies on both sides of stations.
@@ -109,14 +127,6 @@ impl Rule {
 
     /// `count` points for `terms` Legendre polynomials.
     fn new(terms: usize, count: usize) -> Self {
-        let point = |&(s, weight): &(f64, f64)| {
-            let t = 1.0 - s;
-            GaussPoint {
-                s,
-                weight,
-                bernstein: [t * t * t, 3.0 * s * t * t, 3.0 * s * s * t, s * s * s],
-            }
-        };
         let places = gauss(count);
         let at: Vec<Vec<f64>> =
             places.iter().map(|(s, _)| legendre(count.max(terms) + 2, 2.0 * s - 1.0)).collect();
@@ -152,9 +162,8 @@ impl Rule {
             let weight = |i: usize| (2 * k + 1) as f64 * places[i].1 * at[i][k];
             (0..count).map(weight).collect()
         });
-        let points = places.iter().map(point).collect();
         Self {
-            points,
+            points: places.into_iter().map(GaussPoint::new).collect(),
             legendre,
             by_term,
             from_left,

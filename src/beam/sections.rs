@@ -10,7 +10,7 @@ use crate::bat::layup::{Layup, Worth};
 use crate::bat::profile::{Cubics, Radii, Section};
 use crate::bat::theory::Theory;
 use crate::beam::mesh::{Element, Mesh, Part};
-use crate::beam::rule::{MOST_POINTS, Rule};
+use crate::beam::rule::{GaussPoint, MOST_POINTS, Rule};
 
 /// The sections at the points of the rule on one element.
 #[inline(always)]
@@ -23,12 +23,8 @@ fn sections(bat: &Bat, e: &Element, rule: &Rule, mut at: impl FnMut(usize, Secti
         return;
     };
     let cubics = cubics.part(e.from, e.to);
-    let solid = cubics.inner == [0.0; 4];
     for (i, point) in rule.points.iter().enumerate() {
-        let v = &point.bernstein;
-        let radius = |b: &[f64; 4]| (b[0] * v[0] + b[1] * v[1]) + (b[2] * v[2] + b[3] * v[3]);
-        let inner = if solid { 0.0 } else { radius(&cubics.inner) };
-        at(i, Section { outer: radius(&cubics.outer), inner });
+        at(i, point.section(&cubics));
     }
 }
 
@@ -48,10 +44,11 @@ pub fn over<const Q: usize>(
         let piece = &bat.profile().pieces[piece];
         let (layup, share) = (bat.layup(piece), end - begin);
         let Radii::Cubic(cubics) = &piece.radii else { continue };
-        let cubics = cubics.part(from, to);
-        for &(t, weight) in &POINTS[points(&cubics, moments.count, [begin, end])] {
-            let values = of(layup, cubics.at(t)).map(|value| value * weight * share);
-            moments.add(2.0 * (begin + share * t) - 1.0, values);
+        let cubics = if [from, to] == [0.0, 1.0] { *cubics } else { cubics.part(from, to) };
+        for point in &POINTS[points(&cubics, moments.count, [begin, end])] {
+            let share_of = point.weight * share;
+            let values = of(layup, point.section(&cubics)).map(|value| value * share_of);
+            moments.add(2.0 * (begin + share * point.s) - 1.0, values);
         }
     }
     moments.flush();
@@ -64,8 +61,10 @@ pub fn over<const Q: usize>(
 }
 
 /// Gauss's rules on [0, 1], by their number of points.
-static POINTS: LazyLock<Vec<Vec<(f64, f64)>>> =
-    LazyLock::new(|| (0..=MOST_POINTS).map(|n| gauss(n.max(1))).collect());
+static POINTS: LazyLock<Vec<Vec<GaussPoint>>> = LazyLock::new(|| {
+    let rule = |n: usize| gauss(n.max(1)).into_iter().map(GaussPoint::new).collect();
+    (0..=MOST_POINTS).map(rule).collect()
+});
 
 /// How many points hold a part of an element whose sections are multiplied by so many Legendre polynomials.
 ///

@@ -279,9 +279,8 @@ impl<'a> Hitter<'a> {
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
-        let meet = |accuracy| {
-            (collider.meet_beside(felt, others, &*law, closing, accuracy), accuracy)
-        };
+        let meet =
+            |accuracy| (collider.meet_beside(felt, others, &*law, closing, accuracy), accuracy);
         resolved(accuracy, meet, |(met, _)| met.is_sound(felt, closing))
     }
 }

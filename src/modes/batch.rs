@@ -234,12 +234,10 @@ fn same_pattern(a: &Bat, b: &Bat) -> bool {
         && masses(a) == masses(b)
         && borders(a) == borders(b)
         && std::ptr::eq(Rule::of(a, false, 3), Rule::of(b, false, 3))
-        && pieces.flat_map(|(a, b)| [0.0, 1.0].map(|s| (a.at(s).outer, b.at(s).outer))).all(
-            |(of_a, of_b)| {
-                let (of_a, of_b) = (of_a * widest_b, of_b * widest_a);
-                of_a <= ALIKE * of_b && of_b <= ALIKE * of_a
-            },
-        )
+        && pieces.flat_map(|(a, b)| std::iter::zip(a.ends(), b.ends())).all(|(of_a, of_b)| {
+            let (of_a, of_b) = (of_a.outer * widest_b, of_b.outer * widest_a);
+            of_a <= ALIKE * of_b && of_b <= ALIKE * of_a
+        })
 }
 
 /// The memory of one way through the bats.

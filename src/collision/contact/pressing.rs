@@ -143,9 +143,8 @@ impl<L: ForceLaw> Touch<'_, L> {
             _ if run.tangents.is_empty() => {}
             _ => {
                 let Run { now, next, top, tangents, .. } = &mut *run;
-                let coupling = &coupling;
-                let step = &step;
-                self.follow(tangents, Walked { now, next, top: *top, table, coupling, step, event });
+                let (top, coupling, step) = (*top, &coupling, &step);
+                self.follow(tangents, Walked { now, next, top, table, coupling, step, event });
             }
         }
         met.corrected += off;

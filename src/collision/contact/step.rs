@@ -277,7 +277,12 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// What [`Self::within`] needs of every mode for that time.
     #[inline(always)]
     pub(super) fn moves(&self, time: f64) -> Vec<Move> {
-        self.modes().map(|(_, s)| moments(s * time)).collect()
+        // Not by an iterator: what that calls is compiled without the wider vectors.
+        let mut moves = vec![Move::default(); self.felt.gains.len()];
+        for (n, s) in self.modes() {
+            moves[n] = moments(s * time);
+        }
+        moves
     }
 
     /// The state at a time within a step, from the [`Self::moves`] of that time.

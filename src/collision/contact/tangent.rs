@@ -177,7 +177,10 @@ mod tests {
                 let at = |share| collider.meet(&other(which, share), &law, 60.0, 1e-9).impulse;
                 let difference = 0.5 * (at(SHARE) - at(-SHARE));
                 let off = (change - difference).abs();
-                assert!(off < 2e-4 * difference.abs(), "{restitution} {which} {change} {difference}");
+                assert!(
+                    off < 2e-4 * difference.abs(),
+                    "{restitution} {which} {change} {difference}"
+                );
             }
         }
     }

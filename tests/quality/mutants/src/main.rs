@@ -5,7 +5,7 @@
 //! A. J. Offutt, M. J. Harrold, Proc. ISSTA '93, 139).
 //!
 //! ```text
-//! mutants ROOT COPY --seed 1 --count 150 --tests collision,held,…
+//! mutants ROOT COPY --seed 1 --count 150 --tests hits,beams
 //! ```
 //!
 //! writes the copy of the package ROOT, leaves out errors that do not compile, builds the tests

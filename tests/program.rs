@@ -1,0 +1,36 @@
+//! Tests of files, of what the program says and of what it writes, as one program.
+
+mod common;
+
+mod advise;
+mod aim;
+mod bad_input;
+mod bat_schema;
+mod calibrate;
+mod commands;
+mod compare;
+mod compared_plots;
+mod diagnostics;
+mod documents;
+mod edits;
+mod exchange;
+mod features;
+mod figures;
+mod film;
+mod fuzz_corpus;
+mod golden;
+mod hoop_verb;
+mod ignored;
+mod lathe;
+mod maker_plots;
+mod mutated_files;
+mod outputs;
+mod page;
+mod plots;
+mod results;
+mod scatter;
+mod schema;
+mod study;
+mod terminal;
+mod uff;
+mod user_files;
