@@ -119,14 +119,15 @@ impl Hitter<'_> {
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
         let modes = self.struck.with_modes(x, ball, count);
-        let few = if completed && known.is_none() { fewer(count) } else { vec![] };
-        let other = |few: &usize| {
-            let gains = modes.gains[..*few].to_vec();
+        let few = if completed { fewer(count) } else { vec![] };
+        let of = |count: usize| {
+            let gains = modes.gains[..count].to_vec();
             self.with_wall(x, self.with_others(x, Felt { gains, ..modes }, beyond))
         };
-        let others: Vec<Felt> = few.iter().map(other).collect();
-        let felt = self.with_wall(x, self.with_others(x, modes, beyond));
-        let (met, accuracy) = self.meet_beside(x, &felt, &others, closing, accuracy)?;
+        let others = || -> Vec<Felt> { few.iter().map(|few| of(*few)).collect() };
+        let felt = of(count);
+        let beside = if known.is_none() { others() } else { vec![] };
+        let (met, accuracy) = self.meet_beside(x, &felt, &beside, closing, accuracy)?;
         let from_other = |felt: &Felt, accuracy: f64, faster: f64| {
             let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
@@ -142,7 +143,7 @@ impl Hitter<'_> {
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
                 let changes: Vec<f64> = match answered.is_delicate() {
-                    true => others.iter().map(|other| from_other(other, accuracy, 1.0)).collect(),
+                    true => others().iter().map(|other| from_other(other, accuracy, 1.0)).collect(),
                     false => met.changes.iter().map(|by| by.abs() / (ball * closing)).collect(),
                 };
                 let left_out = answered.left_out(shears, few.iter().copied().zip(changes));
