@@ -228,10 +228,10 @@ impl Profile {
             let end = if k == last { length } else { self.pieces[k + 1].start };
             let sampled = (1..SAMPLES).map(|k| k as f64 / SAMPLES as f64);
             let widest = sampled.max_by(|a, b| piece.at(*a).outer.total_cmp(&piece.at(*b).outer));
-            let ends = piece.at(0.0).outer.max(piece.at(1.0).outer);
-            let widest = widest.filter(|s| piece.at(*s).outer > ends);
+            let [left, right] = piece.ends();
+            let widest = widest.filter(|s| piece.at(*s).outer > left.outer.max(right.outer));
             let inside = widest.map(|s| (piece.start + s * piece.length, piece.at(s)));
-            let both = [(piece.start, piece.at(0.0)), (end, piece.at(1.0))];
+            let both = [(piece.start, left), (end, right)];
             for (x, section) in [Some(both[0]), inside, Some(both[1])].into_iter().flatten() {
                 // But for the last digits: that is no step.
                 let same = |column: &[f64], value: f64| {

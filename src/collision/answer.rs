@@ -118,11 +118,11 @@ impl Hitter<'_> {
         let (ball, count) = (self.scene.ball.mass, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
-        let modes = self.struck.with_modes(x, ball, count);
+        let modes = self.by_modes(x);
         let few = if completed { fewer(count) } else { vec![] };
         let of = |count: usize| {
             let gains = modes.gains[..count].to_vec();
-            self.with_wall(x, self.with_others(x, Felt { gains, ..modes }, beyond))
+            self.with_wall(x, self.bent(x, Felt { gains, ..modes }, beyond))
         };
         let others = || -> Vec<Felt> { few.iter().map(|few| of(*few)).collect() };
         let felt = of(count);
@@ -152,7 +152,7 @@ impl Hitter<'_> {
                 const FEWER: f64 = 0.5;
                 // A wall of fewer modes, and one softer by all that may be missing.
                 let wall = self.under(x).map_or(0.0, |under| {
-                    let fewer = under.fewer.before(self.bent(x, count, beyond));
+                    let fewer = under.fewer.before(self.bent(x, modes.clone(), beyond));
                     let softer = Felt { rest: felt.rest + under.unsure, ..felt.clone() };
                     FEWER * from_other(&fewer, accuracy, 1.0) + from_other(&softer, accuracy, 1.0)
                 });

@@ -211,13 +211,12 @@ impl<'a> Hitter<'a> {
     /// The bat as the ball feels it at `x` (m), with as many modes as the effort takes.
     pub(super) fn felt(&self, x: f64) -> Felt {
         let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
-        self.felt_with(x, self.modes_used(), beyond)
+        self.with_wall(x, self.bent(x, self.by_modes(x), beyond))
     }
 
-    /// The bat as the ball feels it at `x` (m), with `count` modes; `beyond` is the flexibility of all
-    /// modes where those beyond `count` are to be included.
-    pub(super) fn felt_with(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
-        self.with_wall(x, self.bent(x, count, beyond))
+    /// The bat as the ball feels it at `x` (m) by the modes and nothing else.
+    pub(super) fn by_modes(&self, x: f64) -> Felt {
+        self.struck.with_modes(x, self.scene.ball.mass, self.modes_used())
     }
 
     /// A bat that is felt so at `x` (m), with its wall.
@@ -233,14 +232,9 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The bat as the ball feels it at `x` (m) where its wall is stiff.
-    pub(super) fn bent(&self, x: f64, count: usize, beyond: Option<[f64; 2]>) -> Felt {
-        let modes = self.struck.with_modes(x, self.scene.ball.mass, count);
-        self.with_others(x, modes, beyond)
-    }
-
-    /// Those modes at `x` (m), and all beyond them where these are to be included.
-    pub(super) fn with_others(&self, x: f64, modes: Felt, beyond: Option<[f64; 2]>) -> Felt {
+    /// The bat as the ball feels it at `x` (m) where its wall is stiff: by those modes, and by all
+    /// beyond them where the flexibility of all there are is given.
+    pub(super) fn bent(&self, x: f64, modes: Felt, beyond: Option<[f64; 2]>) -> Felt {
         match beyond {
             None => modes,
             Some(beyond) => self.struck.completed(x, modes, beyond),

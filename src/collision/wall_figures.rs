@@ -57,7 +57,7 @@ impl Hitter<'_> {
         let hoop = self.hoop.as_ref()?;
         let (closing, beyond) = (self.closing(x)?, self.struck.flexibility(x));
         let beyond = self.effort.completed.then_some(beyond);
-        let bent = || self.bent(x, self.modes_used(), beyond);
+        let bent = || self.bent(x, self.by_modes(x), beyond);
         let hit = |felt: &Felt| Some(self.meet(x, felt, closing, SMOOTH)?.0);
         let bbcor = |met: &Encounter| {
             let exit = met.impulse / self.scene.ball.mass - self.scene.ball_speed;

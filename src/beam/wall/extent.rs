@@ -81,7 +81,7 @@ impl Extent {
         };
         let (mut first, mut limit) = (0, Limit::Knob);
         for k in (0..barrel).rev() {
-            let (left, right) = (pieces[k].at(1.0), pieces[k + 1].at(0.0));
+            let (left, right) = (pieces[k].ends()[1], pieces[k + 1].ends()[0]);
             let (a, b) =
                 (inside(bat, &pieces[k], left.inner), inside(bat, &pieces[k + 1], right.inner));
             let common = left.outer.min(right.outer) - a.max(b);

@@ -131,7 +131,7 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
     // Of the rest what stands for m² in κ is a quotient of polynomials that nothing here bounds.
     let plain = |piece: &Piece| match bat.layup(piece).sleeves.len() {
         0 => true,
-        1 => piece.at(0.0).inner == 0.0 && piece.at(1.0).inner == 0.0,
+        1 => piece.ends().iter().all(|end| end.inner == 0.0),
         _ => false,
     };
     if theory.shears() && !bat.profile().pieces.iter().all(plain) {

@@ -79,11 +79,11 @@ pub fn tornado(answer: &str, varied: &[String], indices: &Indices) -> Picture {
     order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
     order.truncate(MOST_BARS);
     let title = format!("What makes {answer} vary");
-    let rest = indices.unexplained.value;
+    // What is left of an exact fit is round-off.
+    let rest = indices.unexplained.value.max(0.0);
     let facts = format!(
-        "shares of its variance, {} bats; dark alone, light with others; {} not followed",
-        indices.rows,
-        digits(rest, 2)
+        "shares of its variance, {} bats; dark alone, light with others; {rest:.2} not followed",
+        indices.rows
     );
     let sheet = Sheet::file(false);
     let mut svg = Svg::on(sheet);
