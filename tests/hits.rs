@@ -10,5 +10,6 @@ mod hit_promise;
 mod hoop;
 mod hoop_hit;
 mod later_contacts;
+mod many_hits;
 mod random_hits;
 mod scenes;

@@ -260,6 +260,11 @@ fn shear_tail(bat: &Bat, e: &Element, rule: &Rule) -> f64 {
     if tail > 64.0 * f64::EPSILON * thinness { tail } else { 0.0 }
 }
 
+/// As [`missed`], the most on any element.
+pub fn missed_on(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory) -> f64 {
+    mesh.elements.iter().map(|e| missed(bat, e, rule, theory)).fold(0.0, f64::max)
+}
+
 /// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
 /// two radii, and what evaluating a formula costs.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {

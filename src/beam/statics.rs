@@ -55,6 +55,8 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub cells: Vec<Cell<R, W>>,
     /// How many of them are on the knob side.
     pub split: usize,
+    /// How many are to be, if that is not the bat's own choice.
+    pub rooted: Option<usize>,
     /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: Vec<R>,
     /// ρA (kg/m) at the same points.
@@ -91,6 +93,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             theory,
             cells: vec![],
             split: 0,
+            rooted: None,
             bending_stiffness: vec![],
             mass_per_length: vec![],
             turning_per_length: vec![],
@@ -178,7 +181,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         (0..R::LANES).for_each(|lane| {
             self.energy_unit.set_lane(lane, power_of_two_below(greatest.lane(lane)));
         });
-        self.split = self.root(count, stiffest);
+        self.split = self.rooted.unwrap_or_else(|| self.root(count, stiffest));
         self.fill(meshes);
         self.fixed = None;
         if !bats[0].fixtures().none_moving() {

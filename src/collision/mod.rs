@@ -16,6 +16,7 @@
 //! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is it best, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
+//! | [`batch`] | how fast does a ball leave many bats |
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
@@ -47,6 +48,7 @@ pub mod figures;
 pub mod wall_choice;
 pub mod setup;
 pub mod sweep;
+pub mod batch;
 pub mod bbcor;
 
 pub use ball::Ball;

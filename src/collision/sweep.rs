@@ -87,6 +87,11 @@ impl Accuracy {
         let modes = modes.unwrap_or(Request::default().modes);
         Request { modes, tolerance: exit_speed, elements, degree, solver, theory }
     }
+
+    /// Whether as many modes are taken as the exit speeds need.
+    fn planned(&self, trial: Trial) -> bool {
+        trial.touches() && self.modes.is_none()
+    }
 }
 
 /// Strikes the bat at all places (m from the knob end).
@@ -136,45 +141,10 @@ pub fn sweep_telling(
     places: &[f64],
     tell: Tell,
 ) -> Result<Sweep> {
-    let request = &accuracy.request();
-    let planned = trial.touches() && accuracy.modes.is_none();
-    let mut now = Round::first(bat, trial, request, planned);
+    let first = Round::first(bat, trial, accuracy);
     tell(0.0, "modes");
-    let mut solution = solve(bat, &now.request)?;
-    let mut impacts: Vec<Impact> = vec![];
-    let mut before = [f64::INFINITY; 2];
-    loop {
-        let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
-        let open = open(&impacts, request.tolerance, places.len());
-        let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
-        let struck = strikes(&hitter, bat.length(), &struck, tell);
-        drop(hitter);
-        keep_better(&mut impacts, &open, struck);
-        let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
-        let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
-        let settles = match trial.scene.cor < DEAD {
-            true => worst.error <= IDLE_DEAD * before[1],
-            false => worst.error <= IDLE * before[0],
-        };
-        before = [before[1], worst.error];
-        if !met && settles && request.elements.is_none() {
-            let next = now.finer(&worst, request.tolerance, planned);
-            if next.request != now.request && now.request.tolerance >= 1e-13 {
-                // Where more cannot be had, this answer stands.
-                if let Ok(finer) = solve(bat, &next.request) {
-                    (solution, now) = (finer, next);
-                    continue;
-                }
-            } else if next.request == now.request && next.effort != now.effort {
-                now = next;
-                continue;
-            }
-            now.effort = next.effort;
-        }
-        let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
-        let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-        return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, settles });
-    }
+    let solution = solve(bat, &first.request)?;
+    first.go_on((bat, trial), accuracy, places, solution, tell)
 }
 
 /// More modes are not taken for an exit speed.
@@ -210,14 +180,16 @@ impl Trial<'_> {
 
 /// By which modes and steps a round of hits is computed.
 #[derive(Clone, Copy)]
-struct Round {
-    request: Request,
+pub(super) struct Round {
+    /// The modes that the bat is struck with.
+    pub request: Request,
     effort: Effort,
 }
 
 impl Round {
     /// Those of the first round.
-    fn first(bat: &Bat, trial: Trial, request: &Request, planned: bool) -> Self {
+    pub fn first(bat: &Bat, trial: Trial, accuracy: &Accuracy) -> Self {
+        let (request, planned) = (&accuracy.request(), accuracy.planned(trial));
         let accuracy = (10.0 * request.tolerance).clamp(1e-11, 1e-3);
         let mut first = *request;
         if planned {
@@ -228,6 +200,57 @@ impl Round {
             first.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
         }
         Self { request: first, effort: Effort { accuracy, completed: planned } }
+    }
+
+    /// Strikes the bat at all places (m) with these modes, and with better ones as long as that helps.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub(super) fn go_on(
+        self,
+        (bat, trial): (&Bat, Trial),
+        accuracy: &Accuracy,
+        places: &[f64],
+        mut solution: Solution,
+        tell: Tell,
+    ) -> Result<Sweep> {
+        let (request, planned) = (&accuracy.request(), accuracy.planned(trial));
+        let mut now = self;
+        let mut impacts: Vec<Impact> = vec![];
+        let mut before = [f64::INFINITY; 2];
+        loop {
+            let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
+            let open = open(&impacts, request.tolerance, places.len());
+            let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
+            let struck = strikes(&hitter, bat.length(), &struck, tell);
+            drop(hitter);
+            keep_better(&mut impacts, &open, struck);
+            let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
+            let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
+            let settles = match trial.scene.cor < DEAD {
+                true => worst.error <= IDLE_DEAD * before[1],
+                false => worst.error <= IDLE * before[0],
+            };
+            before = [before[1], worst.error];
+            if !met && settles && request.elements.is_none() {
+                let next = now.finer(&worst, request.tolerance, planned);
+                if next.request != now.request && now.request.tolerance >= 1e-13 {
+                    // Where more cannot be had, this answer stands.
+                    if let Ok(finer) = solve(bat, &next.request) {
+                        (solution, now) = (finer, next);
+                        continue;
+                    }
+                } else if next.request == now.request && next.effort != now.effort {
+                    now = next;
+                    continue;
+                }
+                now.effort = next.effort;
+            }
+            let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
+            let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
+            return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, settles });
+        }
     }
 
     /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.

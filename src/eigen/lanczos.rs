@@ -175,21 +175,27 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Takes everything of the basis out of `next`; the length that is left.
+    /// Takes everything of the basis out of `next`, in every lane as often as its own cancellation calls
+    /// for; the length that is left.
     #[inline(always)]
     fn orthogonalise(&mut self, allow: &mut dyn FnMut(&mut [R])) -> R {
         allow(&mut self.next);
         let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
         let mut size = dot(next, next).sqrt();
+        // What was lost in the lanes that are not done, 0 in the others.
+        let mut lost = R::splat(1.0);
         for _ in 0..3 {
             parts.clear();
-            parts.extend(basis.chunks_exact(next.len()).map(|b| dot(b, next)));
+            let part = |b| lost.if_zero(R::default(), dot(b, next));
+            parts.extend(basis.chunks_exact(next.len()).map(part));
             subtract_all(parts, basis, next);
             let rest = dot(next, next).sqrt();
-            if (R::splat(0.7) * size).within(rest) {
-                return rest;
-            }
+            let now = R::default().max(R::splat(0.7) * size - rest);
+            lost = lost.if_zero(R::default(), now);
             size = rest;
+            if lost.within(R::default()) {
+                break;
+            }
         }
         size
     }

@@ -39,11 +39,14 @@ impl<R: Real> Tridiagonal<R> {
         (0..n).for_each(|k| self.vectors[k * n + k] = R::splat(1.0));
         for low in 0..n {
             for sweeps in 0.. {
-                let Some(high) = block_end(&self.d, &self.e, low) else { break };
+                let ends = block_ends(&self.d, &self.e, low);
+                if ends.within(R::splat(low as f64)) {
+                    break;
+                }
                 if sweeps == MOST_SWEEPS {
                     return None;
                 }
-                sweep(&mut self.d, &mut self.e, &mut self.vectors, low, high);
+                sweep(&mut self.d, &mut self.e, &mut self.vectors, low, ends);
             }
         }
         self.sort();
@@ -86,50 +89,82 @@ impl<R: Real> Tridiagonal<R> {
     }
 }
 
-/// The end of the unreduced block that begins at `low`, or None if it is a single eigenvalue.
+/// Where in every lane the unreduced block ends that begins at `low`: there itself if it is a single
+/// eigenvalue.
 #[inline(always)]
-fn block_end<R: Real>(d: &[R], e: &[R], low: usize) -> Option<usize> {
-    let split = |k: &usize| {
-        e[*k].abs().within(R::splat(0.5 * f64::EPSILON) * (d[*k].abs() + d[*k + 1].abs()))
-    };
-    let high = (low..d.len() - 1).find(split).unwrap_or(d.len() - 1);
-    (high > low).then_some(high)
+fn block_ends<R: Real>(d: &[R], e: &[R], low: usize) -> R {
+    let last = d.len() - 1;
+    let mut ends = R::splat(last as f64);
+    for k in (low..last).rev() {
+        let more = e[k].abs() - R::splat(0.5 * f64::EPSILON) * (d[k].abs() + d[k + 1].abs());
+        ends = R::default().max(more).if_zero(R::splat(k as f64), ends);
+    }
+    ends
 }
 
-/// One implicit QL sweep on the block from `low` to `high`.
+/// One implicit QL sweep on the block of every lane from `low` to its end; a lane takes the same steps
+/// whatever the others do, and none where its block has ended.
 #[inline(always)]
-fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, high: usize) {
+fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends: R) {
     let (zero, one) = (R::default(), R::splat(1.0));
-    // A lane that is done already has e = 0 there and must not divide by it.
-    let beside = e[low].if_zero(R::splat(f64::MIN_POSITIVE), e[low]);
-    let g = (d[low + 1] - d[low]) / (beside + beside);
-    let mut g = d[high] - d[low] + e[low] / (g + (g * g + one).sqrt().copysign(g));
-    let (mut sine, mut cosine, mut shift) = (one, one, zero);
+    let (mut far, mut high) = (zero, low);
+    for lane in 0..R::LANES {
+        let end = ends.lane(lane) as usize;
+        far.set_lane(lane, d[end].lane(lane));
+        high = high.max(end);
+    }
+    let g = (d[low + 1] - d[low]) / (e[low] + e[low]);
+    let begin = far - d[low] + e[low] / (g + (g * g + one).sqrt().copysign(g));
+    let (mut g, mut sine, mut cosine, mut shift) = (begin, one, one, zero);
     let n = d.len();
     for i in (low..high).rev() {
+        let place = R::splat((i + 1) as f64);
+        // Zero in the lanes whose block goes on beyond here or ends here.
+        let before = zero.max(place - ends);
+        let whole = place.within(ends);
         let (f, b) = (sine * e[i], cosine * e[i]);
         let r = (f * f + g * g).sqrt();
-        e[i + 1] = r;
         let inverse = one / r.if_zero(one, r);
-        (sine, cosine) = (f * inverse, r.if_zero(one, g * inverse));
-        g = d[i + 1] - shift;
-        let r = (d[i] - g) * sine + (cosine + cosine) * b;
-        shift = sine * r;
-        d[i + 1] = g + shift;
-        g = cosine * r - b;
+        let next = [f * inverse, r.if_zero(one, g * inverse)];
+        let inner = d[i + 1] - shift;
+        let half = (d[i] - inner) * next[0] + (next[1] + next[1]) * b;
+        let turned = next[0] * half;
         let (left, right) = vectors[i * n..(i + 2) * n].split_at_mut(n);
+        if whole {
+            [sine, cosine] = next;
+            (e[i + 1], d[i + 1]) = (r, inner + turned);
+            (shift, g) = (turned, next[1] * half - b);
+            for (a, b) in left.iter_mut().zip(right) {
+                (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
+            }
+            continue;
+        }
+        let own = |new: R, old: R| before.if_zero(new, old);
+        // Where the block begins later everything is as at its beginning.
+        (sine, cosine) = (own(next[0], one), own(next[1], one));
+        (e[i + 1], d[i + 1]) = (own(r, e[i + 1]), own(inner + turned, d[i + 1]));
+        (shift, g) = (own(turned, zero), own(next[1] * half - b, begin));
         for (a, b) in left.iter_mut().zip(right) {
-            (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
+            let both = [cosine * *a - sine * *b, sine * *a + cosine * *b];
+            (*a, *b) = (own(both[0], *a), own(both[1], *b));
         }
     }
-    d[low] -= shift;
-    e[low] = g;
-    e[high] = zero;
+    // Nothing was done in a lane whose block is a single eigenvalue.
+    let done = ends - R::splat(low as f64);
+    d[low] = done.if_zero(d[low], d[low] - shift);
+    e[low] = done.if_zero(e[low], g);
+    for lane in 0..R::LANES {
+        let end = ends.lane(lane) as usize;
+        if end > low {
+            e[end].set_lane(lane, 0.0);
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::lanes::{Lanes, WIDTH};
     use std::f64::consts::PI;
 
     /// Eigenvalues, largest first, and the components of their unit eigenvectors, `[pair][row]`.
@@ -162,6 +197,39 @@ mod tests {
     fn one_number_is_its_own_eigenvalue() {
         assert_eq!(eigen(&[3.0], &[]), Some((vec![3.0], vec![vec![1.0]])));
         assert_eq!(eigen(&[f64::NAN, 1.0], &[1.0]), None);
+    }
+
+    /// Matrices of which one falls apart in the middle, one at its end, one has all eigenvalues already.
+    #[test]
+    fn a_lane_has_the_bits_that_it_has_alone() {
+        const N: usize = 9;
+        let entry = |lane: usize, k: usize| 0.1 + ((7 * k + 3 * lane) % 11) as f64;
+        let beside = |lane: usize, k: usize| match lane {
+            1 if k == 4 => 0.0,
+            2 => 0.0,
+            3 if k == N - 2 => 1e-18,
+            _ => 0.3 + ((5 * k + lane) % 7) as f64,
+        };
+        let lanes = |of: &dyn Fn(usize, usize) -> f64, k: usize| {
+            let mut value = Lanes::default();
+            (0..WIDTH).for_each(|lane| value.set_lane(lane, of(lane, k)));
+            value
+        };
+        let diagonal: Vec<Lanes> = (0..N).map(|k| lanes(&entry, k)).collect();
+        let off: Vec<Lanes> = (0..N - 1).map(|k| lanes(&beside, k)).collect();
+        let mut together = Tridiagonal::default();
+        together.solve(&diagonal, &off).unwrap();
+        for lane in 0..WIDTH {
+            let diagonal: Vec<f64> = (0..N).map(|k| entry(lane, k)).collect();
+            let off: Vec<f64> = (0..N - 1).map(|k| beside(lane, k)).collect();
+            let (values, vectors) = eigen(&diagonal, &off).unwrap();
+            for (k, value) in values.iter().enumerate() {
+                assert_eq!(together.value(k).lane(lane), *value, "{lane} {k}");
+                for (row, weight) in vectors[k].iter().enumerate() {
+                    assert_eq!(together.weight(k, row).lane(lane), *weight, "{lane} {k}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Which bat and which hit is row k of a study, and what came of them?
 //!
-//! [`Rows::answers`] is a function of the study, its bats, its ball and k alone. Of several bats each has every
+//! What [`Rows::answers`] gives of a row is a function of the study, its bats, its ball and k alone. Of several bats each has every
 //! row of the design, one bat after the other.
 
+use std::ops::Range;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -16,7 +17,7 @@ use crate::collision::setup::Setup;
 use crate::files::ball_file::written;
 use crate::files::scene_file;
 use crate::files::study_file::{StudyFile, Subject, Varied, put};
-use crate::study::many::answers::{Found, Trial};
+use crate::study::many::answers::{Asked, Found, Trial};
 use crate::study::many::design::{MOST_ROWS, Row};
 
 /// A bat as a file has it.
@@ -42,6 +43,8 @@ struct Varying {
     name: String,
     /// Its document, or why it is no bat.
     document: std::result::Result<Value, String>,
+    /// The bat in the middle of what varies, if it is one.
+    middle: Option<Bat>,
 }
 
 /// What a row's own is made of: a document, or the thing itself where no row differs in it.
@@ -63,7 +66,7 @@ impl Rows {
                 let text = text.trim_start_matches('\u{feff}');
                 serde_json::from_str(text).map_err(|error| error.to_string())
             });
-            Varying { name, document }
+            Varying { name, document, middle: None }
         };
         let bats = bats.into_iter().map(varying).collect();
         let varies = |subject| study.varied.iter().any(|varied| varied.subject == subject);
@@ -73,19 +76,29 @@ impl Rows {
             false => Base::Same(scene_file::of(&study.scene, ball.clone())?),
         };
         let ball = if varied_ball { Base::Varied(written(&ball)) } else { Base::Same(ball) };
-        let rows = Self { study, bats, ball, setup };
+        let mut rows = Self { study, bats, ball, setup };
         if rows.bats.len() as u64 > MOST_ROWS / rows.study.design.rows() {
             let found =
                 format!("{} bats, each with {} rows", rows.bats.len(), rows.study.design.rows());
             return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
         }
         let middle = rows.study.design.middle();
-        let mut wrong = None;
-        for bat in rows.bats.iter().filter(|bat| bat.document.is_ok()) {
-            match rows.bat(bat, &middle).and_then(|bat| rows.trial(&middle, &bat)) {
-                Ok(_) => return Ok(rows),
+        let (mut wrong, mut hit) = (None, false);
+        for k in 0..rows.bats.len() {
+            if rows.bats[k].document.is_err() {
+                continue;
+            }
+            let tried = rows.bat(&rows.bats[k], &middle).and_then(|bat| {
+                // One that can be hit is enough.
+                if hit { Ok(bat) } else { rows.trial(&middle, &bat).map(|_| bat) }
+            });
+            match tried {
+                Ok(bat) => (rows.bats[k].middle, hit) = (Some(bat), true),
                 Err(error) => wrong = wrong.or(Some(in_the_middle(&error))),
             }
+        }
+        if hit {
+            return Ok(rows);
         }
         let unread =
             |bat: &Varying| Some(Error::value("bat", bat.document.as_ref().err()?, "a bat file"));
@@ -103,14 +116,35 @@ impl Rows {
         self.bats.len() > 1
     }
 
-    /// What came of row k, in the order of what is asked.
-    ///
-    /// # Errors
-    ///
-    /// Why there is no answer.
-    pub fn answers(&self, k: u64) -> Result<Found> {
-        let (bat, row) = self.row(k);
-        self.bat(bat, &row).and_then(|bat| self.study.asked.of(bat, |bat| self.trial(&row, bat)))
+    /// What came of those rows, in the order of what is asked, or why there is no answer. A row's answers do
+    /// not depend on which others are asked for with it.
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        let each = self.study.design.rows();
+        let mut found = vec![];
+        let mut from = rows.start;
+        while from < rows.end {
+            let to = rows.end.min((from / each + 1) * each);
+            found.extend(self.answers_of_one_bat(from..to));
+            from = to;
+        }
+        found
+    }
+
+    fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        let of: Vec<(&Varying, Row)> = rows.map(|k| self.row(k)).collect();
+        let Some((varying, _)) = of.first() else { return vec![] };
+        let asked = &self.study.asked;
+        let trial = |k: usize, bat: &Bat| self.trial(&of[k].1, bat);
+        let bats = of.iter().map(|(varying, row)| self.bat(varying, row));
+        let Some(model) = &varying.middle else {
+            // Each is its own model.
+            let alone = |(k, bat): (usize, Result<Bat>)| match bat {
+                Ok(bat) => Asked::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b)),
+                Err(error) => vec![Err(error)],
+            };
+            return bats.enumerate().flat_map(alone).collect();
+        };
+        Asked::of_each(model, bats.map(|bat| (asked, bat)).collect(), trial)
     }
 
     fn row(&self, k: u64) -> (&Varying, Row) {
@@ -144,15 +178,19 @@ impl Rows {
         std::iter::once(0).chain(inputs).chain(answers..=last).collect()
     }
 
-    /// The cells of row k: its number, of several bats its name, its inputs, answers with their errors, whether they are as accurate as
-    /// asked, and why there are none.
-    pub fn cells(&self, k: u64) -> Vec<String> {
+    /// The cells of those rows: of each its number, of several bats its name, its inputs, answers with their
+    /// errors, whether they are as accurate as asked, and why there are none.
+    pub fn cells(&self, rows: Range<u64>) -> Vec<Vec<String>> {
+        rows.clone().zip(self.answers(rows)).map(|(k, found)| self.cells_of(k, found)).collect()
+    }
+
+    fn cells_of(&self, k: u64, found: Result<Found>) -> Vec<String> {
         let (bat, row) = self.row(k);
         let answers = self.study.asked.answers.len();
         let mut cells = vec![k.to_string()];
         cells.extend(self.several().then(|| bat.name.clone()));
         cells.extend(self.study.varied.iter().map(|varied| varied.cell(&row)));
-        let (met, why) = match self.answers(k) {
+        let (met, why) = match found {
             Ok(found) => {
                 let of =
                     |value: f64| if value.is_finite() { shortest(value) } else { String::new() };

@@ -17,7 +17,7 @@ pub fn round_off(ratio: f64, elements: usize, over: bool) -> f64 {
     f64::EPSILON * (sections + 1.5 * ratio.max(1.0) * length)
 }
 
-/// What is the mesh's fault and what the arithmetic's.
+/// What is the mesh's fault and what the arithmetic's; `ratio` is that of the frequency to the slowest.
 ///
 /// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
 /// quotient. Far slower modes leave their own round-off in the compliance: of a mode they and all
@@ -25,12 +25,12 @@ pub fn round_off(ratio: f64, elements: usize, over: bool) -> f64 {
 /// shows it, and half of that is the frequency's.
 pub fn account(
     mode: &mut Mode,
-    first: Option<&Mode>,
+    ratio: f64,
     (elements, over): (usize, bool),
     factored: bool,
     left: Option<f64>,
 ) {
-    let mut sums = round_off(mode.omega / first.map_or(mode.omega, |m| m.omega), elements, over);
+    let mut sums = round_off(ratio, elements, over);
     if let Some(left) = left {
         let residual = mode.error.residual;
         sums += 0.5 * ((residual - left) * (residual + left)).max(0.0).sqrt();
@@ -51,10 +51,10 @@ fn blur(mode: &mut Mode, sums: f64) {
     mode.error.shape += 10.0 * sums;
 }
 
-/// What round-off of the sections adds, relative: a frequency goes as `√(EI/ρA)`.
-pub fn add_sections(mode: &mut Mode, sections: f64) {
-    mode.error.round_off += sections;
-    blur(mode, sections);
+/// What a round-off of the frequency, relative, adds: that of the sections, as it goes as `√(EI/ρA)`.
+pub fn add_round_off(mode: &mut Mode, relative: f64) {
+    mode.error.round_off += relative;
+    blur(mode, relative);
 }
 
 /// A faster motion's η may be this many times its estimate, or have made as much of the gap to it. This and

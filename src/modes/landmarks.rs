@@ -1,6 +1,6 @@
 //! Where is a deflection zero, where is it largest, and how far may its zeros be off?
 
-use crate::base::real::Real;
+use crate::base::real::{Over, Real};
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
 use crate::modes::shape::Shape;
@@ -19,7 +19,7 @@ pub struct Track {
 
 impl Track {
     /// The motion in that lane.
-    pub fn new<R: Real>(view: &View<f64>, motion: &Motion<R>, lane: usize) -> Self {
+    pub fn new<S: Real, R: Over<S>>(view: &View<S>, motion: &Motion<R>, lane: usize) -> Self {
         let points = view.rule.count();
         let split = points * view.split;
         let along = |values: &[R]| -> Vec<f64> {
@@ -36,6 +36,13 @@ impl Track {
         }
         Self { samples, changes, ends, xi }
     }
+
+    /// The greatest distance of two places beside each other, ends among them, as ξ.
+    fn widest(&self) -> f64 {
+        let (first, last) = (self.xi.first().unwrap_or(&1.0), self.xi.last().unwrap_or(&-1.0));
+        let inner = self.xi.windows(2).map(|pair| pair[1] - pair[0]);
+        inner.fold((first + 1.0).max(1.0 - last), f64::max)
+    }
 }
 
 impl Shape {
@@ -43,32 +50,62 @@ impl Shape {
     /// the points.
     fn places(&self, k: usize, track: &Track, places: &mut Vec<(f64, f64)>) {
         let points = track.xi.len();
-        let own = &self.coefficients[k * self.terms..(k + 1) * self.terms];
-        let left = own.iter().enumerate().map(|(j, w)| if j % 2 == 1 { -w } else { *w }).sum();
+        let [left, right] = self.ends(k);
         let inner = track.samples[k * points..(k + 1) * points].iter();
         places.clear();
         places.push((-1.0, left));
         places.extend(track.xi.iter().copied().zip(inner.copied()));
-        places.push((1.0, own.iter().sum()));
+        places.push((1.0, right));
+    }
+
+    /// Deflection at the left and the right end of element `k`.
+    fn ends(&self, k: usize) -> [f64; 2] {
+        let own = &self.coefficients[k * self.terms..(k + 1) * self.terms];
+        let [mut even, mut odd] = [0.0; 2];
+        for pair in own.chunks(2) {
+            even += pair[0];
+            odd += pair.get(1).unwrap_or(&0.0);
+        }
+        [even - odd, even + odd]
+    }
+
+    /// Least and greatest deflection of all places of element `k`.
+    fn between(&self, k: usize, track: &Track) -> [f64; 2] {
+        let points = track.xi.len();
+        let [left, right] = self.ends(k);
+        let (mut least, mut most) = (left.min(right), left.max(right));
+        for w in &track.samples[k * points..(k + 1) * points] {
+            (least, most) =
+                (if *w < least { *w } else { least }, if *w > most { *w } else { most });
+        }
+        [least, most]
     }
 
     /// Largest |deflection| over the continuous shape, and the relative change there: of the ends
     /// of every element, where joints make cusps, and of the peaks between its places.
     pub(super) fn largest(&self, track: &Track) -> (f64, f64) {
-        // A peak is higher than the places beside it, hardly ever by more than that.
-        const LOWEST: f64 = 0.5;
         let points = track.xi.len();
         let [knob, tip] = track.ends;
         let end = if knob[0].abs() > tip[0].abs() { knob } else { tip };
         let (mut most, mut change) = (end[0].abs(), end[1] / end[0]);
-        let highest = track.samples.iter().fold(most, |most, w| most.max(w.abs()));
-        let mut places = Vec::with_capacity(points + 2);
+        for (w, changed) in track.samples.iter().zip(&track.changes) {
+            if w.abs() > most {
+                (most, change) = (w.abs(), changed / w);
+            }
+        }
+        let (widest, mut places) = (track.widest(), Vec::with_capacity(points + 2));
         for k in 0..self.stretches.len() {
+            let [lowest, greatest] = self.between(k, track);
+            // A peak has no slope, and is that much higher than the places beside it at most.
+            let higher = 0.5 * self.most_bend(k) * widest * widest;
+            if greatest.max(-lowest) + higher <= most {
+                continue;
+            }
             self.places(k, track, &mut places);
             let size = |j: usize| places.get(j).map_or(0.0, |(_, w)| w.abs());
             for j in 0..places.len() {
                 let highest_here = size(j) >= size(j.wrapping_sub(1)) && size(j) >= size(j + 1);
-                if size(j) <= LOWEST * highest.max(most) || !highest_here {
+                if size(j) + higher <= most || !highest_here {
                     continue;
                 }
                 let peak = self.extreme(k, &places, j).1.abs().max(size(j));
@@ -120,7 +157,19 @@ impl Shape {
         let mut places = Vec::with_capacity(track.xi.len() + 2);
         // The sign that the deflection had last, and its value at the end of the last element.
         let (mut before, mut border) = (0.0, None);
+        let widest = track.widest();
         for (k, (middle, length)) in self.stretches.iter().enumerate() {
+            let [lowest, greatest] = self.between(k, track);
+            let (nearest, sign) = (lowest.max(-greatest), if lowest > 0.0 { 1.0 } else { -1.0 });
+            if nearest > rest
+                && sign * before >= 0.0
+                && sign * border.unwrap_or(sign) > rest
+                && 8.0 * nearest > self.most_bend(k) * widest * widest
+            {
+                // No zero, nor room for two between two places.
+                (before, border) = (sign, Some(self.ends(k)[1]));
+                continue;
+            }
             self.places(k, track, &mut places);
             places[0].1 = border.unwrap_or(places[0].1);
             border = places.last().map(|place| place.1);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::base::real::Real;
+use crate::base::real::{Over, Real};
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
 use crate::modes::landmarks::Track;
@@ -72,9 +72,9 @@ impl Mode {
     }
 
     /// The mode that is that motion in one lane.
-    pub fn new<R: Real>(
+    pub fn new<S: Real, R: Over<S>>(
         order: usize,
-        view: &View<f64>,
+        view: &View<S>,
         motion: &Motion<R>,
         lane: usize,
         stretches: &Arc<Vec<(f64, f64)>>,

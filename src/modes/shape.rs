@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::base::real::Real;
+use crate::base::real::{Over, Real};
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
 
@@ -39,8 +39,8 @@ impl Shape {
     }
 
     /// The deflection of a motion in one lane, in metres.
-    pub(super) fn in_lane<R: Real>(
-        view: &View<f64>,
+    pub(super) fn in_lane<S: Real, R: Over<S>>(
+        view: &View<S>,
         motion: &Motion<R>,
         lane: usize,
         stretches: &Arc<Vec<(f64, f64)>>,
@@ -186,7 +186,12 @@ impl Shape {
 
 /// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob side,
 /// where odd polynomials change sign and, with `sign` −1, a rotation does.
-fn coefficients<R: Real>(view: &View<f64>, cells: &[R], lane: usize, sign: f64) -> Vec<f64> {
+fn coefficients<S: Real, R: Over<S>>(
+    view: &View<S>,
+    cells: &[R],
+    lane: usize,
+    sign: f64,
+) -> Vec<f64> {
     let (knob, tip) = cells.split_at((view.terms * view.split).min(cells.len()));
     let mut all = Vec::with_capacity(cells.len());
     for shape in knob.chunks_exact(view.terms).rev() {

@@ -67,7 +67,11 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
         return Err(Error::TooFewElements { wanted: request.modes, least, found });
     }
     request.check_memory(request.memory(bat, &plan), plan.mesh.len())?;
-    let mut best = refined(bat, request, plan, timing)?;
+    damped(bat, request, refined(bat, request, plan, timing)?)
+}
+
+/// The solution with how its motions die out.
+pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result<Solution> {
     best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
     let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
     if best.met && damped > request.tolerance {

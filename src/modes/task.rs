@@ -7,14 +7,16 @@ use crate::base::error::{Error, Result};
 use crate::base::lanes::WIDTH;
 use crate::base::threads;
 use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
 use crate::beam::changes::Depth;
 use crate::beam::count;
+use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::rule::Rule;
 use crate::beam::sections;
 use crate::beam::view::View;
 use crate::eigen::lanczos::Lanczos;
-use crate::modes::certificate::{account, add_neighbours, add_sections, is_twin};
+use crate::modes::certificate::{account, add_neighbours, add_round_off, is_twin};
 use crate::modes::damping::Damping;
 use crate::modes::mode::{Mode, Shape};
 use crate::modes::pairs::{Pairs, pairs_of};
@@ -25,13 +27,16 @@ use crate::modes::solution::{Solution, Timing};
 
 /// Modes on one mesh.
 pub struct Answer {
-    modes: Vec<Mode>,
-    steps: usize,
+    /// The modes, rising.
+    pub modes: Vec<Mode>,
+    /// [`Solution::steps`].
+    pub steps: usize,
     /// Each element's part in the worst mode's defect.
-    defects: Vec<f64>,
+    pub defects: Vec<f64>,
     /// [`Solution::none_missing`].
     pub none_missing: Option<bool>,
-    rigid_modes: usize,
+    /// [`Solution::rigid_modes`].
+    pub rigid_modes: usize,
 }
 
 impl Answer {
@@ -139,15 +144,10 @@ impl Task<'_> {
 
     /// No mode yet, and what every mode's errors are made of.
     fn account<'a>(&self, rule: &Rule, found: &'a Found) -> Account<'a> {
-        let Self { bat, plan, request, .. } = *self;
-        let missed = |e| sections::missed(bat, e, rule, request.theory);
         Account {
-            modes: Vec::with_capacity(request.modes),
-            found,
-            missed: plan.mesh.elements.iter().map(missed).fold(0.0, f64::max),
-            rounding: sections::round_off(bat, &plan.mesh),
-            elements: (plan.mesh.len(), plan.mesh.over_stations()),
-            factored: request.solver != Solver::Statics,
+            apart: found.apart,
+            factored: self.request.solver != Solver::Statics,
+            ..Account::new(self.bat, &self.plan.mesh, rule, self.request.theory, &found.residuals)
         }
     }
 
@@ -186,28 +186,56 @@ impl Task<'_> {
 }
 
 /// The modes so far, and what their errors are made of beside their own defects.
-struct Account<'a> {
-    modes: Vec<Mode>,
-    found: &'a Found,
+pub struct Account<'a> {
+    /// The modes, rising.
+    pub modes: Vec<Mode>,
+    /// How many of the slowest modes were taken out before the others were found.
+    pub apart: usize,
+    /// Whether the solver factored `K`.
+    pub factored: bool,
+    /// Whether frequencies are those of the compliance's eigenvalues, which are known to ε of the greatest.
+    pub by_value: bool,
+    /// [`Found::residuals`].
+    residuals: &'a [f64],
     /// What the points miss of the sections, and the sections' own round-off.
     missed: f64,
     rounding: f64,
     /// How many elements there are, and whether they reach over stations.
     elements: (usize, bool),
-    /// Whether the solver factored `K`.
-    factored: bool,
 }
 
-impl Account<'_> {
-    fn add(&mut self, mut mode: Mode) {
-        let Self { modes, found, .. } = self;
+impl<'a> Account<'a> {
+    /// No mode yet, of the bat on that mesh sampled by that rule; what the iteration left of each.
+    pub fn new(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory, residuals: &'a [f64]) -> Self {
+        Self {
+            modes: Vec::with_capacity(residuals.len()),
+            apart: 0,
+            factored: false,
+            by_value: false,
+            residuals,
+            missed: sections::missed_on(bat, mesh, rule, theory),
+            rounding: sections::round_off(bat, mesh),
+            elements: (mesh.len(), mesh.over_stations()),
+        }
+    }
+
+    /// The next mode, with what its errors lack.
+    pub fn add(&mut self, mut mode: Mode) {
+        let Self { modes, apart, residuals, .. } = self;
         mode.error.discretization += self.missed;
         // Round-off is that of the slowest mode that was not taken out of the others.
-        let slow = modes.len() < found.apart;
-        let first = modes.get(if slow { 0 } else { found.apart });
-        let left = found.residuals.get(modes.len()).filter(|_| found.apart > 0 && !slow);
-        account(&mut mode, first, self.elements, self.factored, left.copied());
-        add_sections(&mut mode, self.rounding);
+        let slow = modes.len() < *apart;
+        let first = modes.get(if slow { 0 } else { *apart });
+        let ratio = first.map_or(1.0, |first| mode.omega / first.omega);
+        let residual = residuals.get(modes.len()).copied();
+        let left = residual.filter(|_| *apart > 0 && !slow);
+        let mut rounding = self.rounding;
+        if self.by_value {
+            mode.error.residual = residual.unwrap_or(0.0);
+            rounding += 0.5 * f64::EPSILON * ratio * ratio;
+        }
+        account(&mut mode, ratio, self.elements, self.factored, left);
+        add_round_off(&mut mode, rounding);
         modes.push(mode);
     }
 }

@@ -4,12 +4,13 @@
 //! and its number alone: so whatever is there is right, and what is missing can be made at any time.
 
 use std::env::consts::{ARCH, OS};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use crate::base::error::{Complaint, Error, Result};
-use crate::base::{file, threads};
+use crate::base::file;
 use crate::files::schema;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::study::{ColumnNamed, FileRead, StudyManifest};
@@ -17,12 +18,11 @@ use crate::files::study_rows::Rows;
 use crate::show::csv::{Cell, Csv};
 use crate::show::exchange::npz;
 use crate::show::many::source::Study;
+use crate::study::many::answers::in_groups;
 use crate::study::many::hash::of_text;
 
 /// Rows of a part.
 pub const ROWS: u64 = 4096;
-/// Rows after which somebody is told how far it is.
-const TOLD: u64 = 64;
 const MANIFEST: &str = "manifest.json";
 /// The C library, whose elementary functions another may round in another way.
 const LIBRARY: &str = match () {
@@ -38,12 +38,8 @@ pub fn part(study: &Study, k: u64, tell: &impl Fn(u64)) -> String {
     let all = rows.count();
     let [from, to] = [k.saturating_mul(ROWS).min(all), (k + 1).saturating_mul(ROWS).min(all)];
     let mut table = Csv::new(rows.columns().into_iter().map(|[name, _]| name));
-    for first in (from..to).step_by(TOLD as usize) {
-        let count = TOLD.min(to - first) as usize;
-        let cells = threads::map(count, |i| rows.cells(first + i as u64));
-        cells.into_iter().for_each(|cells| table.row(cells.into_iter().map(Cell::from)));
-        tell(first + count as u64);
-    }
+    let of = |some: Range<u64>| rows.cells(some);
+    in_groups(from..to, of, tell, |cells| table.row(cells.into_iter().map(Cell::from)));
     table.text()
 }
 

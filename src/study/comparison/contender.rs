@@ -134,6 +134,20 @@ impl Contender {
         let trial = Trial { model: terms.model, scene: &scene };
         let accuracy = trial.accuracy(request, terms.exactly);
         let sweep = sweep(&bat, terms.model, &scene, &accuracy, places)?;
+        Self::of(bat, (scene, law), terms, sweep)
+    }
+
+    /// Looks for the sweet spot of a bat that has been hit.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub fn of(
+        bat: Bat,
+        (scene, law): (Scene, Option<SwingLaw>),
+        terms: &Terms,
+        sweep: Sweep,
+    ) -> Result<Self> {
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
         let looked = Looked::by([0.5 * bat.length(), bat.length()], terms.look, &hitter);
         let spot = SweetSpot::within(&looked);

@@ -3,13 +3,18 @@
 //! Every answer has one name, that of the member in the other documents of the program, with its unit at the
 //! end.
 
+use std::ops::Range;
+
 use crate::base::error::{Complaint, Error, Result};
+use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::collision::batch::{Blow, each as strike_each};
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
-use crate::collision::sweep::{self as hit, Sweep, sweep};
+use crate::collision::sweep::{self as hit, Sweep};
 use crate::collision::sweet_spot::FEW;
+use crate::modes::batch::{Way, solutions};
 use crate::modes::solve::{Request, Solution, solve};
 use crate::study::comparison::contender::{Contender, Figure, Terms, exit_speed};
 use crate::study::theory_choice::theory;
@@ -244,24 +249,98 @@ pub struct Found {
     pub met: bool,
 }
 
+/// What `of` makes of some rows, on all cores, shown to `visit` in their order; `tell` is told how many there
+/// are up to then.
+pub fn in_groups<T: Send>(
+    rows: Range<u64>,
+    of: impl Fn(Range<u64>) -> Vec<T> + Sync,
+    tell: impl Fn(u64),
+    mut visit: impl FnMut(T),
+) {
+    /// Rows that are computed together: some bats in the lanes of every vector, on one plan.
+    const TOGETHER: u64 = 16;
+    /// Rows after which somebody is told.
+    const TOLD: u64 = 16 * TOGETHER;
+    for first in rows.clone().step_by(TOLD as usize) {
+        let end = rows.end.min(first + TOLD);
+        let groups = (end - first).div_ceil(TOGETHER) as usize;
+        let from = |group: usize| end.min(first + group as u64 * TOGETHER);
+        let found = threads::map(groups, |group| of(from(group)..from(group + 1)));
+        found.into_iter().flatten().for_each(&mut visit);
+        tell(end);
+    }
+}
+
+/// A bat of which all is known that its modes are asked for.
+struct Ready {
+    /// The bat as it is tuned to its tap.
+    bat: Bat,
+    request: Request,
+    /// How it is hit, and where (m from the knob end), if it is.
+    trial: Option<(Trial, Vec<f64>)>,
+}
+
+/// What was computed of a bat.
+enum Solved {
+    Modes(Solution),
+    Hits(Sweep),
+}
+
 impl Asked {
-    /// Everything asked of one bat; `trial` is told the bat as it is tuned to its tap.
+    /// What is asked of each of some bats that are like `model`, in their order; `trial` is told the number of a
+    /// bat and the bat as it is tuned to its tap.
+    ///
+    /// What is answered of a bat is a function of itself and the model, whoever is beside it.
     ///
     /// # Errors
     ///
-    /// Those of [`solve`], of a hit, and of the trial.
-    pub fn of(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Found> {
+    /// Of each bat its own: why there is none, those of [`crate::solve()`], of a hit, and of the trial.
+    pub fn of_each<'a>(
+        model: &Bat,
+        bats: Vec<(&'a Self, Result<Bat>)>,
+        trial: impl Fn(usize, &Bat) -> Result<Trial>,
+    ) -> Vec<Result<Found>> {
+        let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
+            (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
+        };
+        let ready: Vec<(&Self, Result<Ready>)> = bats.into_iter().enumerate().map(ready).collect();
+        let mut solved: Vec<Option<Result<Solved>>> = ready.iter().map(|_| None).collect();
+        let there =
+            || ready.iter().enumerate().filter_map(|(k, (_, of))| Some((k, of.as_ref().ok()?)));
+        let blows = there().filter_map(|(k, ready)| Some((k, ready.blow()?)));
+        let (hit, blows): (Vec<usize>, Vec<Blow>) = blows.unzip();
+        strike_each(model, &blows, Way::SideBySide, |k, found| {
+            solved[hit[k]] = Some(found.map(Solved::Hits));
+        });
+        let others = there().filter(|(_, ready)| ready.trial.is_none());
+        let (others, requests): (Vec<usize>, Vec<_>) =
+            others.map(|(k, ready)| (k, (&ready.bat, ready.request))).unzip();
+        solutions(model, &requests, Way::SideBySide, |k, found| {
+            solved[others[k]] = Some(found.map(Solved::Modes));
+        });
+        let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
+            let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
+            match solved? {
+                Solved::Modes(solution) => asked.of_modes(&ready.bat, &solution),
+                Solved::Hits(sweep) => asked.with_hits(ready, sweep),
+            }
+        };
+        ready.into_iter().zip(solved).map(found).collect()
+    }
+
+    /// The bat as it is tuned to its tap, with what its answers need.
+    fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Ready> {
         let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let hit = self.answers.iter().any(|answer| answer.of_a_hit());
+        let modes = if hit { modes.max(Request::default().modes) } else { modes };
         let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
-        let full = Request { modes: modes.max(Request::default().modes), ..request };
-        let theory = theory(&bat, if hit { &full } else { &request })?.theory;
-        let bat = tuned(bat, theory, self.tolerance)?;
-        if hit {
-            let trial = trial(&bat)?;
-            return self.with_hits(&bat, &trial, &Request { theory, ..full });
-        }
-        self.of_modes(&bat, &solve(&bat, &Request { theory, ..request })?)
+        let theory = theory(&bat, &request)?.theory;
+        let (bat, request) = (tuned(bat, theory, self.tolerance)?, Request { theory, ..request });
+        let trial = match hit {
+            true => Some((trial(&bat)?, self.places(&bat)?)),
+            false => None,
+        };
+        Ok(Ready { bat, request, trial })
     }
 
     /// The answers of a bat that is not hit.
@@ -270,19 +349,17 @@ impl Asked {
         Ok(Found { figures, met: solution.worst() <= self.tolerance })
     }
 
-    /// The answers of a bat that is hit: the modes' from those of the hit where these are enough. The barrel is
+    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough. The barrel is
     /// searched for its best places only where one of them is asked for.
-    fn with_hits(&self, bat: &Bat, trial: &Trial, request: &Request) -> Result<Found> {
-        let Trial { scene, model, barrel } = trial;
-        let places = self.places(bat)?;
-        let terms = Terms { model: *model, exactly: false, every: 0.0, look: FEW, barrel: *barrel };
-        if self.answers.iter().any(|answer| answer.is_searched()) {
-            let hit = Contender::new(bat.clone(), (scene.clone(), None), request, &terms, &places)?;
-            return self.of_hits(bat, trial, request, (&hit.sweep, Some(&hit)));
+    fn with_hits(&self, Ready { bat, request, trial }: Ready, sweep: Sweep) -> Result<Found> {
+        let (trial, _) = trial.expect("a bat that was hit has its trial");
+        if !self.answers.iter().any(|answer| answer.is_searched()) {
+            return self.of_hits(&bat, &trial, &request, (&sweep, None));
         }
-        let accuracy = hit::Trial { model: *model, scene }.accuracy(request, terms.exactly);
-        let sweep = sweep(bat, *model, scene, &accuracy, &places)?;
-        self.of_hits(bat, trial, request, (&sweep, None))
+        let Trial { scene, model, barrel } = &trial;
+        let terms = Terms { barrel: *barrel, ..terms(*model) };
+        let hit = Contender::of(bat, (scene.clone(), None), &terms, sweep)?;
+        self.of_hits(&hit.bat, &trial, &request, (&hit.sweep, Some(&hit)))
     }
 
     /// The answers from the hits, and from what was found by search if anything was sought.
@@ -327,6 +404,20 @@ impl Asked {
         places.dedup();
         Ok(places)
     }
+}
+
+impl Ready {
+    fn blow(&self) -> Option<Blow<'_>> {
+        let (Trial { scene, model, .. }, places) = self.trial.as_ref()?;
+        let trial = hit::Trial { model: *model, scene };
+        let accuracy = trial.accuracy(&self.request, terms(*model).exactly);
+        Some(Blow { bat: &self.bat, trial, accuracy, places })
+    }
+}
+
+/// How the best places of a bat are looked for.
+fn terms(model: Model) -> Terms {
+    Terms { model, exactly: false, every: 0.0, look: FEW, barrel: None }
 }
 
 /// An answer for which the barrel is searched.

@@ -4,6 +4,8 @@
 //! `k mod n` of scramble `k / n`. What is asked of a bat is asked as in a study
 //! ([`crate::study::many::answers`]).
 
+use std::ops::Range;
+
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
@@ -77,6 +79,8 @@ pub struct ScatterRows {
     pub bat: Bat,
     /// Where the ball is hit in the middle of them (m).
     pub impact: f64,
+    /// The bat in the middle as the rows have it, with all places of what was turned.
+    middle: Bat,
     designs: Vec<Design>,
     groups: Vec<usize>,
 }
@@ -93,12 +97,14 @@ impl ScatterRows {
         let designs = plan.differences.designs(bat.length(), plan.points, plan.seed)?;
         let groups = plan.differences.groups(bat.length());
         let impact = plan.impact.unwrap_or(0.0);
-        let mut rows = Self { plan, bat: settled, impact, designs, groups };
+        let middle = settled.clone();
+        let mut rows = Self { plan, bat: settled, impact, middle, designs, groups };
         if rows.plan.impact.is_none() && rows.plan.outputs.contains(&Output::AtImpact) {
             rows.impact = fastest(&rows.bat, &rows.plan)?;
         }
-        let middle = vec![0.0; rows.groups.len()];
-        rows.of(&middle)?;
+        let none = vec![0.0; rows.groups.len()];
+        rows.middle = rows.changed(&none)?;
+        rows.of(&[none]).pop().transpose()?;
         Ok(rows)
     }
 
@@ -134,13 +140,10 @@ impl ScatterRows {
         ((k / each) as usize, k % each)
     }
 
-    /// What comes of row k, in the order of the outputs.
-    ///
-    /// # Errors
-    ///
-    /// Why there is no answer.
-    pub fn answers(&self, k: u64) -> Result<Found> {
-        self.of(&self.values(k))
+    /// What comes of those rows, in the order of the outputs, or why there is no answer. A row's answers do not
+    /// depend on which others are asked for with it.
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        self.of(&rows.map(|k| self.values(k)).collect::<Vec<_>>())
     }
 
     /// The bat of row k.
@@ -174,16 +177,21 @@ impl ScatterRows {
         pairs.filter(|(_, group)| **group == k).map(|(value, _)| *value).collect()
     }
 
-    fn of(&self, values: &[f64]) -> Result<Found> {
-        let bat = self.changed(values)?;
-        let place = (self.impact + self.one(values, Differs::Impact)).clamp(0.0, bat.length());
+    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<Found>> {
+        let asked: Vec<Asked> = rows.iter().map(|values| self.asked(values)).collect();
+        let bats = asked.iter().zip(rows).map(|(asked, values)| (asked, self.changed(values)));
+        Asked::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))
+    }
+
+    fn asked(&self, values: &[f64]) -> Asked {
+        let moved = self.impact + self.one(values, Differs::Impact);
+        let place = moved.clamp(0.0, self.bat.length());
         let answer = |output: &Output| match output {
             Output::Of(answer) => *answer,
             Output::AtImpact => Answer::ExitSpeedAt(place),
         };
         let answers = self.plan.outputs.iter().map(answer).collect();
-        let asked = Asked { answers, tolerance: self.plan.tolerance };
-        asked.of(bat, |bat| self.trial(values, bat))
+        Asked { answers, tolerance: self.plan.tolerance }
     }
 
     /// The number of a difference; 0 where it does not differ.

@@ -1,6 +1,8 @@
 //! Percentiles with errors, and what makes them so.
 
-use crate::base::threads;
+use std::ops::Range;
+
+use crate::study::many::answers::in_groups;
 use crate::study::many::indices::Indices;
 use crate::study::scatter::rows::{ScatterRows, value};
 use crate::study::scatter::spreads::SCRAMBLES;
@@ -9,8 +11,6 @@ use crate::study::scatter::spreads::SCRAMBLES;
 pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
 /// The percentiles whose bats are written, by their places in [`SHARES`].
 pub const WRITTEN: [usize; 3] = [1, 3, 5];
-/// Rows after which somebody is told how far it is.
-const TOLD: u64 = 64;
 /// Values whose standard deviation is no larger share of their mean are the same value but for rounding.
 const ROUND_OFF: f64 = 1e-9;
 /// Of Student's distribution with seven degrees of freedom 95 % lie within so many standard deviations.
@@ -91,24 +91,21 @@ impl Scattered {
         let (count, asked) = (rows.count(), rows.plan.outputs.len());
         let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
         let (mut reasons, mut met) = (vec![], 0);
-        for from in (0..count).step_by(TOLD as usize) {
-            let chunk = TOLD.min(count - from);
-            for found in threads::map(chunk as usize, |i| rows.answers(from + i as u64)) {
-                let (all, why, good) = match found {
-                    Ok(found) => {
-                        let all: Vec<_> = found.figures.iter().map(value).collect();
-                        let missing = all.iter().any(Option::is_none);
-                        let why = if missing { "the bat has no such answer" } else { "" };
-                        (all, why.to_owned(), found.met && !missing)
-                    }
-                    Err(error) => (vec![None; asked], error.to_string(), false),
-                };
-                values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
-                reasons.push(why);
-                met += usize::from(good);
-            }
-            tell(from + chunk);
-        }
+        let of = |some: Range<u64>| rows.answers(some);
+        in_groups(0..count, of, tell, |found| {
+            let (all, why, good) = match found {
+                Ok(found) => {
+                    let all: Vec<_> = found.figures.iter().map(value).collect();
+                    let missing = all.iter().any(Option::is_none);
+                    let why = if missing { "the bat has no such answer" } else { "" };
+                    (all, why.to_owned(), found.met && !missing)
+                }
+                Err(error) => (vec![None; asked], error.to_string(), false),
+            };
+            values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
+            reasons.push(why);
+            met += usize::from(good);
+        });
         let whole = |row: usize| values.iter().all(|column| column[row].is_some());
         // A row without one of its answers is dropped whole.
         let whole: Vec<usize> = (0..count as usize).filter(|row| whole(*row)).collect();

@@ -1,0 +1,63 @@
+//! How fast does a ball leave many bats, as fast as the machine can tell?
+//!
+//! [`each`] gives of every bat what [`sweep`](fn@crate::collision::sweep::sweep) gives; the modes that a bat is
+//! struck with first are found in the lanes of [`crate::modes::batch`].
+
+use crate::base::error::Result;
+use crate::base::telling::nobody;
+use crate::bat::body::Bat;
+use crate::collision::sweep::{Accuracy, Round, Sweep, Trial};
+use crate::modes::batch::{Way, solutions};
+
+/// A bat that is to be hit.
+#[derive(Debug, Clone, Copy)]
+pub struct Blow<'a> {
+    /// What is hit.
+    pub bat: &'a Bat,
+    /// Who hits it, and by which model.
+    pub trial: Trial<'a>,
+    /// How accurate the exit speeds are to be.
+    pub accuracy: Accuracy,
+    /// Where it is hit (m from the knob end).
+    pub places: &'a [f64],
+}
+
+/// Strikes every bat and shows what came of it to `visit`, with its place among the bats; those whose exit
+/// speeds ask for the same modes come one after the other.
+///
+/// A bat's hits are a function of itself, its blow and `model`, a bat like the others, whoever is beside it.
+///
+/// ```
+/// use sweetspot::collision::batch::{Blow, each};
+/// use sweetspot::collision::sweep::{Accuracy, Trial};
+/// use sweetspot::collision::{Model, Scene};
+/// use sweetspot::modes::batch::Way;
+/// use sweetspot::Bat;
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let lighter = |k: i32| bat.with(|parts| parts.material.density *= 0.99_f64.powi(k));
+/// let bats: Vec<Bat> = (0..16).map(lighter).collect::<sweetspot::Result<_>>()?;
+/// let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() }; // rad/s, m/s
+/// let (trial, accuracy) = (Trial { model: Model::Contact, scene: &scene }, Accuracy::default());
+/// let blow = |bat| Blow { bat, trial, accuracy, places: &[0.7] };
+/// let blows: Vec<Blow> = bats.iter().map(blow).collect();
+/// each(&bat, &blows, Way::SideBySide, |k, hits| {
+///     let outcome = hits.unwrap().impacts[0].outcome.clone().expect("they meet");
+///     println!("bat {k}: {:.2} m/s", outcome.exit_speed);
+/// });
+/// # Ok(())
+/// # }
+/// ```
+pub fn each(model: &Bat, blows: &[Blow], way: Way, mut visit: impl FnMut(usize, Result<Sweep>)) {
+    let first = |blow: &Blow| Round::first(blow.bat, blow.trial, &blow.accuracy);
+    let rounds: Vec<Round> = blows.iter().map(first).collect();
+    let asked = blows.iter().zip(&rounds).map(|(blow, round)| (blow.bat, round.request));
+    solutions(model, &asked.collect::<Vec<_>>(), way, |k, solution| {
+        let Blow { bat, trial, accuracy, places } = blows[k];
+        let strike = |solution| rounds[k].go_on((bat, trial), &accuracy, places, solution, &nobody);
+        visit(k, solution.and_then(strike));
+    });
+}

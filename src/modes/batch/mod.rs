@@ -1,0 +1,293 @@
+//! What are the modes of many bats, as fast as the machine can?
+//!
+//! [`each`] goes through them on one core, [`all`] on all cores: one after the other or side by
+//! side in the lanes of a vector. [`solutions`] gives of every bat all that [`solve`] gives.
+//!
+//! All share the plan of the first, its root and its number of Lanczos steps, and every lane takes its own
+//! steps: a bat's answer has the same bits whoever is beside it, and one by one too. A bat of other
+//! proportions, of a formula, with anything but masses on it, or whose answer misses the tolerance or a
+//! mode by its own account is planned and solved on its own; so are all where the first is such a bat.
+//! Once warm next to nothing is allocated for the others.
+
+mod alike;
+mod worker;
+
+use crate::base::error::Result;
+use crate::base::lanes::{Lanes, WIDTH};
+use crate::base::real::{Over, Real};
+use crate::base::threads;
+use crate::bat::body::Bat;
+use crate::beam::degree::{OfDegree, of_degree};
+use crate::modes::batch::alike::{plain, same_pattern};
+use crate::modes::batch::worker::Worker;
+use crate::modes::mode::Mode;
+use crate::modes::plan::Plan;
+use crate::modes::solution::Solution;
+use crate::modes::solve::{Request, Solver, damped, solve, wanted};
+
+pub use crate::modes::batch::worker::Found;
+
+/// How the bats are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// One after the other.
+    OneByOne,
+    /// Eight at a time in the lanes of a vector.
+    SideBySide,
+}
+
+/// Degrees that a batch is compiled for: a program for every one would be large.
+const COMPILED: [usize; 5] = [3, 4, 6, 8, 10];
+
+const fn is_compiled(degree: usize) -> bool {
+    let mut k = 0;
+    while k < COMPILED.len() && COMPILED[k] != degree {
+        k += 1;
+    }
+    k < COMPILED.len()
+}
+
+/// Solves every bat with the statics solver and shows each result to `visit`, with its place
+/// among the bats.
+///
+/// Every frequency is within the tolerance by its estimate, as far as [`solve`] can reach it. With
+/// `request.elements` every bat gets that mesh, whose cost is not counted: the tolerance is that of
+/// the iteration alone.
+pub fn each(
+    bats: &[Bat],
+    request: &Request,
+    way: Way,
+    mut visit: impl FnMut(usize, Result<Found<'_>>),
+) {
+    let request = Request { solver: Solver::Statics, ..*request };
+    let all: Vec<&Bat> = bats.iter().collect();
+    let Some(first) = all.first() else { return };
+    shown_to(first, &all, &request, way, Visit::Figures(&mut visit));
+}
+
+/// Solves every bat for what is asked of it, with a plan of `model`, and gives each [`Solution`] to `visit`
+/// with its place among the bats: all that [`solve`] gives but the time it took. Bats of which the same is
+/// asked come one after the other.
+///
+/// A bat's solution is a function of itself, its request and the model, whoever is beside it. Where a mesh
+/// or another solver is asked for a bat is solved on its own.
+pub fn solutions(
+    model: &Bat,
+    asked: &[(&Bat, Request)],
+    way: Way,
+    mut visit: impl FnMut(usize, Result<Solution>),
+) {
+    let mut requests: Vec<Request> = vec![];
+    for (_, request) in asked {
+        if !requests.contains(request) {
+            requests.push(*request);
+        }
+    }
+    for request in requests {
+        let alike = |k: &usize| asked[*k].1 == request;
+        let alike: Vec<usize> = (0..asked.len()).filter(alike).collect();
+        let bats: Vec<&Bat> = alike.iter().map(|k| asked[*k].0).collect();
+        let visit = &mut |k: usize, solution| visit(alike[k], solution);
+        shown_to(model, &bats, &request, way, Visit::Solutions(visit));
+    }
+}
+
+/// Who is shown the bats' answers, in their order, each with its place among them.
+enum Visit<'a> {
+    Figures(&'a mut dyn FnMut(usize, Result<Found<'_>>)),
+    Solutions(&'a mut dyn FnMut(usize, Result<Solution>)),
+}
+
+fn shown_to(model: &Bat, bats: &[&Bat], request: &Request, way: Way, visit: Visit) {
+    let degree = request.degree.or(request.elements.map(|_| 3));
+    let degrees = degree.map_or(COMPILED.to_vec(), |degree| vec![degree]);
+    let sharing = request.check(WIDTH).is_ok()
+        && request.solver == Solver::Statics
+        && plain(model)
+        && (!request.theory.shears() || model.knows_shear())
+        && COMPILED.contains(&degrees[0]);
+    // A whole solution has all its errors, those of a mesh that was asked for among them.
+    let whole = matches!(visit, Visit::Solutions(_));
+    if !sharing || whole && (request.elements.is_some() || request.modes == 0) {
+        return all_alone(bats, request, visit);
+    }
+    let plan = match request.elements {
+        Some(elements) => Plan::fixed(model, elements, degrees[0]),
+        None => Plan::cheapest_among(model, &wanted(request), degrees),
+    };
+    of_degree(plan.degree, request.theory, Alike { model, bats, request, way, plan, visit })
+}
+
+/// Bats that may share the plan of a model.
+struct Alike<'a, 'v> {
+    model: &'a Bat,
+    bats: &'a [&'a Bat],
+    request: &'a Request,
+    way: Way,
+    plan: Plan,
+    visit: Visit<'v>,
+}
+
+impl OfDegree for Alike<'_, '_> {
+    type Output = ();
+
+    fn with<const N: usize, const W: usize>(self) {
+        // Side by side for a few degrees: each takes long to compile.
+        if const { is_compiled(N - 1) } {
+            self.with_degree::<N, W>();
+        } else {
+            all_alone(self.bats, self.request, self.visit);
+        }
+    }
+}
+
+impl Alike<'_, '_> {
+    fn with_degree<const N: usize, const W: usize>(self) {
+        let Self { model, bats, request, way, plan, mut visit } = self;
+        let theory = request.theory;
+        let mut alone = Worker::<f64, N, W>::new(model, theory, plan.clone());
+        if alone.iterate(&[model], request).is_err() {
+            // The model tells how many Lanczos steps there are to be; without it each is on its own.
+            return all_alone(bats, request, visit);
+        }
+        let mut together = Worker::<Lanes, N, W>::new(model, theory, plan);
+        let choices = alone.choices();
+        together.choose(choices);
+        alone.choose(choices);
+        let alike =
+            |bat: &&Bat| (!theory.shears() || bat.knows_shear()) && same_pattern(bat, model);
+        /// So much stays near a processor: where the vectors of eight bats are more (bytes), each bat by
+        /// itself is faster. The bits are the same.
+        const NEAR: usize = 400_000;
+        let near = together.basis(choices) <= NEAR;
+        let lanes = if way == Way::SideBySide && near { WIDTH } else { 1 };
+        for (group, bats) in bats.chunks(lanes).enumerate() {
+            let whole = bats.len() == WIDTH && bats.iter().all(alike);
+            let seen = whole && visit.look(&mut together, bats, request);
+            for (lane, bat) in bats.iter().enumerate() {
+                let one = (lanes * group + lane, *bat, request);
+                let shown = seen && visit.show(&mut together, lane, one)
+                    || alike(bat)
+                        && visit.look(&mut alone, &[bat], request)
+                        && visit.show(&mut alone, 0, one);
+                if !shown {
+                    visit.alone(one);
+                }
+            }
+        }
+    }
+}
+
+fn all_alone(bats: &[&Bat], request: &Request, mut visit: Visit) {
+    bats.iter().enumerate().for_each(|(k, bat)| visit.alone((k, bat, request)));
+}
+
+impl Visit<'_> {
+    /// Looks at as many bats as there are lanes; whether they could be solved.
+    fn look<R: Real, const N: usize, const W: usize>(
+        &self,
+        worker: &mut Worker<R, N, W>,
+        bats: &[&Bat],
+        request: &Request,
+    ) -> bool
+    where
+        Lanes: Over<R>,
+    {
+        let solved = worker.iterate(bats, request).is_ok();
+        match self {
+            _ if !solved => {}
+            Self::Figures(_) => worker.look(bats, request),
+            Self::Solutions(_) => worker.look_closely(bats, request),
+        }
+        solved
+    }
+
+    /// Shows the bat in a lane that was looked at; false where it misses the tolerance or a mode.
+    fn show<R: Real, const N: usize, const W: usize>(
+        &mut self,
+        worker: &mut Worker<R, N, W>,
+        lane: usize,
+        (place, bat, request): (usize, &Bat, &Request),
+    ) -> bool
+    where
+        Lanes: Over<R>,
+    {
+        let shown = match self {
+            Self::Figures(visit) => {
+                worker.found(lane, request).map(|found| visit(place, Ok(found)))
+            }
+            Self::Solutions(visit) => {
+                worker.take(lane).map(|solution| visit(place, damped(bat, request, solution)))
+            }
+        };
+        shown.is_some()
+    }
+
+    /// One bat with a plan of its own.
+    fn alone(&mut self, (place, bat, request): (usize, &Bat, &Request)) {
+        let solved = solve(bat, request);
+        match self {
+            Self::Solutions(visit) => visit(place, solved),
+            Self::Figures(visit) => match solved {
+                Ok(solution) => figures(&solution, request, |found| visit(place, Ok(found))),
+                Err(error) => visit(place, Err(error)),
+            },
+        }
+    }
+}
+
+/// What a solution says of every mode.
+fn figures(solution: &Solution, request: &Request, visit: impl FnOnce(Found)) {
+    let of = |f: &dyn Fn(&Mode) -> f64| -> Vec<f64> { solution.modes.iter().map(f).collect() };
+    let error = |mode: &Mode| match request.elements {
+        Some(_) => mode.error.round_off + 0.5 * mode.error.residual.powi(2),
+        None => mode.error.total(),
+    };
+    let coefficients = solution.modes.iter().flat_map(|mode| mode.shape.coefficients());
+    visit(Found {
+        omegas: &of(&|mode| mode.omega),
+        errors: &of(&error),
+        modal_masses: &of(&|mode| mode.modal_mass),
+        shapes: &coefficients.copied().collect::<Vec<f64>>(),
+        mesh: &solution.mesh,
+        degree: solution.degree,
+    });
+}
+
+/// Solves every bat on all cores, each share of 256 bats planned by its own first one.
+///
+/// What `read` makes of each result comes in the order of the bats; accuracy and mesh are those of
+/// [`each`].
+///
+/// ```
+/// use sweetspot::modes::batch::{Way, all};
+/// use sweetspot::{Bat, Request};
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let lighter = |k: i32| bat.with(|parts| parts.material.density *= 0.99_f64.powi(k));
+/// let bats: Vec<Bat> = (0..100).map(lighter).collect::<sweetspot::Result<_>>()?;
+/// let asked = Request { modes: 2, tolerance: 1e-6, ..Request::default() };
+/// let first = all(&bats, &asked, Way::SideBySide, |_, found| found.map(|found| found.omegas[0]));
+/// assert!(first[0].as_ref().unwrap() < first[99].as_ref().unwrap());
+/// # Ok(())
+/// # }
+/// ```
+pub fn all<T: Send>(
+    bats: &[Bat],
+    request: &Request,
+    way: Way,
+    read: impl Fn(usize, Result<Found<'_>>) -> T + Sync,
+) -> Vec<T> {
+    const SHARE: usize = 256;
+    let shares: Vec<&[Bat]> = bats.chunks(SHARE).collect();
+    let share = |k: usize| {
+        let bats = shares[k];
+        let mut results = Vec::with_capacity(bats.len());
+        each(bats, request, way, |i, found| results.push(read(k * SHARE + i, found)));
+        results
+    };
+    threads::map(shares.len(), share).into_iter().flatten().collect()
+}
