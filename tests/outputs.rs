@@ -37,7 +37,8 @@ fn a_closed_pipe_is_no_error() {
     let bat = mesh("r161");
     // More than a pipe holds, so that the program cannot have finished before the end is closed.
     let long = ["hit", &bat, "--points", "2000", "--json", "-"];
-    for args in [&long[..], &["modes", &bat], &["materials"], &["validate", "--summary"]] {
+    let case = ["validate", "--case", "r161_nathan_timoshenko"];
+    for args in [&long[..], &["modes", &bat], &["materials"], &case] {
         let mut child =
             folder.command(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut first = String::new();
@@ -289,9 +290,7 @@ fn equal_input_gives_equal_bytes() {
         ] {
             let first = folder.run(args);
             assert!(first.status.success(), "{args:?}");
-            for _ in 0..2 {
-                assert_eq!(folder.run(args).stdout, first.stdout, "{args:?}");
-            }
+            assert_eq!(folder.run(args).stdout, first.stdout, "{args:?}");
         }
     }
 }

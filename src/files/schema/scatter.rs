@@ -14,6 +14,9 @@ use crate::files::schema::part::Comment;
 use crate::files::schema::readings::ShareForm;
 use crate::files::schema::study::Said;
 
+/// Outputs, as an example.
+const OUTPUTS: [&str; 2] = ["f1_hz", "exit_speed_m_s@impact"];
+
 /// What differs between bats of one model and swings of one batter, for sweetspot scatter: standard deviations, in the
 /// order in which correlated ones are told. At least one of them.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
@@ -56,7 +59,7 @@ pub struct ScatterForm {
     /// earlier one leaves open is told.
     pub correlation: Option<Vec<(String, String, f64)>>,
     /// What is asked of every bat, by name; exit_speed_m_s@impact is the speed where the ball is hit.
-    #[schemars(length(min = 1), example = ["f1_hz", "exit_speed_m_s@impact"])]
+    #[schemars(length(min = 1), example = OUTPUTS)]
     pub outputs: Option<Vec<String>>,
     /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
     pub tol: Option<ShareForm>,

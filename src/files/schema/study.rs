@@ -11,6 +11,9 @@ use crate::files::schema::amount::Amount;
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::part::Comment;
 
+/// Outputs, as an example.
+const OUTPUTS: [&str; 3] = ["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"];
+
 /// Many bats: some that are or one that varies, how they are hit, and what is asked of each. Places count from
 /// the knob end.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
@@ -50,7 +53,7 @@ pub struct StudyForm {
     #[schemars(range(min = 0))]
     pub seed: Option<u64>,
     /// What is asked of every bat, by name.
-    #[schemars(length(min = 1), example = ["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"])]
+    #[schemars(length(min = 1), example = OUTPUTS)]
     pub outputs: Vec<String>,
     /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it
     /// 1e-4.
