@@ -4,7 +4,6 @@
 //! and its number alone: so whatever is there is right, and what is missing can be made at any time.
 
 use std::env::consts::{ARCH, OS};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -33,13 +32,14 @@ const LIBRARY: &str = match () {
 };
 
 /// Part k of a study, as a CSV file; `tell` is told how many rows of all are done.
-pub fn part(study: &Study, k: u64, tell: &impl Fn(u64)) -> String {
+pub fn part(study: &Study, k: u64, tell: &(impl Fn(u64) + Sync)) -> String {
     let rows = &study.rows;
     let all = rows.count();
     let [from, to] = [k.saturating_mul(ROWS).min(all), (k + 1).saturating_mul(ROWS).min(all)];
     let mut table = Csv::new(rows.columns().into_iter().map(|[name, _]| name));
-    let of = |some: Range<u64>| rows.cells(some);
-    in_groups(from..to, of, tell, |cells| table.row(cells.into_iter().map(Cell::from)));
+    for cells in in_groups(from..to, |some| rows.cells(some), tell) {
+        table.row(cells.into_iter().map(Cell::from));
+    }
     table.text()
 }
 
@@ -126,7 +126,7 @@ impl<'a> StudyFolder<'a> {
     /// # Errors
     ///
     /// [`Error::Write`].
-    pub fn make(&self, k: u64, npz: bool, tell: &impl Fn(u64)) -> Result<()> {
+    pub fn make(&self, k: u64, npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
         let path = self.part(k);
         let archive = path.with_extension("npz");
         let made = match path.exists() {

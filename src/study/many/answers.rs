@@ -4,6 +4,7 @@
 //! end.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::threads;
@@ -249,26 +250,24 @@ pub struct Found {
     pub met: bool,
 }
 
-/// What `of` makes of some rows, on all cores, shown to `visit` in their order; `tell` is told how many there
-/// are up to then.
+/// What `of` makes of some rows, in their order, on all cores; `tell` is told how many there are up to then.
 pub fn in_groups<T: Send>(
     rows: Range<u64>,
     of: impl Fn(Range<u64>) -> Vec<T> + Sync,
-    tell: impl Fn(u64),
-    mut visit: impl FnMut(T),
-) {
+    tell: impl Fn(u64) + Sync,
+) -> Vec<T> {
     /// Rows that are computed together: some bats in the lanes of every vector, on one plan.
     const TOGETHER: u64 = 16;
-    /// Rows after which somebody is told.
-    const TOLD: u64 = 16 * TOGETHER;
-    for first in rows.clone().step_by(TOLD as usize) {
-        let end = rows.end.min(first + TOLD);
-        let groups = (end - first).div_ceil(TOGETHER) as usize;
-        let from = |group: usize| end.min(first + group as u64 * TOGETHER);
-        let found = threads::map(groups, |group| of(from(group)..from(group + 1)));
-        found.into_iter().flatten().for_each(&mut visit);
-        tell(end);
-    }
+    let done = AtomicU64::new(rows.start);
+    let from = |group: usize| rows.end.min(rows.start + group as u64 * TOGETHER);
+    let groups = (rows.end - rows.start).div_ceil(TOGETHER) as usize;
+    let group = |group: usize| {
+        let (first, end) = (from(group), from(group + 1));
+        let found = of(first..end);
+        tell(done.fetch_add(end - first, Ordering::Relaxed) + end - first);
+        found
+    };
+    threads::map(groups, group).into_iter().flatten().collect()
 }
 
 /// A bat of which all is known that its modes are asked for.

@@ -1,7 +1,5 @@
 //! Percentiles with errors, and what makes them so.
 
-use std::ops::Range;
-
 use crate::study::many::answers::in_groups;
 use crate::study::many::indices::Indices;
 use crate::study::scatter::rows::{ScatterRows, value};
@@ -87,12 +85,11 @@ impl Scattered {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn new(rows: &ScatterRows, tell: &impl Fn(u64)) -> Self {
+    pub fn new(rows: &ScatterRows, tell: &(impl Fn(u64) + Sync)) -> Self {
         let (count, asked) = (rows.count(), rows.plan.outputs.len());
         let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
         let (mut reasons, mut met) = (vec![], 0);
-        let of = |some: Range<u64>| rows.answers(some);
-        in_groups(0..count, of, tell, |found| {
+        for found in in_groups(0..count, |some| rows.answers(some), tell) {
             let (all, why, good) = match found {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();
@@ -105,7 +102,7 @@ impl Scattered {
             values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
             reasons.push(why);
             met += usize::from(good);
-        });
+        }
         let whole = |row: usize| values.iter().all(|column| column[row].is_some());
         // A row without one of its answers is dropped whole.
         let whole: Vec<usize> = (0..count as usize).filter(|row| whole(*row)).collect();
