@@ -10,6 +10,13 @@ use sweetspot::{Bat, Request, Theory, solve};
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
 
+/// Solid wood, bare and with a weight on the knob (kg), and a bore.
+const BATS: [(&str, f64); 3] = [
+    ("meshes/r161.json", 0.0),
+    ("meshes/r161.json", 0.03),
+    ("meshes/northwestern_aluminium.json", 0.0),
+];
+
 /// Variations of a bat, every one of its own wood, on request with a weight on the knob (kg).
 fn varied(name: &str, count: usize, weight: f64) -> Vec<Bat> {
     let own = bundled_bat(name).unwrap();
@@ -51,11 +58,7 @@ fn hits(model: &Bat, bats: &[Bat], theory: Theory, way: Way) -> Vec<Sweep> {
 /// each is hit alone within what both state.
 #[test]
 fn a_bat_is_hit_as_it_is_hit_alone_whoever_is_beside_it() {
-    for (name, weight) in [
-        ("meshes/r161.json", 0.0),
-        ("meshes/r161.json", 0.03),
-        ("meshes/northwestern_aluminium.json", 0.0),
-    ] {
+    for (name, weight) in BATS {
         for theory in Theory::ALL {
             let bats = varied(name, 10, weight);
             let alone = hits(&bats[0], &bats, theory, Way::OneByOne);
@@ -109,11 +112,7 @@ fn a_bat_of_another_kind_is_hit_on_its_own() {
 /// Every number of a solution is within what it states beside a far better one.
 #[test]
 fn solutions_of_many_are_as_good_as_they_say() {
-    for (name, weight) in [
-        ("meshes/r161.json", 0.0),
-        ("meshes/r161.json", 0.03),
-        ("meshes/northwestern_aluminium.json", 0.0),
-    ] {
+    for (name, weight) in BATS {
         for theory in Theory::ALL {
             for tolerance in [1e-4, 1e-8] {
                 let bats = varied(name, 9, weight);
@@ -122,6 +121,8 @@ fn solutions_of_many_are_as_good_as_they_say() {
                 solutions(&bats[0], &asked, Way::SideBySide, |k, found| {
                     let found = found.unwrap();
                     assert!(found.met && found.complete());
+                    // The time of a bat that shares a plan is not taken.
+                    assert!(found.timing.solve.is_zero(), "{name} {k} was solved on its own");
                     if k % 4 > 0 {
                         return;
                     }
@@ -152,5 +153,28 @@ fn solutions_of_many_are_as_good_as_they_say() {
                 });
             }
         }
+    }
+}
+
+/// An accuracy that cannot be is said of its own bat, and the others are hit.
+#[test]
+fn what_cannot_be_asked_is_told_of_each_bat_that_it_was_asked_of() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let scene = Scene::default();
+    let trial = Trial { model: Model::Contact, scene: &scene };
+    let blow = |exit_speed: f64| {
+        let accuracy = Accuracy { exit_speed, ..Accuracy::default() };
+        Blow { bat: &bat, trial, accuracy, places: &[0.7] }
+    };
+    let mut told = vec![];
+    each(&bat, &[blow(f64::NAN), blow(1e-4), blow(f64::NAN)], Way::SideBySide, |k, hits| {
+        told.push((k, hits.map(|_| ()).map_err(|error| error.to_string())));
+    });
+    told.sort_by_key(|(k, _)| *k);
+    assert_eq!(told.len(), 3);
+    assert!(told[1].1.is_ok());
+    for k in [0, 2] {
+        let said = told[k].1.as_ref().unwrap_err();
+        assert!(said.contains("tolerance: found NaN"), "{said}");
     }
 }

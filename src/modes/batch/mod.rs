@@ -77,18 +77,16 @@ pub fn solutions(
     way: Way,
     mut visit: impl FnMut(usize, Result<Solution>),
 ) {
-    let mut requests: Vec<Request> = vec![];
-    for (_, request) in asked {
-        if !requests.contains(request) {
-            requests.push(*request);
-        }
-    }
-    for request in requests {
-        let alike = |k: &usize| asked[*k].1 == request;
-        let alike: Vec<usize> = (0..asked.len()).filter(alike).collect();
+    let mut left: Vec<usize> = (0..asked.len()).collect();
+    while let Some(&first) = left.first() {
+        let request = asked[first].1;
+        // The first is alike in any case: what is no number is not even equal to itself.
+        let alike = |k: &usize| *k == first || asked[*k].1 == request;
+        let (alike, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(alike);
         let bats: Vec<&Bat> = alike.iter().map(|k| asked[*k].0).collect();
         let visit = &mut |k: usize, solution| visit(alike[k], solution);
         shown_to(model, &bats, &request, way, Visit::Solutions(visit));
+        left = others;
     }
 }
 
