@@ -17,7 +17,8 @@ use sweetspot::study::aim::bench::Terms;
 use sweetspot::study::aim::outcome::Outcome;
 use sweetspot::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
 use sweetspot::study::lathe::workpiece::HitTerms;
-use sweetspot::study::many::answers::{Answer, Asked, Trial};
+use sweetspot::study::many::answers::Answer;
+use sweetspot::study::many::rows::{Asked, Trial};
 use sweetspot::{Bat, Material, Request};
 
 const OZ_IN2: f64 = 0.028_349_523_125 * 0.0254 * 0.0254;

@@ -14,9 +14,10 @@ use crate::collision::setup::Setup;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::scene_file;
-use crate::study::many::answers::{Answer, Asked};
+use crate::study::many::answers::Answer;
 use crate::study::many::design::{Design, Row, Spread, Wanted};
 use crate::study::many::distribution::Distribution;
+use crate::study::many::rows::Asked;
 
 const KEYS: &[&str] = &[
     "format",

@@ -17,8 +17,8 @@ use crate::collision::setup::Setup;
 use crate::files::ball_file::written;
 use crate::files::scene_file;
 use crate::files::study_file::{StudyFile, Subject, Varied, put};
-use crate::study::many::answers::{Asked, Found, Trial};
 use crate::study::many::design::{MOST_ROWS, Row};
+use crate::study::many::rows::{Asked, Found, Trial};
 
 /// A bat as a file has it.
 #[derive(Debug, Clone, Serialize, Deserialize)]

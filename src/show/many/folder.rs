@@ -17,8 +17,8 @@ use crate::files::study_rows::Rows;
 use crate::show::csv::{Cell, Csv};
 use crate::show::exchange::npz;
 use crate::show::many::source::Study;
-use crate::study::many::answers::in_groups;
 use crate::study::many::hash::of_text;
+use crate::study::many::rows::in_groups;
 
 /// Rows of a part.
 pub const ROWS: u64 = 4096;

@@ -1,25 +1,12 @@
-//! Which answers does a study ask of each bat, and what are they?
+//! Which answers can be asked of a bat, by which names?
 //!
 //! Every answer has one name, that of the member in the other documents of the program, with its unit at the
 //! end.
 
-use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use crate::base::error::{Complaint, Error, Result};
-use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
-use crate::collision::batch::{Blow, each as strike_each};
-use crate::collision::figures::BarrelSpeed;
-use crate::collision::hit::{Impact, Model, Scene};
-use crate::collision::hitter::Hitter;
-use crate::collision::sweep::{self as hit, Sweep};
-use crate::collision::sweet_spot::FEW;
-use crate::modes::batch::{Way, solutions};
-use crate::modes::solve::{Request, Solution, solve};
-use crate::study::comparison::contender::{Contender, Figure, Terms, exit_speed};
-use crate::study::theory_choice::theory;
-use crate::study::tuned::tuned;
+use crate::modes::solve::Solution;
+use crate::study::comparison::contender::Figure;
 
 /// Something that is asked of a bat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -183,7 +170,7 @@ impl Answer {
     }
 
     /// Whether the barrel must be searched for it.
-    fn is_searched(self) -> bool {
+    pub(super) fn is_searched(self) -> bool {
         self.of_the_hands()
             || matches!(
                 self,
@@ -202,7 +189,7 @@ impl Answer {
     }
 
     /// Whether it is what the hands feel.
-    fn of_the_hands(self) -> bool {
+    pub(super) fn of_the_hands(self) -> bool {
         matches!(
             self,
             Self::HandsVelocity
@@ -221,217 +208,6 @@ impl Answer {
     }
 }
 
-/// What is asked of every bat.
-#[derive(Debug, Clone)]
-pub struct Asked {
-    /// The answers, in the order of the columns.
-    pub answers: Vec<Answer>,
-    /// Accuracy of frequencies, relative, and of exit speeds, relative to the closing speed.
-    pub tolerance: f64,
-}
-
-/// How a bat is hit.
-#[derive(Debug, Clone)]
-pub struct Trial {
-    /// Swing, ball and pitch.
-    pub scene: Scene,
-    /// How a hit is computed.
-    pub model: Model,
-    /// Speed of a point of the barrel that the swing is from, if one was given.
-    pub barrel: Option<BarrelSpeed>,
-}
-
-/// What came of a bat.
-#[derive(Debug, Clone)]
-pub struct Found {
-    /// Values with their errors in the order asked; None where the bat has no such answer.
-    pub figures: Vec<Option<Figure>>,
-    /// Whether all of them are as accurate as asked.
-    pub met: bool,
-}
-
-/// What `of` makes of some rows, in their order, on all cores; `tell` is told how many there are up to then.
-pub fn in_groups<T: Send>(
-    rows: Range<u64>,
-    of: impl Fn(Range<u64>) -> Vec<T> + Sync,
-    tell: impl Fn(u64) + Sync,
-) -> Vec<T> {
-    /// Rows that are computed together: some bats in the lanes of every vector, on one plan.
-    const TOGETHER: u64 = 16;
-    let done = AtomicU64::new(rows.start);
-    let from = |group: usize| rows.end.min(rows.start + group as u64 * TOGETHER);
-    let groups = (rows.end - rows.start).div_ceil(TOGETHER) as usize;
-    let group = |group: usize| {
-        let (first, end) = (from(group), from(group + 1));
-        let found = of(first..end);
-        tell(done.fetch_add(end - first, Ordering::Relaxed) + end - first);
-        found
-    };
-    threads::map(groups, group).into_iter().flatten().collect()
-}
-
-/// A bat of which all is known that its modes are asked for.
-struct Ready {
-    /// The bat as it is tuned to its tap.
-    bat: Bat,
-    request: Request,
-    /// How it is hit, and where (m from the knob end), if it is.
-    trial: Option<(Trial, Vec<f64>)>,
-}
-
-/// What was computed of a bat.
-enum Solved {
-    Modes(Solution),
-    Hits(Sweep),
-}
-
-impl Asked {
-    /// What is asked of each of some bats that are like `model`, in their order; `trial` is told the number of a
-    /// bat and the bat as it is tuned to its tap.
-    ///
-    /// What is answered of a bat is a function of itself and the model, whoever is beside it.
-    ///
-    /// # Errors
-    ///
-    /// Of each bat its own: why there is none, those of [`crate::solve()`], of a hit, and of the trial.
-    pub fn of_each<'a>(
-        model: &Bat,
-        bats: Vec<(&'a Self, Result<Bat>)>,
-        trial: impl Fn(usize, &Bat) -> Result<Trial>,
-    ) -> Vec<Result<Found>> {
-        let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
-            (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
-        };
-        let ready: Vec<(&Self, Result<Ready>)> = bats.into_iter().enumerate().map(ready).collect();
-        let mut solved: Vec<Option<Result<Solved>>> = ready.iter().map(|_| None).collect();
-        let there =
-            || ready.iter().enumerate().filter_map(|(k, (_, of))| Some((k, of.as_ref().ok()?)));
-        let blows = there().filter_map(|(k, ready)| Some((k, ready.blow()?)));
-        let (hit, blows): (Vec<usize>, Vec<Blow>) = blows.unzip();
-        strike_each(model, &blows, Way::SideBySide, |k, found| {
-            solved[hit[k]] = Some(found.map(Solved::Hits));
-        });
-        let others = there().filter(|(_, ready)| ready.trial.is_none());
-        let (others, requests): (Vec<usize>, Vec<_>) =
-            others.map(|(k, ready)| (k, (&ready.bat, ready.request))).unzip();
-        solutions(model, &requests, Way::SideBySide, |k, found| {
-            solved[others[k]] = Some(found.map(Solved::Modes));
-        });
-        let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
-            let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
-            match solved? {
-                Solved::Modes(solution) => asked.of_modes(&ready.bat, &solution),
-                Solved::Hits(sweep) => asked.with_hits(ready, sweep),
-            }
-        };
-        ready.into_iter().zip(solved).map(found).collect()
-    }
-
-    /// The bat as it is tuned to its tap, with what its answers need.
-    fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Ready> {
-        let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
-        let hit = self.answers.iter().any(|answer| answer.of_a_hit());
-        let modes = if hit { modes.max(Request::default().modes) } else { modes };
-        let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
-        let theory = theory(&bat, &request)?.theory;
-        let (bat, request) = (tuned(bat, theory, self.tolerance)?, Request { theory, ..request });
-        let trial = match hit {
-            true => Some((trial(&bat)?, self.places(&bat)?)),
-            false => None,
-        };
-        Ok(Ready { bat, request, trial })
-    }
-
-    /// The answers of a bat that is not hit.
-    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
-        let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
-        Ok(Found { figures, met: solution.worst() <= self.tolerance })
-    }
-
-    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough. The barrel is
-    /// searched for its best places only where one of them is asked for.
-    fn with_hits(&self, Ready { bat, request, trial }: Ready, sweep: Sweep) -> Result<Found> {
-        let (trial, _) = trial.expect("a bat that was hit has its trial");
-        if !self.answers.iter().any(|answer| answer.is_searched()) {
-            return self.of_hits(&bat, &trial, &request, (&sweep, None));
-        }
-        let Trial { scene, model, barrel } = &trial;
-        let terms = Terms { barrel: *barrel, ..terms(*model) };
-        let hit = Contender::of(bat, (scene.clone(), None), &terms, sweep)?;
-        self.of_hits(&hit.bat, &trial, &request, (&hit.sweep, Some(&hit)))
-    }
-
-    /// The answers from the hits, and from what was found by search if anything was sought.
-    fn of_hits(
-        &self,
-        bat: &Bat,
-        Trial { scene, model, .. }: &Trial,
-        request: &Request,
-        (sweep, hit): (&Sweep, Option<&Contender>),
-    ) -> Result<Found> {
-        let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
-        let found = match sweep.solution.modes.len() >= asked {
-            true => self.of_modes(bat, &sweep.solution)?,
-            false => self.of_modes(bat, &solve(bat, &Request { modes: asked, ..*request })?)?,
-        };
-        let hands = match hit.filter(|_| self.answers.iter().any(|answer| answer.of_the_hands())) {
-            Some(hit) => Some(Hands::of(hit, *model)?),
-            None => None,
-        };
-        let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
-        let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
-            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, scene),
-            Answer::VibrationAt(x) => vibration(at(x)?, scene),
-            answer if answer.of_the_hands() => hands.as_ref().and_then(|hands| hands.felt(answer)),
-            answer if answer.is_searched() => best(answer, hit?),
-            _ => known,
-        };
-        let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        Ok(Found { figures, met: found.met && sweep.met })
-    }
-
-    /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
-    fn places(&self, bat: &Bat) -> Result<Vec<f64>> {
-        /// Where a barrel is hit that is searched, as shares of the length.
-        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
-        on_the_bat(&self.answers, bat)?;
-        let mut places: Vec<f64> = self.answers.iter().filter_map(|a| a.place()).collect();
-        if self.answers.iter().any(|answer| answer.is_searched()) {
-            places.extend(ALONG.map(|share| share * bat.length()));
-        }
-        places.sort_by(f64::total_cmp);
-        places.dedup();
-        Ok(places)
-    }
-}
-
-impl Ready {
-    fn blow(&self) -> Option<Blow<'_>> {
-        let (Trial { scene, model, .. }, places) = self.trial.as_ref()?;
-        let trial = hit::Trial { model: *model, scene };
-        let accuracy = trial.accuracy(&self.request, terms(*model).exactly);
-        Some(Blow { bat: &self.bat, trial, accuracy, places })
-    }
-}
-
-/// How the best places of a bat are looked for.
-fn terms(model: Model) -> Terms {
-    Terms { model, exactly: false, every: 0.0, look: FEW, barrel: None }
-}
-
-/// An answer for which the barrel is searched.
-fn best(answer: Answer, hit: &Contender) -> Option<Figure> {
-    match answer {
-        Answer::ExitSpeed => hit.best_speed,
-        Answer::ExitSpeedPlace => hit.best_place,
-        Answer::Zone(end) => hit.zone.map(|zone| zone[usize::from(end)]),
-        Answer::Vibration => hit.least_vibration,
-        Answer::VibrationPlace => hit.least_place,
-        Answer::Bbcor => hit.bbcor[0],
-        _ => None,
-    }
-}
-
 /// Whether every place that is asked for is on the bat.
 ///
 /// # Errors
@@ -442,57 +218,6 @@ pub fn on_the_bat(answers: &[Answer], bat: &Bat) -> Result<()> {
     let Some(off) = answers.iter().find(beyond) else { return Ok(()) };
     let expected = format!("a place on the bat, 0 to {} m", bat.length());
     Err(Error::value("outputs", off.name(), expected))
-}
-
-/// Energy that an impact leaves in vibration (J): what the error of the impulse moves between the
-/// energies is its error.
-fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
-    let outcome = impact.outcome.as_ref()?;
-    let closing = impact.bat_speed + scene.ball_speed;
-    let moved = scene.ball.mass * outcome.error * closing * closing;
-    (!outcome.energy.vibration_by_mode.is_empty())
-        .then(|| Figure::new(outcome.energy.vibration(), moved))
-}
-
-/// What the hands feel of the hits on a bat, by its modes and by three in four of them: the difference is the
-/// error.
-struct Hands {
-    /// Places of the least velocity and the least acceleration (m).
-    least: [Option<f64>; 2],
-    /// Places (m) and what the hands feel there: velocity and acceleration.
-    felt: Vec<(f64, [Figure; 2])>,
-}
-
-impl Hands {
-    fn of(hit: &Contender, model: Model) -> Result<Self> {
-        let (solution, effort) = (&hit.sweep.solution, hit.sweep.effort);
-        let mut fewer = solution.clone();
-        fewer.modes.truncate(solution.modes.len() * 3 / 4);
-        let all = Hitter::new(model, &hit.scene, &hit.bat, solution, effort)?;
-        let few = Hitter::new(model, &hit.scene, &hit.bat, &fewer, effort)?;
-        let least = [hit.spot.hands_velocity_min, hit.spot.hands_acceleration_min];
-        let least = least.map(|peak| peak.map(|peak| peak.x));
-        let places =
-            hit.sweep.impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
-        let felt = places.filter_map(|x| {
-            let [all, few] = [&all, &few].map(|hitter| hitter.glance(x).map(|seen| seen.hands));
-            let (all, few) = all.zip(few)?;
-            Some((x, [0, 1].map(|k| Figure::new(all[k], (all[k] - few[k]).abs()))))
-        });
-        Ok(Self { least, felt: felt.collect() })
-    }
-
-    fn felt(&self, answer: Answer) -> Option<Figure> {
-        let (x, which) = match answer {
-            Answer::HandsVelocity => (self.least[0]?, 0),
-            Answer::HandsAcceleration => (self.least[1]?, 1),
-            Answer::HandsVelocityAt(x) => (x, 0),
-            Answer::HandsAccelerationAt(x) => (x, 1),
-            _ => return None,
-        };
-        let near = |(place, _): &&(f64, _)| (place - x).abs() < 1e-9;
-        self.felt.iter().find(near).map(|(_, felt)| felt[which])
-    }
 }
 
 /// An answer that needs no hit.

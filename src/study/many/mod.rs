@@ -7,7 +7,8 @@
 //! | [`distribution`] | which value lies below that share of all |
 //! | [`design`] | which values does row k have |
 //! | [`indices`] | which of the drawn numbers make an answer vary |
-//! | [`answers`] | what is asked of every bat, and found |
+//! | [`answers`] | which answers can be asked of a bat, by which names |
+//! | [`rows`] | what comes of each of some bats |
 
 pub mod hash;
 pub mod sobol;
@@ -15,3 +16,4 @@ pub mod distribution;
 pub mod indices;
 pub mod design;
 pub mod answers;
+pub mod rows;

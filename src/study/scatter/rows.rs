@@ -2,7 +2,7 @@
 //!
 //! [`ScatterRows::answers`] is a function of what differs, the bat, the seed and k alone: row k is point
 //! `k mod n` of scramble `k / n`. What is asked of a bat is asked as in a study
-//! ([`crate::study::many::answers`]).
+//! ([`crate::study::many::rows`]).
 
 use std::ops::Range;
 
@@ -15,9 +15,10 @@ use crate::collision::sweep::{Trial as Hit, sweep};
 use crate::collision::sweet_spot::{FEW, Looked, SweetSpot};
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::Figure;
-use crate::study::many::answers::{Answer, Asked, Found, Trial};
+use crate::study::many::answers::Answer;
 use crate::study::many::design::Design;
 use crate::study::many::indices::Kind;
+use crate::study::many::rows::{Asked, Found, Trial};
 use crate::study::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
 use crate::study::theory_choice::theory;
 use crate::study::tuned::tuned;

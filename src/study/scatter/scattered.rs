@@ -1,7 +1,7 @@
 //! Percentiles with errors, and what makes them so.
 
-use crate::study::many::answers::in_groups;
 use crate::study::many::indices::Indices;
+use crate::study::many::rows::in_groups;
 use crate::study::scatter::rows::{ScatterRows, value};
 use crate::study::scatter::spreads::SCRAMBLES;
 
