@@ -46,7 +46,8 @@ fn legendre_pair(n: usize, xi: f64) -> (f64, f64) {
 
 /// `P_0 … P_{count−1}` at `xi`, two at least.
 pub fn legendre(count: usize, xi: f64) -> Vec<f64> {
-    let mut p = vec![1.0, xi];
+    let mut p = Vec::with_capacity(count.max(2));
+    p.extend([1.0, xi]);
     for k in 1..count.saturating_sub(1) {
         let n = k as f64;
         p.push(((2.0 * n + 1.0) * xi * p[k] - n * p[k - 1]) / (n + 1.0));

@@ -12,17 +12,14 @@ use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::pressing::{LEVELS, Means, Run, USUAL};
 use crate::collision::contact::table::{Piece, StepTable};
-use crate::collision::contact::touch::{Felt, State, Touch, Tuning};
+use crate::collision::contact::touch::{Felt, State, Swings, Touch, Tuning};
 
 /// A bat's modes in time, for any impact point: the tables are shared.
 #[derive(Debug, Clone)]
 pub struct Collider {
     rule: Lobatto,
-    /// `s = −ζω + iω_d` of every mode, the last lanes filled; its parts, its absolute square.
+    /// `s = −ζω + iω_d` of every mode, the last lanes filled.
     poles: Vec<c64>,
-    decay: Vec<f64>,
-    swing: Vec<f64>,
-    square: Vec<f64>,
     /// Steps of length `longest/2^level`, made when first needed.
     tables: Vec<OnceLock<StepTable>>,
     longest: f64,
@@ -48,9 +45,6 @@ impl Collider {
         let poles: Vec<c64> = modes.iter().map(pole).chain(fill).take(filled).collect();
         Self {
             rule: Lobatto::default(),
-            decay: poles.iter().map(|s| s.re).collect(),
-            swing: poles.iter().map(|s| s.im).collect(),
-            square: poles.iter().map(c64::norm_sqr).collect(),
             poles,
             tables: vec![OnceLock::new(); LEVELS],
             longest: time * (1 << USUAL) as f64,
@@ -140,22 +134,19 @@ impl<L: ForceLaw> WithSimd for Struck<'_, L> {
     fn with_simd<S: Simd>(self, _: S) -> Encounter {
         let Self { law, meeting } = self;
         let Meeting { collider, felt, others, speed, accuracy, history } = meeting;
-        let Collider { rule, poles: all, decay, swing, square, tables, longest, tuning } = collider;
+        let Collider { rule, poles: all, tables, longest, tuning } = collider;
         let count = felt.gains.len().next_multiple_of(LANES);
         let poles = &all[..count];
         let energy = 0.5 * speed * speed / felt.inverse_mass;
         let deepest = deepest(&law, felt.rest, energy);
-        let gains = felt.gains.iter().copied().chain(std::iter::repeat(0.0));
-        let weights: Vec<f64> = poles.iter().zip(gains).map(|(s, gain)| gain / s.im).collect();
+        let gain = |n: usize| felt.gains.get(n).copied().unwrap_or(0.0);
+        let mode = |n: usize| (poles[n], gain(n));
+        let swings = (0..count).step_by(LANES);
         let touch = Touch {
             rule,
             poles,
             felt,
-            decay: &decay[..count],
-            swing: &swing[..count],
-            square: &square[..count],
-            masses: weights.iter().zip(poles).map(|(w, s)| w / s.im).collect(),
-            weights,
+            swings: swings.map(|n| Swings::new(std::array::from_fn(|l| mode(n + l)))).collect(),
             damped: poles.iter().any(|s| s.re != 0.0),
             law,
             speed,
@@ -190,7 +181,8 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     fn go(&self, mut means: Means) -> Encounter {
         let mut met = Encounter { touches: 1, ..Encounter::default() };
-        let [now, next] = [0, 1].map(|_| State::at_first(self.poles.len(), self.speed));
+        let [now, next, between] =
+            [0, 1, 2].map(|_| State::at_first(self.swings.len(), self.speed));
         let mut run = Run {
             now,
             next,
@@ -199,7 +191,8 @@ impl<L: ForceLaw> Touch<'_, L> {
             level: 0,
             faint: false,
             steps: 0,
-            couplings: [None; LEVELS],
+            couplings: Vec::with_capacity(8),
+            between,
             tangents: means.others.iter().map(|other| self.tangent(other)).collect(),
         };
         run.level = self.first_level(&run.now, means.longest);

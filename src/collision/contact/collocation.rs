@@ -71,27 +71,12 @@ impl Lobatto {
 /// Numbers taken side by side.
 pub const LANES: usize = 4;
 
-/// Numbers by lanes.
-#[inline(always)]
-pub fn lanes(all: &[f64]) -> &[[f64; LANES]] {
-    all.as_chunks().0
-}
+/// Numbers of some modes, side by side.
+pub type Lanes = [f64; LANES];
 
-/// The sum over all lanes of so many chunks.
+/// The sum over the lanes.
 #[inline(always)]
-pub fn total(chunks: usize, part: impl Fn(usize, usize) -> f64) -> f64 {
-    let mut sums = [0.0; LANES];
-    for k in 0..chunks {
-        for (l, sum) in sums.iter_mut().enumerate() {
-            *sum += part(k, l);
-        }
-    }
-    sum(sums)
-}
-
-/// The sum of a chunk.
-#[inline(always)]
-pub fn sum(lanes: [f64; LANES]) -> f64 {
+pub fn sum(lanes: Lanes) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
 }
 

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use crate::collision::contact::collocation::{LANES, POINTS, lanes, sum};
+use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::Step;
 use crate::collision::contact::table::Piece;
@@ -46,7 +46,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         &self,
         next: &mut State,
         length: f64,
-        bump: [&[f64]; 2],
+        bump: &[[Lanes; 2]],
         Limits { top, most, slight }: Limits,
     ) -> Option<f64> {
         let mut off = 0.0;
@@ -79,9 +79,11 @@ impl<L: ForceLaw> Touch<'_, L> {
             next.closing += size * closing;
             next.impulse += size * length / 6.0;
             next.bump += size;
-            for (memory, bump) in [&mut next.real, &mut next.imaginary].into_iter().zip(bump) {
-                for (part, bump) in memory.iter_mut().zip(bump) {
-                    *part += size * bump;
+            for (memory, bump) in next.memories.iter_mut().zip(bump) {
+                for part in 0..2 {
+                    for l in 0..LANES {
+                        memory[part][l] += size * bump[part][l];
+                    }
                 }
             }
             // What is left is the square of this, and seen with the next step's.
@@ -97,18 +99,17 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// What a bump of 1 N does to the modes: how far it moves them (m/N), and the rate of their energy
     /// with its size (J/N).
     #[inline(always)]
-    fn done_by(&self, next: &State, bump: [&[f64]; 2]) -> [f64; 2] {
-        let [m, a, b, square] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
-        let [re, im] = [&next.real, &next.imaginary].map(|v| lanes(v));
-        let ([p, q], w) = (bump.map(lanes), lanes(&self.weights));
+    fn done_by(&self, next: &State, bump: &[[Lanes; 2]]) -> [f64; 2] {
+        let count = self.swings.len();
+        let (bump, memories) = (&bump[..count], &next.memories[..count]);
         let [mut moved, mut work] = [[0.0; LANES]; 2];
-        for k in 0..self.chunks() {
+        for k in 0..count {
+            let (of, [re, im], [p, q]) = (&self.swings[k], &memories[k], &bump[k]);
             for l in 0..LANES {
-                let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
-                let other = a[k][l] * q[k][l] + b[k][l] * p[k][l];
-                let both = rate * other + square[k][l] * im[k][l] * q[k][l];
-                moved[l] -= w[k][l] * q[k][l];
-                work[l] += m[k][l] * both;
+                let rate = of.decay[l] * im[l] + of.swing[l] * re[l];
+                let other = of.decay[l] * q[l] + of.swing[l] * p[l];
+                moved[l] -= of.weight[l] * q[l];
+                work[l] += of.mass[l] * (rate * other + of.square[l] * im[l] * q[l]);
             }
         }
         [sum(moved), sum(work)]
@@ -119,7 +120,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let force = shortened(step.powers, time / step.length);
         let of_mode = |(n, s): (usize, &c64)| {
             let square = self.square(*s, time, now.memory(n), &force);
-            -2.0 * s.re * self.weights[n] / s.im * time * square
+            -2.0 * s.re * self.swings[n / LANES].mass[n % LANES] * time * square
         };
         let damped = self.modes().filter(|(_, s)| s.re != 0.0);
         damped.map(of_mode).sum()

@@ -1,6 +1,6 @@
 //! Where a step ends early: the largest compression, the return to it, the end of the contact.
 
-use crate::collision::contact::collocation::{POINTS, lanes, total};
+use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::energy::Limits;
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::{Course, Step};
@@ -52,13 +52,14 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     pub fn may_pass(&self, now: &State, step: &Step, next: &State) -> bool {
         let least = step.compression[1..].iter().fold(now.compression, |least, x| least.min(*x));
-        let [w, square] = [&self.weights, self.square].map(lanes);
-        let [a, b] = [&now.real, &now.imaginary].map(|v| lanes(v));
-        let [p, q] = [&next.real, &next.imaginary].map(|v| lanes(v));
-        let bend = total(self.chunks(), |k, l| {
-            let amplitudes = [a[k][l].abs() + b[k][l].abs(), p[k][l].abs() + q[k][l].abs()];
-            w[k][l] * square[k][l] * amplitudes[0].max(amplitudes[1])
-        });
+        let mut bend = [0.0; LANES];
+        for ((of, before), after) in self.swings.iter().zip(&now.memories).zip(&next.memories) {
+            for l in 0..LANES {
+                let [before, after] = [before, after].map(|[re, im]| re[l].abs() + im[l].abs());
+                bend[l] += of.weight[l] * of.square[l] * before.max(after);
+            }
+        }
+        let bend = sum(bend);
         let way = step.length * (self.rule.at[2] - self.rule.at[1]);
         least < 0.125 * bend * way * way
     }
@@ -68,10 +69,12 @@ impl<L: ForceLaw> Touch<'_, L> {
     pub fn distance(&self, event: Event, state: &State, top: Option<Top>) -> [f64; 2] {
         if event == Event::Turned {
             let mut rate = -state.force * self.felt.inverse_mass;
-            for n in 0..self.poles.len() {
-                let s = self.poles[n];
-                rate -= self.weights[n] * (s * (s * state.memory(n) + state.force)).im;
-            }
+            // Im s(sv + F).
+            rate -= self.total(state, |of, [re, im], l| {
+                let (a, b) = (of.decay[l], of.swing[l]);
+                let inner = [a * re[l] - b * im[l] + state.force, a * im[l] + b * re[l]];
+                of.weight[l] * (a * inner[1] + b * inner[0])
+            });
             return [self.rate(state), rate];
         }
         let rate = self.rate(state);
@@ -151,7 +154,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         if self.damped {
             next.lost = now.lost + self.loss(now, step, *time);
         }
-        let (mut known, mut bump) = (f64::NAN, [0, 1].map(|_| vec![0.0; self.poles.len()]));
+        let (mut known, mut bump) = (f64::NAN, vec![<[Lanes; 2]>::default(); self.swings.len()]);
         for _ in 0..4 {
             let length = *time;
             // A bump is small: one that ends a little beside does as well.
@@ -161,11 +164,11 @@ impl<L: ForceLaw> Touch<'_, L> {
                 for (n, s) in self.modes() {
                     let (_, [_, first, second]) = moments(s * length);
                     let done = (first - second) * length;
-                    (bump[0][n], bump[1][n]) = (done.re, done.im);
+                    let (parts, l) = (&mut bump[n / LANES], n % LANES);
+                    (parts[0][l], parts[1][l]) = (done.re, done.im);
                 }
             }
-            let bump = [&bump[0][..], &bump[1][..]];
-            corrected += self.correct(next, length, bump, limits)?;
+            corrected += self.correct(next, length, &bump, limits)?;
             let [x, rate] = self.distance(event, next, limits.top);
             let by = -x / rate;
             let there = x.abs() < 1e-14 * self.deepest || by.abs() > 0.1 * step.length;

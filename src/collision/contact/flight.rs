@@ -35,14 +35,12 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// Flies until `z + Σ y` is at one of the two levels (m), the ball is gone, or the flight has
     /// lasted for `longest` (s), after which the ball counts as gone.
     pub fn fly(&self, state: &mut State, [low, high]: [f64; 2], longest: f64) -> Landing {
-        let amplitude = |n: usize| self.weights[n] * state.real[n].hypot(state.imaginary[n]);
-        let (mut farthest, mut fastest, mut bend) = (0.0, 0.0, 0.0);
-        for n in 0..self.felt.gains.len() {
-            let size = self.square[n].sqrt();
-            farthest += amplitude(n);
-            fastest += size * amplitude(n);
-            bend += self.square[n] * amplitude(n);
-        }
+        let sum = |of: fn(f64) -> f64| {
+            self.total(state, |mode, [re, im], l| {
+                mode.weight[l] * re[l].hypot(im[l]) * of(mode.square[l])
+            })
+        };
+        let (farthest, fastest, bend) = (sum(|_| 1.0), sum(f64::sqrt), sum(|square| square));
         let slack = 1e-15 * (state.closing.abs() + farthest) + 1e-13 * self.deepest;
         let (end, before) = (state.time + longest, self.in_all(state));
         let mut landing = Landing::Open;

@@ -41,9 +41,12 @@ pub(super) struct Run {
     /// Whether the force has almost gone.
     pub faint: bool,
     pub steps: usize,
-    pub couplings: [Option<Coupling>; LEVELS],
+    /// What the force does to the compression, of levels that were needed.
+    pub couplings: Vec<(usize, Coupling)>,
     /// What is followed beside it, to the end of the first touch.
     pub tangents: Vec<Tangent>,
+    /// Any state within a step.
+    pub between: State,
 }
 
 /// What became of a step.
@@ -111,10 +114,12 @@ impl<L: ForceLaw> Touch<'_, L> {
         let length = means.longest * 0.5_f64.powi(*level as i32);
         let (all, tables) = (means.all, means.tables);
         let table = tables[*level].get_or_init(|| StepTable::new(self.rule, all, length));
-        let coupling = match run.couplings[*level] {
-            Some(known) => known,
-            None => *run.couplings[*level].insert(self.coupling(table)),
-        };
+        let known = run.couplings.iter().position(|(known, _)| known == level);
+        let known = known.unwrap_or_else(|| {
+            run.couplings.push((*level, self.coupling(table)));
+            run.couplings.len() - 1
+        });
+        let coupling = run.couplings[known].1;
         let (step, converged) = self.solve(table, &coupling, now, *top, last.as_ref());
         let (error, tuning) = (self.error_of(&step), &self.tuning);
         let allowed = if *level < USUAL { tuning.long_error } else { tuning.usual_error };
@@ -142,9 +147,10 @@ impl<L: ForceLaw> Touch<'_, L> {
             Some(Event::Again) => run.tangents.clear(),
             _ if run.tangents.is_empty() => {}
             _ => {
-                let Run { now, next, top, tangents, .. } = &mut *run;
+                let Run { now, next, top, tangents, between, .. } = &mut *run;
                 let (top, coupling, step) = (*top, &coupling, &step);
-                self.follow(tangents, Walked { now, next, top, table, coupling, step, event });
+                let walked = Walked { now, next, top, table, coupling, step, event };
+                self.follow(tangents, between, walked);
             }
         }
         met.corrected += off;
@@ -166,7 +172,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         run: &mut Run,
     ) -> Option<Part> {
         let Run { now, next, .. } = run;
-        let off = self.correct(next, table.length, table.bumps(), limits)?;
+        let off = self.correct(next, table.length, &table.bump, limits)?;
         let piece = step.until(now, next);
         (!limits.pulls(&piece)).then(|| Part { off, piece, course: self.course(&step) })
     }

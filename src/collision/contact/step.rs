@@ -3,7 +3,7 @@
 use faer::c64;
 
 use crate::base::linear::dot;
-use crate::collision::contact::collocation::{LANES, POINTS, lanes, polynomial, total};
+use crate::collision::contact::collocation::{LANES, POINTS, polynomial, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::touch::{State, Touch};
@@ -62,12 +62,19 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     pub fn coupling(&self, table: &StepTable) -> Coupling {
         let square = table.length * table.length * self.felt.inverse_mass;
+        let moves = &table.moves[..self.swings.len()];
         let mut coupling = [[0.0; POINTS]; AHEAD];
         for i in 0..AHEAD {
+            let mut parts = [[0.0; LANES]; POINTS];
+            for (of, moves) in self.swings.iter().zip(moves) {
+                for j in 0..POINTS {
+                    for l in 0..LANES {
+                        parts[j][l] += moves.kernels[i + 1][j][1][l] * of.weight[l];
+                    }
+                }
+            }
             for j in 0..POINTS {
-                let (kernel, w) = (table.kernel(i + 1, j, 1), lanes(&self.weights));
-                let modes = total(self.chunks(), |k, l| kernel[k][l] * w[k][l]);
-                coupling[i][j] = square * self.rule.twice[i + 1][j] + modes;
+                coupling[i][j] = square * self.rule.twice[i + 1][j] + sum(parts[j]);
             }
         }
         coupling
@@ -132,14 +139,22 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// How far ball and bat would come together (m) at the points ahead without the force there.
     #[inline(always)]
     pub(super) fn free(&self, table: &StepTable, coupling: &Coupling, now: &State) -> [f64; AHEAD] {
-        let [w, a, b] = [&self.weights, &now.real, &now.imaginary].map(|v| lanes(v));
+        let count = self.swings.len();
+        let (moves, memories) = (&table.moves[..count], &now.memories[..count]);
+        let mut parts = [[0.0; LANES]; AHEAD];
+        for k in 0..count {
+            let (w, [a, b]) = (&self.swings[k].weight, &memories[k]);
+            for i in 0..AHEAD {
+                let [re, im] = &moves[k].turns[i + 1];
+                for l in 0..LANES {
+                    parts[i][l] += w[l] * (re[l] * b[l] + im[l] * a[l]);
+                }
+            }
+        }
         let mut free = [0.0; AHEAD];
         for i in 0..AHEAD {
-            let (re, im) = (table.turn(i + 1, 0), table.turn(i + 1, 1));
-            let part = |k: usize, l: usize| w[k][l] * (re[k][l] * b[k][l] + im[k][l] * a[k][l]);
-            let modes = total(self.chunks(), part);
             let rigid = now.closing + now.speed * table.length * self.rule.at[i + 1];
-            free[i] = rigid - modes - coupling[i][0] * now.force;
+            free[i] = rigid - sum(parts[i]) - coupling[i][0] * now.force;
         }
         free
     }
@@ -242,29 +257,24 @@ impl<L: ForceLaw> Touch<'_, L> {
         i: usize,
         next: &mut State,
     ) {
-        let turn = [table.turn(i, 0), table.turn(i, 1)];
-        let mut kernels = [turn; POINTS];
-        for (j, kernel) in kernels.iter_mut().enumerate() {
-            *kernel = [table.kernel(i, j, 0), table.kernel(i, j, 1)];
-        }
-        let [a, b] = [&now.real, &now.imaginary].map(|v| lanes(v));
-        let (real, imaginary) = (&mut next.real, &mut next.imaginary);
-        let (real, imaginary) = (real.as_chunks_mut().0, imaginary.as_chunks_mut::<LANES>().0);
-        for k in 0..self.chunks() {
+        let count = self.swings.len();
+        let (moves, before) = (&table.moves[..count], &now.memories[..count]);
+        let after = &mut next.memories[..count];
+        for k in 0..count {
+            let ([p, q], [a, b]) = (&moves[k].turns[i], &before[k]);
             let [mut re, mut im] = [[0.0; LANES]; 2];
-            let (p, q) = (turn[0][k], turn[1][k]);
             for l in 0..LANES {
-                re[l] = p[l] * a[k][l] - q[l] * b[k][l];
-                im[l] = p[l] * b[k][l] + q[l] * a[k][l];
+                re[l] = p[l] * a[l] - q[l] * b[l];
+                im[l] = p[l] * b[l] + q[l] * a[l];
             }
-            for (kernel, force) in kernels.iter().zip(&step.force) {
-                let (p, q) = (kernel[0][k], kernel[1][k]);
+            for j in 0..POINTS {
+                let ([p, q], force) = (&moves[k].kernels[i][j], step.force[j]);
                 for l in 0..LANES {
                     re[l] += p[l] * force;
                     im[l] += q[l] * force;
                 }
             }
-            (real[k], imaginary[k]) = (re, im);
+            after[k] = [re, im];
         }
     }
 

@@ -3,7 +3,7 @@
 
 use faer::c64;
 
-use crate::collision::contact::collocation::{LANES, Lobatto, POINTS, lanes, polynomial};
+use crate::collision::contact::collocation::{LANES, Lanes, Lobatto, POINTS, polynomial};
 use crate::motion::phi::{driven, moments, pushed, shortened};
 
 /// A part of the force in time.
@@ -59,71 +59,56 @@ impl Piece {
     }
 }
 
-/// What a step of one length does to every mode; numbers of the modes side by side.
+/// What a step does to some modes side by side; `[part]` is the real part, the imaginary part.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Moves {
+    /// `e^{sh s_i}`, by which every memory turns up to point i, `[i][part]`.
+    pub turns: [[Lanes; 2]; POINTS],
+    /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, what the force at point j does to every memory at point i,
+    /// `[i][j][part]`.
+    pub kernels: [[[Lanes; 2]; POINTS]; POINTS],
+}
+
+/// What a step of one length does to every mode.
 #[derive(Debug, Clone)]
 pub struct StepTable {
     /// Length of the step (s).
     pub length: f64,
-    /// Number of modes, those that fill the lanes included.
-    pub modes: usize,
-    /// `e^{sh s_i}`, `[i][part][mode]`.
-    pub turns: Vec<f64>,
-    /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, `[i][j][part][mode]`.
-    pub kernels: Vec<f64>,
-    /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part][mode]`.
-    pub bump: Vec<f64>,
+    /// What it does to the modes, so many at once.
+    pub moves: Vec<Moves>,
+    /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part]`.
+    pub bump: Vec<[Lanes; 2]>,
 }
 
 impl StepTable {
-    /// The table of a step of that length (s) for modes of those `s` (1/s).
+    /// The table of a step of that length (s) for modes of those `s` (1/s), which fill the lanes.
     pub fn new(rule: &Lobatto, poles: &[c64], length: f64) -> Self {
-        let modes = poles.len();
+        let chunks = poles.len() / LANES;
         let mut table = Self {
             length,
-            modes,
-            turns: vec![0.0; POINTS * 2 * modes],
-            kernels: vec![0.0; POINTS * POINTS * 2 * modes],
-            bump: vec![0.0; 2 * modes],
+            moves: vec![Moves::default(); chunks],
+            bump: vec![Default::default(); chunks],
         };
         for (n, s) in poles.iter().enumerate() {
+            let (moves, l) = (&mut table.moves[n / LANES], n % LANES);
+            let put =
+                |all: &mut [Lanes; 2], value: c64| (all[0][l], all[1][l]) = (value.re, value.im);
             for i in 1..POINTS {
                 let at = length * rule.at[i];
                 let (whole, all) = moments::<POINTS>(s * at);
-                let put = |all: &mut [f64], row: usize, value: c64| {
-                    (all[2 * row * modes + n], all[(2 * row + 1) * modes + n]) =
-                        (value.re, value.im);
-                };
-                put(&mut table.turns, i, whole);
+                put(&mut moves.turns[i], whole);
                 for j in 0..POINTS {
                     let mut sum = c64::new(0.0, 0.0);
                     for (power, moment) in shortened(rule.powers[j], rule.at[i]).iter().zip(&all) {
                         sum += moment * (at * power);
                     }
-                    put(&mut table.kernels, i * POINTS + j, sum);
+                    put(&mut moves.kernels[i][j], sum);
                 }
                 if i == POINTS - 1 {
-                    put(&mut table.bump, 0, (all[1] - all[2]) * length);
+                    put(&mut table.bump[n / LANES], (all[1] - all[2]) * length);
                 }
             }
         }
         table
-    }
-
-    /// What a step turns every memory by up to point i: real parts (0) or imaginary parts (1).
-    #[inline(always)]
-    pub fn turn(&self, i: usize, part: usize) -> &[[f64; LANES]] {
-        lanes(&self.turns[(2 * i + part) * self.modes..][..self.modes])
-    }
-
-    /// What the force at point j does to every memory at point i: real (0) or imaginary parts (1).
-    #[inline(always)]
-    pub fn kernel(&self, i: usize, j: usize, part: usize) -> &[[f64; LANES]] {
-        lanes(&self.kernels[((i * POINTS + j) * 2 + part) * self.modes..][..self.modes])
-    }
-
-    /// What the bump does to every mode, real and imaginary parts.
-    #[inline(always)]
-    pub fn bumps(&self) -> [&[f64]; 2] {
-        self.bump.split_at(self.modes).into()
     }
 }

@@ -20,17 +20,17 @@
 //! Differential Equations I (1993), section I.14.
 
 use crate::base::linear::dot;
-use crate::collision::contact::collocation::{POINTS, lanes, total};
+use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::events::Event;
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::{AHEAD, Coupling, Step, eliminate};
 use crate::collision::contact::table::StepTable;
-use crate::collision::contact::touch::{Felt, State, Touch};
+use crate::collision::contact::touch::{Felt, State, Swings, Touch};
 
 /// A bat that gives way a little differently, and how ball and bat differ for it.
 pub(super) struct Tangent {
     /// `δc/ω_d` of every mode (s/kg).
-    weights: Vec<f64>,
+    weights: Vec<Lanes>,
     /// δC (m/N).
     rest: f64,
     /// δx_m (m), once the ball is on its way back.
@@ -63,11 +63,12 @@ pub(super) struct Walked<'a> {
 impl<L: ForceLaw> Touch<'_, L> {
     /// The difference of another bat, with no more modes, at the moment of the first touch.
     pub(super) fn tangent(&self, other: &Felt) -> Tangent {
-        let gains = other.gains.iter().copied().chain(std::iter::repeat(0.0));
-        let weights = self.weights.iter().zip(gains).zip(self.swing);
-        let [now, next] = [0, 1].map(|_| State::at_first(self.poles.len(), 0.0));
+        let mut gains = other.gains.iter().copied().chain(std::iter::repeat(0.0));
+        let mut change = |weight: f64, swing: f64| gains.next().map_or(0.0, |c| c / swing - weight);
+        let of = |of: &Swings| std::array::from_fn(|l| change(of.weight[l], of.swing[l]));
+        let [now, next] = [0, 1].map(|_| State::at_first(self.swings.len(), 0.0));
         Tangent {
-            weights: weights.map(|((weight, gain), swing)| gain / swing - weight).collect(),
+            weights: self.swings.iter().map(of).collect(),
             rest: other.rest - self.felt.rest,
             top: 0.0,
             given: [0.0; AHEAD],
@@ -76,20 +77,19 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
     }
 
-    /// Takes tangents along a step.
+    /// Takes tangents along a step; `between` is any state of as many modes.
     #[inline(always)]
-    pub(super) fn follow(&self, tangents: &mut [Tangent], walked: Walked) {
+    pub(super) fn follow(&self, tangents: &mut [Tangent], between: &mut State, walked: Walked) {
         let Walked { now, next, top, table, coupling, step, event } = walked;
         let (rest, law) = (self.felt.rest, &self.law);
         let [mut slope, mut by_top] = [[0.0; AHEAD]; 2];
-        let mut between = State::at_first(self.poles.len(), 0.0);
         for i in 0..AHEAD {
             let [x, force] = [step.compression[i + 1], step.force[i + 1]];
             slope[i] = law.slope(x, force, top);
             by_top[i] = top.map_or(0.0, |top| law.by_top(x, force, top));
-            self.memories(table, now, step, i + 1, &mut between);
+            self.memories(table, now, step, i + 1, between);
             for tangent in &mut *tangents {
-                tangent.given[i] = self.given(tangent, &between, force);
+                tangent.given[i] = self.given(tangent, between, force);
             }
         }
         // The matrix is the last one of Newton's method, the same for all.
@@ -135,8 +135,13 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// `q` (m) of a tangent at a moment of that force (N).
     #[inline(always)]
     fn given(&self, tangent: &Tangent, state: &State, force: f64) -> f64 {
-        let [w, im] = [&tangent.weights, &state.imaginary].map(|v| lanes(v));
-        -total(self.chunks(), |k, l| w[k][l] * im[k][l]) - tangent.rest * force
+        let mut sums = [0.0; LANES];
+        for (w, [_, im]) in tangent.weights.iter().zip(&state.memories) {
+            for l in 0..LANES {
+                sums[l] += w[l] * im[l];
+            }
+        }
+        -sum(sums) - tangent.rest * force
     }
 }
 

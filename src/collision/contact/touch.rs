@@ -3,7 +3,7 @@
 
 use faer::c64;
 
-use crate::collision::contact::collocation::{LANES, Lobatto, lanes, sum, total};
+use crate::collision::contact::collocation::{LANES, Lanes, Lobatto, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 
 /// The bat as the ball feels it at one place.
@@ -30,10 +30,8 @@ pub struct State {
     pub closing: f64,
     /// Speed `z′` of the approach (m/s).
     pub speed: f64,
-    /// Real part of the memory `v` of every mode (N s).
-    pub real: Vec<f64>,
-    /// Imaginary part of the memory `v` of every mode (N s).
-    pub imaginary: Vec<f64>,
+    /// Real and imaginary parts of the memory `v` of every mode (N s).
+    pub memories: Vec<[Lanes; 2]>,
     /// Compression of the ball (m); NaN where it is still to be found.
     pub compression: f64,
     /// Force of the ball on the bat (N).
@@ -47,22 +45,24 @@ pub struct State {
 }
 
 impl State {
-    /// The moment of the first touch, at that closing speed (m/s), nothing ringing.
-    pub fn at_first(modes: usize, speed: f64) -> Self {
-        let none = || vec![0.0; modes];
-        Self { speed, real: none(), imaginary: none(), ..Self::default() }
+    /// The moment of the first touch, at that closing speed (m/s), nothing ringing, with so many lanes of
+    /// modes.
+    pub fn at_first(chunks: usize, speed: f64) -> Self {
+        Self { speed, memories: vec![Default::default(); chunks], ..Self::default() }
     }
 
     /// The memory of mode n.
     #[inline(always)]
     pub fn memory(&self, n: usize) -> c64 {
-        c64::new(self.real[n], self.imaginary[n])
+        let ([re, im], l) = (&self.memories[n / LANES], n % LANES);
+        c64::new(re[l], im[l])
     }
 
     /// Makes that the memory of mode n.
     #[inline(always)]
     pub fn remember(&mut self, n: usize, memory: c64) {
-        (self.real[n], self.imaginary[n]) = (memory.re, memory.im);
+        let ([re, im], l) = (&mut self.memories[n / LANES], n % LANES);
+        (re[l], im[l]) = (memory.re, memory.im);
     }
 }
 
@@ -92,24 +92,45 @@ impl Default for Tuning {
     }
 }
 
+/// Some modes side by side, as they are felt at one place.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Swings {
+    /// Real part of `s` (1/s).
+    pub decay: Lanes,
+    /// Imaginary part of `s` (1/s).
+    pub swing: Lanes,
+    /// Absolute square of `s` (1/s²).
+    pub square: Lanes,
+    /// `c/ω_d` (s/kg).
+    pub weight: Lanes,
+    /// `c/ω_d²` (s²/kg), by which [`Touch::in_mode`] makes energies of memories.
+    pub mass: Lanes,
+}
+
+impl Swings {
+    /// Those modes, each by its `s` (1/s) and its `c` (1/kg).
+    #[inline(always)]
+    pub fn new(modes: [(c64, f64); LANES]) -> Self {
+        let mut all = Self::default();
+        for (l, (s, gain)) in modes.into_iter().enumerate() {
+            (all.decay[l], all.swing[l], all.square[l]) = (s.re, s.im, s.norm_sqr());
+            all.weight[l] = gain / s.im;
+            all.mass[l] = all.weight[l] / s.im;
+        }
+        all
+    }
+}
+
 /// One place, one ball, one speed.
 pub struct Touch<'a, L> {
     /// Where in a step the force is looked at.
     pub rule: &'a Lobatto,
     /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
     pub poles: &'a [c64],
-    /// Real part of every `s` (1/s).
-    pub decay: &'a [f64],
-    /// Imaginary part of every `s` (1/s).
-    pub swing: &'a [f64],
-    /// Absolute square of every `s` (1/s²).
-    pub square: &'a [f64],
+    /// The modes by lanes.
+    pub swings: Vec<Swings>,
     /// The bat as the ball feels it there.
     pub felt: &'a Felt,
-    /// `c/ω_d` of every mode (s/kg).
-    pub weights: Vec<f64>,
-    /// `c/ω_d²` of every mode (s²/kg), by which [`Self::in_mode`] makes energies of memories.
-    pub masses: Vec<f64>,
     /// Whether any mode dies out.
     pub damped: bool,
     /// The ball's law.
@@ -135,34 +156,46 @@ impl<L: ForceLaw> Touch<'_, L> {
         self.poles.iter().enumerate().take(self.felt.gains.len())
     }
 
-    /// Lanes of modes.
+    /// The sum over all modes of what `part` makes of them, of their memories and a lane.
     #[inline(always)]
-    pub fn chunks(&self) -> usize {
-        self.weights.len() / LANES
+    pub fn total(&self, state: &State, part: impl Fn(&Swings, &[Lanes; 2], usize) -> f64) -> f64 {
+        let swings = &self.swings[..];
+        let memories = &state.memories[..swings.len()];
+        let mut sums = [0.0; LANES];
+        for k in 0..swings.len() {
+            for l in 0..LANES {
+                sums[l] += part(&swings[k], &memories[k], l);
+            }
+        }
+        sum(sums)
     }
 
     /// `z + Σ y` (m).
     #[inline(always)]
     pub fn reach(&self, state: &State) -> f64 {
-        let [w, im] = [&self.weights, &state.imaginary].map(|v| lanes(v));
-        state.closing - total(self.chunks(), |k, l| w[k][l] * im[k][l])
+        state.closing - self.total(state, |of, [_, im], l| of.weight[l] * im[l])
     }
 
     /// Rate of [`Self::reach`] (m/s).
     #[inline(always)]
     pub fn rate(&self, state: &State) -> f64 {
-        let [w, a, b] = [&self.weights, self.decay, self.swing].map(lanes);
-        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
-        let part = |k: usize, l: usize| w[k][l] * (a[k][l] * im[k][l] + b[k][l] * re[k][l]);
-        state.speed - total(self.chunks(), part)
+        state.speed
+            - self.total(state, |of, [re, im], l| {
+                of.weight[l] * (of.decay[l] * im[l] + of.swing[l] * re[l])
+            })
+    }
+
+    /// Twice the energy of a mode of that memory, `m_n (q′² + ω² q²)` (J).
+    #[inline(always)]
+    fn swinging(of: &Swings, [re, im]: &[Lanes; 2], l: usize) -> f64 {
+        let rate = of.decay[l] * im[l] + of.swing[l] * re[l];
+        of.mass[l] * (rate * rate + of.square[l] * im[l] * im[l])
     }
 
     /// Energy of mode n, `m_n (q′² + ω² q²)/2` (J).
     #[inline(always)]
     pub fn in_mode(&self, state: &State, n: usize) -> f64 {
-        let (re, im) = (state.real[n], state.imaginary[n]);
-        let rate = self.decay[n] * im + self.swing[n] * re;
-        0.5 * self.masses[n] * (rate * rate + self.square[n] * im * im)
+        0.5 * Self::swinging(&self.swings[n / LANES], &state.memories[n / LANES], n % LANES)
     }
 
     /// Energy of ball and bat relative to their common motion, lost energy included (J).
@@ -170,17 +203,9 @@ impl<L: ForceLaw> Touch<'_, L> {
     pub fn whole_energy(&self, state: &State, top: Option<Top>) -> f64 {
         let [stored, lost] = self.law.energy_of(state.compression, state.force, top);
         let rigid = 0.5 * state.speed * state.speed / self.felt.inverse_mass;
-        let [m, a, b, q] = [&self.masses, self.decay, self.swing, self.square].map(lanes);
-        let [re, im] = [&state.real, &state.imaginary].map(|v| lanes(v));
-        let mut modes = [0.0; LANES];
-        for k in 0..self.chunks() {
-            for l in 0..LANES {
-                let rate = a[k][l] * im[k][l] + b[k][l] * re[k][l];
-                modes[l] += m[k][l] * (rate * rate + q[k][l] * im[k][l] * im[k][l]);
-            }
-        }
+        let modes = 0.5 * self.total(state, Self::swinging);
         let rest = 0.5 * self.felt.rest * state.force * state.force;
-        rigid + 0.5 * sum(modes) + stored + lost + state.lost + state.spent + rest
+        rigid + modes + stored + lost + state.lost + state.spent + rest
     }
 
     /// Compression and force from the motions: `x + C F(x) = z + Σ y`.
