@@ -1,12 +1,37 @@
 //! How is work shared among the processors?
 //!
 //! `map` and `map_each` ask rayon's pool, and do everything themselves where no thread may be started
-//! or there is no pool.
+//! or there is no pool. What many of them ask for and one of them makes is made by [`made`].
+
+use std::cell::Cell;
+use std::sync::OnceLock;
+
+std::thread_local! {
+    /// Whether this thread is not to wait for others.
+    static ALONE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What is in the cell, made by `make` if nothing is.
+///
+/// Whoever makes it does so alone. A thread of the pool that waits for others takes up other work
+/// meanwhile, and if that asks for the same cell, it waits for itself.
+pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    struct Before(bool);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            ALONE.set(self.0);
+        }
+    }
+    cell.get_or_init(|| {
+        let _before = Before(ALONE.replace(true));
+        make()
+    })
+}
 
 /// What `of` makes of 0, 1, … below `count`, in that order.
 pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     #[cfg(feature = "parallel")]
-    if pool::is_there() {
+    if !ALONE.get() && pool::is_there() {
         return pool::map(count, of);
     }
     (0..count).map(of).collect()
@@ -18,7 +43,7 @@ pub(crate) fn map_each<S: Send, T: Send>(
     of: impl Fn(usize, &mut S) -> T + Sync,
 ) -> Vec<T> {
     #[cfg(feature = "parallel")]
-    if each.len() > 1 && pool::is_there() {
+    if each.len() > 1 && !ALONE.get() && pool::is_there() {
         return pool::map_each(each, of);
     }
     each.iter_mut().enumerate().map(|(k, one)| of(k, one)).collect()
@@ -82,5 +107,24 @@ mod tests {
         });
         assert_eq!(places, (0..1000).collect::<Vec<_>>());
         assert_eq!(sums, (1..1001).collect::<Vec<_>>());
+    }
+
+    /// Jobs that all ask for what one of them makes of many jobs: if that one waited for these in the
+    /// pool, it would take up another that asks, and none would come to an end.
+    #[cfg(feature = "parallel")]
+    #[test]
+    fn what_is_made_once_is_made_by_one_that_waits_for_nobody() {
+        let slowly = |k: usize| {
+            std::thread::sleep(std::time::Duration::from_micros(200));
+            k
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(8).build().unwrap();
+        for _ in 0..4 {
+            let cell = OnceLock::new();
+            let ask = |_| *made(&cell, || map(64, slowly).into_iter().sum::<usize>());
+            assert_eq!(pool.install(|| map(64, ask)), vec![2016; 64]);
+        }
+        // Whoever made it shares work again.
+        assert!(!ALONE.get());
     }
 }

@@ -7,6 +7,7 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+use crate::base::threads::made;
 use crate::eigen::fronts::SIDES;
 use crate::modes::hoop::Share;
 
@@ -43,7 +44,7 @@ impl WallTable {
     /// The shares of all harmonics at `x` (m); `look` finds them at some places.
     pub fn at(&self, x: f64, look: impl Fn(&[f64]) -> Vec<Vec<Share>>) -> Vec<Share> {
         if x > self.edge {
-            let known = self.tip.get_or_init(|| look(&self.at_tip));
+            let known = made(&self.tip, || look(&self.at_tip));
             let known: Vec<&Vec<Share>> = known.iter().collect();
             return between(&known, &weights(&self.at_tip, x));
         }
@@ -53,7 +54,7 @@ impl WallTable {
         let known: Vec<&Vec<Share>> = (first..first + THROUGH)
             .map(|k| {
                 let tile = k / SIDES;
-                let found = self.inner[tile].get_or_init(|| look(&self.tile(tile)));
+                let found = made(&self.inner[tile], || look(&self.tile(tile)));
                 &found[k % SIDES]
             })
             .collect();

@@ -11,6 +11,7 @@
 //! for good where `z + Σ (c/ω_d) |v|` is below zero and falls, or where it is faster than the surface
 //! can be.
 
+use crate::collision::contact::collocation::LANES;
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::exponential;
@@ -35,12 +36,14 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// Flies until `z + Σ y` is at one of the two levels (m), the ball is gone, or the flight has
     /// lasted for `longest` (s), after which the ball counts as gone.
     pub fn fly(&self, state: &mut State, [low, high]: [f64; 2], longest: f64) -> Landing {
-        let sum = |of: fn(f64) -> f64| {
-            self.total(state, |mode, [re, im], l| {
-                mode.weight[l] * re[l].hypot(im[l]) * of(mode.square[l])
-            })
-        };
-        let (farthest, fastest, bend) = (sum(|_| 1.0), sum(f64::sqrt), sum(|square| square));
+        let (mut farthest, mut fastest, mut bend) = (0.0, 0.0, 0.0);
+        for n in 0..self.felt.gains.len() {
+            let (of, l) = (&self.swings[n / LANES], n % LANES);
+            let amplitude = of.weight[l] * state.memory(n).norm();
+            farthest += amplitude;
+            fastest += of.square[l].sqrt() * amplitude;
+            bend += of.square[l] * amplitude;
+        }
         let slack = 1e-15 * (state.closing.abs() + farthest) + 1e-13 * self.deepest;
         let (end, before) = (state.time + longest, self.in_all(state));
         let mut landing = Landing::Open;

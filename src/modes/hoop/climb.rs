@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 use crate::base::error::{Error, Result};
+use crate::base::threads;
 use crate::beam::wall::columns::{Grading, columns};
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::layers::Layers;
@@ -92,7 +93,7 @@ impl<'a> Climb<'a> {
 
     /// The wall on mesh `k`.
     fn wall(&self, k: usize) -> Result<&Wall> {
-        let made = self.walls[k].get_or_init(|| {
+        let wall = threads::made(&self.walls[k], || {
             let (degrees, [end, kink, corner]) = LADDER[k];
             // A free end at the knob is one of the bat; elsewhere the motion has died out.
             let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
@@ -102,7 +103,7 @@ impl<'a> Climb<'a> {
             let mesh = Arc::new(mesh.map_err(|error| error.to_string())?);
             Ok(Wall { mesh, materials: self.materials.clone() })
         });
-        made.as_ref().map_err(|said| Error::value("profile", said, "walls that meet"))
+        wall.as_ref().map_err(|said| Error::value("profile", said, "walls that meet"))
     }
 
     /// The modes of harmonic n on the first mesh that is fine enough, and their stated errors.
