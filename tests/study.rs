@@ -287,8 +287,11 @@ fn a_folder_is_the_same_however_it_was_made() {
             std::fs::remove_file(folder.0.join(lost)).unwrap();
         }
     }
+    // As a program leaves it that is killed in the middle of a part.
+    folder.write("killed/.sweetspot-0123456789abcdef.part", "row,");
     let said = folder.text(&["study", "study.json", "--out", "killed"]);
     assert_eq!(said, folder.text(&["study", "study.json", "--out", "whole"]));
+    assert_eq!(folder.read_names("killed"), names);
     for name in &names {
         let [whole, part] = ["whole", "killed"].map(|f| folder.read(&format!("{f}/{name}")));
         assert!(whole == part, "{name}");
@@ -313,6 +316,29 @@ fn a_folder_of_another_study_is_refused_with_what_changed() {
     assert!(told.contains("study.json") && told.contains("the rows"), "{told}");
     assert_eq!(folder.read("out/part-000000.csv"), before);
     std::fs::remove_file(folder.0.join("out/manifest.json")).unwrap();
+    let told = refused(&folder, "study.json");
+    assert!(told.contains("parts of a study that is not known"), "{told}");
+}
+
+/// Parts that the study does not make are told of by their names, and nothing is made of them.
+#[test]
+fn a_part_that_is_not_the_study_s_is_refused() {
+    let text = SCATTER.replace("\"points\": 50", "\"points\": 5000").replace("1e-9", "1e-2");
+    let folder = study("study-damaged", &text);
+    let whole = folder.text(&["study", "study.json", "--out", "out"]);
+    let [first, second] = [0, 1].map(|k| folder.read(&format!("out/part-{k:06}.csv")));
+    let half = &first[..first.len() / 2];
+    for damage in ["a,b\n1,2\n", "", "x", &second, &half[..=half.rfind('\n').unwrap()]] {
+        folder.write("out/part-000000.csv", damage);
+        let told = refused(&folder, "study.json");
+        assert!(told.contains("part-000000.csv") && told.contains("makes it anew"), "{told}");
+        assert_eq!(folder.read("out/part-000000.csv"), damage);
+    }
+    std::fs::remove_file(folder.0.join("out/part-000000.csv")).unwrap();
+    assert_eq!(folder.text(&["study", "study.json", "--out", "out"]), whole);
+    for name in ["manifest.json", "part-000000.csv"] {
+        std::fs::remove_file(folder.0.join("out").join(name)).unwrap();
+    }
     let told = refused(&folder, "study.json");
     assert!(told.contains("parts of a study that is not known"), "{told}");
 }
@@ -355,6 +381,13 @@ fn a_wrong_study_is_refused_with_its_place() {
             "\"points\": 50",
             "\"correlations\": [[\"bat.material.density\", \"bat.material.youngs_modulus\", 2]]",
             "between -1 and 1",
+        ),
+        (
+            "\"points\": 50",
+            "\"correlations\": [
+                [\"bat.material.density\", \"bat.material.youngs_modulus\", 0.5],
+                [\"bat.material.youngs_modulus\", \"bat.material.density\", 0.9]]",
+            "one correlation of each two paths",
         ),
         ("\"points\": 50", "\"scene\": { \"pitch\": \"9 lb\" }", "pitch"),
         ("dowel.json", "dowl.json", "dowl.json"),

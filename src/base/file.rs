@@ -273,9 +273,9 @@ fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::R
     let written = old
         .map_or(Ok(()), |old| as_before(&file, old))
         .and_then(|()| file.write_all(contents))
-        .and_then(|()| file.sync_all());
+        .and_then(|()| file.sync_all())
+        .and_then(|()| fs::rename(&part, target));
     drop(file);
-    let written = written.and_then(|()| fs::rename(&part, target));
     if written.is_err() {
         // The part is of no use; that it may not be there is no further error.
         let _ = fs::remove_file(&part);
@@ -284,19 +284,40 @@ fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::R
     written
 }
 
+/// How the name of a file begins that is being written, and how it ends.
+const PART: &str = ".sweetspot-";
+const OF_A_PART: &str = ".part";
+
+/// Removes what programs that were killed have left in a folder: files that were being written, and that
+/// nobody holds any more. What cannot be looked at stays.
+pub fn remove_lost(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("");
+        if name.starts_with(PART) && name.ends_with(OF_A_PART) {
+            let held = OpenOptions::new().write(true).open(&path);
+            if held.is_ok_and(|file| file.try_lock().is_ok()) {
+                let _ = fs::remove_file(&path);
+            }
+        }
+    }
+}
+
 /// A new file in the folder of the target, under a name that nobody can foresee and that is short
 /// however long the target's is.
 fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
     const TRIES: usize = 16;
     for _ in 0..TRIES {
         let number = RandomState::new().hash_one(target);
-        let part = target.with_file_name(format!(".sweetspot-{number:016x}.part"));
+        let part = target.with_file_name(format!("{PART}{number:016x}{OF_A_PART}"));
         // Under the list's lock, so that whoever removes the parts finds this one or forbids it.
         let mut parts = parts();
         match OpenOptions::new().write(true).create_new(true).open(&part) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
             Ok(file) => {
+                // Where files cannot be locked nobody takes this one for lost.
+                let _ = file.try_lock();
                 parts.push(part.clone());
                 return Ok((part, file));
             }

@@ -419,7 +419,8 @@ fn correlations(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64
             _ => Err(node.error(node.shown(), "the path of a number that is drawn")),
         }
     };
-    mistakes::all(node.items()?.iter().map(|item| {
+    let items = node.items()?;
+    let all = mistakes::all(items.iter().map(|item| {
         let [a, b, r] = &item.items()?[..] else {
             let expected = "two paths and their correlation, such as \
                             [\"bat.material.density\", \"bat.material.youngs_modulus\", 0.6]";
@@ -434,5 +435,12 @@ fn correlations(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64
             true => Ok((first, second, r_value)),
             false => Err(r.error(r.shown(), "a number between -1 and 1")),
         }
-    }))
+    }))?;
+    let pair = |(a, b, _): &(usize, usize, f64)| [*a.min(b), *a.max(b)];
+    for (k, item) in items.iter().enumerate() {
+        if all[..k].iter().any(|other| pair(other) == pair(&all[k])) {
+            return Err(item.error(item.shown(), "one correlation of each two paths"));
+        }
+    }
+    Ok(all)
 }

@@ -86,15 +86,19 @@ impl<'a> StudyFolder<'a> {
         if manifest.exists() {
             let found = file::read(&manifest)?;
             this.same(&String::from_utf8_lossy(&found), &wanted)?;
+            file::remove_lost(path);
             return Ok(this);
         }
-        if this.part(0).exists() {
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        let is_part = |name: &str| name.starts_with("part-") && name.ends_with(".csv");
+        if entries.into_iter().any(|entry| entry.file_name().to_str().is_some_and(is_part)) {
             let expected = "another folder, or its manifest.json beside the parts";
             let found = "parts of a study that is not known";
             return Err(Error::value(path.display().to_string(), found, expected));
         }
         let failed = |source| Error::Write { path: path.to_owned(), source };
         std::fs::create_dir_all(path).map_err(failed)?;
+        file::remove_lost(path);
         file::write(&manifest, wanted.as_bytes())?;
         Ok(this)
     }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::files::study_rows::Rows;
-use crate::show::many::folder::{StudyFolder, number};
+use crate::show::many::folder::{ROWS, StudyFolder, number};
 use crate::study::many::indices::Indices;
 
 /// Rows that are kept in memory; of more every third, fifth, … is: an odd step takes as many of every part of
@@ -23,6 +23,12 @@ pub struct Column {
     pub unit: String,
     /// Its numbers, NaN where a row has none.
     pub values: Vec<f64>,
+}
+
+/// A part that is not what the study makes of it.
+fn damaged(path: &Path, found: String, expected: String) -> Error {
+    let complaint = Complaint::new(path.display().to_string(), found, expected);
+    Error::Value(complaint.hinted("without this file the study makes it anew"))
 }
 
 /// Rows that were read back.
@@ -47,7 +53,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`].
+    /// [`Error::Read`], and [`Error::Value`] for a part that is not as the study makes it.
     pub fn read(folder: &StudyFolder, rows: &Rows) -> Result<Self> {
         let columns = rows.columns();
         let of = |k: usize| {
@@ -63,18 +69,32 @@ impl Table {
             met: 0,
             reasons: BTreeMap::new(),
         };
+        let names: Vec<&str> = columns.iter().map(|[name, _]| &name[..]).collect();
         for k in 0..folder.parts() {
-            table.add(&folder.part(k), &numbers)?;
+            let path = folder.part(k);
+            table.add(&path, &names, &numbers)?;
+            let wanted = ((k + 1) * ROWS).min(rows.count());
+            if table.rows != wanted {
+                let found = format!("rows to {} and no further", table.rows.saturating_sub(1));
+                return Err(damaged(&path, found, format!("rows to {}", wanted - 1)));
+            }
         }
         Ok(table)
     }
 
-    fn add(&mut self, path: &Path, numbers: &[usize]) -> Result<()> {
+    fn add(&mut self, path: &Path, names: &[&str], numbers: &[usize]) -> Result<()> {
         let failed =
             |error: csv::Error| Error::Read { path: path.to_owned(), source: error.into() };
         let mut part = csv::Reader::from_path(path).map_err(failed)?;
+        if part.headers().map_err(failed)? != names {
+            return Err(damaged(path, "other columns".to_owned(), names.join(", ")));
+        }
         for row in part.records() {
             let row = row.map_err(failed)?;
+            if row[0] != *self.rows.to_string() {
+                let found = format!("row \"{}\"", &row[0]);
+                return Err(damaged(path, found, format!("row {}", self.rows)));
+            }
             if self.rows.is_multiple_of(self.every) {
                 self.kept.push(self.rows);
                 for (column, k) in self.columns.iter_mut().zip(numbers) {
