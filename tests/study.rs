@@ -320,6 +320,42 @@ fn a_folder_of_another_study_is_refused_with_what_changed() {
     assert!(told.contains("parts of a study that is not known"), "{told}");
 }
 
+/// What the hands feel is within three times its error of what a hundred times better hits make of it, on
+/// bats whose wall, joint or stiff wood moves it most.
+#[test]
+fn what_the_hands_feel_is_known_as_well_as_it_says() {
+    const FELT: [&str; 4] = [
+        "hands_velocity_min.value",
+        "hands_acceleration_min.value",
+        "hands_velocity_m_s@0.6",
+        "hands_acceleration_m_s2@0.6",
+    ];
+    let found = |tol: &str| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-study/1", "bat": ["r161", "two_piece", "bbcor_made_up"],
+                "tol": {tol}, "vary": {{ "scene.pitch": {{ "values": ["83 mph"] }} }},
+                "outputs": {FELT:?} }}"#
+        );
+        let folder = study("study-hands", &text);
+        folder.text(&["study", "study.json", "--out", "out"]);
+        table(&folder, "out/part-000000.csv")
+    };
+    let [rough, fine] = ["1e-3", "1e-5"].map(found);
+    for name in FELT {
+        let number = |(names, rows): &(Vec<String>, Vec<Vec<String>>), row: usize, name: &str| {
+            let column = names.iter().position(|other| other == name).unwrap();
+            rows[row][column].parse::<f64>().unwrap()
+        };
+        for row in 0..3 {
+            let [a, b] = [&rough, &fine].map(|found| number(found, row, name));
+            let error = format!("{name}_error");
+            let [stated, left] = [&rough, &fine].map(|found| number(found, row, &error));
+            assert!((a - b).abs() <= 3.0 * (stated + left), "{row} {name} {a} {b} {stated}");
+            assert!(stated <= 0.2 * a, "{row} {name} {a} {stated}");
+        }
+    }
+}
+
 /// Parts that the study does not make are told of by their names, and nothing is made of them.
 #[test]
 fn a_part_that_is_not_the_study_s_is_refused() {

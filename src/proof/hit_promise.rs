@@ -14,12 +14,12 @@
 
 use std::path::Path;
 
-use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
 
 use crate::base::error::{Error, Result};
 use crate::base::telling::Tell;
+use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::collision::ball::Ball;
@@ -191,8 +191,8 @@ pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
     })?;
     let read = |bat: &Value| Bat::from_text(FILE, &bat.to_string(), Path::new(""));
     let bats: Vec<Bat> = drawn.bats.iter().map(read).collect::<Result<_>>()?;
-    let numbered = drawn.hits.par_iter().enumerate();
-    numbered.map(|(number, hit)| row(number, &bats[hit.bat], hit)).collect()
+    let checked = |k: usize| row(k, &bats[drawn.hits[k].bat], &drawn.hits[k]);
+    threads::map(drawn.hits.len(), checked).into_iter().collect()
 }
 
 fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {

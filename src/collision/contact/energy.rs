@@ -109,7 +109,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                 let rate = of.decay[l] * im[l] + of.swing[l] * re[l];
                 let other = of.decay[l] * q[l] + of.swing[l] * p[l];
                 moved[l] -= of.weight[l] * q[l];
-                work[l] += of.mass[l] * (rate * other + of.square[l] * im[l] * q[l]);
+                work[l] += of.flexibility[l] * (rate * other + of.square[l] * im[l] * q[l]);
             }
         }
         [sum(moved), sum(work)]
@@ -120,7 +120,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let force = shortened(step.powers, time / step.length);
         let of_mode = |(n, s): (usize, &c64)| {
             let square = self.square(*s, time, now.memory(n), &force);
-            -2.0 * s.re * self.swings[n / LANES].mass[n % LANES] * time * square
+            -2.0 * s.re * self.swings[n / LANES].flexibility[n % LANES] * time * square
         };
         let damped = self.modes().filter(|(_, s)| s.re != 0.0);
         damped.map(of_mode).sum()

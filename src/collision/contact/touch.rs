@@ -103,8 +103,8 @@ pub struct Swings {
     pub square: Lanes,
     /// `c/ω_d` (s/kg).
     pub weight: Lanes,
-    /// `c/ω_d²` (s²/kg), by which [`Touch::in_mode`] makes energies of memories.
-    pub mass: Lanes,
+    /// `c/ω_d²` (m/N), how the mode gives way to a slow force; its energy with a memory.
+    pub flexibility: Lanes,
 }
 
 impl Swings {
@@ -115,7 +115,7 @@ impl Swings {
         for (l, (s, gain)) in modes.into_iter().enumerate() {
             (all.decay[l], all.swing[l], all.square[l]) = (s.re, s.im, s.norm_sqr());
             all.weight[l] = gain / s.im;
-            all.mass[l] = all.weight[l] / s.im;
+            all.flexibility[l] = all.weight[l] / s.im;
         }
         all
     }
@@ -189,7 +189,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     fn swinging(of: &Swings, [re, im]: &[Lanes; 2], l: usize) -> f64 {
         let rate = of.decay[l] * im[l] + of.swing[l] * re[l];
-        of.mass[l] * (rate * rate + of.square[l] * im[l] * im[l])
+        of.flexibility[l] * (rate * rate + of.square[l] * im[l] * im[l])
     }
 
     /// Energy of mode n, `m_n (q′² + ω² q²)/2` (J).

@@ -11,8 +11,9 @@ use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::batch::{Blow, each as strike_each};
 use crate::collision::figures::BarrelSpeed;
-use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::hit::{Impact, Model, Scene, greater};
 use crate::collision::hitter::Hitter;
+use crate::collision::stated::fewer;
 use crate::collision::sweep::{self as hit, Sweep};
 use crate::collision::sweet_spot::FEW;
 use crate::modes::batch::{Way, solutions};
@@ -47,7 +48,7 @@ pub struct Trial {
 pub struct Found {
     /// Values with their errors in the order asked; None where the bat has no such answer.
     pub figures: Vec<Option<Figure>>,
-    /// Whether all of them are as accurate as asked.
+    /// Whether frequencies and exit speeds are as accurate as asked.
     pub met: bool,
 }
 
@@ -243,8 +244,8 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
         .then(|| Figure::new(outcome.energy.vibration(), moved))
 }
 
-/// What the hands feel of the hits on a bat, by its modes and by three in four of them: the difference is the
-/// error.
+/// What the hands feel of the hits on a bat. By fewer modes it is another, and the impulse has its error, by
+/// which all of it grows: both are the error.
 struct Hands {
     /// Places of the least velocity and the least acceleration (m).
     least: [Option<f64>; 2],
@@ -254,19 +255,37 @@ struct Hands {
 
 impl Hands {
     fn of(hit: &Contender, model: Model) -> Result<Self> {
-        let (solution, effort) = (&hit.sweep.solution, hit.sweep.effort);
-        let mut fewer = solution.clone();
-        fewer.modes.truncate(solution.modes.len() * 3 / 4);
-        let all = Hitter::new(model, &hit.scene, &hit.bat, solution, effort)?;
-        let few = Hitter::new(model, &hit.scene, &hit.bat, &fewer, effort)?;
+        let (solution, effort, scene) = (&hit.sweep.solution, hit.sweep.effort, &hit.scene);
+        let count = solution.modes.len();
+        let first = |few: usize| {
+            let mut first = solution.clone();
+            first.modes.truncate(few);
+            first
+        };
+        // By half of them it is another bat.
+        let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
+        let most: Vec<Solution> = most.collect();
+        let hitter = |solution| Hitter::new(model, scene, &hit.bat, solution, effort);
+        let all = hitter(solution)?;
+        let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
+        let impacts = &hit.sweep.impacts;
+        let share = |impact: &Impact| {
+            let outcome = impact.outcome.as_ref()?;
+            let closing = impact.bat_speed + scene.ball_speed;
+            Some(outcome.error * closing * scene.ball.mass / outcome.impulse)
+        };
+        let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
         let least = [hit.spot.hands_velocity_min, hit.spot.hands_acceleration_min];
         let least = least.map(|peak| peak.map(|peak| peak.x));
-        let places =
-            hit.sweep.impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
+        let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
         let felt = places.filter_map(|x| {
-            let [all, few] = [&all, &few].map(|hitter| hitter.glance(x).map(|seen| seen.hands));
-            let (all, few) = all.zip(few)?;
-            Some((x, [0, 1].map(|k| Figure::new(all[k], (all[k] - few[k]).abs()))))
+            let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands);
+            let (all, few) = (seen(&all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
+            let figure = |k: usize| {
+                let apart = few.iter().map(|few| (all[k] - few[k]).abs()).fold(0.0, greater);
+                Figure::new(all[k], apart + unsure * all[k])
+            };
+            Some((x, [0, 1].map(figure)))
         });
         Ok(Self { least, felt: felt.collect() })
     }
