@@ -148,6 +148,149 @@ fn a_bat_that_cannot_exist_is_a_row_with_its_reason() {
     assert!(rows[0][6] == "true" && rows[2][7].is_empty());
 }
 
+/// What cannot be in one row is no reason to leave the others out: the first value of a list or of a grid, the
+/// median of what is drawn, a place that is not on a bat; and nothing is hit where no hit is asked for.
+#[test]
+fn the_first_row_is_a_row_as_all_others() {
+    for (varied, outputs, bats, good) in [
+        (r#""bat.material.density": { "values": [-5, 700] }"#, r#""f1_hz""#, 2, 1),
+        (r#""bat.material.density": { "grid": [0, 700, 8] }"#, r#""f1_hz""#, 8, 7),
+        // Of 64 points of Sobol's an eighth lies in the last eighth.
+        (r#""bat.material.density": { "uniform": [-700, 100] }"#, r#""mass_kg""#, 64, 8),
+        (r#""scene.pitch": { "values": ["-3 mph", "83 mph"] }"#, r#""exit_speed_m_s@0.7""#, 2, 1),
+        (
+            r#""bat.profile.x[1]": { "values": [20, 33] }"#,
+            r#""exit_speed_m_s@0.70", "f1_hz""#,
+            2,
+            1,
+        ),
+        // Hands that are beside the bat hold nothing, and nothing is hit.
+        (r#""scene.hands": { "values": ["2 m"] }"#, r#""mass_kg""#, 1, 1),
+    ] {
+        let folder = study(
+            "study-first",
+            &format!(
+                r#"{{ "format": "sweetspot-study/1", "bat": "dowel.json", "points": 64,
+                      "vary": {{ {varied} }}, "outputs": [{outputs}] }}"#
+            ),
+        );
+        let said = folder.text(&["study", "study.json", "--out", "out"]);
+        let head = format!("{bats} bats, {good} of them as accurate as asked\n");
+        assert!(said.starts_with(&head), "{varied}: {said}");
+        let (names, rows) = table(&folder, "out/part-000000.csv");
+        // Off a bat of 20 in, which has its frequency all the same, under the name that was asked for.
+        if let Some(k) = names.iter().position(|name| name == "exit_speed_m_s@0.70") {
+            assert!(rows[0][k].is_empty() && !rows[0][k + 2].is_empty(), "{rows:?}");
+            assert!(
+                rows[0].last().unwrap().contains("a place on the bat, 0 to 0.508 m"),
+                "{rows:?}"
+            );
+        }
+    }
+}
+
+/// Where no row at all is as accurate as asked, the exit code says so.
+#[test]
+fn a_study_that_reaches_nothing_says_so() {
+    let text =
+        SCATTER.replace("\"mass_kg\", ", "\"exit_speed_m_s@0.7\", ").replace("1e-9", "1e-15");
+    let folder = study("study-nothing", &text);
+    let output = folder.run(&["study", "study.json", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("100 bats, 0 of them"));
+}
+
+/// What varies and changes nothing is warned of: the density of a bat that was weighed, the modulus of one that
+/// was tapped, what a hit needs where nothing is hit, what something else overrules.
+#[test]
+fn what_varies_without_effect_is_warned_of() {
+    let weighed = DOWEL.replace(
+        "\"profile\"",
+        "\"weighed\": { \"mass\": \"0.9 kg\", \"first_bending_hz\": 250 }, \"profile\"",
+    );
+    for (bat, scene, varied, outputs, idle) in [
+        (&*weighed, "", r#""bat.material.density": { "uniform": [600, 700] }"#, "f1_hz", true),
+        (
+            &*weighed,
+            "",
+            r#""bat.material.youngs_modulus": { "grid": [12e9, 14e9, 3] }"#,
+            "f2_hz",
+            true,
+        ),
+        (&*weighed, "", r#""bat.weighed.mass": { "uniform": [0.8, 0.9] }"#, "mass_kg", false),
+        (DOWEL, "", r#""scene.pitch": { "uniform": [30, 40] }"#, "f1_hz", true),
+        (DOWEL, "", r#""ball.cor": { "uniform": [0.4, 0.5] }"#, "exit_speed_m_s@0.7", false),
+        (
+            DOWEL,
+            r#""cor": 0.5"#,
+            r#""ball.cor": { "uniform": [0.4, 0.5] }"#,
+            "exit_speed_m_s@0.7",
+            true,
+        ),
+        (DOWEL, "", r#""bat.material.density": { "values": [700] }"#, "f1_hz", false),
+        (DOWEL, "", r#""bat.material.density": { "values": [700, -1] }"#, "f1_hz", false),
+    ] {
+        let text = format!(
+            r#"{{ "format": "sweetspot-study/1", "bat": "dowel.json", "points": 4,
+                  "scene": {{ {scene} }}, "vary": {{ {varied} }}, "outputs": ["{outputs}"] }}"#
+        );
+        let folder = study("study-idle", &text);
+        folder.write("dowel.json", bat);
+        let output = folder.run(&["study", "study.json", "--out", "out"]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let path = varied.split('"').nth(1).unwrap();
+        let warns = told.contains(&format!("nothing that is asked changes with {path}"));
+        assert!(output.status.success() && warns == idle, "{varied} {outputs}: {told}");
+        assert!(idle || told.is_empty(), "{told}");
+    }
+}
+
+/// A table that a value names is sought beside the study, is one of its files, and makes the bat that it is.
+#[test]
+fn a_table_that_a_value_names_is_a_file_of_the_study() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json", "outputs": ["mass_kg", "f1_hz"],
+      "vary": { "bat.profile": { "values": [
+        { "csv": "p.csv", "unit": "in" },
+        { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.5] },
+        { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } ] } } }"#;
+    let folder = study("study-tables", "");
+    std::fs::create_dir(folder.0.join("deep")).unwrap();
+    folder.write("deep/dowel.json", DOWEL);
+    folder.write("deep/study.json", text);
+    folder.write("deep/p.csv", "x,diameter\n0,1.7\n33,1.5\n");
+    folder.text(&["study", "deep/study.json", "--out", "out"]);
+    let (_, rows) = table(&folder, "out/part-000000.csv");
+    assert_eq!(rows[0][2..], rows[1][2..]);
+    assert!(rows[0][1].contains("p.csv") && rows[0][2] != rows[2][2], "{rows:?}");
+    assert!(folder.read("out/manifest.json").contains("\"p.csv\""));
+    folder.write("deep/p.csv", "x,diameter\n0,1.7\n33,1.4\n");
+    let told = refused(&folder, "deep/study.json");
+    assert!(told.contains("differs in p.csv"), "{told}");
+    for (wrong, says) in [("x,diameter\n0,1.7\n33,-1\n", "p.csv:3:"), ("", "p.csv:1:")] {
+        folder.write("deep/p.csv", wrong);
+        let told = refused(&folder, "deep/study.json");
+        assert!(told.contains(says), "{told}");
+    }
+    std::fs::remove_file(folder.0.join("deep/p.csv")).unwrap();
+    let told = refused(&folder, "deep/study.json");
+    assert!(told.contains("study.json:2:") && told.contains("which cannot be read"), "{told}");
+}
+
+/// Where rows are missing, what is left of a distribution is another one: no shares are told of it. Reasons that
+/// differ by their numbers are one.
+#[test]
+fn no_shares_are_told_of_what_is_left_of_a_distribution() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json", "outputs": ["mass_kg"],
+      "vary": { "bat.material.density": { "normal": [100, 60] } }, "points": 256 }"#;
+    let folder = study("study-tail", text);
+    let said =
+        folder.text(&["study", "study.json", "--out", "out", "--summary", "--plots", "plots"]);
+    assert!(said.contains("of 256 rows have no answer") && !said.contains("±"), "{said}");
+    let reasons: Vec<&str> = said.lines().filter(|line| line.contains("such as row")).collect();
+    assert_eq!(reasons.len(), 1, "{said}");
+    assert_eq!(folder.read_names("plots"), ["histogram_mass_kg.png", "histogram_mass_kg.svg"]);
+}
+
 /// A list of bats and a folder of them: each bat has every row, one that is no bat its reason.
 #[test]
 fn several_bats_are_rows_with_their_names() {
@@ -160,6 +303,7 @@ fn several_bats_are_rows_with_their_names() {
     folder.write("market/a.json", DOWEL.replace("\"x\": [0, 33]", "\"x\": [0, -33]"));
     folder.write("market/c.json", "no bat at all");
     folder.write("market/notes.txt", "not looked at");
+    folder.write("market/study.json", text);
     let said = folder.text(&["study", "study.json", "--out", "out"]);
     assert!(said.starts_with("10 bats, 6 of them as accurate as asked\n"), "{said}");
     let table = table(&folder, "out/part-000000.csv");
@@ -184,9 +328,21 @@ fn several_bats_are_rows_with_their_names() {
     );
     let said = folder.text(&["study", "study.json", "--out", "as-is"]);
     assert!(said.starts_with("3 bats, 1 of them"), "{said}");
+    // What it makes among its bats is none of them, and a bat that is gone is named.
+    let again: Vec<String> =
+        (0..2).map(|_| folder.text(&["study", "study.json", "--out", "market"])).collect();
+    assert!(again[0] == said && again[1] == said, "{again:?}");
+    std::fs::remove_file(folder.0.join("market/a.json")).unwrap();
+    let output = folder.run(&["study", "study.json", "--out", "market"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && told.contains("market/a.json"), "{told}");
+    folder.write("market/a.json", DOWEL.replace("\"x\": [0, 33]", "\"x\": [0, -33]"));
     for (bats, says) in [
         ("\"nowhere\"", "nowhere"),
         ("[\"r161\", \"nowhere.json\"]", "nowhere.json"),
+        ("[\"r161\", \"torpdo\"]", "did you mean torpedo?"),
+        ("[\"r161\", \"market\", \"r161\"]", "r161 a second time"),
+        ("[\"market\", \"market/b.json\"]", "market/b.json a second time"),
         ("[]", "an empty list"),
         ("[\"market/a.json\", \"market/c.json\"]", "x[1]"),
         ("\"market/c.json\"", "market/c.json:1"),
@@ -394,7 +550,11 @@ fn a_wrong_study_is_refused_with_its_place() {
     let density = "\"bat.material.density\": { \"lognormal\": [650, 0.04] }";
     let outputs = "\"mass_kg\", \"f1_hz\", \"f2_hz\", \"balance_point_m\", \"node_mode_1_m\"";
     for (from, to, says) in [
-        (density, "\"bat.material.densty\": { \"uniform\": [600, 700] }", "did you mean density?"),
+        (
+            density,
+            "\"bat.material.densty\": { \"uniform\": [600, 700] }",
+            "wrong.json:5:5: vary.bat.material.densty: found unknown key",
+        ),
         (density, "\"bat.profil.x[1]\": { \"uniform\": [600, 700] }", "no object at \"profil\""),
         (density, "\"bat.profile.x[9]\": { \"uniform\": [600, 700] }", "2 items, none of number 9"),
         (density, "\"bta.material.density\": { \"uniform\": [1, 2] }", "begins with bat., ball."),
@@ -405,7 +565,25 @@ fn a_wrong_study_is_refused_with_its_place() {
         (density, "\"bat.material.density\": { \"normal\": [\"1 kg/m^3\", 2] }", "as the first"),
         (density, "\"bat.material.density\": { \"norml\": [700, 5] }", "did you mean normal?"),
         (density, "\"bat.material.density\": { \"values\": [] }", "one value at least"),
-        (density, "\"bat.material.density\": { \"values\": [-1] }", "in its middle"),
+        (
+            density,
+            "\"bat.material.density\": { \"values\": [-1] }",
+            "wrong.json:5:5: vary.bat.material.density: found -1 kg/m³",
+        ),
+        (
+            density,
+            "\"bat.material.density\": { \"normal\": [\"650 lb\", \"2 lb\"] }",
+            "wrong.json:5:5: vary.bat.material.density: found unit \"lb\"",
+        ),
+        (density, "\"bat.profile.x[01]\": { \"uniform\": [1, 2] }", "a path that begins"),
+        (density, "\"bat.profile.x[1]y\": { \"uniform\": [1, 2] }", "a path that begins"),
+        (density, "\"bat.material\": { \"values\": [\"ash\"] }", "one inside the other"),
+        (
+            density,
+            "\"bat.profile.csv\": { \"values\": [\"a.csv\"] }",
+            "expected: \"bat.profile\", with",
+        ),
+        (density, "\"bat.material.density\": { \"uniform\": [1e308, 0] }", "a number above 1e+308"),
         (outputs, "\"f1_herz\"", "did you mean f1_hz?"),
         (outputs, "\"f1_hz\", \"f1_hz\"", "every output once"),
         (outputs, "", "an empty list"),

@@ -229,6 +229,17 @@ impl Study {
         self.0.rows.columns().into_iter().map(|[name, unit]| (name, unit)).collect()
     }
 
+    /// The names of the columns that are numbers in every row.
+    fn numbers(&self) -> Vec<String> {
+        let columns = self.0.rows.columns();
+        self.0.rows.numbers().into_iter().map(|k| columns[k][0].clone()).collect()
+    }
+
+    /// What varies and changes nothing that is asked, as a sentence, if there is such a thing.
+    fn idle(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        free(py, || Ok(self.0.rows.idle()))
+    }
+
     /// The study as one text that needs no file.
     fn alone(&self) -> String {
         self.0.alone()

@@ -8,7 +8,8 @@ import io
 import json
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+import warnings
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,14 @@ class Study:
         """Name and unit of every column."""
         return self._core.columns()
 
+    def result(self, text: bytes) -> StudyResult:
+        """Rows of it from the text of a part, or of several without the heads of all but the first."""
+        return StudyResult(text, self._core.numbers())
+
+    def idle(self) -> str | None:
+        """What varies and changes nothing that is asked, as a sentence, if there is such a thing."""
+        return self._core.idle()
+
     def part(self, k: int, jobs: int | None = None) -> bytes:
         """Part k as a CSV file, made on so many threads (all processors without)."""
         return self._core.part(k, jobs)
@@ -63,16 +72,16 @@ def make(shipped: str, k: int) -> bytes:
     return bytes(_arrived(shipped).part(k, 1))
 
 
-def keep(out: Path, k: int, part: bytes, parquet: bool = False) -> None:
-    """Writes a part beside its place and renames it: it is there whole, or not."""
-    path = part_path(out, k, parquet)
+def keep(path: Path, part: bytes | StudyResult) -> None:
+    """Writes a part beside its place and renames it, as Parquet if it is a table: it is there whole, or not."""
+    out = path.parent
     beside, written = tempfile.mkstemp(dir=out, prefix=f".{path.name}.")
     try:
         with os.fdopen(beside, "wb") as file:
-            if parquet:
-                from pyarrow import parquet as pq
+            if isinstance(part, StudyResult):
+                from pyarrow import parquet
 
-                pq.write_table(StudyResult(part).to_arrow(), file)
+                parquet.write_table(part.to_arrow(), file)
             else:
                 file.write(part)
             file.flush()
@@ -101,11 +110,12 @@ class StudyResult:
     ``result["f1_hz"]`` is a column as an array: numbers, NaN where there is no answer; texts for ``error``.
     """
 
-    def __init__(self, text: bytes) -> None:
+    def __init__(self, text: bytes, numbers: Collection[str]) -> None:
         rows = list(csv.reader(io.StringIO(text.decode("utf-8"))))
         self.names, cells = rows[0], rows[1:]
-        by_column = list(zip(*cells)) if cells else [() for _ in self.names]
-        self._columns = {name: _column(name, column) for name, column in zip(self.names, by_column)}
+        by_column = zip(*cells) if cells else [() for _ in self.names]
+        named = zip(self.names, by_column)
+        self._columns = {name: _column(name, column, name in numbers) for name, column in named}
 
     def __len__(self) -> int:
         return len(self._columns["row"])
@@ -148,16 +158,13 @@ class StudyResult:
         return f"<p>{told}</p><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
 
 
-def _column(name: str, cells: tuple[str, ...]) -> np.ndarray:
+def _column(name: str, cells: tuple[str, ...], is_number: bool) -> np.ndarray:
     if name == "met":
         return np.array([cell == "true" for cell in cells], dtype=bool)
     if name == "row":
         return np.array([int(cell) for cell in cells], dtype=np.int64)
-    if name != "error":
-        try:
-            return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
-        except ValueError:
-            pass
+    if is_number:
+        return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
     return np.array(cells, dtype=object)
 
 
@@ -173,9 +180,12 @@ def run_study(
 
     ``spec`` is the path of a study file or a dictionary with its members (its files are sought in ``folder``).
     With ``out`` the parts are kept in that folder, and parts that are there are not made again. ``jobs`` is a
-    number of threads. ``progress`` is told how many parts of how many are done.
+    number of threads. ``progress`` is told how many parts of how many are done. What varies without an effect on
+    anything that is asked is warned of.
     """
     study = Study(spec, folder)
+    if idle := study.idle():
+        warnings.warn(idle, stacklevel=2)
     if out is not None:
         out = Path(out)
         study.open(out)
@@ -187,12 +197,12 @@ def run_study(
         else:
             parts.append(study.part(k, jobs))
             if path is not None:
-                keep(path.parent, k, parts[-1])
+                keep(path, parts[-1])
         if progress is not None:
             progress(k + 1, study.parts)
     # The head stands in every part.
     rows = [part if k == 0 else part.split(b"\n", 1)[1] for k, part in enumerate(parts)]
-    return StudyResult(b"".join(rows))
+    return study.result(b"".join(rows))
 
 
 __all__ = ["Study", "StudyResult", "SweetspotError", "run_study"]

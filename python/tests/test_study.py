@@ -102,9 +102,10 @@ def workers_of(name):
     return found
 
 
-@pytest.mark.parametrize("engine, worker", [("ray", "ray::make"), ("dask", "spawn_main")])
+@pytest.mark.parametrize("engine, worker", [("local", "spawn_main"), ("ray", "ray::make"), ("dask", "spawn_main")])
 def test_a_cluster_that_loses_a_worker_makes_the_same_folder(tmp_path, scatter, engine, worker):
-    pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
+    if engine != "local":
+        pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
     assert run(scatter, tmp_path / "alone").returncode == 0
     out = tmp_path / engine
     command = [sys.executable, "-m", "sweetspot.study", str(scatter), "--out", str(out)]
@@ -185,10 +186,53 @@ def test_what_is_wrong_is_one_message(tmp_path, scatter):
     said = run(scatter, tmp_path / "b", "--workers", "0")
     assert said.returncode == 2 and "1 or more" in said.stderr
     assert len(said.stderr.strip().splitlines()) <= 6
+    said = run(scatter, tmp_path / "b", "--engine", "ray", "--workers", "2", "--address", "auto")
+    assert said.returncode == 2 and "--address" in said.stderr
     with pytest.raises(ss.SweetspotError, match="rows at most"):
         ss.run_study({**SCATTER, "points": 10**12})
     with pytest.raises(KeyError, match="f1_hz"):
         ss.run_study({**SCATTER, "points": 1})["f2_hz"]
+
+
+@pytest.mark.parametrize("engine, address", [("ray", "127.0.0.1:1"), ("dask", "tcp://127.0.0.1:1")])
+def test_an_address_where_nothing_runs_is_told(tmp_path, scatter, engine, address):
+    pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
+    said = run(scatter, tmp_path / "w", "--engine", engine, "--address", address)
+    last = said.stderr.strip().splitlines()[-1]
+    assert said.returncode == 2 and f"found {address}, expected the address of a running {engine}" in last, said.stderr
+
+
+def test_what_varies_without_effect_is_warned_of(tmp_path):
+    idle = {**SCATTER, "points": 2, "vary": {"scene.pitch": {"uniform": ["70 mph", "90 mph"]}}}
+    with pytest.warns(UserWarning, match="nothing that is asked changes with scene.pitch"):
+        ss.run_study(idle)
+    path = tmp_path / "idle.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **idle}))
+    assert "warning: nothing that is asked changes" in run(path, tmp_path / "out").stderr
+
+
+def test_columns_are_of_one_kind_whatever_is_in_them(tmp_path):
+    (tmp_path / "market").mkdir()
+    bat = {
+        "format": "sweetspot-bat/1",
+        "material": {"density": 650, "youngs_modulus": "15 GPa"},
+        "profile": {"unit": "in", "x": [0, 33], "diameter": [1.7, 1.7]},
+    }
+    for name in "12":
+        (tmp_path / "market" / f"{name}.json").write_text(json.dumps(bat))
+    values = {"values": ["650", "700"]}
+    spec = {"bat": "market", "vary": {"bat.name": values}, "outputs": ["mass_kg", "exit_speed_m_s@0.70"]}
+    with pytest.warns(UserWarning, match="bat.name"):
+        result = ss.run_study(spec, folder=tmp_path)
+    assert list(result["bat"]) == ["1", "1", "2", "2"] and list(result["bat.name"]) == ["650", "700"] * 2
+    assert result["exit_speed_m_s@0.70"].dtype == float
+    schema = result.to_arrow().schema
+    assert [str(schema.field(name).type) for name in ("bat", "bat.name", "mass_kg", "error")] == [
+        "string",
+        "string",
+        "double",
+        "string",
+    ]
 
 
 def test_parquet_has_the_same_rows(tmp_path, scatter):

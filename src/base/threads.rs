@@ -1,7 +1,7 @@
 //! How is work shared among the processors?
 //!
 //! `map` and `map_each` ask rayon's pool, and do everything themselves where no thread may be started
-//! or there is no pool. What many of them ask for and one of them makes is made by [`made`].
+//! or there is no pool. What many of them ask for and one of them makes is made by `made`.
 
 use std::cell::Cell;
 use std::sync::OnceLock;

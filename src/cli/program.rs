@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use crate::base::error::Error;
-use crate::cli::done::{Done, NOT_REACHED, printable};
+use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::{diagnostic, style, verbs};
 use crate::show::report::mistakes;
 
@@ -34,8 +34,7 @@ pub fn run() -> ExitCode {
         }
         _ => {
             if let Some(warning) = warning {
-                // A closed standard error is no reason to fail.
-                let _ = writeln!(io::stderr(), "warning: {}", printable(&warning));
+                warn(&warning);
             }
             ExitCode::from(code)
         }

@@ -14,7 +14,7 @@ use crate::show::plot::many;
 use crate::show::plot::picture::Picture;
 
 use crate::cli::common::examples;
-use crate::cli::done::Done;
+use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::pictures;
 use crate::cli::progress::Progress;
 
@@ -71,6 +71,10 @@ pub fn run(args: &Args) -> Result<Done> {
     let rows = &study.rows;
     let pairs = pairs(rows, &args.scatter)?;
     let folder = StudyFolder::open(&args.out, &study)?;
+    // Before the work, which may take hours.
+    if let Some(idle) = rows.idle() {
+        warn(&idle);
+    }
     let count = rows.count();
     let progress = Progress::new(args.quiet, "bats");
     let (begun, before) = (Instant::now(), folder.made());
@@ -92,7 +96,8 @@ pub fn run(args: &Args) -> Result<Done> {
     if args.summary {
         text += &summary::shares(&table, rows);
     }
-    Ok(Done::new(text, 0))
+    // A row without an answer is a row; where all are, nothing that was asked was reached.
+    Ok(Done::new(text, if table.met == 0 { NOT_REACHED } else { 0 }))
 }
 
 /// The columns to draw against each other.
@@ -115,7 +120,7 @@ fn drawn(table: &Table, rows: &Rows, pairs: &[[String; 2]]) -> Vec<Picture> {
         many::histogram(column, &values, marks)
     };
     let tornado = |column: &Column| {
-        let indices = table.shares(rows, &column.name)?;
+        let indices = table.shares(rows, &column.name).ok()?;
         Some(many::tornado(&column.name, &varied, &indices))
     };
     let of_one = |column| [histogram(column), tornado(column)].into_iter().flatten();

@@ -4,6 +4,8 @@ use std::cell::Cell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use serde_json::Value;
+
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
@@ -142,6 +144,26 @@ impl<'a> Folder<'a> {
             self.left?.set(Some(path.clone()));
         }
         Some(path)
+    }
+}
+
+/// The profile that a value is in a bat file, which lies in `folder`. What is wrong is told without a place.
+pub(crate) fn profile_of(value: &Value, folder: &Path) -> Result<Profile> {
+    const NAME: &str = "";
+    let document = Document::new(NAME.to_owned(), &value.to_string());
+    let mut mistakes = Mistakes::default();
+    let root = Node::root(&document)?;
+    let read = profile(&root, &Folder { path: folder, left: None }, &mut mistakes);
+    let read = mistakes.end(read).map_err(|error| match error {
+        Error::Several { mut shown, .. } if !shown.is_empty() => shown.swap_remove(0),
+        other => other,
+    });
+    match read {
+        Ok(read) => Ok(read.expect("a profile that could not be read was noted").0),
+        Err(Error::Input { place, complaint }) if place.file == NAME => {
+            Err(Error::Value(complaint))
+        }
+        Err(error) => Err(error),
     }
 }
 

@@ -43,9 +43,18 @@ impl Document {
 
     /// An error about a stretch of the text, in bytes.
     pub fn error(&self, marked: Range<usize>, complaint: Complaint) -> Error {
+        Error::Input { place: self.placed(marked), complaint }
+    }
+
+    /// Where a stretch of the text stands, in bytes.
+    pub fn placed(&self, marked: Range<usize>) -> Box<Place> {
         let (line, column) = self.place(marked.start);
-        let (file, excerpt) = (self.file.clone(), excerpt(&self.text, marked));
-        Error::Input { place: Box::new(Place { file, line, column, excerpt }), complaint }
+        Box::new(Place {
+            file: self.file.clone(),
+            line,
+            column,
+            excerpt: excerpt(&self.text, marked),
+        })
     }
 
     /// Line and column of a byte.

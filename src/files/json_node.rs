@@ -11,7 +11,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::base::error::{Complaint, Error, Result, nearest, shortened};
+use crate::base::error::{Complaint, Error, Place, Result, nearest, shortened};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
 use crate::files::broken_json;
@@ -66,6 +66,12 @@ impl<'a> Node<'a> {
         // After the quote.
         let start = self.offset() + 1;
         self.document.error(start + part.start..start + part.end, complaint)
+    }
+
+    /// Where it stands.
+    pub fn place(&self) -> Box<Place> {
+        let offset = self.offset();
+        self.document.placed(offset..offset + self.raw.len())
     }
 
     /// Where it begins in the text, in bytes.
@@ -185,6 +191,19 @@ impl<'a> Node<'a> {
             Ok(value) if value.is_finite() => Ok(value),
             _ => Err(self.wrong("a finite number")),
         }
+    }
+
+    /// A whole number, however it is written: `1000` or `1e3`.
+    pub fn whole(&self) -> Result<u64> {
+        /// Whole numbers up to there are what they are with a point or an exponent too.
+        const MOST: f64 = 9_007_199_254_740_992.0;
+        if let Ok(value) = serde_json::from_str(self.raw) {
+            return Ok(value);
+        }
+        let wrong = || self.wrong(format!("a whole number, 0 to {}", u64::MAX));
+        let value = self.number().map_err(|_| wrong())?;
+        let is_whole = value.fract() == 0.0 && (0.0..=MOST).contains(&value);
+        is_whole.then_some(value as u64).ok_or_else(wrong)
     }
 
     /// A number in SI, or a text with a unit.

@@ -11,7 +11,7 @@
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
 //! | `amounts`, [`readings_file`] | shares and readings with their uncertainty; what was measured of a bat |
 //! | [`scatter_file`] | what differs between bats of one model |
-//! | [`study_file`], [`study_rows`] | what a study varies and asks; row k of it |
+//! | [`study_vary`], [`study_file`], [`study_rows`] | what a study varies; what it asks; row k of it |
 //! | `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
@@ -33,6 +33,7 @@ pub mod scene_file;
 pub mod readings_file;
 pub mod shape_file;
 pub mod force_file;
+pub mod study_vary;
 pub mod study_file;
 pub mod study_rows;
 #[cfg(feature = "aim")]

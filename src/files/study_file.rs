@@ -1,22 +1,18 @@
 //! Which bats does somebody want to vary, and what is asked of them?
 //!
-//! [`StudyFile::from_text`] reads a `sweetspot-study/1` file. What it varies it names by its path in the bat file,
-//! in the ball file or in the scene; [`put`] puts a value there.
+//! [`StudyFile::from_text`] reads a `sweetspot-study/1` file.
 
 use serde_json::{Map, Value};
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Complaint, Error, Place, Result};
 use crate::base::mistakes::{self, Mistakes};
-use crate::base::number::shortest;
-use crate::base::typed;
 use crate::collision::ball::Ball;
-use crate::collision::setup::Setup;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::scene_file;
+use crate::files::study_vary::{Varied, varied};
 use crate::study::many::answers::Answer;
-use crate::study::many::design::{Design, Row, Spread, Wanted};
-use crate::study::many::distribution::Distribution;
+use crate::study::many::design::{Axis, Design, Spread, Wanted};
 use crate::study::many::rows::Asked;
 
 const KEYS: &[&str] = &[
@@ -34,11 +30,6 @@ const KEYS: &[&str] = &[
     "tol",
     "$schema",
 ];
-/// How something varies.
-const WAYS: [&str; 6] = ["values", "grid", "uniform", "normal", "lognormal", "triangular"];
-/// The documents whose members may vary.
-const SUBJECTS: &[(&str, Subject)] =
-    &[("bat", Subject::Bat), ("ball", Subject::Ball), ("scene", Subject::Scene)];
 const SPREADS: &[(&str, Spread)] = &[
     ("sobol", Spread::Sobol),
     ("latin-hypercube", Spread::LatinHypercube),
@@ -46,37 +37,6 @@ const SPREADS: &[(&str, Spread)] = &[
 ];
 /// Points of a study that does not say how many.
 const POINTS: u64 = 1000;
-
-/// Whose member varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Subject {
-    /// The bat file's.
-    Bat,
-    /// The ball file's.
-    Ball,
-    /// The scene's.
-    Scene,
-}
-
-/// A member that varies.
-#[derive(Debug, Clone)]
-pub struct Varied {
-    /// Its path, with that of its document before it: `bat.material.density`.
-    pub path: String,
-    /// Whose it is.
-    pub subject: Subject,
-    way: Way,
-}
-
-#[derive(Debug, Clone)]
-enum Way {
-    /// One of these, the list by its number.
-    Listed(usize, Vec<Value>),
-    /// One of these numbers in that unit, which may be none, the list by its number.
-    Gridded(usize, Vec<f64>, String),
-    /// A number in that unit, which may be none, the distribution by its number.
-    Drawn(usize, String),
-}
 
 /// A study.
 #[derive(Debug, Clone)]
@@ -93,6 +53,10 @@ pub struct StudyFile {
     pub design: Design,
     /// What is asked of every bat.
     pub asked: Asked,
+    /// The names of the answers, as written.
+    pub outputs: Vec<String>,
+    /// Where it says what varies, or else which bats there are.
+    place: Box<Place>,
 }
 
 impl StudyFile {
@@ -104,92 +68,29 @@ impl StudyFile {
     pub fn from_text(file: &str, text: &str) -> Result<Self> {
         from_document(&Document::new(file.to_owned(), text))
     }
-}
 
-impl Varied {
-    /// Its path inside its document.
-    pub fn inside(&self) -> &str {
-        self.path.split_once('.').map_or("", |(_, inside)| inside)
-    }
-
-    /// Its value in a row, as a document has it.
-    pub fn value(&self, row: &Row) -> Value {
-        let in_unit = |value: f64, unit: &str| match unit {
-            "" => Value::from(value),
-            unit => format!("{} {unit}", shortest(value)).into(),
+    /// What is wrong with a study that comes to nothing in every row that was tried, by what was wrong with one.
+    pub fn comes_to_nothing(&self, error: Error) -> Error {
+        let complaint = match error {
+            Error::Several { mut shown, .. } if !shown.is_empty() => {
+                return self.comes_to_nothing(shown.swap_remove(0));
+            }
+            Error::Input { complaint, .. } | Error::Value(complaint) => complaint,
+            other => return other,
         };
-        match &self.way {
-            Way::Listed(k, values) => values[row.picks[*k] as usize].clone(),
-            Way::Gridded(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
-            Way::Drawn(k, unit) => in_unit(row.values[*k], unit),
-        }
-    }
-
-    /// Its value in a row, as a table has it: a number in its unit, or what the list says.
-    pub fn cell(&self, row: &Row) -> String {
-        match &self.way {
-            Way::Drawn(k, _) => shortest(row.values[*k]),
-            Way::Gridded(k, values, _) => shortest(values[row.picks[*k] as usize]),
-            Way::Listed(..) => match self.value(row) {
-                Value::String(text) => text,
-                other => other.to_string(),
-            },
-        }
-    }
-
-    /// Whether it is drawn from a distribution.
-    pub fn is_drawn(&self) -> bool {
-        matches!(self.way, Way::Drawn(..))
-    }
-
-    /// Whether all its values are numbers.
-    pub fn is_number(&self) -> bool {
-        match &self.way {
-            Way::Drawn(..) | Way::Gridded(..) => true,
-            Way::Listed(_, values) => values.iter().all(Value::is_number),
-        }
-    }
-
-    /// The unit of its numbers, empty for SI and for what is listed.
-    pub fn unit(&self) -> &str {
-        match &self.way {
-            Way::Drawn(_, unit) | Way::Gridded(_, _, unit) => unit,
-            Way::Listed(..) => "",
-        }
-    }
-}
-
-/// Puts a value into a document, at a path such as `attachments[0].mass`. A member that is not there is added
-/// to its object; a material that is a name becomes that name with a member of its own.
-///
-/// # Errors
-///
-/// How far the path leads, where it leads nowhere.
-pub fn put(root: &mut Value, path: &str, value: Value) -> std::result::Result<(), String> {
-    let steps: Vec<&str> = path.split(['.', '[']).collect();
-    let (mut here, mut passed) = (root, String::new());
-    for step in steps {
-        let lost = |what: String| format!("{what} at \"{passed}\"");
-        match step.strip_suffix(']') {
-            Some(k) => {
-                let list = here.as_array_mut().ok_or_else(|| lost("no list".to_owned()))?;
-                let many = list.len();
-                let item = k.parse::<usize>().ok().and_then(|k| list.get_mut(k));
-                here = item.ok_or_else(|| lost(format!("{many} items, none of number {k},")))?;
-                passed += &format!("[{k}]");
-            }
+        let complaint = complaint.naming(str::to_owned);
+        match self.varied.iter().find(|varied| varied.is_meant(&complaint)) {
+            Some(varied) => varied.wrong(complaint),
             None => {
-                if here.is_string() && passed == "material" {
-                    *here = serde_json::json!({ "name": here.clone() });
-                }
-                let object = here.as_object_mut().ok_or_else(|| lost("no object".to_owned()))?;
-                here = object.entry(step).or_insert(Value::Null);
-                passed += &format!("{}{step}", if passed.is_empty() { "" } else { "." });
+                let found = match &*complaint.field {
+                    "" => format!("{} in every row that was tried", complaint.found),
+                    field => format!("{} for {field} in every row that was tried", complaint.found),
+                };
+                let complaint = Complaint { field: String::new(), found, ..complaint };
+                Error::Input { place: self.place.clone(), complaint }
             }
         }
     }
-    *here = value;
-    Ok(())
 }
 
 fn from_document(document: &Document) -> Result<StudyFile> {
@@ -209,12 +110,12 @@ fn from_document(document: &Document) -> Result<StudyFile> {
     let varied = root.get("vary").map_or(Ok(vec![]), |node| varied(node, &mut wanted));
     let varied = mistakes.note(varied);
     let outputs = root.require("outputs", "\"outputs\": a list of names, such as \"f1_hz\"");
-    let answers = mistakes.note(outputs.and_then(answers));
+    let (outputs, answers) = mistakes.note(outputs.and_then(answers)).into_iter().unzip();
     let tolerance = root.get("tol").map_or(Ok(1e-4), tolerance);
     let tolerance = mistakes.note(tolerance);
     for (key, number) in [("points", &mut wanted.points), ("seed", &mut wanted.seed)] {
         if let Some(node) = root.get(key) {
-            *number = mistakes.note(whole(node));
+            *number = mistakes.note(node.whole());
         }
     }
     if let Some(node) = root.get("design") {
@@ -236,7 +137,9 @@ fn from_document(document: &Document) -> Result<StudyFile> {
         })
     };
     let design = Design::new(wanted).map_err(placed)?;
-    Ok(StudyFile { bats, ball, scene, varied, design, asked: Asked { answers, tolerance } })
+    let asked = Asked { answers, tolerance };
+    let place = root.get("vary").or(root.get("bat")).unwrap_or(&root.node).place();
+    Ok(StudyFile { bats, ball, scene, varied, design, asked, outputs, place })
 }
 
 /// One bat, or a list of them.
@@ -269,153 +172,32 @@ fn tolerance(node: &Node) -> Result<f64> {
     }
 }
 
-fn whole(node: &Node) -> Result<u64> {
-    /// Whole numbers up to there are what they are as numbers of a JSON file.
-    const MOST: f64 = 9_007_199_254_740_992.0;
-    let value = node.number()?;
-    match value.fract() == 0.0 && (0.0..=MOST).contains(&value) {
-        true => Ok(value as u64),
-        false => Err(node.error(node.shown(), "a whole number, 0 or more")),
-    }
-}
-
-fn answers(node: &Node) -> Result<Vec<Answer>> {
+/// Answers by the names that they are asked for.
+fn answers(node: &Node) -> Result<Vec<(String, Answer)>> {
     let items = node.items()?;
     if items.is_empty() {
         return Err(node.error("an empty list", "one name at least, such as \"f1_hz\""));
     }
     let mut seen: Vec<Answer> = vec![];
     mistakes::all(items.iter().map(|item| {
-        let answer = Answer::named(&item.string()?).map_err(|error| {
+        let name = item.string()?;
+        let answer = Answer::named(&name).map_err(|error| {
             error.placed(|complaint| item.complain(Complaint { field: String::new(), ..complaint }))
         })?;
         if seen.contains(&answer) {
             return Err(item.error(item.shown(), "every output once"));
         }
         seen.push(answer);
-        Ok(answer)
+        Ok((name, answer))
     }))
-}
-
-fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
-    let object = node.members()?;
-    let paths = object.keys();
-    if paths.is_empty() {
-        let expected = "one path at least, such as \"bat.material.density\"";
-        return Err(node.error("an empty object", expected));
-    }
-    mistakes::all(paths.iter().enumerate().map(|(k, (path, node))| {
-        if paths[..k].iter().any(|(other, _)| other == path) {
-            return Err(node.key().error(format!("\"{path}\" a second time"), "it once"));
-        }
-        let subject = path.split_once('.').and_then(|(first, inside)| {
-            let known = SUBJECTS.iter().find(|(name, _)| *name == first)?;
-            (!inside.is_empty()).then_some((known.1, inside))
-        });
-        let Some((subject, inside)) = subject else {
-            let expected = "a path that begins with bat., ball. or scene., such as \
-                            \"bat.material.density\"";
-            return Err(node.key().error(format!("\"{path}\""), expected));
-        };
-        if subject == Subject::Scene && !Setup::MEMBERS.contains(&inside) {
-            let expected = format!("scene. and one of {}", Setup::MEMBERS.join(", "));
-            let complaint = Complaint::new("", format!("\"{path}\""), expected);
-            return Err(node.key().complain(complaint.or_nearest(inside, &Setup::MEMBERS)));
-        }
-        Ok(Varied { path: path.clone(), subject, way: way(node, wanted)? })
-    }))
-}
-
-/// How a member varies, noted in what the design is made of.
-fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
-    let mut mistakes = Mistakes::default();
-    let object = node.object(&WAYS, &mut mistakes)?;
-    mistakes.end(())?;
-    let Some((way, node)) = object.one_of(&WAYS)? else {
-        let expected = format!("one of {}", WAYS.join(", "));
-        return Err(node.error("nothing that says how it varies", expected));
-    };
-    let items = node.items()?;
-    let mut list = |length: usize| {
-        wanted.lists.push(length as u64);
-        wanted.lists.len() - 1
-    };
-    if way == "values" {
-        if items.is_empty() {
-            return Err(node.error("an empty list", "one value at least"));
-        }
-        return Ok(Way::Listed(list(items.len()), items.iter().map(Node::value).collect()));
-    }
-    let forms: [(&str, &str, usize); 5] = [
-        ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
-        ("uniform", "[from, to], such as [600, 700]", 2),
-        ("normal", "[mean, standard deviation], such as [\"27.5 mm\", \"0.2 mm\"]", 2),
-        ("lognormal", "[median, standard deviation of the logarithm], such as [650, 0.04]", 2),
-        ("triangular", "[from, likeliest, to], such as [600, 650, 720]", 3),
-    ];
-    let (_, form, count) = forms.into_iter().find(|(name, ..)| *name == way).unwrap_or(forms[0]);
-    if items.len() != count {
-        return Err(node.error(format!("{} values", items.len()), form));
-    }
-    // The last number of these two has no unit.
-    let with_unit = if matches!(way, "grid" | "lognormal") { count - 1 } else { count };
-    let numbers = mistakes::all(items[..with_unit].iter().map(number))?;
-    let unit = numbers[0].1.clone();
-    if let Some(k) = numbers.iter().position(|(_, other)| *other != unit) {
-        let expected = match &*unit {
-            "" => "a bare number, as the first".to_owned(),
-            unit => format!("it in {unit}, as the first"),
-        };
-        return Err(items[k].error(items[k].shown(), expected));
-    }
-    let numbers: Vec<f64> = numbers.into_iter().map(|(number, _)| number).collect();
-    if way == "grid" {
-        let count = whole(&items[2])?;
-        if !(2..=1_000_000).contains(&count) {
-            return Err(items[2].error(items[2].shown(), "2 to 1000000 values"));
-        }
-        let at = |k: u64| {
-            let share = k as f64 / (count - 1) as f64;
-            (1.0 - share) * numbers[0] + share * numbers[1]
-        };
-        return Ok(Way::Gridded(list(count as usize), (0..count).map(at).collect(), unit));
-    }
-    let distribution = match way {
-        "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
-        "normal" => Distribution::Normal { mean: numbers[0], deviation: numbers[1] },
-        "triangular" => {
-            Distribution::Triangular { from: numbers[0], peak: numbers[1], to: numbers[2] }
-        }
-        _ => Distribution::Lognormal { median: numbers[0], deviation: items[1].number()? },
-    };
-    distribution.check().map_err(|error| {
-        error.placed(|complaint| {
-            let found = format!("{} of {}", complaint.found, complaint.field);
-            node.complain(Complaint { field: String::new(), found, ..complaint })
-        })
-    })?;
-    wanted.drawn.push(distribution);
-    Ok(Way::Drawn(wanted.drawn.len() - 1, unit))
-}
-
-/// A number and its unit, which may be none.
-fn number(node: &Node) -> Result<(f64, String)> {
-    let Ok(text) = node.string() else { return Ok((node.number()?, String::new())) };
-    let plain = typed::plain(&text);
-    let (number, unit) = typed::split(&plain);
-    let value = typed::number(number).or_else(|| typed::mixed(number));
-    match value.filter(|value| value.is_finite()) {
-        Some(value) => Ok((value, unit.to_owned())),
-        None => Err(node.error(node.shown(), "a number, or a number and its unit")),
-    }
 }
 
 fn correlations(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64)>> {
     let drawn = |node: &Node| {
         let path = node.string()?;
         let found = varied.iter().find(|varied| varied.path == path);
-        match found.map(|varied| &varied.way) {
-            Some(Way::Drawn(k, _)) => Ok(*k),
+        match found.map(|varied| varied.axis) {
+            Some(Axis::Drawn(k)) => Ok(k),
             _ => Err(node.error(node.shown(), "the path of a number that is drawn")),
         }
     };

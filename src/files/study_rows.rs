@@ -1,7 +1,7 @@
 //! Which bat and which hit is row k of a study, and what came of them?
 //!
-//! What [`Rows::answers`] gives of a row is a function of the study, its bats, its ball and k alone. Of several bats each has every
-//! row of the design, one bat after the other.
+//! What [`Rows::answers`] gives of a row is a function of the study, its bats, its ball and k alone. Of several
+//! bats each has every row of the design, one bat after the other.
 
 use std::ops::Range;
 use std::path::Path;
@@ -9,14 +9,17 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Error, Result};
 use crate::base::number::shortest;
+use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::setup::Setup;
 use crate::files::ball_file::written;
 use crate::files::scene_file;
-use crate::files::study_file::{StudyFile, Subject, Varied, put};
+use crate::files::study_file::StudyFile;
+use crate::files::study_vary::Subject;
+use crate::study::many::answers::on_the_bat;
 use crate::study::many::design::{MOST_ROWS, Row};
 use crate::study::many::rows::{Asked, Found, Trial};
 
@@ -43,8 +46,8 @@ struct Varying {
     name: String,
     /// Its document, or why it is no bat.
     document: std::result::Result<Value, String>,
-    /// The bat in the middle of what varies, if it is one.
-    middle: Option<Bat>,
+    /// A row of which it is a bat, as a model of the others, and that bat; if there is such a row.
+    model: Option<(Row, Bat)>,
 }
 
 /// What a row's own is made of: a document, or the thing itself where no row differs in it.
@@ -58,15 +61,15 @@ impl Rows {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where a path leads nowhere or the middle of what varies is no bat that can be hit, of
-    /// several bats with none of them; for more rows than [`MOST_ROWS`].
+    /// [`Error::Input`] where no row that was tried is a bat that can be asked, of no bat, so where a path leads
+    /// nowhere; [`Error::Value`] for no bat at all and for more rows than [`MOST_ROWS`].
     pub fn new(study: StudyFile, bats: Vec<BatText>, ball: Ball) -> Result<Self> {
         let varying = |BatText { name, text }: BatText| {
             let document = text.and_then(|text| {
                 let text = text.trim_start_matches('\u{feff}');
                 serde_json::from_str(text).map_err(|error| error.to_string())
             });
-            Varying { name, document, middle: None }
+            Varying { name, document, model: None }
         };
         let bats = bats.into_iter().map(varying).collect();
         let varies = |subject| study.varied.iter().any(|varied| varied.subject == subject);
@@ -82,28 +85,87 @@ impl Rows {
                 format!("{} bats, each with {} rows", rows.bats.len(), rows.study.design.rows());
             return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
         }
-        let middle = rows.study.design.middle();
-        let (mut wrong, mut hit) = (None, false);
+        let (mut wrong, mut right) = (None, false);
         for k in 0..rows.bats.len() {
-            if rows.bats[k].document.is_err() {
-                continue;
-            }
-            let tried = rows.bat(&rows.bats[k], &middle).and_then(|bat| {
-                // One that can be hit is enough.
-                if hit { Ok(bat) } else { rows.trial(&middle, &bat).map(|_| bat) }
-            });
-            match tried {
-                Ok(bat) => (rows.bats[k].middle, hit) = (Some(bat), true),
-                Err(error) => wrong = wrong.or(Some(in_the_middle(&error))),
+            if rows.bats[k].document.is_ok() {
+                // One that can be asked is enough.
+                let (model, why) = rows.model(&rows.bats[k], right);
+                right |= why.is_none();
+                (rows.bats[k].model, wrong) = (model, wrong.or(why));
             }
         }
-        if hit {
+        if right {
             return Ok(rows);
         }
         let unread =
             |bat: &Varying| Some(Error::value("bat", bat.document.as_ref().err()?, "a bat file"));
         let none = || Error::value("bat", "none", "one bat at least");
+        let wrong = wrong.map(|error| rows.study.comes_to_nothing(error));
         Err(wrong.or_else(|| rows.bats.iter().find_map(unread)).unwrap_or_else(none))
+    }
+
+    /// A row of which a bat can be asked, and that bat. Where none that was tried can be, one that is a bat at
+    /// least, and what was wrong with the first.
+    fn model(
+        &self,
+        varying: &Varying,
+        without_asking: bool,
+    ) -> (Option<(Row, Bat)>, Option<Error>) {
+        let (mut model, mut wrong) = (None, None);
+        for row in self.study.design.examples() {
+            let bat = self.bat(varying, &row);
+            let asked =
+                |bat: &Bat| if without_asking { Ok(()) } else { self.can_be_asked(&row, bat) };
+            match bat.map(|bat| (asked(&bat), bat)) {
+                Ok((Ok(()), bat)) => return (Some((row, bat)), None),
+                Ok((Err(error), bat)) => {
+                    (model, wrong) = (model.or(Some((row, bat))), wrong.or(Some(error)));
+                }
+                Err(error) => wrong = wrong.or(Some(error)),
+            }
+        }
+        (model, wrong)
+    }
+
+    /// An error where all that is asked of a bat in a row is asked in vain.
+    fn can_be_asked(&self, row: &Row, bat: &Bat) -> Result<()> {
+        let answers = &self.study.asked.answers;
+        if answers.iter().any(|answer| answer.of_a_hit()) {
+            self.trial(row, bat)?;
+        }
+        on_the_bat(answers, bat)
+    }
+
+    /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.
+    /// Some values of some bats are tried, with everything else as it is in one row.
+    pub fn idle(&self) -> Option<String> {
+        const SOME: usize = 8;
+        let bats = self.bats.iter().filter_map(|bat| Some((bat, bat.model.as_ref()?)));
+        let bats: Vec<_> = bats.take(SOME).collect();
+        let varied = &self.study.varied;
+        let idle = threads::map(varied.len(), |k| {
+            // What cannot be told counts as a change.
+            let changes = |(bat, (row, _)): &(&Varying, &(Row, Bat))| {
+                let others = self.study.design.beside(row, varied[k].axis);
+                let of: Vec<&Row> = std::iter::once(row).chain(&others).collect();
+                let found = self.answers_of_rows(bat, &of);
+                let known: Option<Vec<&Found>> =
+                    found.iter().map(|one| one.as_ref().ok()).collect();
+                let same =
+                    |known: &[&Found]| known[1..].iter().all(|other| !other.differs(known[0]));
+                others.is_empty() || !known.is_some_and(|known| same(&known))
+            };
+            !bats.iter().any(changes)
+        });
+        let idle = varied.iter().zip(idle).filter(|(_, idle)| *idle);
+        let paths: Vec<&str> = idle.map(|(varied, _)| &*varied.path).collect();
+        (!paths.is_empty()).then(|| {
+            format!(
+                "nothing that is asked changes with {}: it does not depend on that, or something else in the \
+                 bat, the ball or the scene stands for it",
+                paths.join(", ")
+            )
+        })
     }
 
     /// How many rows there are.
@@ -132,11 +194,15 @@ impl Rows {
 
     fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<Found>> {
         let of: Vec<(&Varying, Row)> = rows.map(|k| self.row(k)).collect();
-        let Some((varying, _)) = of.first() else { return vec![] };
+        let Some((bat, _)) = of.first() else { return vec![] };
+        self.answers_of_rows(bat, &of.iter().map(|(_, row)| row).collect::<Vec<_>>())
+    }
+
+    fn answers_of_rows(&self, varying: &Varying, rows: &[&Row]) -> Vec<Result<Found>> {
         let asked = &self.study.asked;
-        let trial = |k: usize, bat: &Bat| self.trial(&of[k].1, bat);
-        let bats = of.iter().map(|(varying, row)| self.bat(varying, row));
-        let Some(model) = &varying.middle else {
+        let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
+        let bats = rows.iter().map(|row| self.bat(varying, row));
+        let Some((_, model)) = &varying.model else {
             // Each is its own model.
             let alone = |(k, bat): (usize, Result<Bat>)| match bat {
                 Ok(bat) => Asked::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b)),
@@ -156,10 +222,10 @@ impl Rows {
     pub fn columns(&self) -> Vec<[String; 2]> {
         let column = |name: String, unit: &str| [name, unit.to_owned()];
         let inputs = self.study.varied.iter().map(|v| column(v.path.clone(), v.unit()));
-        let answers = self.study.asked.answers.iter().flat_map(|answer| {
-            let name = answer.name();
+        let answers = self.study.outputs.iter().zip(&self.study.asked.answers);
+        let answers = answers.flat_map(|(name, answer)| {
             let error = format!("{name}_error");
-            [column(name, answer.unit()), column(error, answer.unit())]
+            [column(name.clone(), answer.unit()), column(error, answer.unit())]
         });
         let first = ["row", "bat"].into_iter().take(1 + usize::from(self.several()));
         let first = first.map(|name| column(name.to_owned(), ""));
@@ -199,12 +265,13 @@ impl Rows {
                     both.unwrap_or_default()
                 }));
                 let missing = found.figures.iter().any(Option::is_none);
-                let why = match (found.met, missing) {
-                    (_, true) => "the bat has no such answer",
-                    (false, _) => "less accurate than asked",
-                    (true, false) => "",
+                let why = match (found.off, found.met, missing) {
+                    (Some(off), ..) => reason(&off),
+                    (None, _, true) => "the bat has no such answer".to_owned(),
+                    (None, false, _) => "less accurate than asked".to_owned(),
+                    (None, true, false) => String::new(),
                 };
-                (found.met && !missing, why.to_owned())
+                (found.met && !missing, why)
             }
             Err(error) => {
                 cells.extend(vec![String::new(); 2 * answers]);
@@ -218,17 +285,10 @@ impl Rows {
     /// A document with what varies of it in a row.
     fn document(&self, subject: Subject, base: &Value, row: &Row) -> Result<Value> {
         let mut document = base.clone();
-        for varied in self.varied(subject) {
-            put(&mut document, varied.inside(), varied.value(row)).map_err(|found| {
-                let expected = "a path that is in the document";
-                Error::value(varied.path.clone(), found, expected)
-            })?;
+        for varied in self.study.varied.iter().filter(|varied| varied.subject == subject) {
+            varied.put(&mut document, row)?;
         }
         Ok(document)
-    }
-
-    fn varied(&self, subject: Subject) -> impl Iterator<Item = &Varied> {
-        self.study.varied.iter().filter(move |varied| varied.subject == subject)
     }
 
     fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
@@ -263,13 +323,6 @@ impl Rows {
         let (model, tolerance) = (setup.model()?, Some(self.study.asked.tolerance));
         Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model, barrel: setup.barrel_speed() })
     }
-}
-
-fn in_the_middle(error: &Error) -> Error {
-    let complaint = Complaint::new("vary", format!("in its middle {}", reason(error)), "a bat");
-    let hint = "the first value of every list and the median of everything that is drawn must be a bat \
-                that can be hit";
-    Error::Value(complaint.hinted(hint))
 }
 
 /// Why there is no answer, without the place in a text that nobody wrote.

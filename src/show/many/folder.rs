@@ -178,11 +178,16 @@ impl<'a> StudyFolder<'a> {
             }
             match key.as_str() {
                 "files" => {
-                    let there = found[key].as_array().cloned().unwrap_or_default();
-                    let now = value.as_array().into_iter().flatten();
-                    let others = now.filter(|file| !there.contains(file));
-                    changed
-                        .extend(others.map(|file| file["name"].as_str().unwrap_or("").to_owned()));
+                    let files = |of: &Value| of.as_array().cloned().unwrap_or_default();
+                    let (there, now) = (files(&found[key]), files(value));
+                    let other = now.iter().filter(|file| !there.contains(file));
+                    let gone = there.iter().filter(|file| !now.contains(file));
+                    for file in other.chain(gone) {
+                        let name = file["name"].as_str().unwrap_or_default().to_owned();
+                        if !changed.contains(&name) {
+                            changed.push(name);
+                        }
+                    }
                 }
                 "generator" => changed.push("the program's version".to_owned()),
                 "target" => changed.push("the machine".to_owned()),

@@ -11,6 +11,7 @@ use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::files::ball_file::written;
 use crate::files::balls::{ball, is_built_in};
+use crate::files::bat_file::profile_of;
 use crate::files::document::Document;
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
@@ -40,6 +41,8 @@ pub struct Study {
 struct Parcel {
     study: String,
     bats: Vec<BatText>,
+    /// Profiles in place of the tables that values name, in the order of the study.
+    tables: Vec<Value>,
     /// The ball, if it is of a file.
     ball: Option<String>,
 }
@@ -61,10 +64,11 @@ impl Study {
     ///
     /// As [`Self::read`].
     pub fn of(name: &str, text: &str, folder: &Path) -> Result<Self> {
-        let study = StudyFile::from_text(name, text)?;
+        let mut study = StudyFile::from_text(name, text)?;
         let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
         let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
         let bats = bats(folder, &study.bats, &mut sources)?;
+        let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
         let (ball, own_ball) = match is_built_in(name) {
             true => (ball(name, None)?, None),
@@ -75,7 +79,7 @@ impl Study {
                 (ball, Some(text))
             }
         };
-        let parcel = Parcel { study: text.to_owned(), bats: bats.clone(), ball: own_ball };
+        let parcel = Parcel { study: text.to_owned(), bats: bats.clone(), tables, ball: own_ball };
         Ok(Self { rows: Rows::new(study, bats, ball)?, sources, parcel })
     }
 
@@ -92,7 +96,11 @@ impl Study {
     pub fn arrived(text: &str) -> Result<Self> {
         let parcel: Parcel = serde_json::from_str(text)
             .map_err(|error| Error::value("study", error, "one sent by this version"))?;
-        let study = StudyFile::from_text("study", &parcel.study)?;
+        let mut study = StudyFile::from_text("study", &parcel.study)?;
+        let mut tables = parcel.tables.iter().cloned();
+        for varied in &mut study.varied {
+            varied.replace_tables(|_| Ok(tables.next().unwrap_or_default()))?;
+        }
         let ball = match &parcel.ball {
             Some(text) => Ball::from_text("ball", text)?,
             None => ball(study.ball.as_deref().unwrap_or("baseball"), None)?,
@@ -100,6 +108,22 @@ impl Study {
         let rows = Rows::new(study, parcel.bats.clone(), ball)?;
         Ok(Self { rows, sources: vec![], parcel })
     }
+}
+
+/// Profiles in place of the tables that values name, put into the study.
+fn tables(folder: &Path, study: &mut StudyFile, sources: &mut Vec<Source>) -> Result<Vec<Value>> {
+    let mut all = vec![];
+    for varied in &mut study.varied {
+        varied.replace_tables(|table| {
+            let profile = json!(resolved::profile(&profile_of(table, folder)?));
+            let name = table["csv"].as_str().unwrap_or_default();
+            let text = String::from_utf8_lossy(&file::read(&folder.join(name))?).into_owned();
+            sources.push(Source { name: name.to_owned(), text });
+            all.push(profile.clone());
+            Ok(profile)
+        })?;
+    }
+    Ok(all)
 }
 
 /// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
@@ -113,6 +137,15 @@ fn bats(folder: &Path, names: &[String], sources: &mut Vec<Source>) -> Result<Ve
         match path.is_dir() && !built_in() {
             false => all.push((name.clone(), path)),
             true => all.extend(files_of(name, &path)?),
+        }
+    }
+    for (k, (name, path)) in all.iter().enumerate() {
+        if all[..k].iter().any(|(_, other)| other == path) {
+            return Err(Error::value("bat", format!("{name} a second time"), "every bat once"));
+        }
+        // What is not there is a slip of the pen, not a bat that cannot exist.
+        if !path.is_file() {
+            bundled::named(Path::new(name))?;
         }
     }
     let alone = all.len() == 1;
@@ -145,17 +178,26 @@ fn files_of(name: &str, path: &Path) -> Result<Vec<(String, PathBuf)>> {
     let mut files = vec![];
     for entry in entries {
         let path = entry.map_err(failed)?.path();
-        if path.extension().is_some_and(|extension| extension == "json") && path.is_file() {
+        let is_json = path.extension().is_some_and(|extension| extension == "json");
+        if is_json && path.is_file() && !is_another_document(&path) {
             let own = path.file_name().unwrap_or_default().to_string_lossy();
             files.push((format!("{}/{own}", name.trim_end_matches('/')), path));
         }
     }
     if files.is_empty() {
-        let found = format!("the folder {} without a .json file", path.display());
+        let found = format!("the folder {} without a .json file of a bat", path.display());
         return Err(Error::value("bat", found, "a folder of bat files"));
     }
     files.sort();
     Ok(files)
+}
+
+/// Whether a file says of itself that it is a document of this program, and no bat: the study itself, a manifest.
+fn is_another_document(path: &Path) -> bool {
+    let text = file::read(path).unwrap_or_default();
+    let document: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let format = document["format"].as_str().unwrap_or_default();
+    format.starts_with("sweetspot-") && !format.starts_with("sweetspot-bat/")
 }
 
 /// The text of a bat, which needs no other file: stations of a table are put into the bat itself.

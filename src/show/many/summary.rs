@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::base::number::significant;
 use crate::files::study_rows::Rows;
-use crate::show::many::table::{Column, Table};
+use crate::show::many::table::{Column, Reason, Table};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
 use crate::study::many::indices::{Indices, Share};
@@ -17,10 +17,10 @@ const LITTLE: f64 = 0.005;
 /// How many rows there are, why some have no answer, and percentiles of every answer.
 pub fn text(table: &Table, rows: &Rows) -> String {
     let mut out = format!("{} bats, {} of them as accurate as asked\n", table.rows, table.met);
-    let mut reasons: Vec<(&String, &u64)> = table.reasons.iter().collect();
-    reasons.sort_by_key(|(why, count)| (std::cmp::Reverse(**count), (*why).clone()));
-    for (why, count) in reasons.iter().take(REASONS) {
-        out += &wrapped(&format!("  {count}: {why}"), 4);
+    let mut reasons: Vec<&Reason> = table.reasons.values().collect();
+    reasons.sort_by_key(|reason| (std::cmp::Reverse(reason.rows), reason.first));
+    for Reason { rows, first, said } in reasons.iter().take(REASONS) {
+        out += &wrapped(&format!("  {rows}, such as row {first}: {said}"), 4);
     }
     if reasons.len() > REASONS {
         let _ = writeln!(out, "  and {} other reasons", reasons.len() - REASONS);
@@ -58,13 +58,8 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
     for column in answers(table, rows) {
         let name = &column.name;
         match table.shares(rows, name) {
-            Some(indices) => out += &of_one(name, &names(rows), &indices),
-            None => {
-                let _ = writeln!(
-                    out,
-                    "\nWhat makes {name} vary: too few rows, or it is the same in all"
-                );
-            }
+            Ok(indices) => out += &of_one(name, &names(rows), &indices),
+            Err(why) => out += &wrapped(&format!("\nWhat makes {name} vary is not told: {why}"), 0),
         }
     }
     out + &wrapped(
@@ -98,7 +93,7 @@ fn of_one(name: &str, varied: &[String], indices: &Indices) -> String {
 
 /// The columns of the answers, without their errors.
 pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a Column> {
-    rows.study.asked.answers.iter().filter_map(|answer| table.column(&answer.name()))
+    rows.study.outputs.iter().filter_map(|name| table.column(name))
 }
 
 /// What is drawn, in the order of the indices.

@@ -44,8 +44,19 @@ pub struct Table {
     pub rows: u64,
     /// How many are as accurate as asked.
     pub met: u64,
-    /// Why others have no answer, and how many.
-    pub reasons: BTreeMap<String, u64>,
+    /// Why others have no answer, by what is left of a reason without its numbers.
+    pub reasons: BTreeMap<String, Reason>,
+}
+
+/// Why some rows have no answer.
+#[derive(Debug, Clone)]
+pub struct Reason {
+    /// How many rows.
+    pub rows: u64,
+    /// The first of them.
+    pub first: u64,
+    /// What that one says.
+    pub said: String,
 }
 
 impl Table {
@@ -105,7 +116,12 @@ impl Table {
             let [why, met] = [1, 2].map(|k| &row[row.len() - k]);
             self.met += u64::from(met == "true");
             if !why.is_empty() {
-                *self.reasons.entry(why.to_owned()).or_default() += 1;
+                let reason = self.reasons.entry(kind(why)).or_insert_with(|| Reason {
+                    rows: 0,
+                    first: self.rows - 1,
+                    said: why.to_owned(),
+                });
+                reason.rows += 1;
             }
         }
         Ok(())
@@ -116,15 +132,34 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// What makes an answer vary; None where rows differ by other than what is drawn, or as [`Indices::new`].
-    pub fn shares(&self, rows: &Rows, name: &str) -> Option<Indices> {
+    /// What makes an answer vary, of one bat of which nothing varies but what is drawn.
+    ///
+    /// # Errors
+    ///
+    /// Why that cannot be told.
+    pub fn shares(&self, rows: &Rows, name: &str) -> std::result::Result<Indices, String> {
         let design = &rows.study.design;
         if rows.several() || design.combinations() > 1 {
-            return None;
+            return Err("bats or lists differ too".to_owned());
         }
-        let column = self.column(name)?;
-        let known = self.kept.iter().zip(&column.values).filter(|(_, y)| y.is_finite());
-        let fitted: Vec<_> = known.take(FITTED).map(|(k, y)| (design.numbers(*k), *y)).collect();
+        let column = self.column(name).ok_or("it is no answer")?;
+        let fitted: Vec<(&u64, &f64)> = self.kept.iter().zip(&column.values).take(FITTED).collect();
+        // Those that are missing lie together, mostly in a tail: what is left is of other distributions.
+        let missing = fitted.iter().filter(|(_, y)| !y.is_finite()).count();
+        if missing > 0 {
+            return Err(format!(
+                "{missing} of {} rows have no answer, and shares of the others would be those of other \
+                 distributions than the study's",
+                fitted.len()
+            ));
+        }
+        let fitted: Vec<_> = fitted.into_iter().map(|(k, y)| (design.numbers(*k), *y)).collect();
         Indices::new(&design.kinds(), &fitted)
+            .ok_or_else(|| "too few rows, or it is the same in all".to_owned())
     }
+}
+
+/// A reason without its numbers.
+fn kind(why: &str) -> String {
+    why.chars().filter(|c| !c.is_ascii_digit() && !".+-".contains(*c)).collect()
 }

@@ -74,6 +74,22 @@ pub struct Row {
     pub values: Vec<f64>,
 }
 
+/// Where one of the things that vary is in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// In the list of that number.
+    List(usize),
+    /// In the distribution of that number.
+    Drawn(usize),
+}
+
+/// Some of so many numbers from 0, which is the first of them.
+fn spread_evenly(count: u64) -> impl Iterator<Item = u64> {
+    const SOME: u64 = 32;
+    let some = count.min(SOME);
+    (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)
+}
+
 impl Design {
     /// # Errors
     ///
@@ -128,10 +144,34 @@ impl Design {
         Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
     }
 
-    /// The first of every list, the median of every distribution.
-    pub fn middle(&self) -> Row {
-        let values = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
-        Row { picks: vec![0; self.lists.len()], values }
+    /// Some rows that tell of all: every combination of the lists with the median of every distribution, the first
+    /// of every list before all others, and rows of the design; of many as many, at even distances.
+    pub fn examples(&self) -> impl Iterator<Item = Row> {
+        let medians: Vec<f64> = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
+        let combined = spread_evenly(self.combinations());
+        let combined = combined
+            .map(move |k| Row { picks: self.row(k * self.points).picks, values: medians.clone() });
+        combined.chain(spread_evenly(self.rows()).map(|k| self.row(k)))
+    }
+
+    /// Rows that differ from this one in one place alone: by some other values of a list, or by both quartiles of
+    /// a distribution.
+    pub fn beside(&self, row: &Row, axis: Axis) -> Vec<Row> {
+        let other = |change: &dyn Fn(&mut Row)| {
+            let mut other = row.clone();
+            change(&mut other);
+            other
+        };
+        match axis {
+            Axis::List(k) => {
+                let others = spread_evenly(self.lists[k]).filter(|pick| *pick != row.picks[k]);
+                others.map(|pick| other(&|row| row.picks[k] = pick)).collect()
+            }
+            Axis::Drawn(k) => {
+                let quartiles = [0.25, 0.75].map(|share| self.drawn[k].quantile(share));
+                quartiles.map(|value| other(&|row| row.values[k] = value)).to_vec()
+            }
+        }
     }
 
     /// The independent numbers behind the values that are drawn, and what each of them is.

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
+use crate::base::number::shortest;
 
 /// How a number varies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -52,11 +53,14 @@ impl Distribution {
     pub fn check(&self) -> Result<()> {
         let positive = |what: &str, value: f64| match value > 0.0 && value.is_finite() {
             true => Ok(()),
-            false => Err(Error::value(what, value, "a finite number above 0")),
+            false => Err(Error::value(what, shortest(value), "a finite number above 0")),
         };
         let rises = |low: f64, high: f64| match low < high && (high - low).is_finite() {
             true => Ok(()),
-            false => Err(Error::value("to", high, format!("a number above {low}"))),
+            false => {
+                let expected = format!("a number above {}", shortest(low));
+                Err(Error::value("to", shortest(high), expected))
+            }
         };
         match *self {
             Self::Uniform { from, to } => rises(from, to),
@@ -66,7 +70,10 @@ impl Distribution {
             }
             Self::Triangular { from, peak, to } => match (from..=to).contains(&peak) {
                 true => rises(from, to),
-                false => Err(Error::value("peak", peak, format!("a number from {from} to {to}"))),
+                false => {
+                    let expected = format!("a number from {} to {}", shortest(from), shortest(to));
+                    Err(Error::value("peak", shortest(peak), expected))
+                }
             },
         }
     }

@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::batch::{Blow, each as strike_each};
@@ -44,12 +44,25 @@ pub struct Trial {
 }
 
 /// What came of a bat.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Found {
     /// Values with their errors in the order asked; None where the bat has no such answer.
     pub figures: Vec<Option<Figure>>,
     /// Whether frequencies and exit speeds are as accurate as asked.
     pub met: bool,
+    /// A place that is asked for and not on the bat, if there is one.
+    pub off: Option<Error>,
+}
+
+impl Found {
+    /// Whether another bat has an answer that differs from this one's by more than 1e-10 of it.
+    pub fn differs(&self, other: &Self) -> bool {
+        const SAME: f64 = 1e-10;
+        self.figures.iter().zip(&other.figures).any(|both| match both {
+            (Some(a), Some(b)) => (a.value - b.value).abs() > SAME * a.value.abs(),
+            (a, b) => a.is_some() != b.is_some(),
+        })
+    }
 }
 
 /// What `of` makes of some rows, in their order, on all cores; `tell` is told how many there are up to then.
@@ -138,7 +151,7 @@ impl Asked {
         let theory = theory(&bat, &request)?.theory;
         let (bat, request) = (tuned(bat, theory, self.tolerance)?, Request { theory, ..request });
         let trial = match hit {
-            true => Some((trial(&bat)?, self.places(&bat)?)),
+            true => Some((trial(&bat)?, self.places(&bat))),
             false => None,
         };
         Ok(Ready { bat, request, trial })
@@ -147,7 +160,7 @@ impl Asked {
     /// The answers of a bat that is not hit.
     fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
         let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
-        Ok(Found { figures, met: solution.worst() <= self.tolerance })
+        Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
     }
 
     /// The answers of a bat that was hit: the modes' from those of the hit where these are enough. The barrel is
@@ -189,21 +202,22 @@ impl Asked {
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        Ok(Found { figures, met: found.met && sweep.met })
+        let off = on_the_bat(&self.answers, bat).err();
+        Ok(Found { figures, met: found.met && sweep.met, off })
     }
 
     /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
-    fn places(&self, bat: &Bat) -> Result<Vec<f64>> {
+    fn places(&self, bat: &Bat) -> Vec<f64> {
         /// Where a barrel is hit that is searched, as shares of the length.
         const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
-        on_the_bat(&self.answers, bat)?;
-        let mut places: Vec<f64> = self.answers.iter().filter_map(|a| a.place()).collect();
+        let asked = self.answers.iter().filter_map(|answer| answer.place());
+        let mut places: Vec<f64> = asked.filter(|x| *x <= bat.length()).collect();
         if self.answers.iter().any(|answer| answer.is_searched()) {
             places.extend(ALONG.map(|share| share * bat.length()));
         }
         places.sort_by(f64::total_cmp);
         places.dedup();
-        Ok(places)
+        places
     }
 }
 
