@@ -19,7 +19,7 @@ use sweetspot::files::schema;
 use sweetspot::files::schema::hit::HitFile;
 use sweetspot::proof::bundled;
 use sweetspot::show::exchange::npz;
-use sweetspot::show::many::folder::{StudyFolder, part};
+use sweetspot::show::many::folder::{ROWS, StudyFolder, part, read};
 use sweetspot::show::many::source::Study as Source;
 use sweetspot::show::plot::picture::Picture;
 use sweetspot::show::plot::sets::{Hits, of_modes};
@@ -262,6 +262,11 @@ impl Study {
         Ok(PyBytes::new(py, text.as_bytes()).unbind())
     }
 
+    /// Refuses part k, which is at that path, if it is not as the study makes it.
+    fn check(&self, py: Python<'_>, k: u64, path: PathBuf, part: &[u8]) -> PyResult<()> {
+        free(py, || read(&self.0.rows, k, (&path, part), |_| ()))
+    }
+
     /// Opens the folder of the study, or refuses one of another.
     fn open(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
         free(py, || StudyFolder::open(&out, &self.0).map(|_| ()))
@@ -270,6 +275,7 @@ impl Study {
 
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("ROWS", ROWS)?;
     module.add_class::<Bat>()?;
     module.add_class::<Study>()?;
     module.add_function(wrap_pyfunction!(built_in, module)?)?;

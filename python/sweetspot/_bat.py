@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import json
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,9 +27,18 @@ def _plain(value: Any) -> Any:
         return value.item()
     if isinstance(value, Mapping):
         return {str(key): _plain(member) for key, member in value.items()}
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
     return value
+
+
+def whole(name: str, value: int, least: int) -> int:
+    """A whole number that is not less, or an exception with its name."""
+    if not isinstance(value, (int, np.integer)) or not least <= value < 2**32:
+        raise SweetspotError(f"{name}: found {value!r}, expected a whole number, {least} or more")
+    return int(value)
 
 
 class Bat:
@@ -98,7 +109,8 @@ class Bat:
         try:
             text = path.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            raise SweetspotError(f"cannot read {path}: {error}") from error
+            place = json.dumps({"mistakes": [{"file": str(path)}]})
+            raise SweetspotError(f"cannot read {path}: {error}", place) from error
         return cls._of(str(path), text, path.parent)
 
     @classmethod
@@ -118,7 +130,7 @@ class Bat:
         """
         document = self.document
         document["edits"] = [*document.get("edits", []), *edits]
-        return Bat.from_document(document, self._folder)
+        return Bat._of(self._called, json.dumps(_plain(document)), self._folder)
 
     @property
     def name(self) -> str:
@@ -160,7 +172,7 @@ class Bat:
         Without a ``theory`` ("euler-bernoulli", "rayleigh", "timoshenko") the simplest that is accurate enough
         on this bat is taken. Shapes are told at so many even ``points``.
         """
-        document, pictures = self._core.modes(n, tol, theory, points)
+        document, pictures = self._core.modes(whole("n", n, 0), tol, theory, whole("points", points, 0))
         return Modes(json.loads(document), dict(pictures))
 
     def hit(
@@ -178,7 +190,10 @@ class Bat:
         ``scene`` says how, with the names of the options of ``sweetspot hit``: ``bat_speed="72 mph"``,
         ``swing_speed``, ``pitch``, ``pivot``, ``hands``, ``cor``, ``model`` and so on; numbers are in SI.
         """
-        places = None if at is None else [float(x) for x in np.atleast_1d(np.asarray(at, dtype=float))]
+        try:
+            places = None if at is None else np.atleast_1d(np.asarray(at, dtype=float)).tolist()
+        except (TypeError, ValueError) as error:
+            raise SweetspotError(f"at: found {at!r}, expected places in m, numbers") from error
         document, pictures = self._core.hit(json.dumps(_plain(scene)), str(ball), places, tol, theory)
         return Hit(json.loads(document), dict(pictures))
 
@@ -202,7 +217,7 @@ class Bat:
 
     def _repr_html_(self) -> str:
         picture = dict(self._core.modes(0, 1e-2, None, 0)[1]).get("profile", "")
-        return f"<p>{self!r}</p>".replace("<Bat", "&lt;Bat").replace("kg>", "kg&gt;") + picture
+        return f"<p>{html.escape(repr(self))}</p>{picture}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Bat._of, (self._called, self._text, self._folder)

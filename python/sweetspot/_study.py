@@ -15,8 +15,13 @@ from typing import Any
 
 import numpy as np
 
+try:
+    import fcntl
+except ImportError:
+    fcntl = None
+
 from . import _core
-from ._bat import _plain
+from ._bat import _plain, whole
 from ._errors import SweetspotError
 
 
@@ -50,11 +55,23 @@ class Study:
 
     def part(self, k: int, jobs: int | None = None) -> bytes:
         """Part k as a CSV file, made on so many threads (all processors without)."""
-        return self._core.part(k, jobs)
+        return self._core.part(k, None if jobs is None else whole("jobs", jobs, 1))
 
     def open(self, out: str | Path) -> None:
         """Makes the folder of the study with its manifest, or raises if it is another study's."""
         self._core.open(Path(out))
+
+    def kept(self, out: Path, k: int, parquet: bool = False) -> bytes | None:
+        """Part k if it is in the folder, or raises if it is not as the study makes it."""
+        path = part_path(out, k, parquet)
+        if not path.exists():
+            return None
+        part = path.read_bytes()
+        if parquet:
+            _check_rows(path, range(k * _core.ROWS, min((k + 1) * _core.ROWS, self.rows)))
+        else:
+            self._core.check(k, path, part)
+        return part
 
     def shipped(self) -> str:
         """The study with everything it needs, to be sent to another machine."""
@@ -75,9 +92,12 @@ def make(shipped: str, k: int) -> bytes:
 def keep(path: Path, part: bytes | StudyResult) -> None:
     """Writes a part beside its place and renames it, as Parquet if it is a table: it is there whole, or not."""
     out = path.parent
-    beside, written = tempfile.mkstemp(dir=out, prefix=f".{path.name}.")
+    # As the program names its own, which removes those that nobody holds.
+    beside, written = tempfile.mkstemp(dir=out, prefix=".sweetspot-", suffix=".part")
     try:
         with os.fdopen(beside, "wb") as file:
+            if fcntl is not None:
+                fcntl.flock(file, fcntl.LOCK_EX)
             if isinstance(part, StudyResult):
                 from pyarrow import parquet
 
@@ -91,6 +111,20 @@ def keep(path: Path, part: bytes | StudyResult) -> None:
     except BaseException:
         os.unlink(written)
         raise
+
+
+def _check_rows(path: Path, rows: range) -> None:
+    from pyarrow import parquet
+
+    try:
+        found = parquet.read_table(path, columns=["row"])["row"].to_pylist()
+    except Exception:
+        found = None
+    if found != list(rows):
+        raise SweetspotError(
+            f"{path}: found other rows, expected rows {rows.start} to {rows.stop - 1}; "
+            "without this file the study makes it anew"
+        )
 
 
 def part_path(out: Path, k: int, parquet: bool = False) -> Path:
@@ -191,13 +225,12 @@ def run_study(
         study.open(out)
     parts = []
     for k in range(study.parts):
-        path = None if out is None else part_path(out, k)
-        if path is not None and path.exists():
-            parts.append(path.read_bytes())
-        else:
-            parts.append(study.part(k, jobs))
-            if path is not None:
-                keep(path, parts[-1])
+        part = None if out is None else study.kept(out, k)
+        if part is None:
+            part = study.part(k, jobs)
+            if out is not None:
+                keep(part_path(out, k), part)
+        parts.append(part)
         if progress is not None:
             progress(k + 1, study.parts)
     # The head stands in every part.

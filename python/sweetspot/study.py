@@ -114,7 +114,7 @@ def run(
     study.open(out)
     if idle := study.idle():
         print(f"warning: {idle}", file=sys.stderr)
-    parts = [k for k in range(study.parts) if not part_path(out, k, parquet).exists()]
+    parts = [k for k in range(study.parts) if study.kept(out, k, parquet) is None]
     done = study.parts - len(parts)
     for k, part in ENGINES[engine](study.shipped(), parts, workers, address) if parts else ():
         try:

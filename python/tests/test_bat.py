@@ -132,3 +132,20 @@ def test_other_threads_run_while_a_bat_is_solved():
     stop.set()
     thread.join()
     assert during > 10
+
+
+def test_wrong_arguments_are_named():
+    bat = ss.Bat.from_file("r161")
+    for wrong, says in (
+        (lambda: bat.hit("28 in"), "at: found"),
+        (lambda: bat.hit(["28 in"]), "at: found"),
+        (lambda: bat.modes(-1), "n: found -1"),
+        (lambda: bat.modes(2, points=-1), "points: found -1"),
+    ):
+        with pytest.raises(ss.SweetspotError, match=says):
+            wrong()
+    with pytest.raises(ss.SweetspotError) as told:
+        ss.Bat.from_file("no/such.json")
+    assert told.value.file == "no/such.json"
+    named = ss.Bat([0, 33], [1.7, 1.7], unit="in", material="white-ash", name="<b>x</b>")
+    assert "<b>x</b>" not in named._repr_html_().split("<svg")[0]

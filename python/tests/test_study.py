@@ -188,6 +188,9 @@ def test_what_is_wrong_is_one_message(tmp_path, scatter):
     assert len(said.stderr.strip().splitlines()) <= 6
     said = run(scatter, tmp_path / "b", "--engine", "ray", "--workers", "2", "--address", "auto")
     assert said.returncode == 2 and "--address" in said.stderr
+    for jobs in (0, -1, 2.5):
+        with pytest.raises(ss.SweetspotError, match="jobs: found"):
+            ss.run_study({**SCATTER, "points": 2}, jobs=jobs)
     with pytest.raises(ss.SweetspotError, match="rows at most"):
         ss.run_study({**SCATTER, "points": 10**12})
     with pytest.raises(KeyError, match="f1_hz"):
@@ -235,6 +238,35 @@ def test_columns_are_of_one_kind_whatever_is_in_them(tmp_path):
     ]
 
 
+def test_damaged_parts_are_refused_by_their_names(tmp_path, scatter):
+    assert run(scatter, tmp_path / "a").returncode == 0
+    whole = (tmp_path / "a" / "part-000001.csv").read_bytes()
+    for damage in (whole[:1000], b"".join(whole.splitlines(True)[:30]), b"", b"x,y\n1,2\n"):
+        (tmp_path / "a" / "part-000001.csv").write_bytes(damage)
+        said = run(scatter, tmp_path / "a")
+        assert said.returncode == 2 and "part-000001.csv" in said.stderr and "makes it anew" in said.stderr
+        with pytest.raises(ss.SweetspotError, match="part-000001.csv"):
+            ss.run_study(scatter, out=tmp_path / "a")
+    # What a killed program left behind goes when the study goes on.
+    (tmp_path / "a" / ".sweetspot-lost.part").write_bytes(b"row")
+    (tmp_path / "a" / "part-000001.csv").unlink()
+    assert run(scatter, tmp_path / "a").returncode == 0
+    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(5))]
+    assert (tmp_path / "a" / "part-000001.csv").read_bytes() == whole
+
+
+def test_a_process_that_was_forked_computes_on_its_own():
+    program = (
+        "import multiprocessing as mp, sweetspot as ss\n"
+        "bat = ss.Bat.from_file('r161')\n"
+        "hit = lambda x: float(bat.hit([x]).exit_speed_m_s[0])\n"
+        "before = [hit(0.7), hit(0.75)]\n"
+        "def again(x): return hit(x)\n"
+        "with mp.get_context('fork').Pool(2) as pool: assert pool.map(again, [0.7, 0.75]) == before\n"
+    )
+    subprocess.run([sys.executable, "-W", "ignore", "-c", program], check=True, timeout=60)
+
+
 def test_parquet_has_the_same_rows(tmp_path, scatter):
     pytest.importorskip("pyarrow")
     from pyarrow import parquet
@@ -244,3 +276,9 @@ def test_parquet_has_the_same_rows(tmp_path, scatter):
     tables = [parquet.read_table(path) for path in sorted((tmp_path / "p").glob("*.parquet"))]
     f1 = np.concatenate([table["f1_hz"].to_numpy() for table in tables])
     assert np.array_equal(f1, result["f1_hz"]) and math.isfinite(f1.sum())
+    (tmp_path / "p" / "part-000001.parquet").write_bytes(b"no table")
+    said = run(scatter, tmp_path / "p", "--parquet")
+    assert said.returncode == 2 and "part-000001.parquet" in said.stderr
+    (tmp_path / "p" / "manifest.json").unlink()
+    said = run(scatter, tmp_path / "p", "--parquet")
+    assert said.returncode == 2 and "parts of a study that is not known" in said.stderr

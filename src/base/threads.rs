@@ -70,15 +70,17 @@ mod pool {
     use rayon::ThreadPoolBuilder;
     use rayon::prelude::*;
 
-    /// Whether there are threads to share work with: a user's processes may be limited.
-    static SHARED: LazyLock<bool> = LazyLock::new(|| {
+    /// The process that has threads to share work with, if there are any: a user's processes may be limited.
+    static SHARED: LazyLock<Option<u32>> = LazyLock::new(|| {
         let built = ThreadPoolBuilder::new().build_global();
         // The only error without a cause is that somebody has built the pool before.
-        built.map_or_else(|error| error.source().is_none(), |()| true)
+        let there = built.map_or_else(|error| error.source().is_none(), |()| true);
+        there.then(std::process::id)
     });
 
+    /// Not in a process that was forked from that one: it has none of its threads.
     pub fn is_there() -> bool {
-        rayon::current_thread_index().is_some() || *SHARED
+        rayon::current_thread_index().is_some() || *SHARED == Some(std::process::id())
     }
 
     pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {

@@ -45,6 +45,8 @@ pub const FINE: (usize, f64) = (128, 1e-6);
 /// Where best places are known to be near others, or many bats are asked: to some 10 µm, as what is told is
 /// how many tenths of a millimetre places move.
 pub const FEW: (usize, f64) = (32, 2e-5);
+/// Steps of a closer look between two places of the first.
+const BETWEEN: usize = 4;
 const INCH: f64 = 0.0254;
 
 impl SweetSpot {
@@ -146,7 +148,8 @@ impl<'a> Looked<'a> {
         from + (to - from) * k as f64 / self.last() as f64
     }
 
-    /// The place of the greatest value: the best of the first look, then Brent's search.
+    /// The place of the greatest value: the best of the first look and of a closer one wherever a greater value
+    /// may hide between two places, then Brent's search.
     pub fn greatest(&self, value: impl Fn(&Glance) -> Option<f64>) -> Option<Peak> {
         let of =
             |glance: &Option<Glance>| glance.as_ref().and_then(&value).unwrap_or(f64::NEG_INFINITY);
@@ -159,8 +162,23 @@ impl<'a> Looked<'a> {
         let at = |x: f64| of(&self.hitter.glance(x));
         let low = self.place(best.saturating_sub(1));
         let high = self.place((best + 1).min(self.last()));
-        let here = Peak { x: self.place(best), value: seen };
-        let found = brent([low, high], here, self.width, at);
+        let mut here = (Peak { x: self.place(best), value: seen }, [low, high]);
+        let seen: Vec<f64> = self.seen.iter().map(of).collect();
+        for k in (0..self.last()).filter(|k| k + 1 < best || *k > best) {
+            if highest_between(&seen, k) <= here.0.value {
+                continue;
+            }
+            let step = (self.place(k + 1) - self.place(k)) / BETWEEN as f64;
+            for part in 1..BETWEEN {
+                let x = self.place(k) + step * part as f64;
+                let found = Peak { x, value: at(x) };
+                if found.value > here.0.value {
+                    here = (found, [x - step, x + step]);
+                }
+            }
+        }
+        let (here, between) = here;
+        let found = brent(between, here, self.width, at);
         // The ends of the interval may be the best, where the search only comes near.
         Some(if found.value > here.value { found } else { here })
     }
@@ -182,6 +200,18 @@ impl<'a> Looked<'a> {
         let beyond = (0..=self.last()).filter(|k| self.place(*k) > peak.x).find(poor);
         [edge(from, below), edge(to, beyond)]
     }
+}
+
+/// How high values may be between place k and the next: above the higher of both by the larger second difference
+/// there, which is eight times as far as a parabola rises. Where a neighbour has no value anything may be.
+fn highest_between(seen: &[f64], k: usize) -> f64 {
+    let bent = |at: usize| match seen.get(at.wrapping_sub(1)..at + 2) {
+        Some(&[a, b, c]) => (a - 2.0 * b + c).abs(),
+        _ => 0.0,
+    };
+    let bent = [bent(k), bent(k + 1)].map(|by| if by.is_nan() { f64::INFINITY } else { by });
+    let [here, next] = [seen[k], seen[k + 1]];
+    if here.max(next) == f64::NEG_INFINITY { here } else { here.max(next) + bent[0].max(bent[1]) }
 }
 
 /// The greatest value on an interval that has one maximum, located to that width: parabolas through

@@ -147,24 +147,44 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// The profile that a value is in a bat file, which lies in `folder`. What is wrong is told without a place.
-pub(crate) fn profile_of(value: &Value, folder: &Path) -> Result<Profile> {
+/// A profile, as a bat file in `folder` has it, with the columns of its table in place of that table's name: bare
+/// numbers in the unit of the profile.
+///
+/// # Errors
+///
+/// [`Error::Value`] for what is wrong with the profile, [`Error::Input`] with line and column for the table.
+pub fn without_table(profile: &Value, folder: &Path) -> Result<Value> {
     const NAME: &str = "";
-    let document = Document::new(NAME.to_owned(), &value.to_string());
-    let mut mistakes = Mistakes::default();
-    let root = Node::root(&document)?;
-    let read = profile(&root, &Folder { path: folder, left: None }, &mut mistakes);
-    let read = mistakes.end(read).map_err(|error| match error {
-        Error::Several { mut shown, .. } if !shown.is_empty() => shown.swap_remove(0),
-        other => other,
-    });
-    match read {
-        Ok(read) => Ok(read.expect("a profile that could not be read was noted").0),
+    let document = Document::new(NAME.to_owned(), &profile.to_string());
+    let mut profile = profile.clone();
+    let mut read = || {
+        let root = Node::root(&document)?.members()?;
+        let (name, factor) = length_unit(&root)?;
+        let table = table(root, &Folder { path: folder, left: None }, (&name, factor))?;
+        let columns = table.columns().map(|(key, values)| {
+            (key.to_owned(), values.iter().map(|value| value / factor).collect::<Value>())
+        });
+        if let Some(profile) = profile.as_object_mut() {
+            profile.remove("csv");
+            profile.extend(columns);
+        }
+        Ok(())
+    };
+    match read() {
+        Ok(()) => Ok(profile),
         Err(Error::Input { place, complaint }) if place.file == NAME => {
             Err(Error::Value(complaint))
         }
         Err(error) => Err(error),
     }
+}
+
+/// The unit of a profile's bare numbers, and how many m it is.
+fn length_unit(object: &Object) -> Result<(String, f64)> {
+    let Some(node) = object.get("unit") else { return Ok(("m".to_owned(), 1.0)) };
+    let unit = node.string()?;
+    let factor = units::factor(&unit, Quantity::Length);
+    factor.map_err(|complaint| node.complain(complaint)).map(|factor| (unit, factor))
 }
 
 fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
@@ -285,13 +305,7 @@ fn formula_piece(node: &Node) -> Result<FormulaPiece> {
 /// are in inches.
 fn columns(object: Object, folder: &Folder) -> Result<(Profile, bool)> {
     let mut mistakes = Mistakes::default();
-    let unit = match object.get("unit") {
-        Some(node) => node.string().and_then(|unit| {
-            let factor = units::factor(&unit, Quantity::Length);
-            factor.map_err(|complaint| node.complain(complaint)).map(|factor| (unit, factor))
-        }),
-        None => Ok(("m".to_owned(), 1.0)),
-    };
+    let unit = length_unit(&object);
     let interpolation = match object.get("interpolation") {
         Some(node) => node.word(INTERPOLATIONS),
         None => Ok(Interpolation::Pchip),

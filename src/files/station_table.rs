@@ -100,6 +100,12 @@ impl<'a> StationTable<'a> {
         Ok(StationTable { x, outer, inner, places: Places::Csv { document, csv } })
     }
 
+    /// Every column by its key (m).
+    pub fn columns(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        let all = [&self.x, &self.outer].into_iter().chain(&self.inner);
+        all.map(|column| (column.key, &column.values[..]))
+    }
+
     /// Radii from whatever columns there are.
     pub fn stations(&self, interpolation: Interpolation) -> Result<Stations> {
         let half = |column: &Column, key: &str| -> Vec<f64> {

@@ -111,8 +111,10 @@ impl Rows {
         varying: &Varying,
         without_asking: bool,
     ) -> (Option<(Row, Bat)>, Option<Error>) {
+        /// Combinations of lists, and rows, that are tried.
+        const TRIED: u64 = 32;
         let (mut model, mut wrong) = (None, None);
-        for row in self.study.design.examples() {
+        for row in self.study.design.examples(TRIED) {
             let bat = self.bat(varying, &row);
             let asked =
                 |bat: &Bat| if without_asking { Ok(()) } else { self.can_be_asked(&row, bat) };
@@ -130,8 +132,10 @@ impl Rows {
     /// An error where all that is asked of a bat in a row is asked in vain.
     fn can_be_asked(&self, row: &Row, bat: &Bat) -> Result<()> {
         let answers = &self.study.asked.answers;
-        if answers.iter().any(|answer| answer.of_a_hit()) {
-            self.trial(row, bat)?;
+        match answers.iter().any(|answer| answer.of_a_hit()) {
+            true => self.trial(row, bat).map(|_| ())?,
+            // What leads nowhere is wrong where nothing is hit too.
+            false => self.setup(row).map(|_| ())?,
         }
         on_the_bat(answers, bat)
     }
@@ -139,23 +143,32 @@ impl Rows {
     /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.
     /// Some values of some bats are tried, with everything else as it is in one row.
     pub fn idle(&self) -> Option<String> {
-        const SOME: usize = 8;
+        /// Bats, combinations of lists, and rows that are tried; values of a list.
+        const SOME: u64 = 4;
+        const VALUES: u64 = 8;
         let bats = self.bats.iter().filter_map(|bat| Some((bat, bat.model.as_ref()?)));
-        let bats: Vec<_> = bats.take(SOME).collect();
+        let bats: Vec<_> = bats.take(SOME as usize).collect();
         let varied = &self.study.varied;
+        // What one thing does may hang on another: the rows beside one are tried, and beside others of the design.
+        let beside = |row: &Row, k: usize| {
+            let others = self.study.design.beside(row, varied[k].axis, VALUES);
+            std::iter::once(row.clone()).chain(others).collect::<Vec<_>>()
+        };
         let idle = threads::map(varied.len(), |k| {
             // What cannot be told counts as a change.
-            let changes = |(bat, (row, _)): &(&Varying, &(Row, Bat))| {
-                let others = self.study.design.beside(row, varied[k].axis);
-                let of: Vec<&Row> = std::iter::once(row).chain(&others).collect();
-                let found = self.answers_of_rows(bat, &of);
+            let changes = |bat: &Varying, row: &Row| {
+                let of = beside(row, k);
+                let found = self.answers_of_rows(bat, &of.iter().collect::<Vec<_>>());
                 let known: Option<Vec<&Found>> =
                     found.iter().map(|one| one.as_ref().ok()).collect();
                 let same =
                     |known: &[&Found]| known[1..].iter().all(|other| !other.differs(known[0]));
-                others.is_empty() || !known.is_some_and(|known| same(&known))
+                of.len() == 1 || !known.is_some_and(|known| same(&known))
             };
-            !bats.iter().any(changes)
+            let examples = || self.study.design.examples(SOME);
+            !bats.iter().any(|(bat, (row, _))| {
+                changes(bat, row) || examples().any(|row| changes(bat, &row))
+            })
         });
         let idle = varied.iter().zip(idle).filter(|(_, idle)| *idle);
         let paths: Vec<&str> = idle.map(|(varied, _)| &*varied.path).collect();

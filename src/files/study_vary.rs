@@ -126,7 +126,7 @@ impl Varied {
         }
     }
 
-    /// The unit of its numbers, empty for SI and for what is listed.
+    /// The unit of its numbers, empty where they are bare and for what is listed.
     pub fn unit(&self) -> &str {
         match &self.way {
             Way::Drawn(unit) | Way::Gridded(_, unit) => unit,
@@ -151,8 +151,8 @@ impl Varied {
         Ok(())
     }
 
-    /// Puts its value in a row into a document. A member that is not there is added to its object; a material
-    /// that is a name becomes that name with a member of its own.
+    /// Puts its value in a row into a document. A member that is not there is added to its object, and so is that
+    /// object; a material that is a name becomes that name with a member of its own.
     ///
     /// # Errors
     ///
@@ -173,8 +173,10 @@ impl Varied {
                     passed += &format!("[{k}]");
                 }
                 Step::Member(name) => {
-                    if here.is_string() && (passed == "material" || passed.ends_with(".material")) {
+                    if here.is_string() {
                         *here = json!({ "name": here.clone() });
+                    } else if here.is_null() {
+                        *here = json!({});
                     }
                     let object =
                         here.as_object_mut().ok_or_else(|| lost("no object".to_owned()))?;

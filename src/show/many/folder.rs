@@ -4,6 +4,7 @@
 //! and its number alone: so whatever is there is right, and what is missing can be made at any time.
 
 use std::env::consts::{ARCH, OS};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -43,19 +44,56 @@ pub fn part(study: &Study, k: u64, tell: &(impl Fn(u64) + Sync)) -> String {
     table.text()
 }
 
-/// The columns of a part that are numbers in every row.
-fn columns(rows: &Rows, part: &str) -> Vec<(String, Vec<f64>)> {
+/// Reads part k of a study, which is at `path`, and gives `each` its rows.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a part that is not as the study makes it.
+pub fn read(
+    rows: &Rows,
+    k: u64,
+    (path, part): (&Path, impl Read),
+    mut each: impl FnMut(&csv::StringRecord),
+) -> Result<()> {
+    let damaged = |found: String, expected: String| {
+        let complaint = Complaint::new(path.display().to_string(), found, expected);
+        Error::Value(complaint.hinted("without this file the study makes it anew"))
+    };
+    let table = |error: csv::Error| damaged(error.to_string(), "a table".to_owned());
+    let mut reader = csv::Reader::from_reader(part);
+    let columns = rows.columns();
+    let names: Vec<&str> = columns.iter().map(|[name, _]| &name[..]).collect();
+    if reader.headers().map_err(table)? != names {
+        return Err(damaged("other columns".to_owned(), names.join(", ")));
+    }
+    let [mut row, end] = [k, k + 1].map(|k| k.saturating_mul(ROWS).min(rows.count()));
+    for cells in reader.records() {
+        let cells = cells.map_err(table)?;
+        if row == end || cells[0] != *row.to_string() {
+            let expected = if row == end { "its end".to_owned() } else { format!("row {row}") };
+            return Err(damaged(format!("row \"{}\"", &cells[0]), expected));
+        }
+        each(&cells);
+        row += 1;
+    }
+    match row == end {
+        true => Ok(()),
+        false => Err(damaged(format!("no row {row}"), format!("rows to {}", end - 1))),
+    }
+}
+
+/// The columns of part k that are numbers in every row.
+fn columns(rows: &Rows, k: u64, part: (&Path, &str)) -> Result<Vec<(String, Vec<f64>)>> {
     let names = rows.columns();
     let named = |k: &usize| (names[*k][0].clone(), vec![]);
     let numbers = rows.numbers();
     let mut columns: Vec<(String, Vec<f64>)> = numbers.iter().map(named).collect();
-    let mut reader = csv::Reader::from_reader(part.as_bytes());
-    for row in reader.records().map_while(|row| row.ok()) {
+    read(rows, k, (part.0, part.1.as_bytes()), |row| {
         for ((_, values), k) in columns.iter_mut().zip(&numbers) {
-            values.push(row.get(*k).map_or(f64::NAN, number));
+            values.push(number(&row[*k]));
         }
-    }
-    columns
+    })?;
+    Ok(columns)
 }
 
 /// A cell that is a number; whether something is so is 1 or 0, what is not there is NaN.
@@ -90,7 +128,9 @@ impl<'a> StudyFolder<'a> {
             return Ok(this);
         }
         let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
-        let is_part = |name: &str| name.starts_with("part-") && name.ends_with(".csv");
+        let is_part = |name: &str| {
+            name.starts_with("part-") && (name.ends_with(".csv") || name.ends_with(".parquet"))
+        };
         if entries.into_iter().any(|entry| entry.file_name().to_str().is_some_and(is_part)) {
             let expected = "another folder, or its manifest.json beside the parts";
             let found = "parts of a study that is not known";
@@ -129,10 +169,12 @@ impl<'a> StudyFolder<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Write`].
+    /// [`Error::Write`]; [`read`] of a part that is there and gets its archive.
     pub fn make(&self, k: u64, npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
         let path = self.part(k);
         let archive = path.with_extension("npz");
+        // One that is there is of the part that is lost.
+        let npz = npz || archive.exists();
         let made = match path.exists() {
             true if !npz || archive.exists() => return Ok(()),
             true => String::from_utf8_lossy(&file::read(&path)?).into_owned(),
@@ -140,7 +182,8 @@ impl<'a> StudyFolder<'a> {
         };
         if npz {
             let failed = |source| Error::Write { path: archive.clone(), source };
-            let bytes = npz::columns(&columns(&self.study.rows, &made)).map_err(failed)?;
+            let columns = columns(&self.study.rows, k, (&path, &made))?;
+            let bytes = npz::columns(&columns).map_err(failed)?;
             file::write(&archive, &bytes)?;
         }
         if path.exists() { Ok(()) } else { file::write(&path, made.as_bytes()) }

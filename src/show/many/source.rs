@@ -1,22 +1,22 @@
 //! Which files is a study made from?
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::files::ball_file::written;
 use crate::files::balls::{ball, is_built_in};
-use crate::files::bat_file::profile_of;
+use crate::files::bat_file::without_table;
 use crate::files::document::Document;
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
 use crate::proof::bundled;
-use crate::show::report::resolved;
 
 /// A file that a study was made from.
 #[derive(Debug, Clone)]
@@ -65,9 +65,9 @@ impl Study {
     /// As [`Self::read`].
     pub fn of(name: &str, text: &str, folder: &Path) -> Result<Self> {
         let mut study = StudyFile::from_text(name, text)?;
-        let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
-        let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
-        let bats = bats(folder, &study.bats, &mut sources)?;
+        // Under any name it is the same study.
+        let mut sources = vec![Source { name: "the study".to_owned(), text: text.to_owned() }];
+        let bats = bats(folder, &study, &mut sources)?;
         let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
         let (ball, own_ball) = match is_built_in(name) {
@@ -115,7 +115,7 @@ fn tables(folder: &Path, study: &mut StudyFile, sources: &mut Vec<Source>) -> Re
     let mut all = vec![];
     for varied in &mut study.varied {
         varied.replace_tables(|table| {
-            let profile = json!(resolved::profile(&profile_of(table, folder)?));
+            let profile = without_table(table, folder)?;
             let name = table["csv"].as_str().unwrap_or_default();
             let text = String::from_utf8_lossy(&file::read(&folder.join(name))?).into_owned();
             sources.push(Source { name: name.to_owned(), text });
@@ -128,9 +128,9 @@ fn tables(folder: &Path, study: &mut StudyFile, sources: &mut Vec<Source>) -> Re
 
 /// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
 /// that is no bat stays with the reason.
-fn bats(folder: &Path, names: &[String], sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
+fn bats(folder: &Path, study: &StudyFile, sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
     let mut all: Vec<(String, PathBuf)> = vec![];
-    for name in names {
+    for name in &study.bats {
         let path = folder.join(name);
         // A folder that is called like a built-in bat is what was made of it.
         let built_in = || bundled::named(Path::new(name)).is_ok_and(|found| found.is_some());
@@ -139,8 +139,9 @@ fn bats(folder: &Path, names: &[String], sources: &mut Vec<Source>) -> Result<Ve
             true => all.extend(files_of(name, &path)?),
         }
     }
-    for (k, (name, path)) in all.iter().enumerate() {
-        if all[..k].iter().any(|(_, other)| other == path) {
+    let mut seen = HashSet::new();
+    for (name, path) in &all {
+        if !seen.insert(std::fs::canonicalize(path).unwrap_or_else(|_| path.clone())) {
             return Err(Error::value("bat", format!("{name} a second time"), "every bat once"));
         }
         // What is not there is a slip of the pen, not a bat that cannot exist.
@@ -157,7 +158,7 @@ fn bats(folder: &Path, names: &[String], sources: &mut Vec<Source>) -> Result<Ve
             1 => own,
             _ => name,
         };
-        let text = match bat(name, path, sources) {
+        let text = match bat((name, path), study, sources) {
             Ok(text) => Ok(text),
             Err(error @ (Error::Input { .. } | Error::Several { .. } | Error::Value(_)))
                 if !alone =>
@@ -200,8 +201,12 @@ fn is_another_document(path: &Path) -> bool {
     format.starts_with("sweetspot-") && !format.starts_with("sweetspot-bat/")
 }
 
-/// The text of a bat, which needs no other file: stations of a table are put into the bat itself.
-fn bat(name: &str, path: &Path, sources: &mut Vec<Source>) -> Result<String> {
+/// The text of a bat, which needs no other file: the columns of a table are put into the bat itself.
+fn bat(
+    (name, path): (&str, &Path),
+    study: &StudyFile,
+    sources: &mut Vec<Source>,
+) -> Result<String> {
     let mut read = |name: &str, text: &str| {
         sources.push(Source { name: name.to_owned(), text: text.to_owned() });
     };
@@ -214,11 +219,15 @@ fn bat(name: &str, path: &Path, sources: &mut Vec<Source>) -> Result<String> {
     let Document { file, text, .. } = Document::read(path)?;
     read(name, &text);
     let folder = path.parent().unwrap_or(Path::new(""));
-    let bat = Bat::from_text(&file, &text, folder)?;
+    Bat::from_text(&file, &text, folder)?;
     let mut document: Value = serde_json::from_str(&text).unwrap_or_default();
     let Some(table) = document["profile"]["csv"].as_str() else { return Ok(text) };
+    if let Some(varied) = study.varied.iter().find(|varied| varied.path == "bat.profile.unit") {
+        let found = format!("it for {file}, whose table may have units of its own");
+        return Err(varied.wrong(Complaint::new("", found, "columns, such as bat.profile.x")));
+    }
     let bytes = file::read(&folder.join(table))?;
     read(table, &String::from_utf8_lossy(&bytes));
-    document["profile"] = json!(resolved::profile(bat.unedited().profile()));
+    document["profile"] = without_table(&document["profile"], folder)?;
     Ok(document.to_string())
 }

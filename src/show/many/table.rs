@@ -1,11 +1,12 @@
 //! Which numbers are in the rows that are there?
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fs::File;
+use std::io::BufReader;
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Error, Result};
 use crate::files::study_rows::Rows;
-use crate::show::many::folder::{ROWS, StudyFolder, number};
+use crate::show::many::folder::{StudyFolder, number, read};
 use crate::study::many::indices::Indices;
 
 /// Rows that are kept in memory; of more every third, fifth, … is: an odd step takes as many of every part of
@@ -23,12 +24,6 @@ pub struct Column {
     pub unit: String,
     /// Its numbers, NaN where a row has none.
     pub values: Vec<f64>,
-}
-
-/// A part that is not what the study makes of it.
-fn damaged(path: &Path, found: String, expected: String) -> Error {
-    let complaint = Complaint::new(path.display().to_string(), found, expected);
-    Error::Value(complaint.hinted("without this file the study makes it anew"))
 }
 
 /// Rows that were read back.
@@ -80,51 +75,30 @@ impl Table {
             met: 0,
             reasons: BTreeMap::new(),
         };
-        let names: Vec<&str> = columns.iter().map(|[name, _]| &name[..]).collect();
         for k in 0..folder.parts() {
             let path = folder.part(k);
-            table.add(&path, &names, &numbers)?;
-            let wanted = ((k + 1) * ROWS).min(rows.count());
-            if table.rows != wanted {
-                let found = format!("rows to {} and no further", table.rows.saturating_sub(1));
-                return Err(damaged(&path, found, format!("rows to {}", wanted - 1)));
-            }
+            let failed = |source| Error::Read { path: path.clone(), source };
+            let part = File::open(&path).map_err(failed)?;
+            read(rows, k, (&path, BufReader::new(part)), |row| table.add(row, &numbers))?;
         }
         Ok(table)
     }
 
-    fn add(&mut self, path: &Path, names: &[&str], numbers: &[usize]) -> Result<()> {
-        let failed =
-            |error: csv::Error| Error::Read { path: path.to_owned(), source: error.into() };
-        let mut part = csv::Reader::from_path(path).map_err(failed)?;
-        if part.headers().map_err(failed)? != names {
-            return Err(damaged(path, "other columns".to_owned(), names.join(", ")));
-        }
-        for row in part.records() {
-            let row = row.map_err(failed)?;
-            if row[0] != *self.rows.to_string() {
-                let found = format!("row \"{}\"", &row[0]);
-                return Err(damaged(path, found, format!("row {}", self.rows)));
-            }
-            if self.rows.is_multiple_of(self.every) {
-                self.kept.push(self.rows);
-                for (column, k) in self.columns.iter_mut().zip(numbers) {
-                    column.values.push(number(&row[*k]));
-                }
-            }
-            self.rows += 1;
-            let [why, met] = [1, 2].map(|k| &row[row.len() - k]);
-            self.met += u64::from(met == "true");
-            if !why.is_empty() {
-                let reason = self.reasons.entry(kind(why)).or_insert_with(|| Reason {
-                    rows: 0,
-                    first: self.rows - 1,
-                    said: why.to_owned(),
-                });
-                reason.rows += 1;
+    fn add(&mut self, row: &csv::StringRecord, numbers: &[usize]) {
+        if self.rows.is_multiple_of(self.every) {
+            self.kept.push(self.rows);
+            for (column, k) in self.columns.iter_mut().zip(numbers) {
+                column.values.push(number(&row[*k]));
             }
         }
-        Ok(())
+        self.rows += 1;
+        let [why, met] = [1, 2].map(|k| &row[row.len() - k]);
+        self.met += u64::from(met == "true");
+        if !why.is_empty() {
+            let (first, said) = (self.rows - 1, why.to_owned());
+            let new = || Reason { rows: 0, first, said };
+            self.reasons.entry(kind(why)).or_insert_with(new).rows += 1;
+        }
     }
 
     /// The column of that name.
@@ -159,7 +133,14 @@ impl Table {
     }
 }
 
-/// A reason without its numbers.
+/// A reason without its numbers, however they are written.
 fn kind(why: &str) -> String {
-    why.chars().filter(|c| !c.is_ascii_digit() && !".+-".contains(*c)).collect()
+    let in_number = |c: char| c.is_ascii_digit() || ".+-".contains(c);
+    let words = why.split(' ').map(|word| match word.trim_matches(in_number) {
+        // What is left of 1e-5.
+        "e" => "",
+        _ => word,
+    });
+    let letters = |word: &str| word.chars().filter(|c| !in_number(*c)).collect::<String>();
+    words.map(letters).collect::<Vec<_>>().join(" ")
 }

@@ -89,7 +89,10 @@ impl Answer {
     ///
     /// [`Error::Value`] with the nearest name there is.
     pub fn named(name: &str) -> Result<Self> {
-        let order = |text: &str| text.parse().ok().filter(|k| (1..=MOST_MODES).contains(k));
+        let order = |text: &str| {
+            let order = text.parse().ok().filter(|k| (1..=MOST_MODES).contains(k))?;
+            (order.to_string() == text).then_some(order)
+        };
         let between = |start: &str, end: &str| {
             let inner = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
             inner.and_then(order)
@@ -98,8 +101,10 @@ impl Answer {
         let at = || {
             let of = |(start, of): &(&str, Local)| Some((name.strip_prefix(start)?, *of));
             let (place, of) = AT.iter().find_map(of)?;
-            let place: f64 = place.parse().ok()?;
-            (place.is_finite() && place >= 0.0).then(|| of(place))
+            let is_plain = |c: char| c.is_ascii_digit() || c == '.';
+            let plain =
+                place.starts_with(|c: char| c.is_ascii_digit()) && place.chars().all(is_plain);
+            place.parse().ok().filter(|_| plain).map(of)
         };
         let found = known
             .or_else(|| between("f", "_hz").map(Self::Frequency))

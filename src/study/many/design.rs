@@ -84,9 +84,8 @@ pub enum Axis {
 }
 
 /// Some of so many numbers from 0, which is the first of them.
-fn spread_evenly(count: u64) -> impl Iterator<Item = u64> {
-    const SOME: u64 = 32;
-    let some = count.min(SOME);
+fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
+    let some = count.min(some);
     (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)
 }
 
@@ -98,7 +97,8 @@ impl Design {
     pub fn new(wanted: Wanted) -> Result<Self> {
         let Wanted { lists, drawn, correlations, points, spread, seed } = wanted;
         drawn.iter().try_for_each(Distribution::check)?;
-        let points = if drawn.is_empty() { 1 } else { points };
+        // Where nothing is drawn every combination is one row; no points are asked for in vain all the same.
+        let points = if drawn.is_empty() { points.min(1) } else { points };
         let rows = lists.iter().try_fold(points, |rows, list| rows.checked_mul(*list));
         match rows {
             Some(1..=MOST_ROWS) => {}
@@ -144,19 +144,19 @@ impl Design {
         Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
     }
 
-    /// Some rows that tell of all: every combination of the lists with the median of every distribution, the first
-    /// of every list before all others, and rows of the design; of many as many, at even distances.
-    pub fn examples(&self) -> impl Iterator<Item = Row> {
+    /// Some rows that tell of all: combinations of the lists with the median of every distribution, the first of
+    /// every list before all others, and rows of the design; so many of both at most, at even distances.
+    pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
         let medians: Vec<f64> = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
-        let combined = spread_evenly(self.combinations());
+        let combined = spread_evenly(self.combinations(), some);
         let combined = combined
             .map(move |k| Row { picks: self.row(k * self.points).picks, values: medians.clone() });
-        combined.chain(spread_evenly(self.rows()).map(|k| self.row(k)))
+        combined.chain(spread_evenly(self.rows(), some).map(|k| self.row(k)))
     }
 
-    /// Rows that differ from this one in one place alone: by some other values of a list, or by both quartiles of
-    /// a distribution.
-    pub fn beside(&self, row: &Row, axis: Axis) -> Vec<Row> {
+    /// Rows that differ from this one in one place alone: by so many other values of a list, or by both quartiles
+    /// of a distribution.
+    pub fn beside(&self, row: &Row, axis: Axis, some: u64) -> Vec<Row> {
         let other = |change: &dyn Fn(&mut Row)| {
             let mut other = row.clone();
             change(&mut other);
@@ -164,7 +164,8 @@ impl Design {
         };
         match axis {
             Axis::List(k) => {
-                let others = spread_evenly(self.lists[k]).filter(|pick| *pick != row.picks[k]);
+                let others =
+                    spread_evenly(self.lists[k], some).filter(|pick| *pick != row.picks[k]);
                 others.map(|pick| other(&|row| row.picks[k] = pick)).collect()
             }
             Axis::Drawn(k) => {

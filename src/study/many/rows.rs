@@ -50,7 +50,7 @@ pub struct Found {
     pub figures: Vec<Option<Figure>>,
     /// Whether frequencies and exit speeds are as accurate as asked.
     pub met: bool,
-    /// A place that is asked for and not on the bat, if there is one.
+    /// Why it cannot be hit where or as it is asked, if it cannot.
     pub off: Option<Error>,
 }
 
@@ -92,6 +92,8 @@ struct Ready {
     request: Request,
     /// How it is hit, and where (m from the knob end), if it is.
     trial: Option<(Trial, Vec<f64>)>,
+    /// Why it cannot be hit, if that was asked.
+    off: Option<Error>,
 }
 
 /// What was computed of a bat.
@@ -135,7 +137,10 @@ impl Asked {
         let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
             let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
             match solved? {
-                Solved::Modes(solution) => asked.of_modes(&ready.bat, &solution),
+                Solved::Modes(solution) => {
+                    let found = asked.of_modes(&ready.bat, &solution)?;
+                    Ok(Found { off: ready.off, ..found })
+                }
                 Solved::Hits(sweep) => asked.with_hits(ready, sweep),
             }
         };
@@ -150,11 +155,10 @@ impl Asked {
         let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
         let theory = theory(&bat, &request)?.theory;
         let (bat, request) = (tuned(bat, theory, self.tolerance)?, Request { theory, ..request });
-        let trial = match hit {
-            true => Some((trial(&bat)?, self.places(&bat))),
-            false => None,
-        };
-        Ok(Ready { bat, request, trial })
+        let trial = hit.then(|| trial(&bat)).transpose();
+        let (trial, off) = trial.map_or_else(|error| (None, Some(error)), |trial| (trial, None));
+        let trial = trial.map(|trial| (trial, self.places(&bat)));
+        Ok(Ready { bat, request, trial, off })
     }
 
     /// The answers of a bat that is not hit.
@@ -165,7 +169,7 @@ impl Asked {
 
     /// The answers of a bat that was hit: the modes' from those of the hit where these are enough. The barrel is
     /// searched for its best places only where one of them is asked for.
-    fn with_hits(&self, Ready { bat, request, trial }: Ready, sweep: Sweep) -> Result<Found> {
+    fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
         let (trial, _) = trial.expect("a bat that was hit has its trial");
         if !self.answers.iter().any(|answer| answer.is_searched()) {
             return self.of_hits(&bat, &trial, &request, (&sweep, None));
