@@ -568,7 +568,7 @@ fn a_folder_of_another_study_is_refused_with_what_changed() {
     folder.text(&["study", "copy.json", "--out", "out"]);
     folder.write("study.json", SCATTER.replace("\"points\": 50", "\"points\": 51"));
     let told = refused(&folder, "study.json");
-    assert!(told.contains("the study, the rows"), "{told}");
+    assert!(told.contains("study.json, the rows"), "{told}");
     assert_eq!(folder.read("out/part-000000.csv"), before);
     std::fs::remove_file(folder.0.join("out/manifest.json")).unwrap();
     let told = refused(&folder, "study.json");

@@ -209,11 +209,16 @@ impl<'a> StudyFolder<'a> {
 
     /// An error that says what has changed since a manifest was written.
     fn same(&self, found: &str, wanted: &str) -> Result<()> {
+        let read = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
+        let (mut found, wanted) = (read(found), read(wanted));
+        // Under any name it is the same study.
+        let own = "/files/0/name";
+        if let Some((there, here)) = found.pointer_mut(own).zip(wanted.pointer(own)) {
+            there.clone_from(here);
+        }
         if found == wanted {
             return Ok(());
         }
-        let read = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
-        let (found, wanted) = (read(found), read(wanted));
         let mut changed = vec![];
         for (key, value) in wanted.as_object().into_iter().flatten() {
             if found[key] == *value {

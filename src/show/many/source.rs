@@ -65,8 +65,8 @@ impl Study {
     /// As [`Self::read`].
     pub fn of(name: &str, text: &str, folder: &Path) -> Result<Self> {
         let mut study = StudyFile::from_text(name, text)?;
-        // Under any name it is the same study.
-        let mut sources = vec![Source { name: "the study".to_owned(), text: text.to_owned() }];
+        let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
+        let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
         let bats = bats(folder, &study, &mut sources)?;
         let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
