@@ -75,6 +75,13 @@ def scatter(tmp_path):
     return path
 
 
+@pytest.fixture
+def three_parts(tmp_path):
+    path = tmp_path / "three.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **SCATTER, "points": 9000}))
+    return path
+
+
 def test_the_folder_of_processes_is_that_of_threads(tmp_path, scatter):
     assert run(scatter, tmp_path / "a").returncode == 0
     ss.run_study(scatter, out=tmp_path / "b", jobs=1)
@@ -131,7 +138,7 @@ def test_a_cluster_that_loses_a_worker_makes_the_same_folder(tmp_path, scatter, 
     assert parts(out) == parts(tmp_path / "alone")
 
 
-def test_a_worker_without_the_wheel_is_named(tmp_path, scatter):
+def test_a_worker_without_the_wheel_is_named(tmp_path, three_parts):
     pytest.importorskip("distributed")
     (tmp_path / "hidden" / "sweetspot").mkdir(parents=True)
     missing = "raise ModuleNotFoundError(\"No module named 'sweetspot'\", name='sweetspot')\n"
@@ -147,46 +154,46 @@ def test_a_worker_without_the_wheel_is_named(tmp_path, scatter):
             if "Starting established connection" in line:
                 break
         address = json.loads(known.read_text())["address"]
-        said = run(scatter, tmp_path / "w", "--engine", "dask", "--address", address)
+        said = run(three_parts, tmp_path / "w", "--engine", "dask", "--address", address)
         assert said.returncode == 3 and "a worker has no package sweetspot" in said.stderr
         assert len(said.stderr.strip().splitlines()) == 1
     finally:
         [process.kill() for process in running]
 
 
-def test_a_full_disk_leaves_whole_parts_alone(tmp_path, scatter):
+def test_a_full_disk_leaves_whole_parts_alone(tmp_path, three_parts):
     import resource
 
     def small():
         resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))
 
-    command = [sys.executable, "-m", "sweetspot.study", str(scatter), "--out", str(tmp_path / "full"), "--quiet"]
+    command = [sys.executable, "-m", "sweetspot.study", str(three_parts), "--out", str(tmp_path / "full"), "--quiet"]
     said = subprocess.run(command, capture_output=True, text=True, preexec_fn=small)
     assert said.returncode == 3 and "cannot write to" in said.stderr
     assert [path.name for path in (tmp_path / "full").iterdir()] == ["manifest.json"]
-    assert run(scatter, tmp_path / "full").returncode == 0
-    assert run(scatter, tmp_path / "whole").returncode == 0
+    assert run(three_parts, tmp_path / "full").returncode == 0
+    assert run(three_parts, tmp_path / "whole").returncode == 0
     assert parts(tmp_path / "full") == parts(tmp_path / "whole")
 
 
-def test_what_is_wrong_is_one_message(tmp_path, scatter):
+def test_what_is_wrong_is_one_message(tmp_path, three_parts):
     wrong = tmp_path / "wrong.json"
-    wrong.write_text(scatter.read_text().replace("density", "densty"))
+    wrong.write_text(three_parts.read_text().replace("density", "densty"))
     said = run(wrong, tmp_path / "w")
     assert said.returncode == 2 and "density" in said.stderr and not (tmp_path / "w").exists()
-    assert run(scatter, tmp_path / "a").returncode == 0
+    assert run(three_parts, tmp_path / "a").returncode == 0
     other = tmp_path / "other.json"
-    other.write_text(scatter.read_text().replace('"seed": 1', '"seed": 2'))
+    other.write_text(three_parts.read_text().replace('"seed": 1', '"seed": 2'))
     before = parts(tmp_path / "a")
     said = run(other, tmp_path / "a")
     assert said.returncode == 2 and "differs in" in said.stderr
     assert parts(tmp_path / "a") == before
-    said = run(scatter, tmp_path / "b", "--engine", "spark")
+    said = run(three_parts, tmp_path / "b", "--engine", "spark")
     assert said.returncode == 2 and "spark" in said.stderr
-    said = run(scatter, tmp_path / "b", "--workers", "0")
+    said = run(three_parts, tmp_path / "b", "--workers", "0")
     assert said.returncode == 2 and "1 or more" in said.stderr
     assert len(said.stderr.strip().splitlines()) <= 6
-    said = run(scatter, tmp_path / "b", "--engine", "ray", "--workers", "2", "--address", "auto")
+    said = run(three_parts, tmp_path / "b", "--engine", "ray", "--workers", "2", "--address", "auto")
     assert said.returncode == 2 and "--address" in said.stderr
     for jobs in (0, -1, 2.5):
         with pytest.raises(ss.SweetspotError, match="jobs: found"):
@@ -198,9 +205,9 @@ def test_what_is_wrong_is_one_message(tmp_path, scatter):
 
 
 @pytest.mark.parametrize("engine, address", [("ray", "127.0.0.1:1"), ("dask", "tcp://127.0.0.1:1")])
-def test_an_address_where_nothing_runs_is_told(tmp_path, scatter, engine, address):
+def test_an_address_where_nothing_runs_is_told(tmp_path, three_parts, engine, address):
     pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
-    said = run(scatter, tmp_path / "w", "--engine", engine, "--address", address)
+    said = run(three_parts, tmp_path / "w", "--engine", engine, "--address", address)
     last = said.stderr.strip().splitlines()[-1]
     assert said.returncode == 2 and f"found {address}, expected the address of a running {engine}" in last, said.stderr
 
@@ -238,20 +245,20 @@ def test_columns_are_of_one_kind_whatever_is_in_them(tmp_path):
     ]
 
 
-def test_damaged_parts_are_refused_by_their_names(tmp_path, scatter):
-    assert run(scatter, tmp_path / "a").returncode == 0
+def test_damaged_parts_are_refused_by_their_names(tmp_path, three_parts):
+    assert run(three_parts, tmp_path / "a").returncode == 0
     whole = (tmp_path / "a" / "part-000001.csv").read_bytes()
     for damage in (whole[:1000], b"".join(whole.splitlines(True)[:30]), b"", b"x,y\n1,2\n"):
         (tmp_path / "a" / "part-000001.csv").write_bytes(damage)
-        said = run(scatter, tmp_path / "a")
+        said = run(three_parts, tmp_path / "a")
         assert said.returncode == 2 and "part-000001.csv" in said.stderr and "makes it anew" in said.stderr
         with pytest.raises(ss.SweetspotError, match="part-000001.csv"):
-            ss.run_study(scatter, out=tmp_path / "a")
+            ss.run_study(three_parts, out=tmp_path / "a")
     # What a killed program left behind goes when the study goes on.
     (tmp_path / "a" / ".sweetspot-lost.part").write_bytes(b"row")
     (tmp_path / "a" / "part-000001.csv").unlink()
-    assert run(scatter, tmp_path / "a").returncode == 0
-    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(5))]
+    assert run(three_parts, tmp_path / "a").returncode == 0
+    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(3))]
     assert (tmp_path / "a" / "part-000001.csv").read_bytes() == whole
 
 
@@ -267,18 +274,18 @@ def test_a_process_that_was_forked_computes_on_its_own():
     subprocess.run([sys.executable, "-W", "ignore", "-c", program], check=True, timeout=60)
 
 
-def test_parquet_has_the_same_rows(tmp_path, scatter):
+def test_parquet_has_the_same_rows(tmp_path, three_parts):
     pytest.importorskip("pyarrow")
     from pyarrow import parquet
 
-    assert run(scatter, tmp_path / "p", "--parquet").returncode == 0
-    result = ss.run_study(scatter, out=tmp_path / "c")
+    assert run(three_parts, tmp_path / "p", "--parquet").returncode == 0
+    result = ss.run_study(three_parts, out=tmp_path / "c")
     tables = [parquet.read_table(path) for path in sorted((tmp_path / "p").glob("*.parquet"))]
     f1 = np.concatenate([table["f1_hz"].to_numpy() for table in tables])
     assert np.array_equal(f1, result["f1_hz"]) and math.isfinite(f1.sum())
     (tmp_path / "p" / "part-000001.parquet").write_bytes(b"no table")
-    said = run(scatter, tmp_path / "p", "--parquet")
+    said = run(three_parts, tmp_path / "p", "--parquet")
     assert said.returncode == 2 and "part-000001.parquet" in said.stderr
     (tmp_path / "p" / "manifest.json").unlink()
-    said = run(scatter, tmp_path / "p", "--parquet")
+    said = run(three_parts, tmp_path / "p", "--parquet")
     assert said.returncode == 2 and "parts of a study that is not known" in said.stderr
