@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use sweetspot::base::telling::nobody;
 use sweetspot::bat::theory::Theory;
+use sweetspot::collision::along::strikes;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::{ForceLaw, Top};
@@ -16,7 +17,6 @@ use sweetspot::collision::contact::touch::Felt;
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
-use sweetspot::collision::sweep::strikes;
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
 

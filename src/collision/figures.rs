@@ -115,13 +115,8 @@ impl Figures {
             Ok(SweetSpot::within(&Looked::by(outer, FEW, &hitter)))
         };
         let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
-        let rigid_best = Looked::new(outer, &rigid).greatest(|seen| Some(seen.exit_speed));
+        let rigid_best = Looked::new(outer, &rigid).fastest();
         let looked = Looked::new(outer, hitter);
-        let bbcor = |k: usize| match hitter.modes_used() {
-            // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
-            0 => None,
-            _ => looked.greatest(|seen| Some(hitter.figures(seen.x, seen.exit_speed)[k])),
-        };
         let mut swings = vec![];
         if let Some(law) = law {
             let mut exponents = vec![0.0, law.exponent, 0.5];
@@ -142,8 +137,8 @@ impl Figures {
             wall: spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x)),
             vibration_at_rigid_best: rigid_best.and_then(|peak| hitter.glance(peak.x)?.vibration),
             rigid_best,
-            bbcor_max: bbcor(1),
-            bbcor_pivoted_max: bbcor(2),
+            bbcor_max: looked.largest_figure(1),
+            bbcor_pivoted_max: looked.largest_figure(2),
             swings,
             moves: moves.collect::<Result<_>>()?,
             spot,

@@ -22,7 +22,7 @@ use crate::modes::solve::Solution;
 /// A bat about to be hit: all that is the same for every impact point.
 pub struct Hitter<'a> {
     pub(super) model: Model,
-    pub(super) scene: &'a Scene,
+    pub(crate) scene: &'a Scene,
     pub(super) solution: &'a Solution,
     pub(super) profile: &'a Profile,
     pub(super) bat: RigidBat,

@@ -13,7 +13,7 @@
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are told, and by which names |
 //! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, whichever bat it is |
-//! | [`hit`], [`hitter`], [`strike`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
+//! | [`hit`], [`hitter`], [`strike`], [`along`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is it best, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
 //! | [`batch`] | how fast does a ball leave many bats |
@@ -47,6 +47,8 @@ pub mod wall_figures;
 pub mod figures;
 pub mod wall_choice;
 pub mod setup;
+#[doc(hidden)]
+pub mod along;
 pub mod sweep;
 pub mod batch;
 pub mod bbcor;

@@ -78,22 +78,13 @@ impl SweetSpot {
     pub fn within(looked: &Looked) -> Self {
         let Hitter { scene, solution, .. } = *looked.hitter;
         let bat = looked.hitter.struck.bat;
-        let exit_speed_max = looked.greatest(|glance| Some(glance.exit_speed));
-        let least = |of: fn(&Glance) -> Option<f64>| {
-            let greatest = looked.greatest(|glance| of(glance).map(|value| -value))?;
-            Some(Peak { x: greatest.x, value: -greatest.value })
-        };
+        let exit_speed_max = looked.fastest();
         let last_node = |k: usize| solution.modes.get(k).and_then(|m| m.nodes.last().copied());
         let off = |peak: Peak, by: f64| {
             let x = peak.x + by;
             (x <= bat.length())
                 .then(|| looked.hitter.glance(x).map(|glance| glance.exit_speed))
                 .flatten()
-        };
-        // Hands on a pin feel nothing, and without modes nothing shakes them.
-        let feels = |k: usize| {
-            let felt = looked.seen.iter().flatten().map(|glance| glance.hands[k]);
-            felt.fold(0.0, f64::max) > [1e-9, 1e-5][k]
         };
         // As the hit has it: without rotary inertia, of a line of mass.
         let body = bat.inertia();
@@ -102,9 +93,9 @@ impl SweetSpot {
             zone: exit_speed_max.map(|peak| looked.zone(peak)),
             inch_off: exit_speed_max.map(|peak| [off(peak, -INCH), off(peak, INCH)]),
             exit_speed_max,
-            vibration_min: least(|glance| glance.vibration),
-            hands_velocity_min: least(|g| Some(g.hands[0])).filter(|_| feels(0)),
-            hands_acceleration_min: least(|g| Some(g.hands[1])).filter(|_| feels(1)),
+            vibration_min: looked.least_vibration(),
+            hands_velocity_min: looked.least_felt(0),
+            hands_acceleration_min: looked.least_felt(1),
             node_mode_1: last_node(0),
             node_mode_2: last_node(1),
             center_of_percussion: body.center_of_percussion(-scene.pivot),
@@ -146,6 +137,37 @@ impl<'a> Looked<'a> {
     fn place(&self, k: usize) -> f64 {
         let [from, to] = self.ends;
         from + (to - from) * k as f64 / self.last() as f64
+    }
+
+    /// Where the ball leaves fastest (m/s).
+    pub fn fastest(&self) -> Option<Peak> {
+        self.greatest(|glance| Some(glance.exit_speed))
+    }
+
+    /// Where the least energy stays in vibration (J).
+    pub fn least_vibration(&self) -> Option<Peak> {
+        self.least(|glance| glance.vibration)
+    }
+
+    /// Where the hands feel the least velocity (m/s, `k` 0) or acceleration (m/s², `k` 1); None for hands that feel
+    /// none anywhere, as those on a pin, and where no mode shakes them.
+    pub fn least_felt(&self, k: usize) -> Option<Peak> {
+        let felt = self.seen.iter().flatten().map(|glance| glance.hands[k]);
+        let feels = felt.fold(0.0, f64::max) > [1e-9, 1e-5][k];
+        feels.then(|| self.least(|glance| Some(glance.hands[k]))).flatten()
+    }
+
+    /// Where one of [`Hitter::figures`] is largest; None of a bat that does not bend, whose BBCOR is the ball's own
+    /// restitution everywhere.
+    pub fn largest_figure(&self, k: usize) -> Option<Peak> {
+        let bends = self.hitter.modes_used() > 0;
+        let figure = |glance: &Glance| Some(self.hitter.figures(glance.x, glance.exit_speed)[k]);
+        bends.then(|| self.greatest(figure)).flatten()
+    }
+
+    fn least(&self, value: impl Fn(&Glance) -> Option<f64>) -> Option<Peak> {
+        let greatest = self.greatest(|glance| value(glance).map(|value| -value))?;
+        Some(Peak { x: greatest.x, value: -greatest.value })
     }
 
     /// The place of the greatest value: the best of the first look and of a closer one wherever a greater value

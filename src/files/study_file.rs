@@ -196,7 +196,7 @@ fn correlations(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64
     let drawn = |node: &Node| {
         let path = node.string()?;
         let found = varied.iter().find(|varied| varied.path == path);
-        match found.map(|varied| varied.axis) {
+        match found.map(Varied::axis) {
             Some(Axis::Drawn(k)) => Ok(k),
             _ => Err(node.error(node.shown(), "the path of a number that is drawn")),
         }

@@ -151,7 +151,7 @@ impl Rows {
         let varied = &self.study.varied;
         // What one thing does may hang on another: the rows beside one are tried, and beside others of the design.
         let beside = |row: &Row, k: usize| {
-            let others = self.study.design.beside(row, varied[k].axis, VALUES);
+            let others = self.study.design.beside(row, varied[k].axis(), VALUES);
             std::iter::once(row.clone()).chain(others).collect::<Vec<_>>()
         };
         let idle = threads::map(varied.len(), |k| {
@@ -334,7 +334,7 @@ impl Rows {
     fn trial(&self, row: &Row, bat: &Bat) -> Result<Trial> {
         let setup = self.setup(row)?;
         let (model, tolerance) = (setup.model()?, Some(self.study.asked.tolerance));
-        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model, barrel: setup.barrel_speed() })
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
     }
 }
 

@@ -38,8 +38,6 @@ pub struct Varied {
     pub path: String,
     /// Whose it is.
     pub subject: Subject,
-    /// Where its value is in a row.
-    pub axis: Axis,
     /// Its path in its document.
     inside: Vec<Step>,
     way: Way,
@@ -54,14 +52,15 @@ enum Step {
     Item(usize),
 }
 
+/// How a member varies. The first number is that of its list, or of its distribution, in a row; units may be none.
 #[derive(Debug, Clone)]
 enum Way {
-    /// One of these.
-    Listed(Vec<Listed>),
-    /// One of these numbers in that unit, which may be none.
-    Gridded(Vec<f64>, String),
-    /// A number in that unit, which may be none.
-    Drawn(String),
+    /// By one of these.
+    Listed(usize, Vec<Listed>),
+    /// By one of these numbers in that unit.
+    Gridded(usize, Vec<f64>, String),
+    /// By a number in that unit.
+    Drawn(usize, String),
 }
 
 /// A value of a list.
@@ -81,56 +80,45 @@ impl Varied {
             unit => format!("{} {unit}", shortest(value)).into(),
         };
         match &self.way {
-            Way::Listed(values) => values[self.pick(row)].meant.clone(),
-            Way::Gridded(values, unit) => in_unit(values[self.pick(row)], unit),
-            Way::Drawn(unit) => in_unit(self.drawn(row), unit),
+            Way::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
+            Way::Gridded(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
+            Way::Drawn(k, unit) => in_unit(row.values[*k], unit),
         }
     }
 
     /// Its value in a row, as a table has it: a number in its unit, or what the list says.
     pub fn cell(&self, row: &Row) -> String {
         match &self.way {
-            Way::Drawn(_) => shortest(self.drawn(row)),
-            Way::Gridded(values, _) => shortest(values[self.pick(row)]),
-            Way::Listed(values) => match &values[self.pick(row)].said {
+            Way::Drawn(k, _) => shortest(row.values[*k]),
+            Way::Gridded(k, values, _) => shortest(values[row.picks[*k] as usize]),
+            Way::Listed(k, values) => match &values[row.picks[*k] as usize].said {
                 Value::String(text) => text.clone(),
                 other => other.to_string(),
             },
         }
     }
 
-    fn pick(&self, row: &Row) -> usize {
-        match self.axis {
-            Axis::List(k) => row.picks[k] as usize,
-            Axis::Drawn(_) => 0,
+    /// Where its value is in a row.
+    pub fn axis(&self) -> Axis {
+        match self.way {
+            Way::Listed(k, _) | Way::Gridded(k, ..) => Axis::List(k),
+            Way::Drawn(k, _) => Axis::Drawn(k),
         }
-    }
-
-    fn drawn(&self, row: &Row) -> f64 {
-        match self.axis {
-            Axis::Drawn(k) => row.values[k],
-            Axis::List(_) => f64::NAN,
-        }
-    }
-
-    /// Whether it is drawn from a distribution.
-    pub fn is_drawn(&self) -> bool {
-        matches!(self.axis, Axis::Drawn(_))
     }
 
     /// Whether all its values are numbers.
     pub fn is_number(&self) -> bool {
         match &self.way {
-            Way::Drawn(_) | Way::Gridded(..) => true,
-            Way::Listed(values) => values.iter().all(|value| value.said.is_number()),
+            Way::Drawn(..) | Way::Gridded(..) => true,
+            Way::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
         }
     }
 
     /// The unit of its numbers, empty where they are bare and for what is listed.
     pub fn unit(&self) -> &str {
         match &self.way {
-            Way::Drawn(unit) | Way::Gridded(_, unit) => unit,
-            Way::Listed(_) => "",
+            Way::Drawn(_, unit) | Way::Gridded(_, _, unit) => unit,
+            Way::Listed(..) => "",
         }
     }
 
@@ -141,7 +129,7 @@ impl Varied {
     /// Those of `of`, in the study.
     pub fn replace_tables(&mut self, mut of: impl FnMut(&Value) -> Result<Value>) -> Result<()> {
         let is_profile = self.subject == Subject::Bat && self.inside == [member("profile")];
-        let Way::Listed(values) = &mut self.way else { return Ok(()) };
+        let Way::Listed(_, values) = &mut self.way else { return Ok(()) };
         for Listed { meant, .. } in values.iter_mut().filter(|_| is_profile) {
             if meant.get("csv").is_some() {
                 let placed = |complaint| wrong(&self.path, &self.place, complaint);
@@ -256,8 +244,8 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
             });
         }
         all.push((subject, inside.clone(), path));
-        let (axis, way) = way(node, wanted)?;
-        Ok(Varied { path: path.clone(), subject, axis, inside, way, place: key.place() })
+        let way = way(node, wanted)?;
+        Ok(Varied { path: path.clone(), subject, inside, way, place: key.place() })
     }))
 }
 
@@ -286,7 +274,7 @@ fn led(path: &str, key: &Node) -> Result<(Subject, Vec<Step>)> {
 }
 
 /// How a member varies, noted in what the design is made of.
-fn way(node: &Node, wanted: &mut Wanted) -> Result<(Axis, Way)> {
+fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
     let mut mistakes = Mistakes::default();
     let object = node.object(&WAYS, &mut mistakes)?;
     mistakes.end(())?;
@@ -297,14 +285,14 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<(Axis, Way)> {
     let items = node.items()?;
     let mut list = |length: usize| {
         wanted.lists.push(length as u64);
-        Axis::List(wanted.lists.len() - 1)
+        wanted.lists.len() - 1
     };
     if way == "values" {
         if items.is_empty() {
             return Err(node.error("an empty list", "one value at least"));
         }
         let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
-        return Ok((list(items.len()), Way::Listed(listed.collect())));
+        return Ok(Way::Listed(list(items.len()), listed.collect()));
     }
     let forms: [(&str, &str, usize); 5] = [
         ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
@@ -338,7 +326,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<(Axis, Way)> {
             let share = k as f64 / (count - 1) as f64;
             (1.0 - share) * numbers[0] + share * numbers[1]
         };
-        return Ok((list(count as usize), Way::Gridded((0..count).map(at).collect(), unit)));
+        return Ok(Way::Gridded(list(count as usize), (0..count).map(at).collect(), unit));
     }
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
@@ -355,7 +343,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<(Axis, Way)> {
         })
     })?;
     wanted.drawn.push(distribution);
-    Ok((Axis::Drawn(wanted.drawn.len() - 1), Way::Drawn(unit)))
+    Ok(Way::Drawn(wanted.drawn.len() - 1, unit))
 }
 
 /// A number and its unit, which may be none.

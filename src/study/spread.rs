@@ -491,7 +491,7 @@ impl Analysed<'_> {
         let scene = Scene { swing, ..self.scene.clone() };
         let hitter = Hitter::new(self.model, &scene, bat, &solution, self.hits.effort)?;
         let looked = Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter);
-        let peak = looked.greatest(|seen| Some(seen.exit_speed));
+        let peak = looked.fastest();
         let hit = peak.map(|peak| ([peak.x, peak.value], looked.zone(peak)));
         let hit = answers(bat, &solution, hit);
         Ok(std::array::from_fn(|k| notes[k].or(hit[k])))

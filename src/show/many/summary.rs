@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use crate::base::number::significant;
 use crate::files::study_rows::Rows;
+use crate::files::study_vary::Varied;
 use crate::show::many::table::{Column, Reason, Table};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
+use crate::study::many::design::Axis;
 use crate::study::many::indices::{Indices, Share};
 
 /// Reasons that are shown.
@@ -98,7 +100,8 @@ pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a
 
 /// What is drawn, in the order of the indices.
 pub fn names(rows: &Rows) -> Vec<String> {
-    let drawn = rows.study.varied.iter().filter(|varied| varied.is_drawn());
+    let is_drawn = |varied: &&Varied| matches!(varied.axis(), Axis::Drawn(_));
+    let drawn = rows.study.varied.iter().filter(is_drawn);
     drawn.map(|varied| varied.path.clone()).collect()
 }
 

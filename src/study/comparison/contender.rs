@@ -149,20 +149,13 @@ impl Contender {
         sweep: Sweep,
     ) -> Result<Self> {
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
-        let looked = Looked::by([0.5 * bat.length(), bat.length()], terms.look, &hitter);
-        let spot = SweetSpot::within(&looked);
-        let located = LOCATED.max(0.5 * terms.look.1);
-        let sought = Sought { length: bat.length(), located, scene: &scene, hitter: &hitter };
-        let largest = |k: usize| match hitter.modes_used() {
-            // Of a bat that does not bend BBCOR is the ball's own restitution everywhere.
-            0 => None,
-            _ => looked.greatest(|seen| Some(hitter.figures(seen.x, seen.exit_speed)[k])),
-        };
-        let bbcor = [1, 2].map(|k| Some(sought.bbcor(largest(k)?, k)));
+        let sought = Sought::new(&bat, &hitter, terms.look);
+        let spot = SweetSpot::within(&sought.looked);
         let best = spot.exit_speed_max.map(|peak| sought.best(peak));
         let zone = spot.exit_speed_max.zip(spot.zone);
         let zone = zone.map(|(peak, zone)| zone.map(|edge| sought.edge(peak, edge)));
         let least = spot.vibration_min.map(|peak| sought.least(peak));
+        let bbcor = [1, 2].map(|k| sought.bbcor(k));
         Ok(Self {
             inertia: bat.inertia(),
             best_speed: best.map(|best| best[0]),
@@ -216,34 +209,42 @@ pub fn exit_speed(impact: &Impact, scene: &Scene) -> Option<Figure> {
     Some(Figure::new(outcome.exit_speed, outcome.error * closing))
 }
 
-/// What is found by search, with its errors.
-struct Sought<'a> {
+/// What is found by search on the outer half of a bat, with its errors.
+pub struct Sought<'a> {
+    /// The outer half, looked along.
+    pub looked: Looked<'a>,
     length: f64,
     /// The share of the bat to which a place is located.
     located: f64,
-    scene: &'a Scene,
     hitter: &'a Hitter<'a>,
 }
 
-impl Sought<'_> {
+impl<'a> Sought<'a> {
+    /// Looks along the outer half of that hitter's bat, in so many steps; places are located to that share of it.
+    pub fn new(bat: &Bat, hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
+        let length = bat.length();
+        let looked = Looked::by([0.5 * length, length], look, hitter);
+        Self { looked, length, located: LOCATED.max(0.5 * look.1), hitter }
+    }
+
     /// How far the exit speed may be off (m/s), and the closing speed (m/s).
     fn speed_error(&self, x: f64) -> [f64; 2] {
         let impact = self.hitter.strike(x);
-        let closing = impact.bat_speed + self.scene.ball_speed;
+        let closing = impact.bat_speed + self.hitter.scene.ball_speed;
         // Nothing said is all there is to lose.
         let error = impact.outcome.map_or(1.0, |outcome| outcome.error);
         [error.max(SOUGHT) * closing, closing]
     }
 
     /// Speed, place and vibration of the fastest ball.
-    fn best(&self, peak: Peak) -> [Figure; 3] {
+    pub fn best(&self, peak: Peak) -> [Figure; 3] {
         let [error, closing] = self.speed_error(peak.x);
         let off = self.place_error(peak, error, |seen| Some(seen.exit_speed));
         let energy = |x: f64| self.hitter.glance(x).and_then(|seen| seen.vibration);
         let here = energy(peak.x).unwrap_or(0.0);
         let apart = |x: f64| energy(x).map_or(0.0, |there| (there - here).abs());
         let beside = apart((peak.x - off).max(0.0)).max(apart((peak.x + off).min(self.length)));
-        let moved = self.scene.ball.mass * error * closing;
+        let moved = self.hitter.scene.ball.mass * error * closing;
         [
             Figure::new(peak.value, error),
             Figure::new(peak.x, off),
@@ -252,9 +253,9 @@ impl Sought<'_> {
     }
 
     /// Place and value of the least vibration.
-    fn least(&self, peak: Peak) -> [Figure; 2] {
+    pub fn least(&self, peak: Peak) -> [Figure; 2] {
         let [error, closing] = self.speed_error(peak.x);
-        let moved = self.scene.ball.mass * error * closing;
+        let moved = self.hitter.scene.ball.mass * error * closing;
         let upside_down = Peak { x: peak.x, value: -peak.value };
         let off = self.place_error(upside_down, moved, |seen| Some(-seen.vibration?));
         [Figure::new(peak.x, off), Figure::new(peak.value, moved)]
@@ -295,7 +296,7 @@ impl Sought<'_> {
     }
 
     /// An end of the zone: the speed is known to twice the error, and so is where it falls so low.
-    fn edge(&self, peak: Peak, x: f64) -> Figure {
+    pub fn edge(&self, peak: Peak, x: f64) -> Figure {
         let [error, _] = self.speed_error(x);
         let step = 1e-4 * self.length * (peak.x - x).signum();
         let speed = |x: f64| self.hitter.glance(x).map(|seen| seen.exit_speed);
@@ -309,11 +310,14 @@ impl Sought<'_> {
         Figure::new(x, off.min((peak.x - x).abs()) + self.located * self.length)
     }
 
-    fn bbcor(&self, peak: Peak, which: usize) -> Figure {
+    /// The largest BBCOR, one of [`Hitter::figures`].
+    pub fn bbcor(&self, which: usize) -> Option<Figure> {
+        let peak = self.looked.largest_figure(which)?;
         let [error, closing] = self.speed_error(peak.x);
         let slow = self.hitter.figures(peak.x, 0.0)[which];
         let fast = self.hitter.figures(peak.x, error)[which];
         // BBCOR is linear in the exit speed.
-        Figure::new(peak.value, if closing > 0.0 { (fast - slow).abs() } else { 0.0 })
+        let off = if closing > 0.0 { (fast - slow).abs() } else { 0.0 };
+        Some(Figure::new(peak.value, off))
     }
 }

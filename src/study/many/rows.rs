@@ -10,7 +10,6 @@ use crate::base::error::{Error, Result};
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::batch::{Blow, each as strike_each};
-use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Impact, Model, Scene, greater};
 use crate::collision::hitter::Hitter;
 use crate::collision::stated::fewer;
@@ -18,7 +17,7 @@ use crate::collision::sweep::{self as hit, Sweep};
 use crate::collision::sweet_spot::FEW;
 use crate::modes::batch::{Way, solutions};
 use crate::modes::solve::{Request, Solution, solve};
-use crate::study::comparison::contender::{Contender, Figure, Terms, exit_speed};
+use crate::study::comparison::contender::{Figure, Sought, exit_speed};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
 use crate::study::theory_choice::theory;
 use crate::study::tuned::tuned;
@@ -39,8 +38,6 @@ pub struct Trial {
     pub scene: Scene,
     /// How a hit is computed.
     pub model: Model,
-    /// Speed of a point of the barrel that the swing is from, if one was given.
-    pub barrel: Option<BarrelSpeed>,
 }
 
 /// What came of a bat.
@@ -167,46 +164,27 @@ impl Asked {
         Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
     }
 
-    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough. The barrel is
-    /// searched for its best places only where one of them is asked for.
+    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough.
     fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
-        let (trial, _) = trial.expect("a bat that was hit has its trial");
-        if !self.answers.iter().any(|answer| answer.is_searched()) {
-            return self.of_hits(&bat, &trial, &request, (&sweep, None));
-        }
-        let Trial { scene, model, barrel } = &trial;
-        let terms = Terms { barrel: *barrel, ..terms(*model) };
-        let hit = Contender::of(bat, (scene.clone(), None), &terms, sweep)?;
-        self.of_hits(&hit.bat, &trial, &request, (&hit.sweep, Some(&hit)))
-    }
-
-    /// The answers from the hits, and from what was found by search if anything was sought.
-    fn of_hits(
-        &self,
-        bat: &Bat,
-        Trial { scene, model, .. }: &Trial,
-        request: &Request,
-        (sweep, hit): (&Sweep, Option<&Contender>),
-    ) -> Result<Found> {
+        let (Trial { scene, model }, _) = trial.expect("a bat that was hit has its trial");
         let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let found = match sweep.solution.modes.len() >= asked {
-            true => self.of_modes(bat, &sweep.solution)?,
-            false => self.of_modes(bat, &solve(bat, &Request { modes: asked, ..*request })?)?,
+            true => self.of_modes(&bat, &sweep.solution)?,
+            false => self.of_modes(&bat, &solve(&bat, &Request { modes: asked, ..request })?)?,
         };
-        let hands = match hit.filter(|_| self.answers.iter().any(|answer| answer.of_the_hands())) {
-            Some(hit) => Some(Hands::of(hit, *model)?),
-            None => None,
+        let searched = match self.answers.iter().any(|answer| answer.is_searched()) {
+            true => Some(Searched::new(&self.answers, &bat, (&scene, model), &sweep)?),
+            false => None,
         };
         let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
-            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, scene),
-            Answer::VibrationAt(x) => vibration(at(x)?, scene),
-            answer if answer.of_the_hands() => hands.as_ref().and_then(|hands| hands.felt(answer)),
-            answer if answer.is_searched() => best(answer, hit?),
+            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, &scene),
+            Answer::VibrationAt(x) => vibration(at(x)?, &scene),
+            answer if answer.is_searched() => searched.as_ref()?.figure(answer),
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        let off = on_the_bat(&self.answers, bat).err();
+        let off = on_the_bat(&self.answers, &bat).err();
         Ok(Found { figures, met: found.met && sweep.met, off })
     }
 
@@ -229,26 +207,8 @@ impl Ready {
     fn blow(&self) -> Option<Blow<'_>> {
         let (Trial { scene, model, .. }, places) = self.trial.as_ref()?;
         let trial = hit::Trial { model: *model, scene };
-        let accuracy = trial.accuracy(&self.request, terms(*model).exactly);
+        let accuracy = trial.accuracy(&self.request, false);
         Some(Blow { bat: &self.bat, trial, accuracy, places })
-    }
-}
-
-/// How the best places of a bat are looked for.
-fn terms(model: Model) -> Terms {
-    Terms { model, exactly: false, every: 0.0, look: FEW, barrel: None }
-}
-
-/// An answer for which the barrel is searched.
-fn best(answer: Answer, hit: &Contender) -> Option<Figure> {
-    match answer {
-        Answer::ExitSpeed => hit.best_speed,
-        Answer::ExitSpeedPlace => hit.best_place,
-        Answer::Zone(end) => hit.zone.map(|zone| zone[usize::from(end)]),
-        Answer::Vibration => hit.least_vibration,
-        Answer::VibrationPlace => hit.least_place,
-        Answer::Bbcor => hit.bbcor[0],
-        _ => None,
     }
 }
 
@@ -262,6 +222,61 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
         .then(|| Figure::new(outcome.energy.vibration(), moved))
 }
 
+/// What is found by search on a bat that was hit: of all that could be sought what is asked for.
+struct Searched {
+    /// Speed and place of the fastest ball, and the energy it leaves in vibration.
+    fastest: Option<[Figure; 3]>,
+    zone: Option<[Figure; 2]>,
+    /// Place and value of the least vibration.
+    least: Option<[Figure; 2]>,
+    bbcor: Option<Figure>,
+    hands: Option<Hands>,
+}
+
+impl Searched {
+    fn new(answers: &[Answer], bat: &Bat, trial: (&Scene, Model), sweep: &Sweep) -> Result<Self> {
+        let (scene, model) = trial;
+        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+        let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
+        // What is asked of a place needs no search.
+        let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
+            .then(|| Sought::new(bat, &hitter, FEW));
+        let sought = |which| sought.as_ref().filter(|_| asked(which));
+        let fastest = sought(|answer| {
+            matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
+        });
+        let fastest = fastest.and_then(|sought| sought.looked.fastest().map(|peak| (sought, peak)));
+        let zone = fastest.filter(|_| asked(|answer| matches!(answer, Answer::Zone(_))));
+        let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
+        let felt = [
+            sought(|answer| *answer == Answer::HandsVelocity),
+            sought(|answer| *answer == Answer::HandsAcceleration),
+        ];
+        let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
+        let hands = asked(|answer| answer.of_the_hands());
+        Ok(Self {
+            fastest: fastest.map(|(sought, peak)| sought.best(peak)),
+            zone: zone
+                .map(|(sought, peak)| sought.looked.zone(peak).map(|edge| sought.edge(peak, edge))),
+            least: least.and_then(|sought| Some(sought.least(sought.looked.least_vibration()?))),
+            bbcor: sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1)),
+            hands: hands.then(|| Hands::new(bat, trial, (sweep, &hitter), felt)).transpose()?,
+        })
+    }
+
+    fn figure(&self, answer: Answer) -> Option<Figure> {
+        match answer {
+            Answer::ExitSpeed => Some(self.fastest?[0]),
+            Answer::ExitSpeedPlace => Some(self.fastest?[1]),
+            Answer::Zone(end) => Some(self.zone?[usize::from(end)]),
+            Answer::Vibration => Some(self.least?[1]),
+            Answer::VibrationPlace => Some(self.least?[0]),
+            Answer::Bbcor => self.bbcor,
+            answer => self.hands.as_ref()?.felt(answer),
+        }
+    }
+}
+
 /// What the hands feel of the hits on a bat. By fewer modes it is another, and the impulse has its error, by
 /// which all of it grows: both are the error.
 struct Hands {
@@ -272,8 +287,14 @@ struct Hands {
 }
 
 impl Hands {
-    fn of(hit: &Contender, model: Model) -> Result<Self> {
-        let (solution, effort, scene) = (&hit.sweep.solution, hit.sweep.effort, &hit.scene);
+    /// At the places of the sweep, and where the least velocity and acceleration are (m) if that is asked.
+    fn new(
+        bat: &Bat,
+        (scene, model): (&Scene, Model),
+        (sweep, all): (&Sweep, &Hitter),
+        least: [Option<f64>; 2],
+    ) -> Result<Self> {
+        let Sweep { solution, impacts, effort, .. } = sweep;
         let count = solution.modes.len();
         let first = |few: usize| {
             let mut first = solution.clone();
@@ -283,22 +304,18 @@ impl Hands {
         // By half of them it is another bat.
         let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
         let most: Vec<Solution> = most.collect();
-        let hitter = |solution| Hitter::new(model, scene, &hit.bat, solution, effort);
-        let all = hitter(solution)?;
+        let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
         let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
-        let impacts = &hit.sweep.impacts;
         let share = |impact: &Impact| {
             let outcome = impact.outcome.as_ref()?;
             let closing = impact.bat_speed + scene.ball_speed;
             Some(outcome.error * closing * scene.ball.mass / outcome.impulse)
         };
         let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
-        let least = [hit.spot.hands_velocity_min, hit.spot.hands_acceleration_min];
-        let least = least.map(|peak| peak.map(|peak| peak.x));
         let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
         let felt = places.filter_map(|x| {
             let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands);
-            let (all, few) = (seen(&all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
+            let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
             let figure = |k: usize| {
                 let apart = few.iter().map(|few| (all[k] - few[k]).abs()).fold(0.0, greater);
                 Figure::new(all[k], apart + unsure * all[k])

@@ -12,7 +12,7 @@ use crate::bat::material::Material;
 use crate::collision::hitter::Hitter;
 use crate::collision::setup::Setup;
 use crate::collision::sweep::{Trial as Hit, sweep};
-use crate::collision::sweet_spot::{FEW, Looked, SweetSpot};
+use crate::collision::sweet_spot::{FEW, Looked};
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::Figure;
 use crate::study::many::answers::Answer;
@@ -215,7 +215,7 @@ impl ScatterRows {
             setup.ball.cor_by_speed.iter_mut().for_each(|[_, cor]| *cor = moved(*cor));
         }
         let (model, tolerance) = (setup.model()?, Some(self.plan.tolerance));
-        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model, barrel: setup.barrel_speed() })
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
     }
 
     /// The bat with these numbers.
@@ -315,8 +315,8 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let accuracy = Hit { model, scene: &scene }.accuracy(&request, false);
     let sweep = sweep(bat, model, &scene, &accuracy, &[0.8 * bat.length()])?;
     let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;
-    let spot = SweetSpot::within(&Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter));
-    spot.exit_speed_max.map(|peak| peak.x).ok_or_else(|| {
+    let looked = Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter);
+    looked.fastest().map(|peak| peak.x).ok_or_else(|| {
         Error::value(
             "impact.at",
             "no place at which a ball leaves fastest",
