@@ -160,7 +160,7 @@ fn compare(hit: &Hit) {
     let exact = collider(&finest);
     let truth = |x: &f64| {
         let met = exact.meet(&finest.felt(*x, mass, 80), &law, hit.closing(*x), 1e-11);
-        (met.impulse, met.late || met.reloads > 0)
+        (met.impulse, met.late || met.reloads > 0 || met.again())
     };
     let truths: Vec<(f64, bool)> = places.iter().map(truth).collect();
     let worst = |impulses: &[f64], late: bool| {

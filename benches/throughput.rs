@@ -19,7 +19,7 @@ use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Theory};
 
 const BATS: usize = 10_000;
-const TURNS: usize = 7;
+const TURNS: usize = 15;
 
 /// Even numbers between two.
 fn uniform() -> impl FnMut(f64, f64) -> f64 {
