@@ -241,6 +241,24 @@ fn a_study_that_reaches_nothing_says_so() {
     assert!(String::from_utf8_lossy(&output.stdout).starts_with("4 bats, 0 of them"));
 }
 
+/// A bat that is possible but strange is warned of by its name before the work: inches that are read as metres
+/// are no reason to stop, and none to compute a million rows without a word.
+#[test]
+fn a_strange_bat_is_warned_of() {
+    let text = r#"{ "format": "sweetspot-study/1", "bat": ["dowel", "long.json"], "outputs": ["f1_hz"], "points": 2,
+        "vary": { "bat.material.density": { "uniform": [600, 700] } } }"#;
+    let folder = study("study-strange", text);
+    let long = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+        "profile": { "x": [0, 33], "diameter": [1, 2.5] } }"#;
+    folder.write("long.json", long);
+    let output = folder.run(&["study", "study.json", "--out", "out"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!(lines.len(), 1, "{told}");
+    assert!(lines[0].starts_with("warning: long: length is 33 m"), "{told}");
+}
+
 /// What varies and changes nothing is warned of: the density of a bat that was weighed, the modulus of one that
 /// was tapped, what a hit needs where nothing is hit, what something else overrules.
 #[test]

@@ -235,9 +235,9 @@ impl Study {
         self.0.rows.numbers().into_iter().map(|k| columns[k][0].clone()).collect()
     }
 
-    /// What varies and changes nothing that is asked, as a sentence, if there is such a thing.
-    fn idle(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        free(py, || Ok(self.0.rows.idle()))
+    /// What is strange and stops nobody, a sentence each: of the bats, and of what varies without effect.
+    fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        free(py, || Ok(self.0.rows.warnings()))
     }
 
     /// The study as one text that needs no file.

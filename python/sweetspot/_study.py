@@ -49,9 +49,9 @@ class Study:
         """Rows of it from the text of a part, or of several without the heads of all but the first."""
         return StudyResult(text, self._core.numbers())
 
-    def idle(self) -> str | None:
-        """What varies and changes nothing that is asked, as a sentence, if there is such a thing."""
-        return self._core.idle()
+    def warnings(self) -> list[str]:
+        """What is strange and stops nobody: of the bats, and of what varies without effect on what is asked."""
+        return self._core.warnings()
 
     def part(self, k: int, jobs: int | None = None) -> bytes:
         """Part k as a CSV file, made on so many threads (all processors without)."""
@@ -214,12 +214,12 @@ def run_study(
 
     ``spec`` is the path of a study file or a dictionary with its members (its files are sought in ``folder``).
     With ``out`` the parts are kept in that folder, and parts that are there are not made again. ``jobs`` is a
-    number of threads. ``progress`` is told how many parts of how many are done. What varies without an effect on
-    anything that is asked is warned of.
+    number of threads. ``progress`` is told how many parts of how many are done. Bats that are strange, and
+    what varies without an effect on anything that is asked, are warned of.
     """
     study = Study(spec, folder)
-    if idle := study.idle():
-        warnings.warn(idle, stacklevel=2)
+    for strange in study.warnings():
+        warnings.warn(strange, stacklevel=2)
     if out is not None:
         out = Path(out)
         study.open(out)

@@ -112,8 +112,8 @@ def run(
     """Makes every part that is not there."""
     study = Study(spec)
     study.open(out)
-    if idle := study.idle():
-        print(f"warning: {idle}", file=sys.stderr)
+    for strange in study.warnings():
+        print(f"warning: {strange}", file=sys.stderr)
     parts = [k for k in range(study.parts) if study.kept(out, k, parquet) is None]
     done = study.parts - len(parts)
     for k, part in ENGINES[engine](study.shipped(), parts, workers, address) if parts else ():

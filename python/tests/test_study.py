@@ -221,6 +221,14 @@ def test_what_varies_without_effect_is_warned_of(tmp_path):
     assert "warning: nothing that is asked changes" in run(path, tmp_path / "out").stderr
 
 
+def test_a_strange_bat_is_warned_of(tmp_path):
+    bat = {"format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile": {"x": [0, 33], "diameter": [1, 2.5]}}
+    (tmp_path / "long.json").write_text(json.dumps(bat))
+    vary = {"bat.material.density": {"uniform": [600, 700]}}
+    with pytest.warns(UserWarning, match="long: length is 33 m"):
+        ss.run_study({"bat": "long.json", "points": 2, "vary": vary, "outputs": ["f1_hz"]}, folder=tmp_path)
+
+
 def test_columns_are_of_one_kind_whatever_is_in_them(tmp_path):
     (tmp_path / "market").mkdir()
     bat = {

@@ -72,9 +72,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let pairs = pairs(rows, &args.scatter)?;
     let folder = StudyFolder::open(&args.out, &study)?;
     // Before the work, which may take hours.
-    if let Some(idle) = rows.idle() {
-        warn(&idle);
-    }
+    rows.warnings().iter().for_each(|warning| warn(warning));
     let count = rows.count();
     let progress = Progress::new(args.quiet, "bats");
     let (begun, before) = (Instant::now(), folder.made());

@@ -140,9 +140,28 @@ impl Rows {
         on_the_bat(answers, bat)
     }
 
+    /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them, and of
+    /// what varies without effect.
+    pub fn warnings(&self) -> Vec<String> {
+        /// Of so many bats at most.
+        const TOLD: usize = 8;
+        let strange = self.bats.iter().filter_map(|bat| {
+            let document = bat.document.as_ref().ok()?.to_string();
+            let all = Bat::from_text(&bat.name, &document, Path::new("")).ok()?.warnings();
+            (!all.is_empty()).then(|| format!("{}: {}", bat.name, all.join("; ")))
+        });
+        let mut told: Vec<String> = strange.collect();
+        if told.len() > TOLD {
+            let more = told.split_off(TOLD).len();
+            told.push(format!("{more} more bats are strange in some way"));
+        }
+        told.extend(self.idle());
+        told
+    }
+
     /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.
     /// Some values of some bats are tried, with everything else as it is in one row.
-    pub fn idle(&self) -> Option<String> {
+    fn idle(&self) -> Option<String> {
         /// Bats, combinations of lists, and rows that are tried; values of a list.
         const SOME: u64 = 4;
         const VALUES: u64 = 8;
