@@ -84,8 +84,7 @@ fn written(outcome: &Outcome, answers: &[Answer]) -> (Bat, Vec<f64>) {
     let bat = Bat::from_text("new.json", &text, Path::new("")).unwrap();
     let asked = Asked { answers: answers.to_vec(), tolerance: 1e-5 };
     let scene = terms().hit.scene;
-    let trial =
-        |_: usize, _: &Bat| Ok(Trial { scene: scene.clone(), model: Model::Contact, barrel: None });
+    let trial = |_: usize, _: &Bat| Ok(Trial { scene: scene.clone(), model: Model::Contact });
     let found = Asked::of_each(&bat, vec![(&asked, Ok(bat.clone()))], trial).pop();
     let found = found.unwrap().unwrap();
     (bat, found.figures.into_iter().map(|figure| figure.unwrap().value).collect())
