@@ -242,7 +242,7 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
     let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, ..Scene::default() };
     let hitter =
         Hitter::new(model, &scene, bat, solution, Effort::default()).map_err(|e| e.to_string())?;
-    let looked = Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter);
+    let looked = Looked::outer(FEW, &hitter);
     let spot = SweetSpot::within(&looked);
     let mut impacts = Vec::new();
     for share in [0.0, 0.5, 0.75, 1.0] {

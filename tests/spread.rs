@@ -179,7 +179,7 @@ fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
     let request = Request { modes: 12, tolerance: 1e-6, ..Request::default() };
     let solution = solve(bat, &request).unwrap();
     let hitter = Hitter::new(Model::Contact, scene, bat, &solution, Default::default()).unwrap();
-    let looked = Looked::by([0.5 * bat.length(), bat.length()], (24, 1e-4), &hitter);
+    let looked = Looked::outer((24, 1e-4), &hitter);
     let best = looked.greatest(|seen| Some(seen.exit_speed)).unwrap();
     let [f1, f2] = [0, 1].map(|k| solution.modes[k].frequency());
     [bat.inertia().mass, f1, f2, best.x, best.value]

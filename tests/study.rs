@@ -232,6 +232,38 @@ fn no_place_beats_the_best_one() {
     }
 }
 
+/// What is sought on a barrel does not depend on what else is asked of it: to the last bit.
+#[test]
+fn an_answer_asked_alone_is_the_one_among_all() {
+    const SOUGHT: [&str; 9] = [
+        "exit_speed_max.value",
+        "exit_speed_max.x_m",
+        "zone_m[0]",
+        "zone_m[1]",
+        "vibration_min.value",
+        "vibration_min.x_m",
+        "bbcor_max",
+        "hands_velocity_min.value",
+        "hands_acceleration_min.value",
+    ];
+    let of = |asked: &[&str]| {
+        let text = format!(
+            r#"{{ "format": "sweetspot-study/1", "bat": ["dowel", "r161"], "points": 2, "outputs": {asked:?},
+                "vary": {{ "bat.material.density": {{ "lognormal": [650, 0.1] }} }} }}"#
+        );
+        let folder = study("study-alone", &text);
+        folder.text(&["study", "study.json", "--out", "out"]);
+        table(&folder, "out/part-000000.csv")
+    };
+    let all = of(&SOUGHT);
+    for name in SOUGHT {
+        let alone = of(&[name]);
+        for name in [name.to_owned(), format!("{name}_error")] {
+            assert_eq!(column(&alone, &name), column(&all, &name), "{name}");
+        }
+    }
+}
+
 /// Where no row at all is as accurate as asked, the exit code says so.
 #[test]
 fn a_study_that_reaches_nothing_says_so() {

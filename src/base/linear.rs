@@ -3,13 +3,17 @@
 use crate::base::real::Real;
 
 /// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
+///
+/// By plain loops: of a length that is known where it is called they leave its products alone.
 #[inline(always)]
 pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
     const BLOCK: usize = 1024;
     debug_assert_eq!(x.len(), y.len());
-    let mut total = R::default();
-    for (x, y) in x.chunks(BLOCK).zip(y.chunks(BLOCK)) {
-        total += short_dot(x, y);
+    let (mut total, mut from) = (R::default(), 0);
+    while from < x.len() {
+        let end = x.len().min(from + BLOCK);
+        total += short_dot(&x[from..end], &y[from..end]);
+        from = end;
     }
     total
 }
@@ -17,14 +21,16 @@ pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
 #[inline(always)]
 fn short_dot<R: Real>(x: &[R], y: &[R]) -> R {
     const SUMS: usize = 8;
-    let mut sums = [R::default(); SUMS];
-    let (x8, y8) = (x.chunks_exact(SUMS), y.chunks_exact(SUMS));
-    let mut rest = R::default();
-    x8.remainder().iter().zip(y8.remainder()).for_each(|(x, y)| rest += *x * *y);
-    for (x, y) in x8.zip(y8) {
+    let (mut sums, mut rest, mut from) = ([R::default(); SUMS], R::default(), 0);
+    while from + SUMS <= x.len() {
+        let (x, y) = (&x[from..from + SUMS], &y[from..from + SUMS]);
         for k in 0..SUMS {
             sums[k] += x[k] * y[k];
         }
+        from += SUMS;
+    }
+    for k in from..x.len() {
+        rest += x[k] * y[k];
     }
     let [a, b, c, d, e, f, g, h] = sums;
     rest + (((a + b) + (c + d)) + ((e + f) + (g + h)))

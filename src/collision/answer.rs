@@ -124,10 +124,12 @@ impl Hitter<'_> {
             let gains = modes.gains[..count].to_vec();
             self.with_wall(x, self.bent(x, Felt { gains, ..modes }, beyond))
         };
-        let others = || -> Vec<Felt> { few.iter().map(|few| of(*few)).collect() };
         let felt = of(count);
-        let beside = if known.is_none() { others() } else { vec![] };
-        let (met, accuracy) = self.meet_beside(x, &felt, &beside, closing, accuracy)?;
+        let beside = |few: &[usize], accuracy: f64| {
+            let others: Vec<Felt> = few.iter().map(|few| of(*few)).collect();
+            self.meet_beside(x, &felt, &others, closing, accuracy)
+        };
+        let (met, accuracy) = beside(if known.is_none() { &few } else { &[] }, accuracy)?;
         let from_other = |felt: &Felt, accuracy: f64, faster: f64| {
             let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
@@ -142,11 +144,17 @@ impl Hitter<'_> {
         let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
-                let changes: Vec<f64> = match answered.is_delicate() {
-                    true => others().iter().map(|other| from_other(other, accuracy, 1.0)).collect(),
-                    false => met.changes.iter().map(|by| by.abs() / (ball * closing)).collect(),
+                let again = known.and_then(|_| beside(&few, accuracy));
+                let changes = &again.as_ref().map_or(&met, |(again, _)| again).changes;
+                /// Change of the exit speed, relative to the closing speed, up to which a ball that is met again
+                /// takes it as its first order says.
+                const SMALL: f64 = 0.1;
+                let change = |(few, by): (&usize, &f64)| {
+                    let by = by.abs() / (ball * closing);
+                    let large = answered.is_delicate() && (by > SMALL || by.is_nan());
+                    (*few, if large { from_other(&of(*few), accuracy, 1.0) } else { by })
                 };
-                let left_out = answered.left_out(shears, few.iter().copied().zip(changes));
+                let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
                 let steps = answered.steps(|accuracy| from_other(&felt, accuracy, 1.0));
                 /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
                 const FEWER: f64 = 0.5;

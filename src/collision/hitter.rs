@@ -24,7 +24,7 @@ pub struct Hitter<'a> {
     pub(super) model: Model,
     pub(crate) scene: &'a Scene,
     pub(super) solution: &'a Solution,
-    pub(super) profile: &'a Profile,
+    pub(crate) profile: &'a Profile,
     pub(super) bat: RigidBat,
     pub(super) motion: RigidVelocity,
     pub(super) held: bool,

@@ -1,8 +1,8 @@
 //! How far the exit speed of a contact may be off: by the modes left out, by its steps, and by how
 //! much the hit magnifies small changes.
 //!
-//! Each comes from other answers to the same hit: with fewer modes (to first order where the ball is
-//! pressed once, [`crate::collision::contact::tangent`]), with finer steps, a little faster.
+//! Each comes from other answers to the same hit: with fewer modes (to first order,
+//! [`crate::collision::contact::tangent`]), with finer steps, a little faster.
 //! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of
 //! `validation/hits` are others, at which `validate --promise` looks.
 

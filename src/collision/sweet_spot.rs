@@ -70,8 +70,7 @@ impl SweetSpot {
     /// # }
     /// ```
     pub fn find(hitter: &Hitter) -> Self {
-        let length = hitter.struck.bat.length();
-        Self::within(&Looked::new([0.5 * length, length], hitter))
+        Self::within(&Looked::outer(FINE, hitter))
     }
 
     /// Searched on a stretch that was looked along.
@@ -113,14 +112,15 @@ pub struct Looked<'a> {
 }
 
 impl<'a> Looked<'a> {
-    /// Looks along that stretch (m).
-    pub fn new(ends: [f64; 2], hitter: &'a Hitter<'a>) -> Self {
-        Self::by(ends, FINE, hitter)
+    /// Looks along the outer half of the bat, as [`Self::by`] does along any stretch.
+    pub fn outer(look: (usize, f64), hitter: &'a Hitter<'a>) -> Self {
+        let length = hitter.profile.length();
+        Self::by([0.5 * length, length], look, hitter)
     }
 
-    /// Looks along it in so many steps, and locates places to that share of it: fewer steps do where the
-    /// best places are known to be near others, and a wider share where only their distance from
-    /// others is told.
+    /// Looks along a stretch (m) in so many steps, and locates places to that share of it: fewer steps do where
+    /// the best places are known to be near others, and a wider share where only their distance from others is
+    /// told.
     pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = ends[1] - ends[0];
         let place = |k: usize| ends[0] + length * k as f64 / steps as f64;

@@ -490,7 +490,7 @@ impl Analysed<'_> {
         let swing = self.law.map_or(self.scene.swing, |law| law.swing(bat));
         let scene = Scene { swing, ..self.scene.clone() };
         let hitter = Hitter::new(self.model, &scene, bat, &solution, self.hits.effort)?;
-        let looked = Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter);
+        let looked = Looked::outer(FEW, &hitter);
         let peak = looked.fastest();
         let hit = peak.map(|peak| ([peak.x, peak.value], looked.zone(peak)));
         let hit = answers(bat, &solution, hit);

@@ -12,6 +12,7 @@ use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::pressing::{LEVELS, Means, Run, USUAL};
 use crate::collision::contact::table::{Piece, StepTable};
+use crate::collision::contact::tangent::Tangent;
 use crate::collision::contact::touch::{Felt, State, Swings, Touch, Tuning};
 
 /// A bat's modes in time, for any impact point: the tables are shared.
@@ -212,7 +213,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             }
             met.time += run.now.time - began;
             self.part(&mut run, &mut met);
-            let flight = self.fly(&mut run.now, [f64::NEG_INFINITY, 0.0], longest);
+            let flight = self.fly(&mut run, [f64::NEG_INFINITY, 0.0], longest);
             if flight == Landing::Open || met.touches == MOST_TOUCHES && flight == Landing::Meets {
                 met.open = self.most_that_follows(&run.now);
                 break;
@@ -233,7 +234,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     /// Lets ball and bat move while there is next to no force; whether it comes back.
     fn glide(&self, run: &mut Run, means: &mut Means, between: [f64; 2]) -> bool {
         let start = run.now.time;
-        let landing = self.fly(&mut run.now, between, f64::INFINITY);
+        let landing = self.fly(run, between, f64::INFINITY);
         let length = run.now.time - start;
         means.record(Piece { start, length, powers: [0.0; POINTS] });
         landing == Landing::Meets
@@ -248,10 +249,9 @@ impl<L: ForceLaw> Touch<'_, L> {
         (met.impulse, met.end) = (now.impulse, now.time);
         if met.touches == 1 {
             (met.first_impulse, met.first_end) = (met.impulse, met.end);
-            met.changes = tangents.drain(..).map(|tangent| tangent.impulse()).collect();
-        } else {
-            met.changes.clear();
         }
+        met.changes.clear();
+        met.changes.extend(tangents.iter_mut().map(Tangent::part));
         (met.lost_in_ball, met.lost_in_bat) = (now.spent, now.lost);
         met.in_modes = (0..self.felt.gains.len()).map(|n| self.in_mode(now, n)).collect();
     }

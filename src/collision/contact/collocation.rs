@@ -59,9 +59,9 @@ impl Lobatto {
     #[inline(always)]
     pub fn through(&self, values: &[f64; POINTS]) -> [f64; POINTS] {
         let mut sum = [0.0; POINTS];
-        for (value, powers) in values.iter().zip(&self.powers) {
-            for (sum, p) in sum.iter_mut().zip(powers) {
-                *sum += value * p;
+        for j in 0..POINTS {
+            for k in 0..POINTS {
+                sum[k] += values[j] * self.powers[j][k];
             }
         }
         sum
@@ -83,7 +83,11 @@ pub fn sum(lanes: Lanes) -> f64 {
 /// The value of a polynomial with those coefficients.
 #[inline(always)]
 pub fn polynomial(coefficients: &[f64; POINTS], s: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
+    let mut sum = 0.0;
+    for k in (0..POINTS).rev() {
+        sum = sum * s + coefficients[k];
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -67,8 +67,7 @@ pub struct Encounter {
     pub open: f64,
     /// Steps that were tried.
     pub steps: usize,
-    /// Change of the impulse (N s) for each bat beside this one, to first order; none where the ball
-    /// was pressed anew or met again.
+    /// Change of the impulse (N s) for each bat beside this one, to first order.
     pub changes: Vec<f64>,
     /// The steps came to no end.
     pub endless: bool,

@@ -43,7 +43,7 @@ pub(super) struct Run {
     pub steps: usize,
     /// What the force does to the compression, of levels that were needed.
     pub couplings: Vec<(usize, Coupling)>,
-    /// What is followed beside it, to the end of the first touch.
+    /// What is followed beside it.
     pub tangents: Vec<Tangent>,
     /// Any state within a step.
     pub between: State,
@@ -143,15 +143,11 @@ impl<L: ForceLaw> Touch<'_, L> {
             Some(event) => self.stop_short(event, limits, step, run),
         };
         let Some(Part { off, piece, course }) = taken else { return Taken::Finer };
-        match event {
-            Some(Event::Again) => run.tangents.clear(),
-            _ if run.tangents.is_empty() => {}
-            _ => {
-                let Run { now, next, top, tangents, between, .. } = &mut *run;
-                let (top, coupling, step) = (*top, &coupling, &step);
-                let walked = Walked { now, next, top, table, coupling, step, event };
-                self.follow(tangents, between, walked);
-            }
+        if !run.tangents.is_empty() {
+            let Run { now, next, top, tangents, between, .. } = &mut *run;
+            let (top, coupling, step) = (*top, &coupling, &step);
+            let walked = Walked { now, next, top, table, coupling, step, event };
+            self.follow(tangents, between, walked);
         }
         met.corrected += off;
         means.record(piece);

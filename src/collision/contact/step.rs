@@ -342,8 +342,13 @@ pub(super) fn eliminate<const SIDES: usize>(
 ) -> [[f64; SIDES]; AHEAD] {
     for c in 0..AHEAD {
         let inverse = 1.0 / matrix[c][c];
-        let row = matrix[c].map(|part| part * inverse);
-        let value = left[c].map(|part| part * inverse);
+        let (mut row, mut value) = (matrix[c], left[c]);
+        for j in 0..AHEAD {
+            row[j] *= inverse;
+        }
+        for j in 0..SIDES {
+            value[j] *= inverse;
+        }
         for i in 0..AHEAD {
             let factor = if i == c { 0.0 } else { matrix[i][c] };
             for j in 0..AHEAD {

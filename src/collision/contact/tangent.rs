@@ -10,9 +10,8 @@
 //! δF = ∂F/∂x δx + ∂F/∂x_m δx_m    on the way back, with the δx_m = δx of the moment it turned
 //! ```
 //!
-//! When it turns and when it is gone come at other moments too, which is of second order: the rate of
-//! x is 0 at the first, and the force at the second. A ball that is pressed anew, or met again, is not
-//! followed: there a small change may be magnified.
+//! When it turns, when it is gone, met again or pressed anew come at other moments too, which is of second
+//! order: the rate of x is 0 at the first of these, and the force is the same on both sides of all others.
 //!
 //! # Source
 //!
@@ -33,7 +32,7 @@ pub(super) struct Tangent {
     weights: Vec<Lanes>,
     /// δC (m/N).
     rest: f64,
-    /// δx_m (m), once the ball is on its way back.
+    /// δx_m (m), where the ball is on its way back.
     top: f64,
     /// `q` (m) at the points ahead of a step.
     given: [f64; AHEAD],
@@ -42,9 +41,16 @@ pub(super) struct Tangent {
 }
 
 impl Tangent {
-    /// Change of the impulse so far (N s).
-    pub(super) fn impulse(&self) -> f64 {
+    /// Change of the impulse (N s) by the moment when the ball leaves.
+    pub(super) fn part(&mut self) -> f64 {
+        (self.now.force, self.top) = (0.0, 0.0);
         self.now.impulse
+    }
+
+    /// The difference now, while no force acts.
+    pub(super) fn free(&mut self) -> &mut State {
+        self.now.force = 0.0;
+        &mut self.now
     }
 }
 
@@ -122,7 +128,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                     self.moved(moves, &tangent.now, &change, time, &mut tangent.next);
                 }
             }
-            if event == Some(Event::Turned) {
+            if matches!(event, Some(Event::Turned | Event::Again)) {
                 let slope = law.slope(next.compression, next.force, None);
                 let given = self.given(tangent, next, next.force);
                 tangent.top = (self.reach(&tangent.next) + given) / (1.0 + rest * slope);
@@ -201,14 +207,28 @@ mod tests {
         assert!(met.changes[0].abs() > 1e-5 * met.impulse);
     }
 
-    /// A dead ball is pressed anew by the ringing bat: then nothing is said.
+    /// A dead ball is pressed anew by the ringing bat and met again, which magnifies: the derivative is known
+    /// all the same.
     #[test]
-    fn where_the_ball_is_pressed_anew_there_is_no_tangent() {
+    fn where_the_ball_is_met_again_the_change_is_the_derivative_too() {
+        const SHARE: f64 = 1e-6;
         let law = PowerLaw::new(6.53e7, 1.84, 0.1);
-        let felt = Felt { gains: vec![6.0, 9.0, 12.0], ..bat() };
-        let others = [other(0, 0.0)];
-        let met = Collider::new(&MODES, 8e-5).meet_beside(&felt, &others, &law, 60.0, 1e-3);
+        let struck = |which, share| {
+            let felt = other(which, share);
+            Felt {
+                gains: felt.gains.iter().zip([12.0, 11.0, 12.0]).map(|(c, by)| c * by).collect(),
+                ..felt
+            }
+        };
+        let collider = Collider::new(&MODES, 8e-5);
+        let others: Vec<Felt> = (0..4).map(|which| struck(which, SHARE)).collect();
+        let met = collider.meet_beside(&struck(4, 0.0), &others, &law, 60.0, 1e-9);
         assert!(met.reloads > 0 || met.again(), "{met:?}");
-        assert!(met.changes.is_empty());
+        for (which, change) in met.changes.iter().enumerate() {
+            let at = |share| collider.meet(&struck(which, share), &law, 60.0, 1e-9).impulse;
+            let difference = 0.5 * (at(SHARE) - at(-SHARE));
+            let off = (change - difference).abs();
+            assert!(off < 1e-3 * difference.abs(), "{which} {change} {difference}");
+        }
     }
 }

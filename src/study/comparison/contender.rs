@@ -149,7 +149,7 @@ impl Contender {
         sweep: Sweep,
     ) -> Result<Self> {
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
-        let sought = Sought::new(&bat, &hitter, terms.look);
+        let sought = Sought::new(&hitter, terms.look);
         let spot = SweetSpot::within(&sought.looked);
         let best = spot.exit_speed_max.map(|peak| sought.best(peak));
         let zone = spot.exit_speed_max.zip(spot.zone);
@@ -221,9 +221,9 @@ pub struct Sought<'a> {
 
 impl<'a> Sought<'a> {
     /// Looks along the outer half of that hitter's bat, in so many steps; places are located to that share of it.
-    pub fn new(bat: &Bat, hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
-        let length = bat.length();
-        let looked = Looked::by([0.5 * length, length], look, hitter);
+    pub fn new(hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
+        let looked = Looked::outer(look, hitter);
+        let length = hitter.profile.length();
         Self { looked, length, located: LOCATED.max(0.5 * look.1), hitter }
     }
 

@@ -240,7 +240,7 @@ impl Searched {
         let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
         // What is asked of a place needs no search.
         let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
-            .then(|| Sought::new(bat, &hitter, FEW));
+            .then(|| Sought::new(&hitter, FEW));
         let sought = |which| sought.as_ref().filter(|_| asked(which));
         let fastest = sought(|answer| {
             matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))

@@ -315,7 +315,7 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let accuracy = Hit { model, scene: &scene }.accuracy(&request, false);
     let sweep = sweep(bat, model, &scene, &accuracy, &[0.8 * bat.length()])?;
     let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;
-    let looked = Looked::by([0.5 * bat.length(), bat.length()], FEW, &hitter);
+    let looked = Looked::outer(FEW, &hitter);
     looked.fastest().map(|peak| peak.x).ok_or_else(|| {
         Error::value(
             "impact.at",
