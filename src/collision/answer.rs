@@ -155,7 +155,7 @@ impl Hitter<'_> {
                     (*few, if large { from_other(&of(*few), accuracy, 1.0) } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let steps = answered.steps(|accuracy| from_other(&felt, accuracy, 1.0));
+                let steps = answered.steps(left_out, |accuracy| from_other(&felt, accuracy, 1.0));
                 /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
                 const FEWER: f64 = 0.5;
                 // A wall of fewer modes, and one softer by all that may be missing.

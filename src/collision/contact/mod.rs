@@ -7,10 +7,10 @@
 //! | [`touch`] | what is felt at the place; the state of ball and bat |
 //! | [`table`], [`step`], [`energy`] | what a step does to the modes; one step; its energy put right |
 //! | [`events`] | where the force turns, ends or begins again |
-//! | [`flight`] | when do they touch again |
 //! | [`tangent`] | what would another bat change, to first order |
 //! | [`encounter`] | the equations; what an encounter leaves behind |
-//! | [`pressing`], [`collider`] | one touch; the whole encounter, until the ball is gone for good |
+//! | [`pressing`], [`flight`] | one touch; when do they touch again |
+//! | [`collider`] | the whole encounter, until the ball is gone for good |
 //! | [`power_law`] | the law of a baseball: how hard it pushes back |
 
 pub mod force_law;
@@ -20,9 +20,9 @@ pub mod table;
 pub mod step;
 pub mod energy;
 pub mod events;
-pub mod flight;
 pub mod tangent;
 pub mod encounter;
 pub mod pressing;
+pub mod flight;
 pub mod collider;
 pub mod power_law;
