@@ -152,7 +152,13 @@ fn not_before(way: f64, rate: f64, bend: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::not_before;
+    use faer::c64;
+
+    use super::*;
+    use crate::base::golden;
+    use crate::collision::contact::collocation::Lobatto;
+    use crate::collision::contact::power_law::PowerLaw;
+    use crate::collision::contact::touch::{Felt, Swings, Tuning};
 
     #[test]
     fn a_growth_takes_at_least_that_long() {
@@ -164,5 +170,88 @@ mod tests {
         assert_eq!(not_before(f64::INFINITY, -2.0, 0.0), f64::INFINITY);
         assert_eq!([-2.0, 0.0].map(|rate| not_before(0.01, rate, 0.0)), [f64::INFINITY; 2]);
         assert_eq!(not_before(-0.01, -2.0, 1e4), 0.0);
+    }
+
+    /// Longer looks, against looks that are short: at the end of a flight ball and bat are where it says, moving as
+    /// it says, and on the way there they were never beyond a level; whatever rings, from both kinds of starts.
+    #[test]
+    fn a_flight_passes_no_level_and_ends_at_one() {
+        const MODES: usize = 6;
+        let (rule, longest) = (Lobatto::default(), 0.1);
+        let mut seen = [0; 4];
+        for k in 0..400 {
+            let number = |i: usize| golden::fraction((20 * k + i).pow(2));
+            let ratio = if k % 3 == 0 { 0.02 * number(0) } else { 0.0 };
+            let pole = |n: usize| {
+                let omega = 900.0 * (1 + n * n) as f64 * (1.0 + number(n + 1));
+                c64::new(-ratio * omega, omega)
+            };
+            let poles: Vec<c64> = (0..MODES.next_multiple_of(LANES)).map(pole).collect();
+            let gain = |n: usize| if n < MODES { 1.0 } else { 0.0 };
+            let lanes = (0..poles.len()).step_by(LANES);
+            let felt = Felt { inverse_mass: 8.0, gains: vec![1.0; MODES], rest: 0.0 };
+            let touch = Touch {
+                rule: &rule,
+                poles: &poles,
+                swings: lanes
+                    .map(|n| Swings::new(std::array::from_fn(|l| (poles[n + l], gain(n + l)))))
+                    .collect(),
+                felt: &felt,
+                damped: ratio > 0.0,
+                law: PowerLaw::new(6.53e7, 1.84, 0.5),
+                speed: 60.0,
+                energy: 200.0,
+                deepest: 0.01,
+                way: 0.01,
+                accuracy: 1e-6,
+                tuning: Tuning::default(),
+            };
+            let mut start = State::at_first(touch.swings.len(), -20.0 * number(19).powi(2));
+            for n in 0..MODES {
+                let size = 8.0 * poles[n].im.powf(0.3 * number(18)) * number(n + 7);
+                let angle = std::f64::consts::TAU * number(n + 13).sqrt();
+                start.remember(n, size * c64::new(angle.cos(), angle.sin()));
+            }
+            // At the upper level, and on its way from it.
+            start.closing -= touch.reach(&start);
+            let away = touch.rate(&start);
+            start.speed -= if away > 0.0 { 1.5 * away } else { 0.0 };
+            let low = if k % 2 == 0 { f64::NEG_INFINITY } else { -1e-3 * number(6) };
+            let still = State::at_first(touch.swings.len(), 0.0);
+            let mut run = Run {
+                now: start.clone(),
+                next: still.clone(),
+                top: None,
+                last: None,
+                level: 0,
+                faint: false,
+                steps: 0,
+                couplings: vec![],
+                tangents: vec![],
+                between: still,
+            };
+            let landing = touch.fly(&mut run, [low, 0.0], longest);
+            let (flown, scale) = (run.now.time, 1e-9 * start.closing.abs() + 1e-12);
+            let (reach, rate) = (touch.reach(&run.now), touch.rate(&run.now));
+            match landing {
+                Landing::Meets => assert!(reach.abs() < scale && rate > 0.0, "{k} {reach}"),
+                Landing::Parts => assert!((reach - low).abs() < scale && rate < 0.0, "{k} {reach}"),
+                Landing::Gone => {}
+                Landing::Open => panic!("{k}: no end"),
+            }
+            seen[landing as usize] += 1;
+            // A ball that is gone stays away.
+            let looked = if landing == Landing::Gone { longest } else { flown };
+            let fastest = poles[MODES - 1].im;
+            let step = looked / (20.0 * looked * fastest).ceil().max(20.0);
+            let mut slow = start;
+            while slow.time + 1.5 * step < looked {
+                touch.drift(&mut [&mut slow], step);
+                let reach = touch.reach(&slow);
+                assert!((low - scale..scale).contains(&reach), "{k} {reach} at {}", slow.time);
+            }
+        }
+        let [meets, parts, gone, _] = seen;
+        assert!(meets > 50 && parts > 50 && gone > 50, "{seen:?}");
     }
 }
