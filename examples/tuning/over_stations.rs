@@ -22,7 +22,7 @@ const BATS: [&str; 6] =
     ["r161", "torpedo", "cone", "northwestern_wood", "northwestern_aluminium", "two_piece"];
 
 fn on(bat: &Bat, plan: &Plan, request: &Request, residual: f64) -> Result<Solution> {
-    let task = Task { bat, plan, request, residual, coarse: None };
+    let task = Task { bat, plan, request, residual };
     Ok(task.run(&mut Timing::default())?.solution(plan.clone(), request, Timing::default()).0)
 }
 

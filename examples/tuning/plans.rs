@@ -17,7 +17,7 @@ use sweetspot::{Bat, Request, Result, Theory};
 
 /// The solution on that plan, and the shortest time of some (s).
 fn on(bat: &Bat, plan: &Plan, request: &Request, residual: f64) -> Result<(Solution, f64)> {
-    let task = Task { bat, plan, request, residual, coarse: None };
+    let task = Task { bat, plan, request, residual };
     let mut shortest = f64::INFINITY;
     for _ in 0..10 {
         let started = Instant::now();

@@ -11,7 +11,7 @@ impl<R: Real> View<'_, R> {
     /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
     /// the moments there.
     #[inline(always)]
-    pub fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
+    fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
         let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
         let balance = self.balance * scale;
         let (cells, springs) = out.split_at_mut(self.strains * self.count);

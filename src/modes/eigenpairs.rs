@@ -73,24 +73,6 @@ where
         self.iterate(self.wanted(count, residual, earliest))
     }
 
-    /// Finds the `count` slowest motions to that residual from the caller's start vector: bending
-    /// moments as [`View::strains_of_moments`] asks for them.
-    ///
-    /// # Errors
-    ///
-    /// As [`Lanczos::largest`].
-    pub fn solve_from(
-        &mut self,
-        count: usize,
-        residual: f64,
-        moments: impl FnMut(&mut [R]),
-    ) -> Result<()> {
-        let wanted = self.wanted(count, residual, 0);
-        let mut start = vec![R::default(); self.statics.dimension()];
-        self.statics.view().strains_of_moments(&mut start, moments);
-        self.run(wanted, &[], &mut |_, next| next.copy_from_slice(&start))
-    }
-
     /// Takes that many steps and no more, whatever residual that leaves: [`Motion::defect`] tells.
     ///
     /// # Errors

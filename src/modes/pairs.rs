@@ -30,17 +30,6 @@ pub trait Pairs: Send + Sync {
     ///
     /// As [`Lanczos::largest`].
     fn solve(&mut self, count: usize, residual: f64) -> Result<()>;
-    /// As [`Eigenpairs::solve_from`].
-    ///
-    /// # Errors
-    ///
-    /// As [`Lanczos::largest`].
-    fn solve_from(
-        &mut self,
-        count: usize,
-        residual: f64,
-        moments: &mut dyn FnMut(&mut [f64]),
-    ) -> Result<()>;
     /// As [`Eigenpairs::solve_apart`].
     ///
     /// # Errors
@@ -78,15 +67,6 @@ impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
 
     fn solve(&mut self, count: usize, residual: f64) -> Result<()> {
         Self::solve(self, count, residual)
-    }
-
-    fn solve_from(
-        &mut self,
-        count: usize,
-        residual: f64,
-        moments: &mut dyn FnMut(&mut [f64]),
-    ) -> Result<()> {
-        Self::solve_from(self, count, residual, moments)
     }
 
     fn solve_apart(&mut self, residual: f64) -> Result<usize> {

@@ -111,8 +111,7 @@ const MOST_MODES: usize = 2000;
 const MOST_GIGABYTES: f64 = 8.0;
 /// Residual of an eigenpair that is as good as arithmetic allows.
 pub const CONVERGED: f64 = 1e-13;
-/// Beyond so many unknowns the iteration starts from a coarse solution; `examples/tuning/coarse_start.rs`
-/// prints what that costs and saves.
+/// Modes of more unknowns are looked at each alone, not side by side.
 pub const LARGE: usize = 20_000;
 /// Modes of a large mesh that are looked at at a time, each by a thread of its own: more would take
 /// the memory of the mesh once more.

@@ -118,18 +118,6 @@ impl Shape {
         [w, turn, bend * scale, slope * scale - turn]
     }
 
-    /// `Σ part · shape` of shapes on one mesh.
-    pub fn sum(parts: &[(f64, &Self)]) -> Self {
-        let mut sum = parts[0].1.clone();
-        sum.coefficients.iter_mut().chain(&mut sum.turns).for_each(|w| *w = 0.0);
-        for (part, shape) in parts {
-            let all = sum.coefficients.iter_mut().zip(&shape.coefficients);
-            let turns = sum.turns.iter_mut().zip(&shape.turns);
-            all.chain(turns).for_each(|(sum, w)| *sum += part * w);
-        }
-        sum
-    }
-
     /// Length of the bat (m).
     pub fn length(&self) -> f64 {
         self.stretches.last().map_or(0.0, |(middle, length)| middle + 0.5 * length)

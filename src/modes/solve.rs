@@ -11,8 +11,8 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::modes::damping::damping;
 use crate::modes::plan::{Plan, Reason};
-use crate::modes::request::{CONVERGED, LARGE};
-use crate::modes::task::{Moments, Task};
+use crate::modes::request::CONVERGED;
+use crate::modes::task::Task;
 
 pub use crate::modes::referee::{MOST_DENSE, Solver, own_and_recomputed};
 pub use crate::modes::request::{Request, stop_at, wanted};
@@ -83,7 +83,6 @@ pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result
 
 /// The best solution on this plan and those that follow from its errors.
 fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> Result<Solution> {
-    let coarse = coarse(bat, &plan, request);
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
     if !bat.fixtures().none_moving() {
@@ -91,7 +90,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
         residual = residual.min(request.tolerance).max(CONVERGED);
     }
     for round in 0..MOST_ROUNDS {
-        let task = Task { bat, plan: &plan, request, residual, coarse: coarse.as_ref() };
+        let task = Task { bat, plan: &plan, request, residual };
         let answer = match (task.run(&mut timing), &mut best) {
             (Ok(answer), _) => answer,
             (Err(error), Some(best)) => {
@@ -131,20 +130,6 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
         plan = next;
     }
     Ok(best.expect("there was a round"))
-}
-
-/// Where the iteration on a large mesh starts; None where the mesh is not large or not the user's
-/// own, and where there is no small and certain coarse solution: that of a bat of many stations is
-/// large too.
-fn coarse<'a>(bat: &'a Bat, plan: &Plan, request: &Request) -> Option<Moments<'a>> {
-    let large = plan.unknowns() > LARGE && request.modes > 0;
-    let own = request.elements.is_some() && request.solver == Solver::Statics;
-    if !large || !own || bat.profile().pieces.len() > LARGE / 16 {
-        return None;
-    }
-    let wanted = Request { tolerance: 1e-12, elements: None, degree: None, ..*request };
-    let coarse = solve(bat, &wanted).ok().filter(Solution::complete)?;
-    Some(Moments::of(bat, &coarse))
 }
 
 /// The most accurate answer that a time allows: one digit after the other, until the next would

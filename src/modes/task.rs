@@ -18,7 +18,7 @@ use crate::beam::view::View;
 use crate::eigen::lanczos::Lanczos;
 use crate::modes::certificate::{account, add_neighbours, add_round_off, is_twin};
 use crate::modes::damping::Damping;
-use crate::modes::mode::{Mode, Shape};
+use crate::modes::mode::Mode;
 use crate::modes::pairs::{Pairs, pairs_of};
 use crate::modes::plan::Plan;
 use crate::modes::referee::{Found, Solver};
@@ -72,8 +72,6 @@ pub struct Task<'a> {
     pub request: &'a Request,
     /// Residual of the eigenpairs.
     pub residual: f64,
-    /// Where a large mesh starts.
-    pub coarse: Option<&'a Moments<'a>>,
 }
 
 impl Task<'_> {
@@ -153,7 +151,7 @@ impl Task<'_> {
 
     /// Scaled strains of the wanted modes.
     fn strains(&self, pairs: &mut dyn Pairs) -> Result<Found> {
-        let Self { bat, plan, request, residual, coarse } = *self;
+        let Self { bat, plan, request, residual } = *self;
         if request.modes == 0 {
             return Ok(Found::default());
         }
@@ -162,12 +160,7 @@ impl Task<'_> {
         }
         let most = (request.modes + MOST_TWINS).min(pairs.view().freedom());
         for count in request.modes..=most {
-            match coarse {
-                Some(coarse) => {
-                    pairs.solve_from(count, residual, &mut |places| coarse.at(places))?
-                }
-                None => pairs.solve(count, residual)?,
-            }
+            pairs.solve(count, residual)?;
             let Lanczos { values, beyond, .. } = pairs.lanczos();
             let twin = |beyond: f64| is_twin(beyond / values[count - 1], count);
             if !beyond.is_some_and(twin) {
@@ -268,29 +261,3 @@ fn none_missing(
 
 /// So many motions beyond the wanted ones are looked at where they are near twins of these.
 const MOST_TWINS: usize = 4;
-
-/// Bending moments of all wanted modes together, from a coarse solution: a start from which the
-/// iteration needs as many steps as there are modes and hardly more.
-pub struct Moments<'a> {
-    bat: &'a Bat,
-    /// The sum of the shapes, each with the same strain energy.
-    sum: Shape,
-}
-
-impl<'a> Moments<'a> {
-    /// Those of a bat's coarse solution.
-    pub fn of(bat: &'a Bat, coarse: &Solution) -> Self {
-        let scale = |mode: &Mode| 1.0 / (mode.omega * mode.modal_mass.sqrt());
-        let parts: Vec<_> = coarse.modes.iter().map(|mode| (scale(mode), &mode.shape)).collect();
-        Self { bat, sum: Shape::sum(&parts) }
-    }
-
-    /// Replaces places, 0 to 1 along the bat, by the bending moments there.
-    fn at(&self, places: &mut [f64]) {
-        let length = self.bat.length();
-        for place in places {
-            let x = *place * length;
-            *place = self.bat.worth_at(x).bending * self.sum.curvature(x);
-        }
-    }
-}

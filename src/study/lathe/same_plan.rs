@@ -52,7 +52,7 @@ impl SamePlan {
         mesh.fit(bat, &self.mesh);
         let plan = Plan { mesh, degree: self.degree, ..Plan::default() };
         let (request, mut timing) = (&self.request, Timing::default());
-        let task = Task { bat, plan: &plan, request, residual: RESIDUAL, coarse: None };
+        let task = Task { bat, plan: &plan, request, residual: RESIDUAL };
         let answer = task.run(&mut timing)?;
         let (mut solution, _) = answer.solution(plan, request, timing);
         solution.damping = damping(bat, solution.elements(), &solution.modes, request.tolerance)?;
