@@ -98,6 +98,13 @@ fn a_hit_is_the_one_that_hit_computes() {
     let folder = study("study-hits", text);
     folder.text(&["study", "study.json", "--out", "out"]);
     let table = table(&folder, "out/part-000000.csv");
+    // A list of one unit is a column of numbers in it.
+    assert_eq!(column(&table, "scene.pitch"), [80.0, 80.0, 90.0, 90.0]);
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+    let columns = manifest["columns"].as_array().unwrap();
+    let pitch = columns.iter().find(|column| column["name"] == "scene.pitch").unwrap();
+    assert_eq!(pitch["unit"], "mph");
     let speeds = column(&table, "exit_speed_m_s@0.65");
     let errors = column(&table, "exit_speed_m_s@0.65_error");
     let best = column(&table, "exit_speed_max.value");
@@ -154,7 +161,7 @@ fn a_bat_that_cannot_exist_is_a_row_with_its_reason() {
 fn the_first_row_is_a_row_as_all_others() {
     for (varied, outputs, bats, good) in [
         (r#""bat.material.density": { "values": [-5, 700] }"#, r#""f1_hz""#, 2, 1),
-        (r#""bat.material.density": { "grid": [0, 700, 8] }"#, r#""f1_hz""#, 8, 7),
+        (r#""bat.material.density": { "grid": [0, 1000, 5] }"#, r#""f1_hz""#, 5, 4),
         // Of 64 points of Sobol's an eighth lies in the last eighth.
         (r#""bat.material.density": { "uniform": [-700, 100] }"#, r#""mass_kg""#, 64, 8),
         (r#""scene.pitch": { "values": ["-3 mph", "83 mph"] }"#, r#""exit_speed_m_s@0.7""#, 2, 1),
@@ -174,10 +181,11 @@ fn the_first_row_is_a_row_as_all_others() {
         // Hands that are beside the bat hold nothing, and nothing is hit.
         (r#""scene.hands": { "values": ["2 m"] }"#, r#""mass_kg""#, 1, 1),
     ] {
+        let points = if varied.contains("uniform") { r#""points": 64,"# } else { "" };
         let folder = study(
             "study-first",
             &format!(
-                r#"{{ "format": "sweetspot-study/1", "bat": "dowel.json", "points": 64,
+                r#"{{ "format": "sweetspot-study/1", "bat": "dowel.json", {points}
                       "vary": {{ {varied} }}, "outputs": [{outputs}] }}"#
             ),
         );
@@ -340,7 +348,34 @@ fn what_varies_without_effect_is_warned_of() {
         let path = varied.split('"').nth(1).unwrap();
         let warns = told.contains(&format!("nothing that is asked changes with {path}"));
         assert!(output.status.success() && warns == idle, "{varied} {outputs}: {told}");
-        assert!(idle || told.is_empty(), "{told}");
+        let drawn = varied.contains("uniform") || varied.contains("normal");
+        assert_eq!(told.contains("points of the study: nothing is drawn"), !drawn, "{told}");
+        assert!(idle || !drawn || told.is_empty(), "{told}");
+    }
+}
+
+/// What is strange only as the study varies it is warned of: inches that are read as metres, speeds without a unit.
+#[test]
+fn what_is_strange_as_it_varies_is_warned_of() {
+    for (scene, varied, says) in [
+        ("", r#""bat.profile.unit": { "values": ["in", "m"] }"#, "warning: dowel: length is 33 m"),
+        ("", r#""scene.pitch": { "uniform": [80, 90] }"#, "warning: scene.pitch is 85 m/s; usual"),
+        ("", r#""scene.swing_speed": { "values": [45, 450] }"#, "scene.swing_speed is 450 rad/s"),
+        (
+            r#""bat_speed": 72"#,
+            r#""ball.cor": { "grid": [0.4, 0.5, 2] }"#,
+            "scene.bat_speed is 72 m/s",
+        ),
+        ("", r#""scene.pitch": { "uniform": ["80 mph", "90 mph"] }"#, ""),
+    ] {
+        let text = format!(
+            r#"{{ "format": "sweetspot-study/1", "bat": "dowel.json", "scene": {{ {scene} }},
+                  "vary": {{ {varied} }}, "tol": 1e-2, "outputs": ["exit_speed_m_s@0.7"] }}"#
+        );
+        let folder = study("study-strange", &text);
+        let told = folder.run(&["study", "study.json", "--out", "out"]).stderr;
+        let told = String::from_utf8_lossy(&told);
+        assert!(told.contains(says) && told.is_empty() == says.is_empty(), "{varied}: {told}");
     }
 }
 
@@ -426,7 +461,7 @@ fn a_bat_of_a_table_has_its_columns() {
 #[test]
 fn no_shares_are_told_of_what_is_left_of_a_distribution() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json", "outputs": ["mass_kg"],
-      "vary": { "bat.material.density": { "normal": [100, 60] } }, "points": 256 }"#;
+      "vary": { "bat.material.density": { "normal": [700, 420] } }, "points": 256 }"#;
     let folder = study("study-tail", text);
     let said =
         folder.text(&["study", "study.json", "--out", "out", "--summary", "--plots", "plots"]);
@@ -780,7 +815,8 @@ fn a_wrong_study_is_refused_with_its_place() {
             "one correlation of each two paths",
         ),
         ("\"points\": 50", "\"scene\": { \"pitch\": \"9 lb\" }", "pitch"),
-        ("dowel.json", "dowl.json", "dowl.json"),
+        ("dowel.json", "dowl.json", "wrong.json:3:10: bat: found dowl.json: No such file"),
+        ("\"points\": 50", "\"ball\": \"tennis.json\"", "wrong.json:9:11: ball: found tennis.json"),
     ] {
         assert!(SCATTER.contains(from), "{from}");
         folder.write("wrong.json", SCATTER.replace(from, to));

@@ -198,16 +198,10 @@ impl SceneArgs {
         self.setup()?.model().map_err(as_options)
     }
 
-    /// Warns of speeds that nobody has, most likely bare numbers in other units.
+    /// Warns of speeds that nobody has.
     pub fn warn(&self, output: &OutputArgs) {
-        for (option, value, most, unit, hint) in [
-            ("--pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
-            ("--swing-speed", self.swing_speed.abs(), 100.0, "rad/s", "about 43 rad/s"),
-        ] {
-            if value > most {
-                let told = format!("warning: {option} is {value} {unit}; usual is {hint}");
-                output.warn(&told);
-            }
+        for (member, strange) in self.setup().iter().flat_map(Setup::warnings) {
+            output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
         }
     }
 }

@@ -107,6 +107,20 @@ impl Setup {
         "loss_share",
     ];
 
+    /// Speeds that nobody has, most likely bare numbers in other units: the member, and what to say of it.
+    pub fn warnings(&self) -> Vec<(&'static str, String)> {
+        let all = [
+            ("pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
+            ("swing_speed", self.swing_speed, 100.0, "rad/s", "about 43 rad/s"),
+            ("bat_speed", self.bat_speed.unwrap_or(0.0), 60.0, "m/s", "\"72 mph\""),
+        ];
+        let strange = all.into_iter().filter(|(_, value, most, ..)| value.abs() > *most);
+        let told = |(member, value, _, unit, usual)| {
+            (member, format!("is {value} {unit}; usual is {usual}"))
+        };
+        strange.map(told).collect()
+    }
+
     /// The scene on that bat, and where its swing is from. `tolerance` is that of exit speeds over the
     /// closing speed, by which a hollow barrel's wall gives way or not; None where a number of modes and
     /// nothing else is to be counted.

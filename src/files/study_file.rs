@@ -10,7 +10,7 @@ use crate::collision::ball::Ball;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::scene_file;
-use crate::files::study_vary::{Varied, varied};
+use crate::files::study_vary::{Subject, Varied, varied};
 use crate::study::many::answers::Answer;
 use crate::study::many::design::{Axis, Design, Spread, Wanted};
 use crate::study::many::rows::Asked;
@@ -55,8 +55,12 @@ pub struct StudyFile {
     pub asked: Asked,
     /// The names of the answers, as written.
     pub outputs: Vec<String>,
+    /// Its members that say how numbers are drawn, where none is.
+    pub idle: Vec<&'static str>,
     /// Where it says what varies, or else which bats there are.
     place: Box<Place>,
+    /// Where it names its bats, and its ball.
+    naming: [Box<Place>; 2],
 }
 
 impl StudyFile {
@@ -67,6 +71,28 @@ impl StudyFile {
     /// [`Error::Input`] with line and column, or several of them.
     pub fn from_text(file: &str, text: &str) -> Result<Self> {
         from_document(&Document::new(file.to_owned(), text))
+    }
+
+    /// Whether anything varies in such a document.
+    pub fn varies(&self, subject: Subject) -> bool {
+        self.varied.iter().any(|varied| varied.subject == subject)
+    }
+
+    /// What is wrong with a bat or a ball that the study names: said where it does.
+    pub fn names_in_vain(&self, subject: Subject, error: Error) -> Error {
+        let [of_bats, of_ball] = &self.naming;
+        let (place, field, expected) = match subject {
+            Subject::Ball => (of_ball, "ball", "a ball file or the name of a built-in ball"),
+            _ => (of_bats, "bat", "a bat file, a folder of them or the name of a built-in bat"),
+        };
+        let complaint = match error {
+            Error::Read { path, source } => {
+                Complaint::new(field, format!("{}: {source}", path.display()), expected)
+            }
+            Error::Value(complaint) => Complaint { field: field.to_owned(), ..complaint },
+            other => return other,
+        };
+        Error::Input { place: place.clone(), complaint }
     }
 
     /// What is wrong with a study that comes to nothing in every row that was tried, by what was wrong with one.
@@ -136,10 +162,15 @@ fn from_document(document: &Document) -> Result<StudyFile> {
             node.complain(Complaint { field: String::new(), ..complaint })
         })
     };
+    let says = |key: &&str| root.get(key).is_some();
+    let drawing = ["design", "points", "seed"].into_iter().filter(says);
+    let idle = if wanted.drawn.is_empty() { drawing.collect() } else { vec![] };
     let design = Design::new(wanted).map_err(placed)?;
     let asked = Asked { answers, tolerance };
     let place = root.get("vary").or(root.get("bat")).unwrap_or(&root.node).place();
-    Ok(StudyFile { bats, ball, scene, varied, design, asked, outputs, place })
+    let of = |key: &str| root.get(key).unwrap_or(&root.node).place();
+    let naming = ["bat", "ball"].map(of);
+    Ok(StudyFile { bats, ball, scene, varied, design, asked, outputs, idle, place, naming })
 }
 
 /// One bat, or a list of them.

@@ -20,7 +20,7 @@ use crate::files::scene_file;
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::Subject;
 use crate::study::many::answers::on_the_bat;
-use crate::study::many::design::{MOST_ROWS, Row};
+use crate::study::many::design::{Axis, MOST_ROWS, Row};
 use crate::study::many::rows::{Asked, Found, Trial};
 
 /// A bat as a file has it.
@@ -72,8 +72,8 @@ impl Rows {
             Varying { name, document, model: None }
         };
         let bats = bats.into_iter().map(varying).collect();
-        let varies = |subject| study.varied.iter().any(|varied| varied.subject == subject);
-        let (varied_ball, varied_scene) = (varies(Subject::Ball), varies(Subject::Scene));
+        let varied_ball = study.varies(Subject::Ball);
+        let varied_scene = study.varies(Subject::Scene);
         let setup = match varied_scene || varied_ball {
             true => Base::Varied(Value::Object(study.scene.clone())),
             false => Base::Same(scene_file::of(&study.scene, ball.clone())?),
@@ -140,23 +140,69 @@ impl Rows {
         on_the_bat(answers, bat)
     }
 
-    /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them, and of
-    /// what varies without effect.
+    /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them and as
+    /// the study varies them, of the scene, and of what varies or is said without effect.
     pub fn warnings(&self) -> Vec<String> {
         /// Of so many bats at most.
         const TOLD: usize = 8;
-        let strange = self.bats.iter().filter_map(|bat| {
+        let own = |bat: &Varying| {
             let document = bat.document.as_ref().ok()?.to_string();
-            let all = Bat::from_text(&bat.name, &document, Path::new("")).ok()?.warnings();
-            (!all.is_empty()).then(|| format!("{}: {}", bat.name, all.join("; ")))
+            Some(Bat::from_text(&bat.name, &document, Path::new("")).ok()?.warnings())
+        };
+        let varies = self.study.varies(Subject::Bat);
+        let strange = self.bats.iter().enumerate().filter_map(|(k, bat)| {
+            let own = own(bat).unwrap_or_default();
+            let all = match own.is_empty() && varies && k < TOLD {
+                true => self
+                    .first_strange(Subject::Bat, |row| Some(self.bat(bat, row).ok()?.warnings()))?,
+                false => own.join("; "),
+            };
+            (!all.is_empty()).then(|| format!("{}: {all}", bat.name))
         });
         let mut told: Vec<String> = strange.collect();
         if told.len() > TOLD {
             let more = told.split_off(TOLD).len();
             told.push(format!("{more} more bats are strange in some way"));
         }
+        told.extend(self.first_strange(Subject::Scene, |row| {
+            let strange = self.setup(row).ok()?.warnings().into_iter();
+            Some(strange.map(|(member, strange)| format!("scene.{member} {strange}")).collect())
+        }));
         told.extend(self.idle());
+        let idle = &self.study.idle;
+        told.extend((!idle.is_empty()).then(|| {
+            format!("{} of the study: nothing is drawn, so that they do nothing", idle.join(", "))
+        }));
         told
+    }
+
+    /// What `strange` says of the middle of all that varies, or else of it with another value of a list in that
+    /// document, and which.
+    fn first_strange(
+        &self,
+        subject: Subject,
+        strange: impl Fn(&Row) -> Option<Vec<String>>,
+    ) -> Option<String> {
+        /// Values of a list that are looked at, and characters of one that are told.
+        const VALUES: u64 = 64;
+        const TOLD: usize = 40;
+        let design = &self.study.design;
+        let middle = design.middle();
+        let told = |row: &Row| strange(row).filter(|all| !all.is_empty()).map(|all| all.join("; "));
+        let lists =
+            self.study.varied.iter().filter(|varied| {
+                varied.subject == subject && matches!(varied.axis(), Axis::List(_))
+            });
+        let mut others = lists.flat_map(|varied| {
+            let rows = design.beside(&middle, varied.axis(), VALUES).into_iter();
+            rows.map(move |row| (varied, row))
+        });
+        told(&middle).or_else(|| {
+            others.find_map(|(varied, row)| {
+                let cell: String = varied.cell(&row).chars().take(TOLD).collect();
+                Some(format!("{} (where {} is {cell})", told(&row)?, varied.path))
+            })
+        })
     }
 
     /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.

@@ -9,6 +9,7 @@ use crate::base::error::{Complaint, Error, Place, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::number::shortest;
 use crate::base::typed;
+use crate::base::units::{self, Quantity};
 use crate::collision::setup::Setup;
 use crate::files::json_node::Node;
 use crate::study::many::design::{Axis, Row, Wanted};
@@ -58,7 +59,7 @@ enum Way {
     /// By one of these.
     Listed(usize, Vec<Listed>),
     /// By one of these numbers in that unit.
-    Gridded(usize, Vec<f64>, String),
+    Numbered(usize, Vec<f64>, String),
     /// By a number in that unit.
     Drawn(usize, String),
 }
@@ -81,7 +82,7 @@ impl Varied {
         };
         match &self.way {
             Way::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
-            Way::Gridded(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
+            Way::Numbered(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
             Way::Drawn(k, unit) => in_unit(row.values[*k], unit),
         }
     }
@@ -90,7 +91,7 @@ impl Varied {
     pub fn cell(&self, row: &Row) -> String {
         match &self.way {
             Way::Drawn(k, _) => shortest(row.values[*k]),
-            Way::Gridded(k, values, _) => shortest(values[row.picks[*k] as usize]),
+            Way::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
             Way::Listed(k, values) => match &values[row.picks[*k] as usize].said {
                 Value::String(text) => text.clone(),
                 other => other.to_string(),
@@ -101,7 +102,7 @@ impl Varied {
     /// Where its value is in a row.
     pub fn axis(&self) -> Axis {
         match self.way {
-            Way::Listed(k, _) | Way::Gridded(k, ..) => Axis::List(k),
+            Way::Listed(k, _) | Way::Numbered(k, ..) => Axis::List(k),
             Way::Drawn(k, _) => Axis::Drawn(k),
         }
     }
@@ -109,7 +110,7 @@ impl Varied {
     /// Whether all its values are numbers.
     pub fn is_number(&self) -> bool {
         match &self.way {
-            Way::Drawn(..) | Way::Gridded(..) => true,
+            Way::Drawn(..) | Way::Numbered(..) => true,
             Way::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
         }
     }
@@ -117,7 +118,7 @@ impl Varied {
     /// The unit of its numbers, empty where they are bare and for what is listed.
     pub fn unit(&self) -> &str {
         match &self.way {
-            Way::Drawn(_, unit) | Way::Gridded(_, _, unit) => unit,
+            Way::Drawn(_, unit) | Way::Numbered(_, _, unit) => unit,
             Way::Listed(..) => "",
         }
     }
@@ -291,8 +292,12 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
         if items.is_empty() {
             return Err(node.error("an empty list", "one value at least"));
         }
+        let k = list(items.len());
+        if let Some((numbers, unit)) = of_one_unit(&items) {
+            return Ok(Way::Numbered(k, numbers, unit));
+        }
         let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
-        return Ok(Way::Listed(list(items.len()), listed.collect()));
+        return Ok(Way::Listed(k, listed.collect()));
     }
     let forms: [(&str, &str, usize); 5] = [
         ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
@@ -326,7 +331,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
             let share = k as f64 / (count - 1) as f64;
             (1.0 - share) * numbers[0] + share * numbers[1]
         };
-        return Ok(Way::Gridded(list(count as usize), (0..count).map(at).collect(), unit));
+        return Ok(Way::Numbered(list(count as usize), (0..count).map(at).collect(), unit));
     }
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
@@ -344,6 +349,18 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
     })?;
     wanted.drawn.push(distribution);
     Ok(Way::Drawn(wanted.drawn.len() - 1, unit))
+}
+
+/// The numbers of values that all have the same unit, and that.
+fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
+    let all: Option<Vec<(f64, String)>> = items.iter().map(|item| number(item).ok()).collect();
+    let (numbers, mut units): (Vec<f64>, Vec<String>) = all?.into_iter().unzip();
+    units.dedup();
+    let [unit] = &units[..] else { return None };
+    Quantity::ALL
+        .iter()
+        .any(|quantity| units::factor(unit, *quantity).is_ok())
+        .then(|| (numbers, unit.clone()))
 }
 
 /// A number and its unit, which may be none.

@@ -16,6 +16,7 @@ use crate::files::bat_file::without_table;
 use crate::files::document::Document;
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
+use crate::files::study_vary::Subject;
 use crate::proof::bundled;
 
 /// A file that a study was made from.
@@ -67,13 +68,15 @@ impl Study {
         let mut study = StudyFile::from_text(name, text)?;
         let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
         let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
-        let bats = bats(folder, &study, &mut sources)?;
+        let bats = bats(folder, &study, &mut sources)
+            .map_err(|error| study.names_in_vain(Subject::Bat, error))?;
         let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
         let (ball, own_ball) = match is_built_in(name) {
             true => (ball(name, None)?, None),
             false => {
-                let ball = ball(&folder.join(name).display().to_string(), None)?;
+                let ball = ball(&folder.join(name).display().to_string(), None)
+                    .map_err(|error| study.names_in_vain(Subject::Ball, error))?;
                 let text = written(&ball).to_string();
                 sources.push(Source { name: name.to_owned(), text: text.clone() });
                 (ball, Some(text))

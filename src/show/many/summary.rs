@@ -52,9 +52,15 @@ pub fn text(table: &Table, rows: &Rows) -> String {
 pub fn shares(table: &Table, rows: &Rows) -> String {
     let design = &rows.study.design;
     if rows.several() || design.combinations() > 1 || design.kinds().is_empty() {
-        let why = "What makes answers vary is told of one bat of which nothing varies but what is drawn \
-                   (uniform, normal, lognormal, triangular): here bats or lists differ too.";
-        return format!("\n{}", wrapped(why, 0));
+        let here = match design.kinds().is_empty() {
+            true => "here nothing is drawn",
+            false => "here bats or lists differ too",
+        };
+        let why = format!(
+            "What makes answers vary is told of one bat of which nothing varies but what is drawn \
+             (uniform, normal, lognormal, triangular): {here}."
+        );
+        return format!("\n{}", wrapped(&why, 0));
     }
     let mut out = String::new();
     for column in answers(table, rows) {

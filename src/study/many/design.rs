@@ -147,11 +147,17 @@ impl Design {
     /// Some rows that tell of all: combinations of the lists with the median of every distribution, the first of
     /// every list before all others, and rows of the design; so many of both at most, at even distances.
     pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
-        let medians: Vec<f64> = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
+        let Row { values, .. } = self.middle();
         let combined = spread_evenly(self.combinations(), some);
         let combined = combined
-            .map(move |k| Row { picks: self.row(k * self.points).picks, values: medians.clone() });
+            .map(move |k| Row { picks: self.row(k * self.points).picks, values: values.clone() });
         combined.chain(spread_evenly(self.rows(), some).map(|k| self.row(k)))
+    }
+
+    /// The first value of every list with the median of every distribution.
+    pub fn middle(&self) -> Row {
+        let values = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
+        Row { picks: vec![0; self.lists.len()], values }
     }
 
     /// Rows that differ from this one in one place alone: by so many other values of a list, or by both quartiles
