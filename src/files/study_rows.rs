@@ -11,7 +11,6 @@ use serde_json::{Map, Value};
 
 use crate::base::error::{Error, Result};
 use crate::base::number::shortest;
-use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::collision::setup::Setup;
@@ -20,7 +19,7 @@ use crate::files::scene_file;
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::Subject;
 use crate::study::many::answers::on_the_bat;
-use crate::study::many::design::{Axis, MOST_ROWS, Row};
+use crate::study::many::design::{MOST_ROWS, Row};
 use crate::study::many::rows::{Asked, Found, Trial};
 
 /// A bat as a file has it.
@@ -36,18 +35,19 @@ pub struct BatText {
 pub struct Rows {
     /// The study.
     pub study: StudyFile,
-    bats: Vec<Varying>,
+    pub(super) bats: Vec<Varying>,
     ball: Base<Ball>,
     setup: Base<Setup>,
 }
 
 /// A bat that is varied.
-struct Varying {
-    name: String,
+pub(super) struct Varying {
+    /// What tables call it.
+    pub name: String,
     /// Its document, or why it is no bat.
-    document: std::result::Result<Value, String>,
+    pub document: std::result::Result<Value, String>,
     /// A row of which it is a bat, as a model of the others, and that bat; if there is such a row.
-    model: Option<(Row, Bat)>,
+    pub model: Option<(Row, Bat)>,
 }
 
 /// What a row's own is made of: a document, or the thing itself where no row differs in it.
@@ -140,112 +140,6 @@ impl Rows {
         on_the_bat(answers, bat)
     }
 
-    /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them and as
-    /// the study varies them, of the scene, and of what varies or is said without effect.
-    pub fn warnings(&self) -> Vec<String> {
-        /// Of so many bats at most.
-        const TOLD: usize = 8;
-        let own = |bat: &Varying| {
-            let document = bat.document.as_ref().ok()?.to_string();
-            Some(Bat::from_text(&bat.name, &document, Path::new("")).ok()?.warnings())
-        };
-        let varies = self.study.varies(Subject::Bat);
-        let strange = self.bats.iter().enumerate().filter_map(|(k, bat)| {
-            let own = own(bat).unwrap_or_default();
-            let all = match own.is_empty() && varies && k < TOLD {
-                true => self
-                    .first_strange(Subject::Bat, |row| Some(self.bat(bat, row).ok()?.warnings()))?,
-                false => own.join("; "),
-            };
-            (!all.is_empty()).then(|| format!("{}: {all}", bat.name))
-        });
-        let mut told: Vec<String> = strange.collect();
-        if told.len() > TOLD {
-            let more = told.split_off(TOLD).len();
-            told.push(format!("{more} more bats are strange in some way"));
-        }
-        told.extend(self.first_strange(Subject::Scene, |row| {
-            let strange = self.setup(row).ok()?.warnings().into_iter();
-            Some(strange.map(|(member, strange)| format!("scene.{member} {strange}")).collect())
-        }));
-        told.extend(self.idle());
-        let idle = &self.study.idle;
-        told.extend((!idle.is_empty()).then(|| {
-            format!("{} of the study: nothing is drawn, so that they do nothing", idle.join(", "))
-        }));
-        told
-    }
-
-    /// What `strange` says of the middle of all that varies, or else of it with another value of a list in that
-    /// document, and which.
-    fn first_strange(
-        &self,
-        subject: Subject,
-        strange: impl Fn(&Row) -> Option<Vec<String>>,
-    ) -> Option<String> {
-        /// Values of a list that are looked at, and characters of one that are told.
-        const VALUES: u64 = 64;
-        const TOLD: usize = 40;
-        let design = &self.study.design;
-        let middle = design.middle();
-        let told = |row: &Row| strange(row).filter(|all| !all.is_empty()).map(|all| all.join("; "));
-        let lists =
-            self.study.varied.iter().filter(|varied| {
-                varied.subject == subject && matches!(varied.axis(), Axis::List(_))
-            });
-        let mut others = lists.flat_map(|varied| {
-            let rows = design.beside(&middle, varied.axis(), VALUES).into_iter();
-            rows.map(move |row| (varied, row))
-        });
-        told(&middle).or_else(|| {
-            others.find_map(|(varied, row)| {
-                let cell: String = varied.cell(&row).chars().take(TOLD).collect();
-                Some(format!("{} (where {} is {cell})", told(&row)?, varied.path))
-            })
-        })
-    }
-
-    /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.
-    /// Some values of some bats are tried, with everything else as it is in one row.
-    fn idle(&self) -> Option<String> {
-        /// Bats, combinations of lists, and rows that are tried; values of a list.
-        const SOME: u64 = 4;
-        const VALUES: u64 = 8;
-        let bats = self.bats.iter().filter_map(|bat| Some((bat, bat.model.as_ref()?)));
-        let bats: Vec<_> = bats.take(SOME as usize).collect();
-        let varied = &self.study.varied;
-        // What one thing does may hang on another: the rows beside one are tried, and beside others of the design.
-        let beside = |row: &Row, k: usize| {
-            let others = self.study.design.beside(row, varied[k].axis(), VALUES);
-            std::iter::once(row.clone()).chain(others).collect::<Vec<_>>()
-        };
-        let idle = threads::map(varied.len(), |k| {
-            // What cannot be told counts as a change.
-            let changes = |bat: &Varying, row: &Row| {
-                let of = beside(row, k);
-                let found = self.answers_of_rows(bat, &of.iter().collect::<Vec<_>>());
-                let known: Option<Vec<&Found>> =
-                    found.iter().map(|one| one.as_ref().ok()).collect();
-                let same =
-                    |known: &[&Found]| known[1..].iter().all(|other| !other.differs(known[0]));
-                of.len() == 1 || !known.is_some_and(|known| same(&known))
-            };
-            let examples = || self.study.design.examples(SOME);
-            !bats.iter().any(|(bat, (row, _))| {
-                changes(bat, row) || examples().any(|row| changes(bat, &row))
-            })
-        });
-        let idle = varied.iter().zip(idle).filter(|(_, idle)| *idle);
-        let paths: Vec<&str> = idle.map(|(varied, _)| &*varied.path).collect();
-        (!paths.is_empty()).then(|| {
-            format!(
-                "nothing that is asked changes with {}: it does not depend on that, or something else in the \
-                 bat, the ball or the scene stands for it",
-                paths.join(", ")
-            )
-        })
-    }
-
     /// How many rows there are.
     pub fn count(&self) -> u64 {
         self.bats.len() as u64 * self.study.design.rows()
@@ -276,7 +170,7 @@ impl Rows {
         self.answers_of_rows(bat, &of.iter().map(|(_, row)| row).collect::<Vec<_>>())
     }
 
-    fn answers_of_rows(&self, varying: &Varying, rows: &[&Row]) -> Vec<Result<Found>> {
+    pub(super) fn answers_of_rows(&self, varying: &Varying, rows: &[&Row]) -> Vec<Result<Found>> {
         let asked = &self.study.asked;
         let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
         let bats = rows.iter().map(|row| self.bat(varying, row));
@@ -369,7 +263,7 @@ impl Rows {
         Ok(document)
     }
 
-    fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
+    pub(super) fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
         let document = bat.document.as_ref();
         let document = document.map_err(|why| Error::value("bat", why, "a bat file"))?;
         let text = self.document(Subject::Bat, document, row)?.to_string();
@@ -385,7 +279,7 @@ impl Rows {
         }
     }
 
-    fn setup(&self, row: &Row) -> Result<Setup> {
+    pub(super) fn setup(&self, row: &Row) -> Result<Setup> {
         match &self.setup {
             Base::Same(setup) => Ok(setup.clone()),
             Base::Varied(base) => {
