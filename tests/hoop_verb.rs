@@ -301,6 +301,18 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
         "{}",
         handle["notes"]
     );
+    // A ring shorter than the patch: the ball meets it, and it is the patch that does not fit.
+    folder.write(
+        "ring.json",
+        format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": {metal}, "profile": {{
+                "x": [0, 0.02], "diameter": [0.0666, 0.0666], "wall_thickness": [0.003, 0.003] }} }}"#
+        ),
+    );
+    let ring = folder.json(&["hoop", "ring.json", "--at", "0.01", "--quiet", "--json", "-"]);
+    assert!(ring["wall"].is_null(), "{}", ring["wall"]);
+    let said = ring["notes"].to_string();
+    assert!(said.contains("too short for any place") && !said.contains("does not meet"), "{said}");
     // A wall of 1.8 mm is dented by more than half of itself.
     let thin = folder.json(&["hoop", "bbcor_made_up", "--wall-sweep", "--json", "-"]);
     let thinnest = &thin["wall_sweep"][0];

@@ -2,7 +2,8 @@
 
 use crate::base::number::significant;
 use crate::beam::wall::elastic::ASSUMED_POISSON_RATIO;
-use crate::modes::hoop::Note;
+use crate::collision::ball::Ball;
+use crate::modes::hoop::{Note, Patch};
 use crate::show::report::units::Units;
 use crate::study::trampoline::barrel::Barrel;
 
@@ -19,13 +20,42 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     }
     all.extend(alive(barrel));
     all.extend(dented(barrel));
-    if barrel.struck.wall.is_none() {
-        all.push(format!(
-            "the ball at {} from the knob end does not meet the stretch that is modelled",
-            units.inline(units.length(barrel.test.at))
-        ));
-    }
+    all.extend(unpressed(barrel, units));
     all
+}
+
+/// Why the wall under the ball is not computed: the ball misses the modelled stretch, or its patch is
+/// wider than what there is of the stretch on the knob side.
+fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
+    if barrel.struck.wall.is_some() {
+        return None;
+    }
+    let (hoop, test) = (barrel.hoop(), &barrel.test);
+    let place = |x: f64| units.inline(units.length(x));
+    let ball = format!("the ball at {} from the knob end", place(test.at));
+    if !(hoop.from()..=hoop.to()).contains(&test.at) {
+        return Some(format!("{ball} does not meet the stretch that is modelled"));
+    }
+    let Ball { radius, .. } = test.ball;
+    let patch =
+        Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
+    if hoop.covers(&patch) {
+        return Some(format!("{ball} meets the bat where it is solid: no wall gives way there"));
+    }
+    let half = patch.half_length;
+    let first = hoop.from() + half;
+    let needs = match first <= hoop.to() {
+        true => format!("a ball from {} on is computed (--at)", place(first)),
+        false => format!(
+            "the stretch of {} is too short for any place of the ball",
+            place(hoop.to() - hoop.from())
+        ),
+    };
+    Some(format!(
+        "the wall under {ball} is not computed: the ball presses on {} to either side of it, beyond the \
+         beginning of the stretch that is modelled; {needs}",
+        place(half)
+    ))
 }
 
 /// A first mode that reaches the beginning of the stretch.
