@@ -11,6 +11,7 @@ use crate::files::{measured, readings_file};
 use crate::show::plot::calibrate as pictures_of;
 use crate::show::report::{calibrate, calibrated_bat};
 use crate::study::calibrate::calibration::{Calibration, CalibrationPlan};
+use crate::study::calibrate::labels::MOST_MODES;
 use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use crate::study::calibrate::unknowns::Unknown;
 
@@ -48,6 +49,11 @@ pub struct Args {
     #[arg(long, value_name = "NAME", value_parser = held(), hide_possible_values = true,
           help_heading = "The bat")]
     hold: Vec<Unknown>,
+
+    /// Which bending mode a line is, such as "1187 = 3", or "1187 = none"; may be repeated
+    #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
+          help_heading = "The bat")]
+    mode: Vec<(f64, Option<usize>)>,
 
     /// Read answers from standard input, one per line, even when it is not a terminal
     #[arg(long, conflicts_with = "measured", help_heading = "The bat")]
@@ -100,6 +106,63 @@ fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
     })
 }
 
+/// A line by its frequency (Hz), and the mode that it is.
+fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
+    let expected = || {
+        format!("expected a frequency in Hz and the number of its bending mode, 1 to {MOST_MODES} or none, such as \"1187 = 3\"")
+    };
+    let (hz, mode) = text.split_once('=').ok_or_else(expected)?;
+    let hz = hz.trim().trim_end_matches("Hz").trim().parse().map_err(|_| expected())?;
+    let mode = match mode.trim() {
+        "none" => None,
+        mode => {
+            let number = mode.parse().ok().filter(|mode| (1..=MOST_MODES).contains(mode));
+            Some(number.ok_or_else(expected)?)
+        }
+    };
+    Ok((hz, mode))
+}
+
+/// The lines with the labels of `--mode`; a line that is told as none is left out.
+fn told_again(lines: &mut Vec<SpectralLine>, told: &[(f64, Option<usize>)]) -> Result<()> {
+    /// A line may be named by a rounded frequency.
+    const NEAR: f64 = 0.01;
+    for (hz, mode) in told {
+        let far = |line: &SpectralLine| (line.frequency.value / hz).ln().abs();
+        let near = (0..lines.len()).min_by(|a, b| far(&lines[*a]).total_cmp(&far(&lines[*b])));
+        let Some(k) = near.filter(|k| far(&lines[*k]) < NEAR) else {
+            let all: Vec<String> =
+                lines.iter().map(|line| line.frequency.value.to_string()).collect();
+            let expected = format!("one of the lines: {} Hz", all.join(", "));
+            return Err(Error::value("--mode", format!("{hz} Hz"), expected));
+        };
+        match mode {
+            None => drop(lines.remove(k)),
+            Some(order) => {
+                if lines.iter().enumerate().any(|(j, line)| j != k && line.mode == *mode) {
+                    let found = format!("mode {order} for a second line");
+                    return Err(Error::value("--mode", found, "every mode once"));
+                }
+                lines[k].mode = *mode;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The command with the labels that fit, where those that were told do not.
+fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
+    let measured = args.measured.as_deref().map_or("readings.json".to_owned(), printed);
+    let label = |k: &usize| {
+        let mode = found.identified.labels[*k].map_or("none".to_owned(), |mode| mode.to_string());
+        format!(" --mode \"{} = {mode}\"", found.readings.lines[*k].frequency.value)
+    };
+    let labels: String = found.identified.changed().iter().map(label).collect();
+    (!labels.is_empty()).then(|| {
+        format!("With these labels:\n  sweetspot calibrate {} {measured}{labels}\n", printed(&args.bat))
+    })
+}
+
 pub fn run(args: &Args) -> Result<Done> {
     let written = [
         ("--json", &args.json),
@@ -109,10 +172,11 @@ pub fn run(args: &Args) -> Result<Done> {
     ];
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
-    let Told { readings, name, person } = readings(args, &bat)?;
+    let Told { mut readings, name, person } = readings(args, &bat)?;
+    told_again(&mut readings.lines, &args.mode)?;
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
-    let table = calibrate::text(&bat, &found);
+    let table = calibrate::text(&bat, &found) + &relabelled(args, &found).unwrap_or_default();
     if let Some(folder) = &args.plots {
         pictures::write(folder, &pictures_of::pictures(bat.name(), &found), args.quiet)?;
     }

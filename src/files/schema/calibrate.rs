@@ -121,6 +121,8 @@ pub struct LabelsFound {
     pub second: Option<Vec<Option<usize>>>,
     /// Their chi2.
     pub second_chi2: Option<f64>,
+    /// By how much they cost more in the search over all wood; below 8 they may be the right ones.
+    pub margin: Option<f64>,
 }
 
 /// The wood without the data that do not fit.

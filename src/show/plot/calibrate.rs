@@ -32,7 +32,7 @@ fn wood(name: &str, parameters: &[Estimated]) -> Picture {
         let before = one.prior.value / one.value;
         let wide =
             |centre: f64, sd: f64| [-1.0, 1.0].map(|s| centre * (s * NINETY_FIVE * sd).exp());
-        [wide(before, one.prior.deviation), wide(1.0, one.deviation)]
+        [wide(before, one.prior.deviation), one.interval.map(|end| end / one.value)]
     };
     let all: Vec<[[f64; 2]; 2]> = parameters.iter().map(ends).collect();
     let labels: Vec<String> = parameters

@@ -36,23 +36,32 @@ fn parameters(all: &[Estimated]) -> String {
     let columns = Columns::new([
         first(14, "property"),
         numbers(13, "value"),
-        numbers(8, "within"),
+        numbers(13, "95 %"),
         numbers(13, "before"),
         numbers(8, "learned"),
-        labels(22, "the readings"),
+        labels(17, "the readings"),
     ]);
     let mut out = columns.heads();
     for one in all {
         out += &columns.row([
             short(one.property).to_owned(),
             shown(one.property, one.value),
-            percent(1.96 * one.deviation, 1),
+            within(one),
             shown(one.property, one.prior.value),
             percent(one.learned.max(0.0), 0),
             verdict(one),
         ]);
     }
     out
+}
+
+/// The 95 % interval about the value, in per cent.
+fn within(one: &Estimated) -> String {
+    let [low, high] = one.interval.map(|end| 100.0 * (end / one.value - 1.0));
+    match format!("{:.1}", -low) == format!("{high:.1}") {
+        true => format!("± {high:.1} %"),
+        false => format!("{low:+.1}/{high:+.1} %"),
+    }
 }
 
 fn data(found: &Calibration) -> String {
@@ -66,7 +75,7 @@ fn data(found: &Calibration) -> String {
     ]);
     let mut out = format!(
         "Readings beside the bat of that wood: chi2 {} of {} data\n",
-        significant(found.fit.chi2, 3),
+        significant(found.fit.misfit(), 3),
         found.data()
     );
     out += &columns.heads();
@@ -127,8 +136,9 @@ fn verdict(one: &Estimated) -> String {
 /// What follows, a sentence each.
 pub fn words(found: &Calibration) -> Vec<String> {
     let mut all = vec![];
-    all.extend(relabelled(found));
+    all.extend(labelled(found));
     all.extend(mismatch(found));
+    all.extend(found.parameters.iter().filter_map(|one| foreign(found, one)));
     if found.typical_shear {
         all.push(
             "The bat file has no shear modulus: one that is typical of the kind was the start."
@@ -161,26 +171,85 @@ pub fn words(found: &Calibration) -> Vec<String> {
     all
 }
 
-fn relabelled(found: &Calibration) -> Option<String> {
-    let (told, chi2) = found.identified.told.as_ref()?;
-    let list = |labels: &[Option<usize>]| {
-        let one = |label: &Option<usize>| label.map_or("none".to_owned(), |mode| mode.to_string());
-        labels.iter().map(one).collect::<Vec<_>>().join(", ")
+fn list(labels: &[Option<usize>]) -> String {
+    let one = |label: &Option<usize>| label.map_or("none".to_owned(), |mode| mode.to_string());
+    labels.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// What the labels were taken for, where they were sought.
+fn labelled(found: &Calibration) -> Vec<String> {
+    let identified = &found.identified;
+    let mut all = vec![];
+    if let Some((told, chi2)) = &identified.told {
+        let changed = |k: &usize| {
+            let name = |label: Option<usize>| label.map_or("no mode".to_owned(), |m| format!("mode {m}"));
+            format!(
+                "{} Hz was told as {} and fits as {}",
+                found.readings.lines[*k].frequency.value,
+                name(told[*k]),
+                name(identified.labels[*k])
+            )
+        };
+        let changed: Vec<String> = identified.changed().iter().map(changed).collect();
+        all.push(format!(
+            "As modes {} the lines do not fit this bat in any wood (chi2 {}). {}: the wood above is that of \
+             these labels.",
+            list(told),
+            significant(*chi2, 3),
+            changed.join("; ")
+        ));
+    } else if found.readings.lines.iter().any(|line| line.mode.is_none()) {
+        all.push(format!(
+            "The lines were taken for modes {}.",
+            list(&identified.labels)
+        ));
+    }
+    if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
+        let unsure = match identified.is_sure() {
+            true => "",
+            false => " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\").",
+        };
+        all.push(format!(
+            "The next best labels are {}, with a chi2 that is {} larger.{unsure}",
+            list(labels),
+            significant(margin, 3)
+        ));
+    }
+    if identified.is_mostly_discarded() {
+        all.push(
+            "Half of the lines or more are no bending mode of this bat, of wood from a quarter to four times \
+             as stiff as the file's: the wood above rests on what is left, and may be wrong. The profile, the \
+             readings or their unit are others than was told."
+                .to_owned(),
+        );
+    }
+    all
+}
+
+/// A wood that is another one than the file names.
+fn foreign(found: &Calibration, one: &Estimated) -> Option<String> {
+    let times = one.foreign()?;
+    let kind = found.material.as_deref().unwrap_or("the file's material");
+    let what = match one.property {
+        Property::Density => {
+            "the wall is thicker than the file says, or something inside weighs that is not in it"
+        }
+        _ => "the bat is of another material, or its profile or a reading is wrong",
     };
-    let second = found.identified.second.as_ref().map_or(String::new(), |(labels, chi2)| {
-        format!("; the next best are {} ({})", list(labels), significant(*chi2, 3))
-    });
     Some(format!(
-        "As modes {} the lines do not fit at all (chi2 {}); they were taken for {} ({}){second}.",
-        list(told),
-        significant(*chi2, 3),
-        list(&found.identified.labels),
-        significant(found.identified.chi2, 3)
+        "{} of {} is {} times that of {kind} ({}), more than pieces of one material differ by: {what}.",
+        match one.property {
+            Property::Density => "A density",
+            _ => "E",
+        },
+        shown(one.property, one.value),
+        significant(times, 3),
+        shown(one.property, one.prior.value)
     ))
 }
 
 fn mismatch(found: &Calibration) -> Option<String> {
-    if found.fits() {
+    if found.readings_agree() {
         return None;
     }
     let name = |residual: &Residual| {
@@ -253,6 +322,7 @@ pub fn document(bat: &Bat, found: &Calibration, split: Option<f64>) -> file::Cal
             told_chi2: identified.told.as_ref().map(|(_, chi2)| *chi2),
             second: identified.second.as_ref().map(|(labels, _)| labels.clone()),
             second_chi2: identified.second.as_ref().map(|(_, chi2)| *chi2),
+            margin: identified.margin,
         },
         outliers: found.outliers.iter().map(|k| residuals[*k].datum.kind.name()).collect(),
         without_outliers: found.without.as_ref().map(|(parameters, chi2, expected)| {
@@ -288,7 +358,7 @@ fn parameter(one: &Estimated) -> file::ParameterFound {
         name: one.property.name(),
         unit: one.property.unit(),
         value: one.value,
-        interval95: one.interval(),
+        interval95: one.interval,
         relative_sd: one.deviation,
         prior: one.prior.value,
         prior_relative_sd: one.prior.deviation,
@@ -331,7 +401,7 @@ pub fn csv(found: &Calibration) -> String {
         "learned",
     ]);
     for one in &found.parameters {
-        let [low, high] = one.interval();
+        let [low, high] = one.interval;
         table.row([
             one.property.name().into(),
             one.property.unit().into(),

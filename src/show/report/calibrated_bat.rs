@@ -99,7 +99,7 @@ fn material(found: &Calibration, own: &Material) -> Material {
 /// Values with their intervals, a line each.
 fn intervals(found: &Calibration) -> Vec<String> {
     let line = |one: &crate::study::calibrate::calibration::Estimated| {
-        let [low, high] = one.interval().map(|value| shown(one.property, value));
+        let [low, high] = one.interval.map(|value| shown(one.property, value));
         let unsaid = match one.verdict {
             Verdict::NotDetermined | Verdict::Held => "; the readings do not say it",
             _ => "",

@@ -18,9 +18,9 @@
 use serde::Serialize;
 
 use crate::base::error::Result;
-use crate::base::linear::inverse;
+use crate::base::linear::{dot, inverse};
 use crate::study::calibrate::readings::{BatReadings, Reading};
-use crate::study::calibrate::unknowns::{Logs, UNKNOWNS, Unknown, covariance, form};
+use crate::study::calibrate::unknowns::{Logs, Unknown, covariance, form};
 use crate::study::calibrate::wood::{Shown, Slopes, WoodenBat};
 
 /// The largest change of a logarithm in one step.
@@ -29,8 +29,8 @@ const LARGEST_STEP: f64 = 0.3;
 const MOST_STEPS: usize = 40;
 /// Steps of this size change nothing that anybody reads.
 const SETTLED: f64 = 1e-7;
-/// Beyond so many standard deviations of what was known before, a fit has run away.
-const RUNAWAY: f64 = 4.0;
+/// Beyond so many standard deviations of what was known before, and that factor, a fit has run away.
+const RUNAWAY: [f64; 2] = [4.0, 8.0];
 
 /// What a datum is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -144,6 +144,13 @@ pub struct Fit {
     pub shown: Shown,
 }
 
+impl Fit {
+    /// χ² of the data alone: how far the bat is from what was measured, whatever was known before.
+    pub fn misfit(&self) -> f64 {
+        self.residuals.iter().map(|residual| residual.deviations.powi(2)).sum()
+    }
+}
+
 fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
     let product = |row: &Vec<f64>| row.iter().zip(vector).map(|(a, b)| a * b).sum();
     matrix.iter().map(product).collect()
@@ -168,22 +175,16 @@ impl Search<'_> {
         unknowns.filter(|(_, unknown)| !self.held.contains(unknown)).map(|(k, _)| k).collect()
     }
 
-    /// What was known before of the free unknowns, the held ones known: the inverse of their covariance.
-    fn precision(&self) -> Vec<Vec<f64>> {
-        let whole = inverse(&self.prior()).unwrap_or_default();
-        let free = self.free();
-        free.iter().map(|i| free.iter().map(|j| whole[*i][*j]).collect()).collect()
-    }
-
-    /// The wood that shows these data; frequencies up to `modes` are looked at.
+    /// The wood that shows these data, sought from that one on, of which what is held stays; frequencies up to `modes`
+    /// are looked at.
     ///
     /// # Errors
     ///
     /// Those of [`WoodenBat::shown`] at the beginning; a bat that cannot be solved on the way ends the search.
-    pub fn fit(&self, data: &[Datum], modes: usize) -> Result<Fit> {
+    pub fn fit(&self, data: &[Datum], modes: usize, from: &Logs) -> Result<Fit> {
         let free = self.free();
         let prior = self.prior();
-        let mut logs = [0.0; UNKNOWNS];
+        let mut logs = *from;
         let mut shown = self.wood.shown(&logs, modes)?;
         let mut here = self.linear(data, &shown, &logs);
         let (mut steps, mut settled) = (0, false);
@@ -209,7 +210,10 @@ impl Search<'_> {
             (logs, shown, here, steps) = (next, there, linear, steps + 1);
             settled = largest < SETTLED;
         }
-        let near = |k: &usize| logs[*k].abs() <= RUNAWAY * prior[*k][*k].sqrt();
+        let [deviations, factor] = RUNAWAY;
+        let near = |k: &usize| {
+            logs[*k].abs() <= factor.ln().max(deviations * prior[*k][*k].sqrt())
+        };
         settled &= free.iter().all(near);
         Ok(self.ended(data, shown, (logs, here), (steps, settled)))
     }
@@ -242,10 +246,13 @@ impl Search<'_> {
 
     /// χ², half its downward gradient and the covariance, of the free unknowns.
     fn linear(&self, data: &[Datum], shown: &Shown, logs: &Logs) -> Linear {
-        let (free, mut weights) = (self.free(), self.precision());
-        let at: Vec<f64> = free.iter().map(|k| logs[*k]).collect();
-        let mut chi2 = form(&weights, &at, &at);
-        let mut gradient: Vec<f64> = times(&weights, &at).iter().map(|slope| -slope).collect();
+        // Unknowns that are held count in what was known before, where they are not as the file has them.
+        let known = inverse(&self.prior()).unwrap_or_default();
+        let (free, at) = (self.free(), &logs[..known.len()]);
+        let mut chi2 = form(&known, at, at);
+        let mut gradient: Vec<f64> = free.iter().map(|k| -dot(&known[*k], at)).collect();
+        let mut weights: Vec<Vec<f64>> =
+            free.iter().map(|i| free.iter().map(|j| known[*i][*j]).collect()).collect();
         for datum in data {
             let Slopes { value, by } = datum.kind.of(shown);
             let z = (datum.reading.value - value) / datum.sigma;
@@ -260,19 +267,4 @@ impl Search<'_> {
         Linear { chi2, gradient, covariance }
     }
 
-    /// χ² that a bat on the straight line from here would have: what a fit comes to, without one.
-    pub fn guess(&self, data: &[Datum], shown: &Shown) -> f64 {
-        let straight: Vec<Datum> = data
-            .iter()
-            .map(|datum| {
-                // In logarithms a frequency goes straight with the unknowns, nearly.
-                let value = datum.kind.of(shown).value;
-                let moved = value * (1.0 + (datum.reading.value / value).ln());
-                let sigma = datum.sigma * value / datum.reading.value;
-                Datum { reading: Reading { value: moved, ..datum.reading }, sigma, ..*datum }
-            })
-            .collect();
-        let Linear { chi2, gradient, covariance } = self.linear(&straight, shown, &[0.0; UNKNOWNS]);
-        chi2 - form(&covariance, &gradient, &gradient)
-    }
 }

@@ -108,6 +108,18 @@ impl WoodenBat {
         1 + usize::from(self.split.is_some())
     }
 
+    /// Whether all of the bat is of the material that is sought, so that every stiffness goes with its E.
+    pub fn is_of_one_material(&self) -> bool {
+        let own = self.bat.material();
+        self.bat.layups().iter().flat_map(Layup::materials).all(|material| material == own)
+    }
+
+    /// G/E of the file.
+    pub fn shear_over_young(&self) -> f64 {
+        let own = self.bat.material();
+        own.shear_modulus.map_or(0.0, |modulus| modulus / own.youngs_modulus)
+    }
+
     /// The materials of handle and barrel.
     pub fn materials(&self, logs: &Logs) -> [Material; 2] {
         let [e, shear, handle, barrel, ratio] = *logs;
