@@ -541,6 +541,7 @@ fn a_bad_table_is_refused_with_the_place() {
         (swap("0.4,-1,0", "damping_ratio,2,0"), "m.csv:4:15: a: found 2, expected 0.0 to 1.0"),
         (swap("0.4,-1,0", "damping,0,0"), "m.csv:4:1: found \"damping\", expected damping_ratio"),
         (swap("0.4,-1,0", "frequency_hz,1,2"), "m.csv:4:1: found frequency a second time"),
+        (good.replace(',', ";"), "m.csv:1:1: header: found semicolons or tabs, expected commas"),
         (good.replace("1\n", "0\n").replace("1,-1", "1,0"), "b: found nothing but 0"),
         (
             swap("0.8", "1.8"),

@@ -6,7 +6,6 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
 use crate::files::document::Document;
-use crate::files::sheet::{Sheet, filled, name};
 
 /// A table of numbers: the columns of a CSV file in SI, and where each row stands.
 ///
@@ -19,7 +18,6 @@ pub(crate) struct Csv {
     /// Byte offset of the header, and of each row.
     pub header: usize,
     pub rows: Vec<usize>,
-    sheet: Sheet,
 }
 
 impl Csv {
@@ -40,39 +38,39 @@ impl Csv {
         columns: &[(&'static str, Quantity, f64)],
     ) -> Result<Self> {
         let keys: Vec<&'static str> = columns.iter().map(|(key, ..)| *key).collect();
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(document.text.as_bytes());
         let text = &document.text;
-        let sheet = Sheet::of(text);
-        let mut reader = sheet.reader(text);
+        let offset = |record: &csv::StringRecord| {
+            row_start(text, record.position().map_or(0, |p| p.byte() as usize))
+        };
         let mut records = reader.records();
         let Some(Ok(names)) = records.next() else {
             let expected = format!("a header of {} and their units", keys.join(", "));
             return Err(document.error(0..0, Complaint::new("", "no header", expected)));
         };
-        let header = sheet.offset(text, &names);
-        if let Some(complaint) = unclosed(&names) {
-            return Err(document.error(line(text, header), complaint));
-        }
-        let named: Vec<String> = names.iter().take(filled(&names)).map(name).collect();
-        let scales = scales((document, &sheet), header, &named, columns)?;
-        let mut values: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
+        let header = offset(&names);
+        let scales = scales(document, header, &names, columns)?;
+        let mut filled: Vec<_> = scales.iter().map(|(key, _)| (*key, Vec::new())).collect();
         let mut rows = Vec::new();
         mistakes::all(records.map(|record| {
             let record = record.map_err(|error| {
                 let complaint = Complaint::new("", error, "rows of numbers");
                 document.error(line(text, header), complaint)
             })?;
-            if filled(&record) == 0 {
-                return Ok(());
-            }
-            let at = sheet.offset(text, &record);
+            let at = offset(&record);
             rows.push(at);
-            read_row((document, &sheet), at, &record, &scales, &mut values)
+            read_row(document, at, &record, &scales, &mut filled)
         }))?;
-        let unit = |(name, (key, _)): (&String, &(&str, f64))| {
+        let unit = |(name, (key, _)): (&str, &(&str, f64))| {
             name[key.len()..].trim_start_matches('_').to_owned()
         };
-        let units = named.iter().zip(&scales).map(unit).collect();
-        Ok(Self { columns: values, units, header, rows, sheet })
+        let units = names.iter().zip(&scales).map(unit).collect();
+        Ok(Self { columns: filled, units, header, rows })
     }
 
     /// An error about a value: a row of a column, or the header.
@@ -93,11 +91,23 @@ impl Csv {
     pub fn cell(&self, text: &str, key: &str, row: usize) -> (Range<usize>, &str) {
         let column = self.columns.iter().position(|(name, _)| *name == key).unwrap_or(0);
         let row = self.rows.get(row).copied().unwrap_or(self.header);
-        (self.sheet.cell(text, row, column), &self.units[column])
+        (cell(text, row, column), &self.units[column])
     }
 
     pub fn column(&self, key: &str) -> Option<&[f64]> {
         self.columns.iter().find(|(name, _)| *name == key).map(|(_, values)| values.as_slice())
+    }
+}
+
+/// The first byte at or after `offset` that belongs to no comment and no empty line.
+pub(crate) fn row_start(text: &str, mut offset: usize) -> usize {
+    loop {
+        let rest = &text[offset..];
+        offset += match rest.bytes().next() {
+            Some(b'\r' | b'\n') => 1,
+            Some(b'#') => rest.find('\n').unwrap_or(rest.len()),
+            _ => return offset,
+        };
     }
 }
 
@@ -107,19 +117,40 @@ fn line(text: &str, offset: usize) -> Range<usize> {
     offset..offset + line.trim_end().len()
 }
 
+/// Where cell number `column` of the row at `offset` stands, the spaces around it left out.
+pub(crate) fn cell(text: &str, offset: usize, column: usize) -> Range<usize> {
+    let (mut quoted, mut passed, mut start, mut end) = (false, 0, offset, text.len());
+    for (at, byte) in (offset..).zip(text[offset..].bytes()) {
+        match byte {
+            b'"' => quoted = !quoted,
+            b',' if !quoted && passed < column => (passed, start) = (passed + 1, at + 1),
+            b',' | b'\n' if !quoted => {
+                end = at;
+                break;
+            }
+            _ => {}
+        }
+    }
+    let start = end - text[start..end].trim_start().len();
+    start..start + text[start..end].trim_end().len()
+}
+
 /// Key and factor to SI of every column.
 fn scales(
-    (document, sheet): (&Document, &Sheet),
+    document: &Document,
     header: usize,
-    names: &[String],
+    names: &csv::StringRecord,
     columns: &[(&'static str, Quantity, f64)],
 ) -> Result<Vec<(&'static str, f64)>> {
+    if let Some(complaint) = not_by_commas(names) {
+        return Err(document.error(line(&document.text, header), complaint));
+    }
     /// Columns that are checked: a header with more than this has a mistake among the first ones, since
     /// there are fewer keys.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
     mistakes::all(names.iter().enumerate().take(LOOKED_AT).map(|(k, name)| {
-        let wrong = |complaint| document.error(sheet.cell(&document.text, header, k), complaint);
+        let wrong = |complaint| document.error(cell(&document.text, header, k), complaint);
         let (key, scale) = column(name, columns).map_err(wrong)?;
         if seen.contains(&key) {
             let found = format!("column \"{key}\" a second time");
@@ -130,25 +161,33 @@ fn scales(
     }))
 }
 
-/// What is wrong with a header of which a closing quote is missing.
-fn unclosed(names: &csv::StringRecord) -> Option<Complaint> {
-    let complaint = || {
-        let expected = "names with commas between them";
-        Complaint::new("header", "a name of several lines", expected)
-            .hinted("a closing quote is missing")
+/// What is wrong with a header that is not one of comma-separated names.
+fn not_by_commas(names: &csv::StringRecord) -> Option<Complaint> {
+    let wrong = |found: &str, hint: &str| {
+        Some(Complaint::new("header", found, "names with commas between them").hinted(hint))
     };
-    names.get(0).filter(|name| name.contains('\n')).map(|_| complaint())
+    let hint = "save it as CSV with commas between the cells and points in the numbers";
+    match names.get(0)? {
+        cell if cell.contains('\n') => {
+            wrong("a name of several lines", "a closing quote is missing")
+        }
+        cell if names.len() == 1 && cell.contains(';') => {
+            wrong("semicolons between the names", hint)
+        }
+        cell if names.len() == 1 && cell.contains('\t') => wrong("tabs between the names", hint),
+        _ => None,
+    }
 }
 
 /// Adds the cells of the row at `at` to the columns.
 fn read_row(
-    (document, sheet): (&Document, &Sheet),
+    document: &Document,
     at: usize,
     record: &csv::StringRecord,
     scales: &[(&'static str, f64)],
     columns: &mut [(&'static str, Vec<f64>)],
 ) -> Result<()> {
-    if record.len() < scales.len() || filled(record) > scales.len() {
+    if record.len() != scales.len() {
         let cells = if record.len() == 1 { "cell" } else { "cells" };
         let found = format!("{} {cells} in this row", record.len());
         let complaint = Complaint::new("", found, format!("{}, as in the header", scales.len()));
@@ -158,12 +197,12 @@ fn read_row(
     for (k, ((written, (key, scale)), (_, values))) in
         record.iter().zip(scales).zip(columns).enumerate()
     {
-        match sheet.number(written) {
+        match written.parse::<f64>() {
             Ok(v) if (v * scale).is_finite() => values.push(v * scale),
-            other => {
-                let expected = other.err().unwrap_or_else(|| "a smaller number".to_owned());
+            _ => {
+                let expected = "a finite number (the unit stands in the header)";
                 let complaint = Complaint::new(*key, format!("{written:?}"), expected);
-                mistakes.add(document.error(sheet.cell(&document.text, at, k), complaint));
+                mistakes.add(document.error(cell(&document.text, at, k), complaint));
             }
         }
     }

@@ -16,18 +16,10 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Reads a file as UTF-8, or as UTF-16 where it begins with the mark of that.
+    /// Reads a file as UTF-8.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = file::read(path)?;
         let name = path.display().to_string();
-        let wide = match bytes[..] {
-            [0xff, 0xfe, ref rest @ ..] => Some(utf_16(rest, u16::from_le_bytes)),
-            [0xfe, 0xff, ref rest @ ..] => Some(utf_16(rest, u16::from_be_bytes)),
-            _ => None,
-        };
-        if let Some(Some(text)) = wide {
-            return Ok(Self::new(name, &text));
-        }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, &text)),
             Err(error) => {
@@ -36,7 +28,9 @@ impl Document {
                 let text = String::from_utf8_lossy(error.as_bytes());
                 let marked = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
                 let document = Self { file: name, text: text.into_owned(), last: START.into() };
-                let complaint = Complaint::new("", "bytes that are not text", "UTF-8 text");
+                let utf_16 = matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+                let found = if utf_16 { "UTF-16 text" } else { "bytes that are not text" };
+                let complaint = Complaint::new("", found, "UTF-8 text");
                 Err(document.error(marked, complaint.hinted("save it as UTF-8 in your editor")))
             }
         }
@@ -151,13 +145,6 @@ fn width(c: char) -> usize {
         '\u{1100}'.. => 2,
         _ => 1,
     }
-}
-
-/// Text of two bytes a unit; None where they are no text.
-fn utf_16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> Option<String> {
-    let (units, rest) = bytes.as_chunks::<2>();
-    let units: Vec<u16> = units.iter().map(|pair| unit(*pair)).collect();
-    String::from_utf16(&units).ok().filter(|_| rest.is_empty())
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@
 //! | file | question |
 //! |---|---|
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
-//! | `sheet` | how is a table written |
 //! | `csv_file`, `station_table` | a table; the stations of a profile |
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
@@ -22,7 +21,6 @@
 pub(crate) mod document;
 pub(crate) mod broken_json;
 pub(crate) mod json_node;
-pub(crate) mod sheet;
 pub(crate) mod csv_file;
 pub(crate) mod station_table;
 pub(crate) mod amounts;

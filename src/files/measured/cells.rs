@@ -2,13 +2,12 @@
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::units::{self, Quantity};
+use crate::files::csv_file::row_start;
 use crate::files::document::Document;
-use crate::files::sheet::{Sheet, filled, name};
 
 /// Cells and where each row begins.
 pub(crate) struct CellTable<'a> {
     document: &'a Document,
-    sheet: Sheet,
     pub header: CellRow,
     /// Rows below the header, each as wide as the header.
     pub rows: Vec<CellRow>,
@@ -23,16 +22,22 @@ pub(crate) struct CellRow {
 impl<'a> CellTable<'a> {
     /// Splits the text into cells; empty rows and comments are skipped.
     pub fn new(document: &'a Document) -> Result<Self> {
-        let sheet = Sheet::of(&document.text);
+        let reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(document.text.as_bytes());
         let mut rows = vec![];
-        for record in sheet.reader(&document.text).into_records() {
+        for record in reader.into_records() {
             let record = record.map_err(|error| {
                 document.error(0..0, Complaint::new("", error.to_string(), "rows of cells"))
             })?;
-            let offset = sheet.offset(&document.text, &record);
-            // Spreadsheets leave rows that hold nothing.
-            if filled(&record) > 0 {
-                let cells = record.iter().map(str::to_owned).collect();
+            let byte = record.position().map_or(0, |p| p.byte() as usize);
+            let offset = row_start(&document.text, byte);
+            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
+            // Spreadsheets leave lines that hold only commas.
+            if cells.iter().any(|cell| !cell.is_empty()) {
                 rows.push(CellRow { offset, cells });
             }
         }
@@ -40,21 +45,13 @@ impl<'a> CellTable<'a> {
         if rows.is_empty() {
             return Err(document.error(0..0, Complaint::new("", "no header", expected)));
         }
-        let named = |cells: &[String]| {
-            cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1)
-        };
-        let mut header = rows.remove(0);
-        header.cells.truncate(named(&header.cells));
-        header.cells.iter_mut().for_each(|cell| *cell = name(cell));
-        let width = header.cells.len();
-        for row in &mut rows {
-            // Beyond the header a row may hold empty cells; its first one may be a name.
-            row.cells.truncate(named(&row.cells).max(width));
-            if row.cells[0].starts_with(|letter: char| letter.is_alphabetic()) {
-                row.cells[0] = name(&row.cells[0]);
-            }
+        let header = rows.remove(0);
+        let table = Self { document, header, rows };
+        if table.header.cells.len() == 1 && table.header.cells[0].contains([';', '\t']) {
+            let found = "semicolons or tabs";
+            return Err(table.wrong((&table.header, 0), "header", found, "commas"));
         }
-        let table = Self { document, sheet, header, rows };
+        let width = table.header.cells.len();
         if let Some(row) = table.rows.iter().find(|row| row.cells.len() != width) {
             let found = format!("{} cells in this row", row.cells.len());
             return Err(table.wrong((row, 0), "", &found, format!("{width}, as in the header")));
@@ -70,7 +67,7 @@ impl<'a> CellTable<'a> {
         found: &str,
         expected: impl Into<String>,
     ) -> Error {
-        let at = self.sheet.cell(&self.document.text, row.offset, cell);
+        let at = crate::files::csv_file::cell(&self.document.text, row.offset, cell);
         self.document.error(at, Complaint::new(field, found, expected))
     }
 
@@ -85,18 +82,15 @@ impl<'a> CellTable<'a> {
         self.wrong((row, cell), field, &found, expected)
     }
 
-    /// Whether a cell is a number.
-    pub fn is_number(&self, cell: &str) -> bool {
-        self.sheet.number(cell).is_ok()
-    }
-
     /// The number in a cell, if it is in that range.
     pub fn number(&self, at: (&CellRow, usize), field: &str, [low, high]: [f64; 2]) -> Result<f64> {
         let text = &at.0.cells[at.1];
-        match self.sheet.number(text) {
+        match text.parse::<f64>() {
             Ok(value) if value >= low && value <= high => Ok(value),
-            Ok(_) => Err(self.wrong(at, field, text, format!("{low:?} to {high:?}"))),
-            Err(expected) => Err(self.strange(at, field, expected)),
+            Ok(value) if value.is_finite() => {
+                Err(self.wrong(at, field, text, format!("{low:?} to {high:?}")))
+            }
+            _ => Err(self.strange(at, field, "a finite number")),
         }
     }
 

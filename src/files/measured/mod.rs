@@ -43,14 +43,14 @@ pub struct Beside {
 pub fn read_with(path: &Path, beside: &Beside) -> Result<Measured> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match ending.as_str() {
-        "csv" | "txt" | "tsv" if *beside != Beside::default() => {
+        "csv" if *beside != Beside::default() => {
             let expected = "a universal file: a table names its units and places itself";
             Err(Error::value("--unit or --places", path.display(), expected))
         }
-        "csv" | "txt" | "tsv" => table::read(path),
+        "csv" => table::read(path),
         "uff" | "unv" => universal::read_with(path, beside),
         _ => {
-            let expected = "a file whose name ends with .csv, .txt, .tsv, .uff or .unv";
+            let expected = "a file whose name ends with .csv, .uff or .unv";
             Err(Error::value("measured modes", path.display(), expected))
         }
     }

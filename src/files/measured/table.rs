@@ -114,7 +114,7 @@ fn apart<'a>(table: &'a CellTable) -> Result<(Vec<&'a CellRow>, Vec<&'a CellRow>
         let expected = "a row with frequency_hz in its first cell";
         return Err(table.wrong((&table.header, 0), "", "no frequencies", expected));
     }
-    if let Some(row) = points.iter().find(|row| !table.is_number(&row.cells[0])) {
+    if let Some(row) = points.iter().find(|row| row.cells[0].parse::<f64>().is_err()) {
         let expected = "a place, or frequency_hz, damping_ratio or damping_percent";
         return Err(table.strange((row, 0), &table.header.cells[0], expected));
     }
@@ -205,12 +205,11 @@ fn frequencies(table: &CellTable) -> Result<Measured> {
 
 /// The number of a mode, each once.
 fn order(table: &CellTable, at: (&CellRow, usize), before: &[MeasuredMode]) -> Result<usize> {
-    let number = table.number(at, "mode", ANY).ok().filter(|value| value.fract() == 0.0);
-    match number.map(|value| value as usize) {
-        Some(order) if before.iter().any(|mode| mode.order == Some(order)) => {
+    match at.0.cells[at.1].parse::<usize>() {
+        Ok(order) if before.iter().any(|mode| mode.order == Some(order)) => {
             Err(table.wrong(at, "mode", &format!("{order} a second time"), "it once"))
         }
-        Some(order) if (1..=MOST).contains(&order) => Ok(order),
+        Ok(order) if (1..=MOST).contains(&order) => Ok(order),
         _ => Err(table.strange(at, "mode", format!("the number of a bending mode, 1 to {MOST}"))),
     }
 }
