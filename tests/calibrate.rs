@@ -197,7 +197,7 @@ fn what_is_determined_is_what_the_readings_can_say() {
         (tones, [8.8, 9.4, 8.8, 8.8, 3.1]),
         (all, [0.9, 3.5, 0.8, 0.3, 2.9]),
     ] {
-        let search = Search { wood: &wood, readings: &readings, held: &[] };
+        let search = Search { wood: &wood, readings: &readings, held: &[], about: [0.0; UNKNOWNS] };
         let labels: Vec<_> = readings.lines.iter().map(|line| line.mode).collect();
         let c = search.fit(&data(&readings, &labels), 5, &[0.0; UNKNOWNS]).unwrap().covariance;
         let shear = c[0][0] + 2.0 * c[0][1] + c[1][1];

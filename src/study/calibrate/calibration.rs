@@ -10,8 +10,8 @@ use crate::study::calibrate::fit::{Fit, Residual, Search};
 use crate::study::calibrate::labels::{Labelled, Labels, MOST_MODES, Told, best, contradict, strangers};
 use crate::study::calibrate::next::{BEYOND, Proposal, proposals};
 use crate::study::calibrate::posterior::Posterior;
-use crate::study::calibrate::readings::{BatReadings, Reading};
-use crate::study::calibrate::unknowns::{UNKNOWNS, Unknown, form};
+use crate::study::calibrate::readings::{BatReadings, Priors, Reading};
+use crate::study::calibrate::unknowns::{Logs, UNKNOWNS, Unknown, form};
 use crate::study::calibrate::wood::WoodenBat;
 
 /// Left out by more standard deviations than this, a datum does not fit the others.
@@ -164,6 +164,11 @@ impl Estimated {
         let far = times.ln().abs() > (deviations * self.prior.deviation).max(factor.ln());
         (own && far).then_some(times)
     }
+
+    /// Whether it is a density that no material of the file's kind has: then the profile is another one.
+    fn is_foreign_density(&self) -> bool {
+        self.property == Property::Density && self.foreign().is_some()
+    }
 }
 
 /// What the labels of the lines come to.
@@ -263,12 +268,18 @@ impl Calibration {
         let pivot = readings.pendulum.map_or(crate::bat::body::STANDARD_PIVOT, |swing| swing.pivot);
         check(bat, &readings, pivot)?;
         let wood = WoodenBat::new(bat, plan.split, pivot)?;
-        let search = Search { wood: &wood, readings: &readings, held: &plan.held };
+        let mut search =
+            Search { wood: &wood, readings: &readings, held: &plan.held, about: [0.0; UNKNOWNS] };
         if search.free().is_empty() {
             return Err(Error::value("--hold", "everything", "something that is not held"));
         }
         let (taken, identified) = labelled(&search)?;
-        let fit = taken.fit;
+        let mut fit = taken.fit;
+        if let Some(about) = another_wood(&search, &fit)? {
+            search.about = about;
+            let data: Vec<_> = fit.residuals.iter().map(|residual| residual.datum).collect();
+            fit = search.fit(&data, fit.shown.frequencies.len(), &about)?;
+        }
         let (parameters, open) = estimated(&search, &fit)?;
         let properties = Property::of(wood.regions());
         let parts: Vec<Vec<f64>> =
@@ -307,6 +318,7 @@ impl Calibration {
             && labels.changed().is_empty()
             && labels.is_sure()
             && !labels.is_mostly_discarded()
+            && !self.parameters.iter().any(Estimated::is_foreign_density)
     }
 
     /// Whether the readings fit the wood that was found, whatever the labels.
@@ -384,6 +396,25 @@ fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
 /// Whether a fit has settled near its data.
 fn is_near(fit: &Fit) -> bool {
     fit.settled && fit.misfit() <= far(fit.residuals.len())
+}
+
+/// The wood that what was known before is taken to be about, where the file's is another one: of E and density whatever
+/// the readings say, of all else the file's. None where the wood that was found may be one of the file's kind.
+fn another_wood(search: &Search, fit: &Fit) -> Result<Option<Logs>> {
+    /// χ² of what was known before that one wood in a hundred of the file's kind has.
+    const RARE: f64 = 10.0;
+    /// A wood of which nothing was known.
+    const ANY: f64 = 1e3;
+    if fit.chi2 - fit.misfit() < RARE || !fit.settled {
+        return Ok(None);
+    }
+    let priors = Priors { youngs_modulus: ANY, correlation: 0.0, ..search.readings.priors };
+    let readings = BatReadings { priors, ..search.readings.clone() };
+    let open = Search { readings: &readings, ..*search };
+    let data: Vec<_> = fit.residuals.iter().map(|residual| residual.datum).collect();
+    let found = open.fit(&data, fit.shown.frequencies.len(), &fit.logs)?;
+    let [e, _, density, barrel, _] = found.logs;
+    Ok(found.settled.then_some([e, 0.0, density, barrel, 0.0]))
 }
 
 /// The labels that are taken, and what others come to: those that were told where they fit; else, and where lines

@@ -110,6 +110,8 @@ pub struct Search<'a> {
     pub readings: &'a BatReadings,
     /// Unknowns that stay as the file has them.
     pub held: &'a [Unknown],
+    /// The wood that what was known before is about: that of the file, all 0, or one far from it.
+    pub about: Logs,
 }
 
 /// A datum beside what the fitted bat shows.
@@ -248,7 +250,8 @@ impl Search<'_> {
     fn linear(&self, data: &[Datum], shown: &Shown, logs: &Logs) -> Linear {
         // Unknowns that are held count in what was known before, where they are not as the file has them.
         let known = inverse(&self.prior()).unwrap_or_default();
-        let (free, at) = (self.free(), &logs[..known.len()]);
+        let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();
+        let (free, at) = (self.free(), &away[..known.len()]);
         let mut chi2 = form(&known, at, at);
         let mut gradient: Vec<f64> = free.iter().map(|k| -dot(&known[*k], at)).collect();
         let mut weights: Vec<Vec<f64>> =
