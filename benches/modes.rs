@@ -45,8 +45,7 @@ fn fixed_meshes() {
         ("R161, 100 elements, 10 modes", &r161, 100, 10, 5),
         ("dowel, 400 elements, 10 modes", &dowel, 400, 10, 1),
     ] {
-        let with =
-            |solver| Request { modes, elements: Some(elements), solver, ..Request::default() };
+        let with = |solver| Request { modes, elements: Some(elements), solver, ..Request::plain() };
         let of = |solver| move || drop(job(bat, &with(solver)));
         let [fast, dense, sparse] = side_by_side(
             runs,
@@ -95,8 +94,7 @@ fn theories() {
 /// A digit's price: five modes of the cone r 12.5 to 33 mm, each solver at the same accuracy.
 fn prices() {
     let cone = bundled_bat("meshes/cone.json").unwrap();
-    let exact =
-        solve(&cone, &Request { modes: 5, tolerance: 1e-13, ..Request::default() }).unwrap();
+    let exact = solve(&cone, &Request { modes: 5, tolerance: 1e-13, ..Request::plain() }).unwrap();
     println!("\nFive modes of a cone within a tolerance, everything included, and how many times");
     println!("longer the other solvers take on the cubic mesh that is as accurate");
     println!(
@@ -104,7 +102,7 @@ fn prices() {
         "asked", "elements", "true error", "statics", "cubics", "dense", "shift-invert"
     );
     for digits in [2, 4, 6, 8, 10, 12] {
-        let request = Request { modes: 5, tolerance: 10f64.powi(-digits), ..Request::default() };
+        let request = Request { modes: 5, tolerance: 10f64.powi(-digits), ..Request::plain() };
         let found = job(&cone, &request);
         let errors =
             found.modes.iter().zip(&exact.modes).map(|(a, b)| (a.omega / b.omega - 1.0).abs());
@@ -141,19 +139,19 @@ fn prices() {
         );
     }
     let r161 = bundled_bat("meshes/r161.json").unwrap();
-    let [whole] = side_by_side(31, [&|| drop(job(&r161, &Request::default()))]);
+    let [whole] = side_by_side(31, [&|| drop(job(&r161, &Request::plain()))]);
     println!("R161, 10 modes certified to 1e-4: {whole:.1?}\n");
 }
 
 fn modes(criterion: &mut Criterion) {
     let dowel = bundled_bat("meshes/dowel.json").unwrap();
     for (elements, modes) in [(64, 6), (1024, 10)] {
-        let request = Request { modes, elements: Some(elements), ..Request::default() };
+        let request = Request { modes, elements: Some(elements), ..Request::plain() };
         let name = format!("dowel, {elements} elements, {modes} modes, statics");
         criterion.bench_function(&name, |b| b.iter(|| job(&dowel, &request)));
     }
     let request =
-        Request { modes: 6, elements: Some(64), solver: Solver::Dense, ..Request::default() };
+        Request { modes: 6, elements: Some(64), solver: Solver::Dense, ..Request::plain() };
     criterion.bench_function("dowel, 64 elements, 6 modes, dense", |b| {
         b.iter(|| job(&dowel, &request));
     });

@@ -171,7 +171,7 @@ fn main() {
     of_modes();
     with(Some(1), of_hits);
     let bats = random_bats();
-    let planned = Request { modes: 6, tolerance: 1e-4, ..Request::default() };
+    let planned = Request { modes: 6, tolerance: 1e-4, ..Request::plain() };
     let fixed = Request { elements: Some(40), degree: Some(3), ..planned };
     println!("{BATS} random tapered bats, 6 modes with shapes\n");
     println!("{:<34} {:>12} {:>12} {:>8}", "bats a second", "one by one", "side by side", "ratio");

@@ -6,7 +6,7 @@
 //! bat solved as accurately as can be, and what it says of its own error against what its error is.
 
 use std::env;
-use sweetspot::study::theory_choice;
+use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Request, Result, Solution, solve};
 
 /// Five modes, as a maker of bats would ask for.
@@ -22,9 +22,10 @@ fn error(solution: &Solution, reference: &Solution) -> f64 {
 
 fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
-    let bat = Bat::from_file(path)?;
-    let mut request = Request { modes: MODES, tolerance: 1e-4, ..Request::default() };
-    request.theory = theory_choice::theory(&bat, &request)?.theory;
+    let file = Bat::from_file(path)?;
+    // One theory and one stiffness for all the meshes.
+    let asked = Request { modes: MODES, tolerance: 1e-4, ..Request::default() };
+    let Prepared { bat, request, .. } = prepare(&file, &asked)?;
     let reference = solve(&bat, &Request { tolerance: 1e-13, ..request })?;
     let certain = reference.worst();
 

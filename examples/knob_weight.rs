@@ -14,7 +14,7 @@ use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::{FINE, Looked};
 use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::study::theory_choice;
+use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Request, Result};
 
 const OUNCE: f64 = 0.028_349_523_125;
@@ -44,12 +44,13 @@ fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
 
 fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
-    let bare = Bat::from_file(path)?;
+    let file = Bat::from_file(path)?;
+    // If it was tapped, it was without the weights.
+    let asked = Request { tolerance: 1e-5, ..Request::default() };
+    let Prepared { bat: bare, request, .. } = prepare(&file, &asked)?;
     let reference = bare.inertia().about(STANDARD_PIVOT);
     let batter = SwingLaw { exponent: 0.5, reference, of_reference: SWING };
-    let request = Request { tolerance: 1e-5, ..Request::default() };
-    let theory = theory_choice::theory(&bare, &request)?.theory;
-    let accuracy = Accuracy { exit_speed: 1e-5, theory, ..Accuracy::default() };
+    let accuracy = Accuracy { exit_speed: 1e-5, theory: request.theory, ..Accuracy::default() };
 
     println!("{}, with a weight {:.2} in from the knob end", bare.name(), inches(KNOB));
     println!("                                                      sweet     fastest ball, mph,");
@@ -57,7 +58,7 @@ fn main() -> Result<()> {
     println!("    oz  in, knob       oz in²          Hz   in, tip  in, tip    swing   energy");
     let (mut rows, mut error) = (vec![], 0.0_f64);
     for count in [0.0, 1.0, 2.0, 3.0] {
-        let bat = if count > 0.0 { weighted(&bare, count * OUNCE)? } else { bare.clone() };
+        let bat = if count > 0.0 { weighted(&bare, count * OUNCE)? } else { bare.as_ref().clone() };
         let scene = Scene { swing: SWING, ball_speed: PITCH, ..Scene::default() };
         let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;
         let [x, same, off] = best(&bat, SWING, &sweep)?;

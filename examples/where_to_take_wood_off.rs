@@ -16,7 +16,7 @@ use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::sweet_spot::{FINE, Looked};
 use sweetspot::collision::{Effort, Hitter, Model, Scene};
-use sweetspot::study::theory_choice;
+use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Error, Request, Result, Solution, solve};
 
 const INCH: f64 = 0.0254;
@@ -60,14 +60,15 @@ fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f
 
 fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
-    let bat = Bat::from_file(path)?;
-    let mut request = Request { tolerance: TOLERANCE, ..Request::default() };
-    request.theory = theory_choice::theory(&bat, &request)?.theory;
+    let file = Bat::from_file(path)?;
+    // If it was tapped, it was with all its wood.
+    let asked = Request { tolerance: TOLERANCE, ..Request::default() };
+    let Prepared { bat, request, .. } = prepare(&file, &asked)?;
     let scene = Scene { swing: SWING, ball_speed: PITCH, ..Scene::default() };
     let accuracy =
         Accuracy { exit_speed: TOLERANCE, theory: request.theory, ..Accuracy::default() };
     let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.8 * bat.length()])?;
-    request = Request { modes: sweep.solution.modes.len(), tolerance: 1e-9, ..request };
+    let request = Request { modes: sweep.solution.modes.len(), tolerance: 1e-9, ..request };
     let solution = solve(&bat, &request)?;
     let body = bat.inertia();
     let reference = body.about(STANDARD_PIVOT);

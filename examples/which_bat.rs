@@ -11,8 +11,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::study::theory_choice;
-use sweetspot::{Bat, Request, Result};
+use sweetspot::{Bat, Result};
 
 /// Allowed error of an exit speed over the closing speed.
 const TOLERANCE: f64 = 1e-5;
@@ -28,9 +27,7 @@ fn from_tip(k: usize) -> f64 {
 /// Exit speeds at the impact points and the largest of their errors (mph), the bat described.
 fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let scene = Scene { swing: batter.swing(bat), ball_speed: PITCH, ..Scene::default() };
-    let request = Request { tolerance: TOLERANCE, ..Request::default() };
-    let theory = theory_choice::theory(bat, &request)?.theory;
-    let accuracy = Accuracy { exit_speed: TOLERANCE, theory, ..Accuracy::default() };
+    let accuracy = Accuracy { exit_speed: TOLERANCE, ..Accuracy::default() };
     let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
     let sweep = sweep(bat, Model::Contact, &scene, &accuracy, &places)?;
 

@@ -32,7 +32,7 @@ pub const READERS: [(&str, Reader); 8] = [
 /// A bat file; what it describes is solved, roughly.
 pub fn bat(bytes: &[u8]) -> bool {
     let Some(bat) = said(Bat::from_text("bat", &text(bytes), Path::new(""))) else { return false };
-    let request = Request { modes: 2, tolerance: 1e-2, ..Request::default() };
+    let request = Request { modes: 2, tolerance: 1e-2, ..Request::plain() };
     if let Some(solution) = said(solve(&bat, &request)) {
         assert!(solution.modes.iter().all(|mode| mode.frequency().is_finite()));
     }

@@ -20,7 +20,7 @@
 //! use sweetspot::collision::sweep::{Accuracy, sweep};
 //! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
 //! use sweetspot::bat::profile::{Interpolation, Stations};
-//! use sweetspot::{Bat, Material, Profile, Request, Theory, solve};
+//! use sweetspot::{Bat, Material, Profile, Request, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
 //! let inches = [0.0, 0.5, 1.25, 3.0, 6.0, 12.0, 18.0, 24.0, 30.0, 33.5];
@@ -33,9 +33,8 @@
 //! let bat = Bat::builder(profile, maple).name("my maple").mass(Some(0.893)).build()?; // weighed, in kg
 //! println!("it balances {:.3} m from the knob", bat.inertia().balance_point);
 //!
-//! // Five bending modes, every frequency within 1e-8 of the exact beam's.
-//! let theory = Theory::Timoshenko;
-//! let asked = Request { modes: 5, tolerance: 1e-8, theory, ..Request::default() };
+//! // Five bending modes, every frequency within 1e-8 of the exact beam's; whether shear counts is found out.
+//! let asked = Request { modes: 5, tolerance: 1e-8, ..Request::default() };
 //! let solution = solve(&bat, &asked)?;
 //! assert!(solution.met);
 //! for mode in &solution.modes {
@@ -44,7 +43,7 @@
 //!
 //! // A swing meets a pitch; exit speeds within 1e-4 of the closing speed.
 //! let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
-//! let accuracy = Accuracy { exit_speed: 1e-4, theory, ..Accuracy::default() };
+//! let accuracy = Accuracy { exit_speed: 1e-4, ..Accuracy::default() };
 //! let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.6, 0.7, 0.8])?;
 //! for (x, outcome) in hits.impacts.iter().filter_map(|at| Some((at.x, at.outcome.as_ref()?))) {
 //!     println!("a ball met {x} m from the knob leaves at {:.2} m/s", outcome.exit_speed);

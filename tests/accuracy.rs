@@ -11,7 +11,7 @@ use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Solver, solve};
 
 fn on(elements: usize, modes: usize) -> Request {
-    Request { modes, elements: Some(elements), ..Request::default() }
+    Request { modes, elements: Some(elements), ..Request::plain() }
 }
 
 /// Ritz values lie above the exact ones by `(βh)⁴/1440` to leading order. The next term is
@@ -57,7 +57,7 @@ fn a_hundred_thousand_elements_lose_no_digits() {
 
 #[test]
 fn sixty_modes_of_a_dowel_are_found_in_order_with_their_nodes() {
-    let request = Request { modes: 60, tolerance: 1e-8, ..Request::default() };
+    let request = Request { modes: 60, tolerance: 1e-8, ..Request::plain() };
     let solution = solve(&dowel(), &request).unwrap();
     assert!(solution.met);
     for mode in &solution.modes {
@@ -98,7 +98,7 @@ fn the_promise_holds_on_cones_steps_and_real_bats() {
         assert_eq!(known.len(), 10, "{name}");
         for exponent in 2..=9 {
             let tolerance = 10f64.powi(-exponent);
-            let solution = solve(&bat, &Request { tolerance, ..Request::default() }).unwrap();
+            let solution = solve(&bat, &Request { tolerance, ..Request::plain() }).unwrap();
             for (mode, exact) in solution.modes.iter().zip(&known) {
                 let truth = (mode.frequency() / exact - 1.0).abs();
                 let stated = mode.error.total();
@@ -120,7 +120,7 @@ fn the_true_error_is_within_three_times_the_stated_one() {
     let (mut close, mut all) = (0, 0);
     for exponent in 2..=12 {
         let tolerance = 10f64.powi(-exponent);
-        let solution = solve(&dowel(), &Request { tolerance, ..Request::default() }).unwrap();
+        let solution = solve(&dowel(), &Request { tolerance, ..Request::plain() }).unwrap();
         for mode in &solution.modes {
             let truth = (mode.frequency() / dowel_frequency(mode.order) - 1.0).abs();
             let stated = mode.error.total();
@@ -149,7 +149,7 @@ fn a_fixed_mesh_states_its_error_too() {
 
 #[test]
 fn an_unreachable_tolerance_gives_the_best_answer_and_says_so() {
-    let request = Request { modes: 2, tolerance: 1e-16, ..Request::default() };
+    let request = Request { modes: 2, tolerance: 1e-16, ..Request::plain() };
     let solution = solve(&cone(0.0125, 0.033), &request).unwrap();
     assert!(!solution.met);
     assert!(solution.worst() < 1e-12 && solution.worst() > 1e-16, "{:e}", solution.worst());
@@ -200,7 +200,7 @@ fn a_bat_that_ends_in_a_point_rings_within_its_stated_error() {
     // Known to more than 20 digits from Kirchhoff's equation and two other ways.
     let truth = Truth::of_cases(&["cone_complete"]).unwrap();
     for tolerance in [1e-2, 1e-4, 1e-6, 1e-9] {
-        let request = Request { tolerance, modes: 5, ..Request::default() };
+        let request = Request { tolerance, modes: 5, ..Request::plain() };
         let solution = solve(&truth.bat, &request).unwrap();
         for (mode, exact) in solution.modes.iter().zip(&truth.frequencies) {
             let off = (mode.frequency() / exact - 1.0).abs();
@@ -214,7 +214,7 @@ fn a_bat_that_ends_in_a_point_rings_within_its_stated_error() {
 #[test]
 fn a_budget_gives_the_best_answer_that_fits() {
     let truth = Truth::of_cases(&["cone_1_2p64_60"]).unwrap();
-    let request = Request { modes: 5, ..Request::default() };
+    let request = Request { modes: 5, ..Request::plain() };
     let plenty = solve_within(&truth.bat, &request, Duration::from_secs(5)).unwrap();
     assert!(plenty.met && plenty.worst() < 1e-12, "{:e}", plenty.worst());
     let nothing = solve_within(&truth.bat, &request, Duration::from_nanos(1)).unwrap();
@@ -233,7 +233,7 @@ fn every_degree_keeps_the_promise() {
     let truth = Truth::of_cases(&["cone_1_2p64_60"]).unwrap();
     let mut elements = usize::MAX;
     for degree in 3..=12 {
-        let request = Request { degree: Some(degree), tolerance: 1e-7, ..Request::default() };
+        let request = Request { degree: Some(degree), tolerance: 1e-7, ..Request::plain() };
         let solution = solve(&truth.bat, &request).unwrap();
         assert!(solution.met && solution.degree == degree);
         assert!(solution.mesh.len() <= elements, "a higher degree needs fewer elements");
@@ -256,7 +256,7 @@ fn a_mode_is_the_same_within_its_errors_however_many_are_asked_for() {
             false => bundled_bat(&format!("meshes/{name}.json")).unwrap(),
         };
         let asked = |modes, tolerance| {
-            solve(&bat, &Request { modes, tolerance, ..Request::default() }).unwrap().modes
+            solve(&bat, &Request { modes, tolerance, ..Request::plain() }).unwrap().modes
         };
         let exact = asked(20, if dumbbell { 1e-10 } else { 1e-11 });
         for (tolerance, modes) in

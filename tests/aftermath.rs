@@ -96,7 +96,7 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
 fn a_slow_push_strains_as_statics_says() {
     use sweetspot::collision::contact::table::Piece;
     let bat = bundled_bat("meshes/dowel.json").unwrap();
-    let request = Request { modes: 60, tolerance: 1e-6, ..Request::default() };
+    let request = Request { modes: 60, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(&bat, &request).unwrap();
     // Half a second up to 100 N: modes of 240 Hz and more follow.
     let force = 100.0;

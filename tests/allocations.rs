@@ -10,7 +10,7 @@ use sweetspot::{Bat, Request};
 fn ten_times_the_bats_take_no_more_allocations() {
     let cone = |k: usize| cone(0.010 + 1e-5 * k as f64, 0.033 - 1e-6 * k as f64);
     let bats: Vec<Bat> = (0..320).map(cone).collect();
-    let planned = Request { modes: 6, ..Request::default() };
+    let planned = Request { modes: 6, ..Request::plain() };
     let fixed = Request { elements: Some(40), ..planned };
     for (request, way) in [
         (planned, Way::OneByOne),

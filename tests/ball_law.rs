@@ -57,7 +57,7 @@ fn a_linear_spring_on_a_rigid_free_bat_takes_half_a_period_and_loses_nothing() {
 #[test]
 fn a_ball_with_a_law_of_its_own_is_hit_like_any_other() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
     let effort = Effort { accuracy: 1e-9, ..Effort::default() };
     let power = Ball { cor: 1.0, ..Ball::baseball().linear(3e6).unwrap() };
     let own = Ball { law: LawOf(|k, _, _| Box::new(Linear(k))), ..power.clone() };

@@ -93,10 +93,10 @@ fn assert_near(a: &[f64], b: &[f64], within: f64) {
 fn side_by_side_and_one_by_one_have_the_same_bits() {
     let bats = cones(21);
     for request in [
-        Request { modes: 1, ..Request::default() },
-        Request { modes: 6, ..Request::default() },
-        Request { modes: 8, tolerance: 1e-9, ..Request::default() },
-        Request { modes: 6, elements: Some(40), ..Request::default() },
+        Request { modes: 1, ..Request::plain() },
+        Request { modes: 6, ..Request::plain() },
+        Request { modes: 8, tolerance: 1e-9, ..Request::plain() },
+        Request { modes: 6, elements: Some(40), ..Request::plain() },
     ] {
         let alone = found(&bats, &request, Way::OneByOne);
         let together = found(&bats, &request, Way::SideBySide);
@@ -153,7 +153,7 @@ fn real_bats_are_the_same_by_every_theory_whoever_is_beside_them() {
 /// Each bat as the single solve finds it, within what both state.
 #[test]
 fn each_bat_is_the_bat_that_is_solved_alone() {
-    let request = |modes| Request { modes, tolerance: 1e-6, ..Request::default() };
+    let request = |modes| Request { modes, tolerance: 1e-6, ..Request::plain() };
     for (bats, request) in [
         (unlike(), request(5)),
         (unlike(), request(0)),
@@ -248,7 +248,7 @@ fn masses_and_frequencies_are_those_of_the_shapes() {
         (unlike(), Some(4), 1e-6),
         (with_formulas(), None, 1e-6),
     ] {
-        let request = Request { modes: 4, tolerance, degree, ..Request::default() };
+        let request = Request { modes: 4, tolerance, degree, ..Request::plain() };
         for way in WAYS {
             for (bat, found) in bats.iter().zip(found(&bats, &request, way)) {
                 for k in 0..request.modes {
@@ -284,7 +284,7 @@ fn modal_masses_of_dowels_are_a_quarter_of_their_mass() {
             cone(radius, radius)
         })
         .collect();
-    let request = Request { modes: 5, tolerance: 1e-12, ..Request::default() };
+    let request = Request { modes: 5, tolerance: 1e-12, ..Request::plain() };
     for way in WAYS {
         for (dowel, found) in dowels.iter().zip(found(&dowels, &request, way)) {
             for k in 0..request.modes {
@@ -303,7 +303,7 @@ fn modal_masses_of_dowels_are_a_quarter_of_their_mass() {
 fn an_asked_mesh_has_the_frequencies_and_shapes_of_the_bat_that_is_solved_alone() {
     for degree in [None, Some(4), Some(5), Some(10)] {
         let elements = Some(40);
-        let request = Request { modes: 6, tolerance: 1e-9, elements, degree, ..Request::default() };
+        let request = Request { modes: 6, tolerance: 1e-9, elements, degree, ..Request::plain() };
         for bats in [unlike(), with_formulas()] {
             let alone: Vec<_> = bats.iter().map(|bat| solve(bat, &request).unwrap()).collect();
             for way in WAYS {
@@ -338,7 +338,7 @@ fn results_do_not_depend_on_neighbours_or_cores() {
     // Another make in the middle: the eight around it go one by one.
     let mut bats = cones(600);
     bats[300] = bundled_bat("meshes/r161.json").unwrap();
-    let request = Request { modes: 4, ..Request::default() };
+    let request = Request { modes: 4, ..Request::plain() };
     for way in WAYS {
         let shares: Vec<_> = bats.chunks(256).flat_map(|bats| found(bats, &request, way)).collect();
         for threads in [1, 2, 8] {
@@ -358,9 +358,9 @@ fn results_do_not_depend_on_neighbours_or_cores() {
 
 #[test]
 fn nothing_and_too_little_are_told() {
-    each(&[], &Request::default(), Way::SideBySide, |_, _| panic!("there is no bat"));
-    let few = Request { modes: 9, elements: Some(2), ..Request::default() };
-    let plain = Request::default();
+    each(&[], &Request::plain(), Way::SideBySide, |_, _| panic!("there is no bat"));
+    let few = Request { modes: 9, elements: Some(2), ..Request::plain() };
+    let plain = Request::plain();
     for (request, says) in [
         (few, "at least 5 elements"),
         (Request { tolerance: 0.0, ..plain }, "tolerance: found 0"),

@@ -10,7 +10,7 @@ use sweetspot::{Bat, Request, Solution, solve};
 
 fn solved(path: &str) -> (Bat, Solution) {
     let bat = bundled_bat(path).unwrap();
-    let solution = solve(&bat, &Request { tolerance: 1e-8, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { tolerance: 1e-8, ..Request::plain() }).unwrap();
     (bat, solution)
 }
 
@@ -78,7 +78,7 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
         assert!((flexible - rigid.unwrap()).abs() < 1e-12);
     }
     // With one mode, nothing is lost at its node and something is beside it.
-    let request = Request { modes: 1, tolerance: 1e-8, ..Request::default() };
+    let request = Request { modes: 1, tolerance: 1e-8, ..Request::plain() };
     let one = solve(&bat, &request).unwrap();
     let node = one.modes[0].nodes[1];
     let hitter = empirical(&scene, &bat, &one);

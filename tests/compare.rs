@@ -133,7 +133,7 @@ fn one_batter_swings_the_heavier_bat_slower() {
         bat: bat.clone(),
         scene: Scene { swing: law.swing(bat), ..Scene::default() },
         law: Some(law),
-        request: Request::default(),
+        request: Request::plain(),
     };
     let terms =
         Terms { model: Model::Contact, exactly: false, every: INCH, look: FINE, barrel: None };

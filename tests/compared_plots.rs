@@ -31,7 +31,7 @@ fn even(length: f64) -> Bat {
 
 /// Bats side by side, so many modes each.
 fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
-    let request = Request { modes: 6, ..Request::default() };
+    let request = Request { modes: 6, ..Request::plain() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
     let terms = Terms { model, exactly: false, every: 0.0254, look: FINE, barrel: None };
     Comparison::new(bats.iter().map(entry).collect(), terms).unwrap()
@@ -130,14 +130,14 @@ fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> 
     folder.write("measured.csv", text);
     let measured = measured::read(&folder.0.join("measured.csv")).unwrap();
     let told = Told { first: Some(End::Knob), origin: None };
-    let study = Study::new(bat, measured, &Request::default(), false, told).unwrap();
+    let study = Study::new(bat, measured, &Request::plain(), false, told).unwrap();
     plot::measured::pictures(Sheet::file(false), bat.name(), &study)
 }
 
 #[test]
 fn measured_modes_of_long_names_have_numbers_in_their_matrix() {
     let bat = bat("r161");
-    let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
     let places: Vec<f64> = (0..=30).map(|k| bat.length() * f64::from(k) / 30.0).collect();
     let at_places = |of: &dyn Fn(f64) -> f64| places.iter().map(|x| of(*x)).collect::<Vec<_>>();
     let shapes = solution.modes.iter().map(|mode| at_places(&|x| mode.shape.deflection(x)));

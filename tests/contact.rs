@@ -165,7 +165,7 @@ fn the_sweet_spots_are_those_of_an_independent_calculation() {
         let bat = known_bat(file);
         for (swing, place, speed) in known {
             let modes = Some(15);
-            let accuracy = Accuracy { exit_speed: 1e-6, modes, ..Accuracy::default() };
+            let accuracy = Accuracy { exit_speed: 1e-6, modes, ..Accuracy::plain() };
             let scene = scene(swing, 0.5);
             let sweep = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.6]).unwrap();
             let spot = spot(&sweep, Model::Contact, &bat, &scene);
@@ -189,7 +189,7 @@ fn the_pulse_has_its_known_sweet_spots() {
     ] {
         let bat = known_bat(file);
         for (swing, place, speed) in known {
-            let accuracy = Accuracy { exit_speed: 1e-6, ..Accuracy::default() };
+            let accuracy = Accuracy { exit_speed: 1e-6, ..Accuracy::plain() };
             let (model, scene) = (Model::Pulse(Pulse::default()), scene(swing, 0.5));
             let sweep = sweep(&bat, model, &scene, &accuracy, &[0.6, 0.7]).unwrap();
             assert!(sweep.met);

@@ -24,7 +24,7 @@ fn errors(truth: &Truth, degree: usize, counts: &[usize], modes: &[usize]) -> Ve
         let wanted = modes.iter().copied().filter(|mode| 2 * mode <= count * (degree - 1)).max();
         let Some(wanted) = wanted else { continue };
         let (elements, degree) = (Some(count), Some(degree));
-        let request = Request { modes: wanted, elements, degree, ..Request::default() };
+        let request = Request { modes: wanted, elements, degree, ..Request::plain() };
         let solution = solve(&truth.bat, &request).unwrap();
         assert_eq!(solution.mesh.len(), count);
         for (errors, &mode) in errors.iter_mut().zip(modes).filter(|(_, mode)| **mode <= wanted) {
@@ -129,7 +129,7 @@ fn no_element_lies_across_a_station() {
         let bat = Truth::of_cases(&[case]).unwrap().bat;
         for count in 1..=60 {
             let request =
-                Request { modes: 1, elements: Some(count), degree: Some(5), ..Request::default() };
+                Request { modes: 1, elements: Some(count), degree: Some(5), ..Request::plain() };
             let nodes = solve(&bat, &request).unwrap().mesh.nodes();
             for x in &bat.profile().stations.x {
                 let nearest = nodes.iter().map(|node| (node - x).abs()).fold(1.0, f64::min);

@@ -58,7 +58,7 @@ fn swing_weight(bat: &Bat) -> f64 {
 }
 
 fn frequencies(bat: &Bat) -> Vec<f64> {
-    let request = Request { modes: 4, tolerance: 1e-9, ..Request::default() };
+    let request = Request { modes: 4, tolerance: 1e-9, ..Request::plain() };
     solve(bat, &request).unwrap().modes.iter().map(|mode| mode.frequency()).collect()
 }
 

@@ -145,7 +145,7 @@ fn a_feature_between_the_samples_is_in_every_frequency() {
         let bat = read(case.outer, case.inner).unwrap();
         let grid = grid(case);
         for tolerance in [1e-2, 1e-4, 1e-8] {
-            let request = Request { modes: 4, tolerance, ..Request::default() };
+            let request = Request { modes: 4, tolerance, ..Request::plain() };
             let solution = solve(&bat, &request).unwrap();
             assert!(solution.met, "{} at {tolerance:e}", case.outer);
             for mode in &solution.modes {
@@ -207,7 +207,7 @@ fn a_thin_tapered_wall_takes_as_many_elements_as_a_thick_one() {
                 }
             }
             let solved = |tolerance: f64| {
-                solve(&bat, &Request { modes: 4, tolerance, ..Request::default() }).unwrap()
+                solve(&bat, &Request { modes: 4, tolerance, ..Request::plain() }).unwrap()
             };
             let [coarse, fine] = [solved(1e-8), solved(1e-12)];
             for (a, b) in coarse.modes.iter().zip(&fine.modes) {
@@ -223,7 +223,7 @@ fn a_thin_tapered_wall_takes_as_many_elements_as_a_thick_one() {
 fn a_point_at_an_end_takes_few_elements() {
     for outer in ["0.033*x/0.84", "0.03*sqrt(x)", "0.03*sqrt(1-(x/0.84)^2)", "0.03*(x/0.84)^0.3"] {
         let bat = read(outer, None).unwrap();
-        let request = Request { modes: 4, tolerance: 1e-6, ..Request::default() };
+        let request = Request { modes: 4, tolerance: 1e-6, ..Request::plain() };
         let solution = solve(&bat, &request).unwrap();
         assert!(solution.met && solution.mesh.len() < 60, "{outer}: {}", solution.mesh.len());
     }

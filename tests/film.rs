@@ -15,7 +15,7 @@ fn mesh(name: &str) -> String {
 fn analysed(bat: Bat, scene: Scene) -> Analysis {
     let hits = Request { theory: Theory::Timoshenko, ..Request::default() };
     let solution = solve(&bat, &hits).unwrap();
-    let (model, proof, readings) = (Model::Contact, Request::default(), Default::default());
+    let (model, proof, readings) = (Model::Contact, Request::plain(), Default::default());
     let task = Task { model, scene, law: None, hits, proof, readings };
     Analysis::new(bat, solution, task).unwrap()
 }

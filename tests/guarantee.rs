@@ -139,7 +139,7 @@ fn what_is_proven_is_the_decimals_of_the_file() {
 #[test]
 fn a_band_holds_the_frequencies_of_bats_within_it() {
     let bat = mesh_bat("r161");
-    let request = Request { modes: 4, tolerance: 1e-9, ..Request::default() };
+    let request = Request { modes: 4, tolerance: 1e-9, ..Request::plain() };
     let within = Within { radius: 1e-4, modulus: 0.02 };
     let found = band(&bat, &request, within).unwrap();
     assert!(found.met && found.hertz.len() == 4);
@@ -183,7 +183,7 @@ fn a_band_holds_the_frequencies_of_bats_within_it() {
 #[test]
 fn what_is_not_carried_is_refused_with_its_reason() {
     let refused = |name: &str| {
-        let request = Request { modes: 2, ..Request::default() };
+        let request = Request { modes: 2, ..Request::plain() };
         guarantee(&mesh_bat(name), &request).unwrap_err().to_string()
     };
     let reasons = [("tanh", "formulas"), ("house", "point"), ("torpedo", "point")];
@@ -209,7 +209,7 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     ];
     for (fixtures, reason) in held {
         let bat = mesh_bat("r161").with(|parts| parts.fixtures = fixtures.clone()).unwrap();
-        let said = guarantee(&bat, &Request { modes: 2, ..Request::default() }).unwrap_err();
+        let said = guarantee(&bat, &Request { modes: 2, ..Request::plain() }).unwrap_err();
         assert!(said.to_string().contains(reason), "{said}");
     }
 }
@@ -253,7 +253,7 @@ fn a_held_bat_is_proven_between_freer_and_stiffer_ones() {
 fn a_band_of_a_held_bat_holds_its_frequencies() {
     let clamp = Support { x: 0.0, kind: Held::Clamped };
     let bat = mesh_bat("r161").with(|parts| parts.fixtures.supports.push(clamp)).unwrap();
-    let request = Request { modes: 3, tolerance: 1e-9, ..Request::default() };
+    let request = Request { modes: 3, tolerance: 1e-9, ..Request::plain() };
     let found = band(&bat, &request, Within { radius: 1e-4, modulus: 0.02 }).unwrap();
     let own = proven(&bat, 3, 1e-9, Theory::EulerBernoulli);
     assert!(found.met && found.hertz.len() == 3);

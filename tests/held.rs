@@ -245,7 +245,7 @@ fn rigid_motions_are_found_and_named() {
         (hands, 0, "no rigid"),
     ] {
         let bat = with(fixtures);
-        let solution = solve(&bat, &Request { modes: 3, ..Request::default() }).unwrap();
+        let solution = solve(&bat, &Request { modes: 3, ..Request::plain() }).unwrap();
         assert!(solution.met && solution.complete());
         assert_eq!((solution.rigid_modes, bat.fixtures().rigid_modes()), (rigid, rigid));
         assert!(bat.fixtures().freedom().contains(words), "{}", bat.fixtures().freedom());
@@ -430,7 +430,7 @@ fn hundreds_of_absorbers_along_the_bat_are_all_found() {
         let hung = absorbers(count, place, 0.0).into_iter().map(soft).collect();
         let bat = with(Fixtures { absorbers: hung, ..Fixtures::default() });
         for modes in [10, 50, count + 3] {
-            let asked = Request { modes, ..Request::default() };
+            let asked = Request { modes, ..Request::plain() };
             let found = solve(&bat, &asked).unwrap();
             assert!(found.met && found.complete(), "{count} {modes} {:?}", found.stopped);
             // √(k/m) is 31.6 rad/s; the bat's own motions begin above 500.

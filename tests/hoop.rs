@@ -309,7 +309,7 @@ fn the_first_harmonic_is_the_beam() {
     close(&wall, &[187.266, 511.380, 988.929], 2e-6);
     let theory = sweetspot::Theory::Timoshenko;
     let request =
-        sweetspot::Request { modes: 3, tolerance: 1e-7, theory, ..sweetspot::Request::default() };
+        sweetspot::Request { modes: 3, tolerance: 1e-7, theory, ..sweetspot::Request::plain() };
     let mut metal = aluminium();
     metal.shear_modulus = Some(71e9 / 2.66);
     let solution = sweetspot::solve(&tube(0.9, 0.012, 0.002, metal), &request).unwrap();

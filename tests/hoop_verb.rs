@@ -114,7 +114,7 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
 fn another_wall_grows_along_the_taper_and_leaves_the_surface() {
     for name in ["bbcor_made_up", "softball_made_up_open"] {
         let bat = mesh(name);
-        let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::default());
+        let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::plain());
         let barrel = Barrel::of(&bat, test).unwrap();
         let from = barrel.hoop().from();
         let whole = barrel.struck.wall.as_ref().unwrap().thickness;

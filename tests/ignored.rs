@@ -27,7 +27,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
             ..dowel.material().clone()
         };
         let bat = Bat::builder(dowel.profile().clone(), material).name("dowel").build().unwrap();
-        let solution = solve(&bat, &Request { tolerance: 1e-9, ..Request::default() }).unwrap();
+        let solution = solve(&bat, &Request { tolerance: 1e-9, ..Request::plain() }).unwrap();
         for mode in &solution.modes[..5] {
             let beta = common::beta(mode.order);
             let sigma = (beta.cosh() - beta.cos()) / (beta.sinh() - beta.sin());
@@ -61,7 +61,7 @@ fn the_chosen_theory_is_as_accurate_as_asked() {
                 pairs.map(|(a, b)| (a.omega / b.omega - 1.0).abs()).fold(0.0, f64::max)
             };
             for tolerance in [0.3, 0.15, 0.1, 0.05, 0.02, 0.0137, 0.013, 0.01, 0.006, 1e-3] {
-                let request = Request { modes, tolerance, ..Request::default() };
+                let request = Request { modes, tolerance, ..Request::plain() };
                 let chosen = theory_choice::theory(&bat, &request).unwrap().theory;
                 let k = ladder.iter().position(|theory| *theory == chosen).unwrap();
                 let told = format!("{file} {modes} {tolerance}: {chosen:?}");

@@ -13,7 +13,7 @@ use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
 
 fn frequencies(bat: &Bat) -> Vec<f64> {
-    let request = Request { modes: 6, elements: Some(48), ..Request::default() };
+    let request = Request { modes: 6, elements: Some(48), ..Request::plain() };
     solve(bat, &request).unwrap().modes.iter().map(|mode| mode.frequency()).collect()
 }
 
@@ -23,7 +23,7 @@ fn a_bat_turned_end_for_end_has_its_nodes_mirrored() {
     for original in [cone(0.0125, 0.033), cone(3.3e-5, 0.033)] {
         let turned =
             original.with(|parts| parts.profile = parts.profile.clone().reversed()).unwrap();
-        let request = Request { modes: 8, elements: Some(400), ..Request::default() };
+        let request = Request { modes: 8, elements: Some(400), ..Request::plain() };
         let (a, b) = (solve(&original, &request).unwrap(), solve(&turned, &request).unwrap());
         for (a, b) in a.modes.iter().zip(&b.modes) {
             assert_eq!((a.nodes.len(), b.nodes.len()), (a.order + 1, a.order + 1));
@@ -108,7 +108,7 @@ fn the_assembled_matrices_know_the_rigid_motions_and_the_modes() {
     assert!((mass(&lift, &turn) / (body.mass * body.balance_point) - 1.0).abs() < 1e-13);
     assert!((mass(&turn, &turn) / about_knob - 1.0).abs() < 1e-13);
 
-    let request = Request { modes: 8, elements: Some(60), ..Request::default() };
+    let request = Request { modes: 8, elements: Some(60), ..Request::plain() };
     let modes = solve(&bat, &request).unwrap().modes;
     let vectors: Vec<Vec<f64>> = modes
         .iter()
@@ -134,7 +134,7 @@ fn the_assembled_matrices_know_the_rigid_motions_and_the_modes() {
 #[test]
 fn the_matrices_of_a_solution_have_its_modes() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let request = Request { degree: Some(3), tolerance: 1e-6, ..Request::default() };
+    let request = Request { degree: Some(3), tolerance: 1e-6, ..Request::plain() };
     let solution = solve(&bat, &request).unwrap();
     let mesh = &solution.mesh;
     let pencil = Pencil::of(&bat, mesh, solution.degree, Theory::EulerBernoulli);
@@ -186,7 +186,7 @@ fn shapes_are_scaled_and_signed_as_agreed() {
         ("r161", 60, 1e-6),
     ] {
         let bat = bundled_bat(&format!("meshes/{bat}.json")).unwrap();
-        let request = Request { modes, tolerance, ..Request::default() };
+        let request = Request { modes, tolerance, ..Request::plain() };
         for mode in solve(&bat, &request).unwrap().modes {
             let samples = (0..=20_000).map(|k| bat.length() * f64::from(k) / 20_000.0);
             let largest = samples.map(|x| mode.shape.deflection(x).abs()).fold(0.0, f64::max);

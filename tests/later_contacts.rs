@@ -159,7 +159,7 @@ fn a_ball_that_is_caught_again_is_followed_to_the_end() {
 fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
     for file in ["meshes/dowel.json", "meshes/r161.json"] {
         let bat = bundled_bat(file).unwrap();
-        let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
+        let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
         let effort = Effort { accuracy: 1e-6, completed: true };
         for (swing, pitch, cor) in [(50.0, 40.2336, 0.5), (30.0, 40.2336, 0.5), (0.0, 60.0, 0.4)] {
             let ball = Ball { mass: 0.1417, ..Ball::baseball() };
@@ -187,7 +187,7 @@ fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
 #[test]
 fn the_first_separation_stands_beside_the_last() {
     let bat = bundled_bat("meshes/dowel.json").unwrap();
-    let solution = solve(&bat, &Request { modes: 12, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
     let (scene, effort) = (Scene::default(), Effort::default());
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
     let mut again = 0;
@@ -232,7 +232,7 @@ fn a_dead_ball_is_a_ball_like_any_other() {
 #[test]
 fn every_restitution_from_0_to_1_is_resolved() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let solution = solve(&bat, &Request { modes: 10, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { modes: 10, ..Request::plain() }).unwrap();
     for x in [0.45, 0.6, 0.7, 0.8] {
         let mut last: Option<f64> = None;
         for cor in [0.0, 1e-6, 1e-4, 1e-3, 7e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0] {
@@ -257,7 +257,7 @@ fn every_restitution_from_0_to_1_is_resolved() {
 #[test]
 fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let solution = solve(&bat, &Request { modes: 10, tolerance: 1e-8, ..Request::default() });
+    let solution = solve(&bat, &Request { modes: 10, tolerance: 1e-8, ..Request::plain() });
     let (solution, scene) = (solution.unwrap(), Scene { cor: 0.2, ..Scene::default() });
     let effort = Effort { accuracy: 1e-3, completed: true };
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();

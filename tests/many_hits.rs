@@ -102,7 +102,7 @@ fn a_bat_of_another_kind_is_hit_on_its_own() {
     for way in WAYS {
         for (k, found) in hits(&model, &bats, Theory::EulerBernoulli, way).iter().enumerate() {
             let places = [0.7, 0.8, 0.9].map(|s| s * bats[k].length());
-            let (scene, accuracy) = (Scene::default(), Accuracy::default());
+            let (scene, accuracy) = (Scene::default(), Accuracy::plain());
             let alone = sweep(&bats[k], Model::Contact, &scene, &accuracy, &places).unwrap();
             assert_eq!(text(found), text(&alone), "{way:?} {}", kinds[k]);
         }
@@ -163,7 +163,7 @@ fn what_cannot_be_asked_is_told_of_each_bat_that_it_was_asked_of() {
     let scene = Scene::default();
     let trial = Trial { model: Model::Contact, scene: &scene };
     let blow = |exit_speed: f64| {
-        let accuracy = Accuracy { exit_speed, ..Accuracy::default() };
+        let accuracy = Accuracy { exit_speed, ..Accuracy::plain() };
         Blow { bat: &bat, trial, accuracy, places: &[0.7] }
     };
     let mut told = vec![];

@@ -51,7 +51,7 @@ fn free(count: usize, x: &[f64], change: impl Fn(usize, usize, c64) -> c64) -> M
 }
 
 fn study(bat: &Bat, measured: Measured, told: Told) -> Study {
-    let request = Request { tolerance: 1e-9, ..Request::default() };
+    let request = Request { tolerance: 1e-9, ..Request::plain() };
     Study::new(bat, measured.sorted(), &request, false, told).unwrap()
 }
 
@@ -266,7 +266,7 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
 /// Without a computed partner nobody knows what the points do to a shape.
 #[test]
 fn exact_shapes_of_modes_that_were_not_computed_are_no_fault() {
-    let request = Request { modes: 2, tolerance: 1e-9, ..Request::default() };
+    let request = Request { modes: 2, tolerance: 1e-9, ..Request::plain() };
     let measured = free(4, &points(5), |_, _, v| v).sorted();
     let study = Study::new(&dowel(), measured, &request, true, Told::default()).unwrap();
     let shapes = study.shapes.as_ref().unwrap();
@@ -413,7 +413,7 @@ fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {
             ..free(2, &points(along.len()), |_, _, v| v)
         };
         let told = Told { origin, ..Told::default() };
-        let request = Request { tolerance: 1e-3, ..Request::default() };
+        let request = Request { tolerance: 1e-3, ..Request::plain() };
         Study::new(&dowel(), measured, &request, false, told).unwrap_err().to_string()
     };
     assert_eq!(
@@ -779,7 +779,7 @@ fn a_spoiled_table_is_read_or_refused() {
                 continue;
             }
             read += 1;
-            let request = Request { tolerance: 1e-3, ..Request::default() };
+            let request = Request { tolerance: 1e-3, ..Request::plain() };
             let Ok(study) = Study::new(&dowel(), measured, &request, false, Told::default()) else {
                 continue;
             };

@@ -51,7 +51,7 @@ fn a_mesh_is_refused_for_the_memory_that_it_would_take() {
 fn solvers_that_factor_take_no_more_than_is_said() {
     let bat = bat();
     for (elements, solver) in [(3000, Solver::ShiftInvert), (300, Solver::Dense)] {
-        let asked = Request { elements: Some(elements), solver, ..Request::default() };
+        let asked = Request { elements: Some(elements), solver, ..Request::plain() };
         let taken = allocation_counter::measure(|| assert!(solve(&bat, &asked).is_ok()));
         let stated = stated(&asked);
         let taken = 1e-9 * taken.bytes_max as f64;

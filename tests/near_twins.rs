@@ -24,7 +24,7 @@ fn whips(middle: f64, stations: usize, unlike: f64) -> Bat {
 }
 
 fn solved(bat: &Bat, modes: usize, tolerance: f64) -> Solution {
-    solve(bat, &Request { modes, tolerance, ..Request::default() }).unwrap()
+    solve(bat, &Request { modes, tolerance, ..Request::plain() }).unwrap()
 }
 
 /// Whether every frequency, modal mass and node is within three times its stated error.
@@ -110,7 +110,7 @@ fn a_dense_solve_that_round_off_defeats_is_refused_with_the_reason() {
     let x = [0.0, 0.4, 0.400_001, 0.84];
     let bat = bat(&x, &[0.02, 0.02, 0.021, 0.02], &[0.0; 4], Interpolation::Linear);
     for solver in [Solver::Dense, Solver::ShiftInvert] {
-        let asked = Request { modes: 1, tolerance: 1e-10, solver, ..Request::default() };
+        let asked = Request { modes: 1, tolerance: 1e-10, solver, ..Request::plain() };
         assert!(matches!(solve(&bat, &asked), Err(Error::Factorization { .. })), "{solver:?}");
     }
 }

@@ -94,7 +94,7 @@ fn what_is_lost_at_stations_is_stated() {
 #[test]
 fn elements_end_where_something_is_and_hold_the_bat_once() {
     for (name, bat) in bats() {
-        let request = Request { modes: 6, tolerance: 1e-3, ..Request::default() };
+        let request = Request { modes: 6, tolerance: 1e-3, ..Request::plain() };
         let mesh = Plan::cheapest(&bat, &wanted(&request)).mesh;
         let nodes = mesh.nodes();
         assert!(nodes[0] == 0.0 && (nodes[nodes.len() - 1] - LENGTH).abs() < 1e-15, "{name}");
@@ -131,7 +131,7 @@ fn stations_on_a_straight_line_are_none() {
         Bat::builder(Profile::new(stations).unwrap(), wood()).build().unwrap()
     };
     let solved = |bat: &Bat, tolerance| -> Solution {
-        solve(bat, &Request { modes: 5, tolerance, ..Request::default() }).unwrap()
+        solve(bat, &Request { modes: 5, tolerance, ..Request::plain() }).unwrap()
     };
     let exact = solved(&cone(2), 1e-12);
     let many = solved(&cone(21), 1e-8);

@@ -44,7 +44,7 @@ fn bits() -> Vec<u64> {
             common::bat(&[0.0, 0.4, 0.84], &[0.012, 0.015, tip], &[0.0; 3], Interpolation::Pchip)
         })
         .collect();
-    let request = Request { modes: 5, ..Request::default() };
+    let request = Request { modes: 5, ..Request::plain() };
     for found in batch::all(&cones, &request, Way::SideBySide, |_, found| {
         found.unwrap().omegas.iter().map(|omega| omega.to_bits()).collect::<Vec<_>>()
     }) {

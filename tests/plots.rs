@@ -72,11 +72,11 @@ struct Struck {
 }
 
 fn struck(bat: Bat, model: Model, scene: Scene) -> Struck {
-    let request = Request { modes: 6, ..Request::default() };
+    let request = Request { modes: 6, ..Request::plain() };
     let solution = solve(&bat, &request).unwrap();
     let half = 0.5 * bat.length();
     let places: Vec<f64> = (0..=40).map(|k| half * (1.0 + f64::from(k) / 40.0)).collect();
-    let sweep = sweep(&bat, model, &scene, &Accuracy::default(), &places).unwrap();
+    let sweep = sweep(&bat, model, &scene, &Accuracy::plain(), &places).unwrap();
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort).unwrap();
     let spot = SweetSpot::find(&hitter);
     Struck { bat, solution, sweep, spot, scene: scene.clone() }
@@ -141,7 +141,7 @@ fn a_lathe_map_is_whole_in_every_form() {
             Answer::HandsAccelerationAt(0.7),
         ];
         let terms = LatheTerms { bands, cut, exponent: 0.25, answers };
-        let request = Request { tolerance: 1e-3, ..Request::default() };
+        let request = Request { tolerance: 1e-3, ..Request::plain() };
         let scene = Scene::default();
         let hit = HitTerms { scene, model: Model::Contact, exactly: false };
         let map = LatheMap::new(&bat, &request, Some(&hit), terms).unwrap();
@@ -159,7 +159,7 @@ fn a_lathe_map_is_whole_in_every_form() {
 fn hoop_modes_and_walls_are_whole_in_every_form() {
     for name in ["bbcor_made_up", "softball_made_up_open", "northwestern_aluminium"] {
         let bat = bat(name);
-        let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::default());
+        let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::plain());
         let barrel = Barrel::of(&bat, test).unwrap();
         let tried = wall_sweep(&bat, &barrel, &|_| {});
         assert!(tried.len() > 3, "{name}");
@@ -621,7 +621,7 @@ fn responses_and_motions_are_whole_in_every_form() {
     let sheets =
         [(false, Paper::File), (true, Paper::File), (false, Paper::Page), (true, Paper::Narrow)];
     for bat in [lossy, bat("r161")] {
-        let request = Request { modes: 5, ..Request::default() };
+        let request = Request { modes: 5, ..Request::plain() };
         let mut frf = Frf::new(&bat, &request, 0.7, 0.1).unwrap();
         let grid: Vec<f64> =
             [20.0].into_iter().chain(frf.around_modes([21.0, 2999.0])).chain([3000.0]).collect();

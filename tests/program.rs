@@ -23,6 +23,7 @@ mod golden;
 mod hoop_verb;
 mod ignored;
 mod lathe;
+mod library;
 mod maker_plots;
 mod mutated_files;
 mod outputs;

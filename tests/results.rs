@@ -43,13 +43,13 @@ fn results_are_printed_written_and_shared() {
 #[test]
 fn a_solution_and_a_hit_as_json_say_what_their_fields_say() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let solution = solve(&bat, &Request { modes: 2, ..Request::default() }).unwrap();
+    let solution = solve(&bat, &Request { modes: 2, ..Request::plain() }).unwrap();
     let json = serde_json::to_value(&solution).unwrap();
     assert_eq!(json["theory"], solution.theory.name());
     assert_eq!(json["modes"][1]["omega"], solution.modes[1].omega);
     assert_eq!(json["met"], solution.met);
     let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
-    let accuracy = Accuracy { exit_speed: 1e-3, ..Accuracy::default() };
+    let accuracy = Accuracy { exit_speed: 1e-3, ..Accuracy::plain() };
     let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.7]).unwrap();
     let json = serde_json::to_value(&hits).unwrap();
     let outcome = hits.impacts[0].outcome.as_ref().unwrap();

@@ -199,7 +199,7 @@ fn hits_of_all_models_are_valid_and_so_are_those_that_come_to_nothing() {
             if held && matches!(model, Model::EnergyLoss(_)) {
                 continue;
             }
-            let accuracy = Accuracy { exit_speed: 1e-2, modes: Some(3), ..Accuracy::default() };
+            let accuracy = Accuracy { exit_speed: 1e-2, modes: Some(3), ..Accuracy::plain() };
             let places = [0.6 * bat.length(), bat.length()];
             let hits = sweep(&bat, model, scene, &accuracy, &places).unwrap();
             let law = SwingLaw { exponent: 0.3, reference: 0.2, of_reference: 50.0 };

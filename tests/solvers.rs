@@ -279,7 +279,7 @@ fn four_solvers_give_one_answer() {
                 modes: 8,
                 elements: Some(elements),
                 degree: Some(degree),
-                ..Request::default()
+                ..Request::plain()
             };
             let ours = solve(&bat, &request).unwrap();
             for solver in solvers {
@@ -315,7 +315,7 @@ fn more_elements_hurt_a_factored_matrix_and_not_the_sums() {
             .map(error)
     };
     let sums = |n: usize| {
-        let request = Request { modes: 1, elements: Some(n), ..Request::default() };
+        let request = Request { modes: 1, elements: Some(n), ..Request::plain() };
         error(solve(&bat, &request).unwrap().modes[0].omega)
     };
     let ([few, _], [many, recomputed]) = (own(64), own(1000));
@@ -326,7 +326,7 @@ fn more_elements_hurt_a_factored_matrix_and_not_the_sums() {
 #[cfg(not(feature = "arpack"))]
 #[test]
 fn a_solver_that_is_not_built_in_says_how_to_get_it() {
-    let request = Request { solver: Solver::Arpack, ..Request::default() };
+    let request = Request { solver: Solver::Arpack, ..Request::plain() };
     let said = solve(&dowel(), &request).unwrap_err().to_string();
     assert!(said.contains("libarpack2-dev") && said.contains("--features arpack"), "{said}");
 }

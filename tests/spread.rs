@@ -44,12 +44,12 @@ fn wooden() -> Stations {
 }
 
 fn hits(bat: &Bat, scene: &Scene) -> Sweep {
-    let accuracy = Accuracy { exit_speed: 1e-3, ..Accuracy::default() };
+    let accuracy = Accuracy { exit_speed: 1e-3, ..Accuracy::plain() };
     sweep(bat, Model::Contact, scene, &accuracy, &[0.6, 0.7, 0.8]).unwrap()
 }
 
 fn modes(bat: &Bat) -> Solution {
-    solve(bat, &Request { modes: 3, tolerance: 1e-8, ..Request::default() }).unwrap()
+    solve(bat, &Request { modes: 3, tolerance: 1e-8, ..Request::plain() }).unwrap()
 }
 
 fn spread(bat: &Bat, readings: &Readings) -> Spread {
@@ -176,7 +176,7 @@ impl Normal {
 
 /// Mass, first two frequencies, best place and exit speed of a bat that was made anew.
 fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
-    let request = Request { modes: 12, tolerance: 1e-6, ..Request::default() };
+    let request = Request { modes: 12, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(bat, &request).unwrap();
     let hitter = Hitter::new(Model::Contact, scene, bat, &solution, Default::default()).unwrap();
     let looked = Looked::outer((24, 1e-4), &hitter);

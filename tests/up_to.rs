@@ -36,7 +36,7 @@ fn cantilever_frequency(n: usize) -> f64 {
 
 #[test]
 fn a_free_dowel_and_a_clamped_one_have_as_many_modes_as_theory_says() {
-    let request = Request::default();
+    let request = Request::plain();
     let (free, clamped) = (dowel(), clamped());
     assert!((cantilever_frequency(1) / dowel_frequency(1) - 0.157_15).abs() < 1e-4);
     for n in 0..=40 {
@@ -85,7 +85,7 @@ fn no_listed_mode_is_above_a_limit_that_is_on_a_mode() {
         for off in [-1e-4, -1e-9, 0.0, 1e-9, 1e-4] {
             let limit = dowel_frequency(n) * (1.0 + off);
             for (tolerance, elements) in [(1e-4, None), (1e-10, None), (1e-4, Some(7))] {
-                let request = Request { tolerance, elements, ..Request::default() };
+                let request = Request { tolerance, elements, ..Request::plain() };
                 let modes = modes_up_to(&bat, &request, limit).unwrap();
                 assert!((n - 1..=n).contains(&modes), "{n} {off:e}: {modes}");
                 let solution = solve(&bat, &Request { modes, ..request }).unwrap();
@@ -100,7 +100,7 @@ fn no_listed_mode_is_above_a_limit_that_is_on_a_mode() {
 
 #[test]
 fn a_thousand_modes_are_the_most() {
-    let (bat, request) = (dowel(), Request::default());
+    let (bat, request) = (dowel(), Request::plain());
     let limit = 0.5 * (dowel_frequency(1000) + dowel_frequency(1001));
     assert_eq!(modes_up_to(&bat, &request, limit).unwrap(), 1000);
     for limit in [dowel_frequency(1001) * 1.001, 1e9] {

@@ -14,7 +14,7 @@ fn main() -> Result<()> {
     println!("bat        elements  mode 1  stated   mode {MODES}  stated (in ε)");
     for name in ["dowel", "cone", "house", "r161"] {
         let bat = Bat::from_file(format!("meshes/{name}.json"))?;
-        let request = Request { modes: MODES, tolerance: 1e-14, ..Request::default() };
+        let request = Request { modes: MODES, tolerance: 1e-14, ..Request::plain() };
         let reference = solve(&bat, &request)?;
         for elements in [30, 100, 300, 1000, 3000, 10_000, 30_000] {
             let request = Request { elements: Some(elements), degree: Some(10), ..request };

@@ -31,7 +31,7 @@ fn main() -> Result<()> {
     println!("   seconds");
     for path in BATS {
         let bat = Bat::from_file(path)?;
-        let request = Request { modes: 20, tolerance: 1e-9, ..Request::default() };
+        let request = Request { modes: 20, tolerance: 1e-9, ..Request::plain() };
         let solution = solve(&bat, &request)?;
         for cor in RESTITUTIONS {
             let scene = Scene { swing: 50.0, ball_speed: 40.0, cor, ..Scene::default() };

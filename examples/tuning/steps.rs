@@ -28,7 +28,7 @@ struct Hits {
 
 impl Hits {
     fn new(bat: &Bat, restitution: f64) -> Result<Self> {
-        let solution = solve(bat, &Request { modes: 18, ..Request::default() })?;
+        let solution = solve(bat, &Request { modes: 18, ..Request::plain() })?;
         let struck = Struck::new(bat, &solution);
         let place = |k: usize| bat.length() * (0.5 + 0.5 * k as f64 / 40.0);
         let places: Vec<Felt> = (0..40).map(|k| struck.felt(place(k), BALL, 18)).collect();

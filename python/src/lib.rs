@@ -17,6 +17,8 @@ use sweetspot::files::balls::ball;
 use sweetspot::files::scene_file;
 use sweetspot::files::schema;
 use sweetspot::files::schema::hit::HitFile;
+use sweetspot::modes::prepared::{Prepared, prepare};
+use sweetspot::modes::request::MOST_MODES;
 use sweetspot::proof::bundled;
 use sweetspot::show::exchange::npz;
 use sweetspot::show::many::folder::{ROWS, StudyFolder, part, read};
@@ -26,8 +28,6 @@ use sweetspot::show::plot::sets::{Hits, of_modes};
 use sweetspot::show::plot::sheet::Sheet;
 use sweetspot::show::report::json::{self, ShapePoints};
 use sweetspot::show::report::{hit_json, mistakes};
-use sweetspot::study::theory_choice::theory;
-use sweetspot::study::tuned::tuned;
 use sweetspot::{Error, Request, Solution, Theory, solve};
 
 /// The package's exception about an error, with its `sweetspot-error/1` document.
@@ -61,8 +61,8 @@ struct Asked {
 
 impl Asked {
     fn new(modes: usize, tolerance: f64, name: Option<&str>) -> sweetspot::Result<Self> {
-        if modes > 1000 {
-            return Err(Error::value("n", modes, "1000 modes at most"));
+        if modes > MOST_MODES {
+            return Err(Error::value("n", modes, format!("{MOST_MODES} modes at most")));
         }
         if !(tolerance > 0.0 && tolerance < 1.0) {
             return Err(Error::value("tol", tolerance, "a number between 0 and 1, such as 1e-6"));
@@ -77,14 +77,11 @@ impl Asked {
 
     /// The bat as it is tuned to its tap, and what is asked of it.
     fn prepared(&self, bat: &sweetspot::Bat) -> sweetspot::Result<(sweetspot::Bat, Request)> {
-        let mut request =
-            Request { modes: self.modes, tolerance: self.tolerance, ..Request::default() };
-        request.theory = match self.theory {
-            Some(theory) => theory,
-            None => theory(bat, &request)?.theory,
-        };
-        let bat = tuned(bat.clone(), request.theory, self.tolerance)?;
-        Ok((bat, request))
+        let theory = self.theory.unwrap_or_default();
+        let (modes, tolerance) = (self.modes, self.tolerance);
+        let request = Request { modes, tolerance, theory, ..Request::default() };
+        let Prepared { bat, request, .. } = prepare(bat, &request)?;
+        Ok((bat.into_owned(), request))
     }
 
     fn solved(&self, bat: &sweetspot::Bat) -> sweetspot::Result<(sweetspot::Bat, Solution)> {

@@ -35,6 +35,8 @@ pub struct Bat {
     fixtures: Fixtures,
     weighed: Weighed,
     factors: [f64; 2],
+    /// Whether the moduli follow from the tap.
+    heard: bool,
     edits: Vec<Edit>,
     /// The bat before its edits, where it has any.
     unedited: Option<Arc<Bat>>,
@@ -128,7 +130,7 @@ impl Builder {
     }
 
     /// What a scale and a tap said. The mass includes what is attached; it sets one factor on all
-    /// densities. A tapped frequency is kept for [`crate::study::tuned`].
+    /// densities. A tapped frequency is kept for [`crate::modes::tuned`].
     pub fn weighed(mut self, weighed: Weighed) -> Self {
         self.weighed = weighed;
         self
@@ -177,7 +179,8 @@ impl Bat {
         let mut parts = self.parts();
         change(&mut parts);
         let bat = Self::of(parts, self.weighed, self.factors)?;
-        Ok(Self { edits: self.edits.clone(), unedited: self.unedited.clone(), ..bat })
+        let (edits, unedited) = (self.edits.clone(), self.unedited.clone());
+        Ok(Self { edits, unedited, heard: self.heard, ..bat })
     }
 
     fn parts(&self) -> Parts {
@@ -207,7 +210,7 @@ impl Bat {
         let bat = Self::of(parts, weighed, factors)?;
         let edits = self.edits.iter().chain([edit]).cloned().collect();
         let unedited = self.unedited.clone().unwrap_or_else(|| Arc::new(self.clone()));
-        Ok(Self { edits, unedited: Some(unedited), ..bat })
+        Ok(Self { edits, unedited: Some(unedited), heard: self.heard, ..bat })
     }
 
     /// What was changed after it was weighed, in the order in which it was done.
@@ -235,6 +238,7 @@ impl Bat {
             fixtures,
             weighed,
             factors,
+            heard: false,
             edits,
             unedited,
         };
@@ -277,6 +281,17 @@ impl Bat {
     /// nothing of a bat that was made of another wood since.
     pub fn weighed(&self) -> Weighed {
         self.weighed
+    }
+
+    /// The tapped frequency (Hz) by which the moduli are still to be found; None where there is none, or
+    /// where they follow from it already ([`crate::modes::tuned`]).
+    pub fn tap(&self) -> Option<f64> {
+        self.unedited().weighed.first_bending.filter(|_| !self.heard)
+    }
+
+    /// Notes that the moduli follow from the tap.
+    pub(crate) fn heard(&mut self) {
+        self.heard = true;
     }
 
     /// Factors on all densities and on all moduli that weighing and tapping led to.

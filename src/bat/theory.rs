@@ -1,6 +1,6 @@
 //! Which beam: how much of a section's own motion takes part?
 //!
-//! A [`Theory`] goes into [`crate::modes::solve::Request::theory`]; [`crate::study::theory_choice::theory`] chooses the
+//! A [`Theory`] goes into [`crate::modes::solve::Request::theory`]; [`crate::modes::theory_choice::theory`] chooses the
 //! simplest that will do.
 
 use serde::Serialize;
@@ -10,7 +10,6 @@ use serde::Serialize;
 #[serde(rename_all = "kebab-case")]
 pub enum Theory {
     /// Sections have mass but no rotary inertia and stay at right angles to the axis.
-    #[default]
     EulerBernoulli,
     /// Sections also turn with their own inertia ρI, still at right angles to the axis.
     ///
@@ -24,10 +23,14 @@ pub enum Theory {
     ///
     /// S. Timoshenko, Philos. Mag. 41 (1921) 744.
     Timoshenko,
+    /// The simplest of them that is good enough for what is asked ([`crate::modes::theory_choice`]). What is
+    /// answered names one of the others.
+    #[default]
+    Auto,
 }
 
 impl Theory {
-    /// All of them, the simplest first.
+    /// All beams, the simplest first.
     pub const ALL: [Self; 3] = [Self::EulerBernoulli, Self::Rayleigh, Self::Timoshenko];
 
     /// The name that the command line and the files use.
@@ -36,12 +39,13 @@ impl Theory {
             Self::EulerBernoulli => "euler-bernoulli",
             Self::Rayleigh => "rayleigh",
             Self::Timoshenko => "timoshenko",
+            Self::Auto => "auto",
         }
     }
 
     /// Whether the sections have rotary inertia.
     pub fn turns(self) -> bool {
-        self != Self::EulerBernoulli
+        matches!(self, Self::Rayleigh | Self::Timoshenko)
     }
 
     /// Whether they are sheared.

@@ -214,7 +214,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
                     }
                 };
                 match theory {
-                    Theory::EulerBernoulli => {
+                    Theory::EulerBernoulli | Theory::Auto => {
                         keep(&sampled(bat, e, self.rule, |layup, section| {
                             let [bending, mass] = layup.bending_and_mass(section);
                             [bending, mass, 1.0 / bending]

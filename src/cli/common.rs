@@ -11,15 +11,16 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::files::bat_file::Named;
 use crate::files::schema;
+use crate::modes::prepared;
+use crate::modes::request::MOST_MODES;
 use crate::modes::solve::{self, Request, Solution, Solver};
+use crate::modes::theory_choice::{self, Choice};
 use crate::modes::up_to::modes_up_to;
 use crate::proof::bundled;
 use crate::show::plot::sheet::Sheet;
 use crate::show::report::sketch::{self, Glyphs, SketchRow};
 use crate::show::report::text::wrapped;
 use crate::show::report::units::Units;
-use crate::study::theory_choice::{self, Choice};
-use crate::study::tuned;
 use serde::Serialize;
 
 use crate::cli::done::{NOT_REACHED, printable};
@@ -51,7 +52,7 @@ pub struct BatArgs {
 
     /// Number of bending modes [default: 10; in a hit as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
+          value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
     count: Option<u16>,
 
     /// All bending modes up to this frequency, such as 2000 or "2 kHz", in place of a number
@@ -380,20 +381,11 @@ pub struct Solved {
 
 /// A request with the theory chosen for this bat, if none was asked for, and the bat as stiff as it
 /// was tapped.
-pub fn prepare(
-    bat: Bat,
-    asked: TheoryChoice,
-    mut request: Request,
-    quiet: bool,
-) -> Result<Prepared> {
-    let mut warning = None;
-    if asked.0.is_none() {
-        let choice = theory_choice::theory(&bat, &request)?;
-        warning = choice.warning.filter(|_| !quiet);
-        request.theory = choice.theory;
-    }
-    let bat = tuned::tuned(bat, request.theory, request.tolerance)?;
-    Ok(Prepared { bat, request, warning })
+pub fn prepare(bat: Bat, asked: TheoryChoice, request: Request, quiet: bool) -> Result<Prepared> {
+    let theory = asked.0.unwrap_or_default();
+    let prepared = prepared::prepare(&bat, &Request { theory, ..request })?;
+    let (request, warning) = (prepared.request, prepared.warning.filter(|_| !quiet));
+    Ok(Prepared { bat: prepared.bat.into_owned(), request, warning })
 }
 
 /// Says something on standard error, unless nothing is to be said.

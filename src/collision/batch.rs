@@ -3,11 +3,15 @@
 //! [`each`] gives of every bat what [`sweep`](fn@crate::collision::sweep::sweep) gives; the modes that a bat is
 //! struck with first are found in the lanes of [`crate::modes::batch`].
 
+use std::borrow::Cow;
+
 use crate::base::error::Result;
 use crate::base::telling::nobody;
 use crate::bat::body::Bat;
 use crate::collision::sweep::{Accuracy, Round, Sweep, Trial};
 use crate::modes::batch::{Way, solutions};
+use crate::modes::prepared::{Prepared, prepare};
+use crate::modes::solve::Request;
 
 /// A bat that is to be hit.
 #[derive(Debug, Clone, Copy)]
@@ -52,12 +56,22 @@ pub struct Blow<'a> {
 /// # }
 /// ```
 pub fn each(model: &Bat, blows: &[Blow], way: Way, mut visit: impl FnMut(usize, Result<Sweep>)) {
-    let first = |blow: &Blow| Round::first(blow.bat, blow.trial, &blow.accuracy);
-    let rounds: Vec<Round> = blows.iter().map(first).collect();
-    let asked = blows.iter().zip(&rounds).map(|(blow, round)| (blow.bat, round.request));
-    solutions(model, &asked.collect::<Vec<_>>(), way, |k, solution| {
-        let Blow { bat, trial, accuracy, places } = blows[k];
-        let strike = |solution| rounds[k].go_on((bat, trial), &accuracy, places, solution, &nobody);
-        visit(k, solution.and_then(strike));
+    let mut ready: Vec<(usize, Cow<Bat>, Accuracy, Round)> = Vec::with_capacity(blows.len());
+    for (k, Blow { bat, trial, accuracy, .. }) in blows.iter().enumerate() {
+        match prepare(bat, &accuracy.request()) {
+            Ok(Prepared { bat, request: Request { theory, .. }, .. }) => {
+                let accuracy = Accuracy { theory, ..*accuracy };
+                let round = Round::first(&bat, *trial, &accuracy);
+                ready.push((k, bat, accuracy, round));
+            }
+            Err(error) => visit(k, Err(error)),
+        }
+    }
+    let asked: Vec<_> = ready.iter().map(|(_, bat, _, round)| (&**bat, round.request)).collect();
+    solutions(model, &asked, way, |one, solution| {
+        let (k, bat, accuracy, round) = &ready[one];
+        let Blow { trial, places, .. } = blows[*k];
+        let strike = |solution| round.go_on((bat, trial), accuracy, places, solution, &nobody);
+        visit(*k, solution.and_then(strike).map(|sweep| sweep.of_tapped(bat.clone())));
     });
 }

@@ -68,6 +68,7 @@ impl<'a> Hitter<'a> {
         solution: &'a Solution,
         effort: Effort,
     ) -> Result<Self> {
+        let bat = solution.of(bat);
         let struck = Arc::new(Struck::new(bat, solution));
         Self::of(model, scene, bat, struck, effort)
     }
@@ -78,6 +79,7 @@ impl<'a> Hitter<'a> {
     ///
     /// As [`Self::new`].
     pub fn in_scene(&self, scene: &'a Scene, bat: &'a Bat) -> Result<Self> {
+        let bat = self.struck.solution.of(bat);
         Self::of(self.model, scene, bat, Arc::clone(&self.struck), self.effort)
     }
 

@@ -1,5 +1,7 @@
 //! Trial along a bat, with modes as good and as many as the wanted exit speeds need.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use crate::base::error::Result;
@@ -10,6 +12,7 @@ use crate::collision::along::strikes;
 use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::UNRESOLVED;
+use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::solve::{Request, Solution, Solver, solve};
 
 /// The impacts along a bat.
@@ -33,6 +36,12 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// The sweep along the bat that was made as stiff as it was tapped, if one was.
+    pub(super) fn of_tapped(mut self, bat: Cow<'_, Bat>) -> Self {
+        self.solution = self.solution.of_tapped(bat);
+        self
+    }
+
     /// The impact whose exit speed is known worst.
     pub fn worst(&self) -> Option<(&Impact, &Outcome)> {
         let of = |impact: &Impact| impact.outcome.as_ref().map_or(f64::NEG_INFINITY, |o| o.error);
@@ -67,7 +76,8 @@ pub struct Accuracy {
     pub degree: Option<usize>,
     /// How the modes are found.
     pub solver: Solver,
-    /// The beam theory.
+    /// The beam theory; [`Theory::Auto`] takes the one that [`Self::modes`] need, those of
+    /// [`Request::default`] where it is None.
     pub theory: Theory,
 }
 
@@ -79,8 +89,13 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
+    /// The default accuracy with the plain beam, Euler and Bernoulli's.
+    pub fn plain() -> Self {
+        Self { theory: Theory::EulerBernoulli, ..Self::default() }
+    }
+
     /// The request of modes that an accuracy starts from.
-    fn request(&self) -> Request {
+    pub(super) fn request(&self) -> Request {
         let Self { exit_speed, modes, elements, degree, solver, theory } = *self;
         let modes = modes.unwrap_or(Request::default().modes);
         Request { modes, tolerance: exit_speed, elements, degree, solver, theory }
@@ -139,10 +154,12 @@ pub fn sweep_telling(
     places: &[f64],
     tell: Tell,
 ) -> Result<Sweep> {
-    let first = Round::first(bat, trial, accuracy);
+    let Prepared { bat, request: Request { theory, .. }, .. } = prepare(bat, &accuracy.request())?;
+    let accuracy = &Accuracy { theory, ..*accuracy };
+    let first = Round::first(&bat, trial, accuracy);
     tell(0.0, "modes");
-    let solution = solve(bat, &first.request)?;
-    first.go_on((bat, trial), accuracy, places, solution, tell)
+    let solution = solve(&bat, &first.request)?;
+    Ok(first.go_on((&bat, trial), accuracy, places, solution, tell)?.of_tapped(bat))
 }
 
 /// More modes are not taken for an exit speed.

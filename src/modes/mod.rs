@@ -12,6 +12,8 @@
 //! | [`certificate`], [`referee`] | how far may each be off; what do other solvers say |
 //! | [`pairs`] | the lowest motions whatever the degree of the elements |
 //! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
+//! | `refine` | the modes of a bat as it is, by one theory |
+//! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`enclosure`] | between which numbers do frequencies lie, proven |
 //! | [`compliance`] | how the bat gives way at a place |
@@ -48,6 +50,11 @@ pub mod request;
 pub mod solution;
 #[doc(hidden)]
 pub mod task;
+pub(crate) mod refine;
+pub mod shifts;
+pub mod theory_choice;
+pub mod tuned;
+pub mod prepared;
 pub mod solve;
 pub mod up_to;
 pub mod batch;

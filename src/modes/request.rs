@@ -22,7 +22,7 @@ pub struct Request {
     pub degree: Option<usize>,
     /// How the eigenvalues are found.
     pub solver: Solver,
-    /// The beam theory; [`crate::study::theory_choice::theory`] chooses one.
+    /// The beam theory; [`Theory::Auto`] leaves it to [`crate::modes::theory_choice::theory`].
     pub theory: Theory,
 }
 
@@ -34,12 +34,17 @@ impl Default for Request {
             elements: None,
             degree: None,
             solver: Solver::Statics,
-            theory: Theory::EulerBernoulli,
+            theory: Theory::Auto,
         }
     }
 }
 
 impl Request {
+    /// The default request of the plain beam, Euler and Bernoulli's.
+    pub fn plain() -> Self {
+        Self { theory: Theory::EulerBernoulli, ..Self::default() }
+    }
+
     /// Checks that this request is possible for `bats` bats side by side.
     ///
     /// # Errors
@@ -106,7 +111,7 @@ impl Request {
 }
 
 /// Upper limit on requested modes; beam theory has no meaning beyond it.
-const MOST_MODES: usize = 2000;
+pub const MOST_MODES: usize = 1000;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;
 /// Residual of an eigenpair that is as good as arithmetic allows.

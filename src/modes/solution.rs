@@ -1,9 +1,12 @@
 //! The modes of a bat, and how far they may be trusted.
 
+use std::borrow::Cow;
+use std::sync::Arc;
 use std::time::Duration;
 
 use serde::Serialize;
 
+use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::beam::degree::Elements;
 use crate::beam::mesh::Mesh;
@@ -44,9 +47,25 @@ pub struct Solution {
     pub damping: Damping,
     /// Where the time went.
     pub timing: Timing,
+    /// The bat as stiff as it was tapped, where it was solved so.
+    #[serde(skip)]
+    pub(crate) tuned: Option<Arc<Bat>>,
 }
 
 impl Solution {
+    /// The bat that this is the solution of: the one that was asked about, as stiff as it was tapped.
+    pub fn of<'a>(&'a self, bat: &'a Bat) -> &'a Bat {
+        self.tuned.as_deref().filter(|_| bat.tap().is_some()).unwrap_or(bat)
+    }
+
+    /// The solution with the bat that was made as stiff as it was tapped, if one was.
+    pub(crate) fn of_tapped(mut self, bat: Cow<'_, Bat>) -> Self {
+        if let Cow::Owned(bat) = bat {
+            self.tuned = Some(Arc::new(bat));
+        }
+        self
+    }
+
     /// The largest relative error of a frequency, by its own estimate.
     pub fn worst(&self) -> f64 {
         // NaN must count as unbounded; `f64::max` would drop it.

@@ -57,6 +57,7 @@ impl Answer {
             stopped: None,
             damping: Damping::default(),
             timing,
+            tuned: None,
         };
         (solution, self.defects)
     }

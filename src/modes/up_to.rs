@@ -9,14 +9,19 @@ use crate::beam::count;
 use crate::beam::mesh::Mesh;
 use crate::modes::pairs::pairs_of;
 use crate::modes::plan::{Plan, Wanted};
-use crate::modes::solve::{Request, Solver, solve};
+use crate::modes::prepared::{Prepared, prepare};
+use crate::modes::refine::refine;
+use crate::modes::request::MOST_MODES;
+use crate::modes::solve::{Request, Solver};
 
 /// More modes than that are not listed.
-pub const MOST: usize = 1000;
+pub const MOST: usize = MOST_MODES;
 /// The highest limit (Hz), far above all that a beam describes.
 const HIGHEST: f64 = 1e9;
 /// Relative accuracy of the frequencies among which is counted.
 const ACCURACY: f64 = 1e-6;
+/// What a mistake names.
+const FIELD: &str = "frequency limit";
 
 /// The number of bending modes whose frequency is at most `limit` (Hz): the request with so many
 /// modes has a solution with none above it, and the next mode is above.
@@ -44,14 +49,29 @@ const ACCURACY: f64 = 1e-6;
 /// # Errors
 ///
 /// [`Error::Value`] for a limit that is not above 0 or has more than [`MOST`] modes below it; those
-/// of [`solve`].
+/// of [`crate::modes::solve::solve`].
 pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
-    const FIELD: &str = "frequency limit";
     if !(limit > 0.0 && limit <= HIGHEST) {
         let expected = format!("a frequency above 0, {HIGHEST:e} Hz at most");
         return Err(Error::value(FIELD, format!("{limit:?} Hz"), expected));
     }
     request.check(1)?;
+    let mut ready = prepare(bat, request)?;
+    let mut modes = slower_modes(&ready, limit)?;
+    while request.theory == Theory::Auto {
+        // So many modes may need another theory than those that were asked for.
+        let again = prepare(bat, &Request { modes, ..*request })?;
+        if again.request.theory <= ready.request.theory {
+            break;
+        }
+        ready = again;
+        modes = slower_modes(&ready, limit)?;
+    }
+    Ok(modes)
+}
+
+/// The number of bending modes up to the limit, by the theory that the request names.
+fn slower_modes(Prepared { bat, request, .. }: &Prepared, limit: f64) -> Result<usize> {
     let margin = (3.0 * request.tolerance).clamp(10.0 * ACCURACY, 0.5);
     let counts =
         [1.0 - margin, 1.0 + margin].map(|near| counted(bat, request.theory, limit * near));
@@ -63,7 +83,7 @@ pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
         return Ok(modes);
     }
     loop {
-        let solution = solve(bat, &Request { modes, ..*request })?;
+        let solution = refine(bat, &Request { modes, ..*request })?;
         let below = solution.modes.iter().filter(|mode| mode.frequency() <= limit).count();
         if below == modes {
             return Ok(modes);

@@ -21,6 +21,7 @@ use serde::{Serialize, Serializer};
 use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
+use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::reduced::{Answer, Place, Reduced};
 use crate::modes::solve::{Request, Solution, solve};
 use crate::motion::peaks::{self, Peak};
@@ -117,8 +118,9 @@ impl Frf {
                 return Err(Error::value(name, format!("{x} m"), expected));
             }
         }
+        let Prepared { bat, request, .. } = prepare(bat, request)?;
         let bat = bat.with(|parts| parts.profile.cut([at, to]))?;
-        let request = Request { tolerance: request.tolerance.min(MESH), ..*request };
+        let request = Request { tolerance: request.tolerance.min(MESH), ..request };
         let solution = solve(&bat, &request)?;
         let mut reduced = Reduced::new(&bat, solution.elements(), solution.modes.len())?;
         [at, to].iter().for_each(|x| {

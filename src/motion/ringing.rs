@@ -105,6 +105,7 @@ impl Ringing {
     ///
     /// As [`Reduced::free_motions`].
     pub fn new(bat: &Bat, solution: &Solution, tolerance: f64, bending_only: bool) -> Result<Self> {
+        let bat = solution.of(bat);
         let wanted = solution.modes.len();
         let mut reduced = Reduced::new(bat, solution.elements(), wanted)?;
         let mut motions = vec![];

@@ -275,7 +275,7 @@ mod tests {
 
     fn solved() -> (Truth, Solution) {
         let truth = Truth::of_dowel(3).unwrap();
-        let solution = solve(&truth.bat, &Request { modes: 3, ..Request::default() }).unwrap();
+        let solution = solve(&truth.bat, &Request { modes: 3, ..Request::plain() }).unwrap();
         (truth, solution)
     }
 

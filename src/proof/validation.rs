@@ -12,13 +12,13 @@ use crate::base::units::ounce_square_inches;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::beam::dowel::{Dowel, Ends, UniformMode};
+use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::solve::{Request, Solution, solve};
 use crate::motion::frf::Frf;
 use crate::motion::ringing::Ringing;
 use crate::proof::bundled::bundled_bat;
 use crate::proof::case::{Case, Check, Known, bundled_case, read};
 use crate::proof::known_hits::Seen;
-use crate::study::tuned::tuned;
 
 /// A known number beside ours.
 #[derive(Debug, Clone)]
@@ -267,8 +267,8 @@ fn all_found(case: &Case) -> Result<Vec<f64>> {
         let on_wall = |check| Some(throw.on_wall(seen(check)?, check.speed_m_per_s?));
         return Ok(case.checks.iter().map(|check| on_wall(check).unwrap_or(f64::NAN)).collect());
     }
-    let request = case.request()?;
-    let bat = tuned(case.bat()?, request.theory, request.tolerance)?;
+    let (bat, request) = (case.bat()?, case.request()?);
+    let Prepared { bat, request, .. } = prepare(&bat, &request)?;
     let solution = solve(&bat, &request)?;
     if let Some(throw) = &case.hit {
         let wanted = |check: &Check| Some((seen(check)?, check.at.unwrap_or(f64::NAN)));

@@ -3,8 +3,7 @@
 //! | file | question |
 //! |---|---|
 //! | [`trade`] | what does a digit cost on this bat |
-//! | [`ignored`], [`theory_choice`] | what does a theory leave out, and what does that cost; which theory does a bat need |
-//! | [`tuned`] | how stiff is the wood, by a tap |
+//! | [`ignored`] | what does a theory leave out, and what does that cost |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
@@ -15,10 +14,10 @@
 //! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
+pub use crate::modes::{theory_choice, tuned};
+
 pub mod trade;
 pub mod ignored;
-pub mod theory_choice;
-pub mod tuned;
 pub mod calibrate;
 pub mod spread;
 pub mod advise;

@@ -1,7 +1,7 @@
 //! What are the modes of many bats, as fast as the machine can?
 //!
 //! [`each`] goes through them on one core, [`all`] on all cores: one after the other or side by
-//! side in the lanes of a vector. [`solutions`] gives of every bat all that [`solve`] gives.
+//! side in the lanes of a vector. [`solutions`] gives of every bat all that [`solve`](crate::modes::solve::solve) gives.
 //!
 //! All share the plan of the first, its root and its number of Lanczos steps, and every lane takes its own
 //! steps: a bat's answer has the same bits whoever is beside it, and one by one too. A bat of other
@@ -22,8 +22,10 @@ use crate::modes::batch::alike::{plain, same_pattern};
 use crate::modes::batch::worker::Worker;
 use crate::modes::mode::Mode;
 use crate::modes::plan::Plan;
+use crate::modes::prepared::{Prepared, prepare};
+use crate::modes::refine::{damped, refine};
 use crate::modes::solution::Solution;
-use crate::modes::solve::{Request, Solver, damped, solve, wanted};
+use crate::modes::solve::{Request, Solver, wanted};
 
 pub use crate::modes::batch::worker::Found;
 
@@ -50,7 +52,7 @@ const fn is_compiled(degree: usize) -> bool {
 /// Solves every bat with the statics solver and shows each result to `visit`, with its place
 /// among the bats.
 ///
-/// Every frequency is within the tolerance by its estimate, as far as [`solve`] can reach it. With
+/// Every frequency is within the tolerance by its estimate, as far as [`solve`](crate::modes::solve::solve) can reach it. With
 /// `request.elements` every bat gets that mesh, whose cost is not counted: the tolerance is that of
 /// the iteration alone.
 pub fn each(
@@ -60,13 +62,33 @@ pub fn each(
     mut visit: impl FnMut(usize, Result<Found<'_>>),
 ) {
     let request = Request { solver: Solver::Statics, ..*request };
-    let all: Vec<&Bat> = bats.iter().collect();
-    let Some(first) = all.first() else { return };
-    shown_to(first, &all, &request, way, Visit::Figures(&mut visit));
+    let mut ready = bats.iter().map(|bat| prepare(bat, &request)).peekable();
+    let mut place = 0;
+    while let Some(first) = ready.next() {
+        let Prepared { bat, request, .. } = match first {
+            Ok(first) => first,
+            Err(error) => {
+                visit(place, Err(error));
+                place += 1;
+                continue;
+            }
+        };
+        // Those after it that the same theory is chosen for share its plan.
+        let alike =
+            |next: &Result<Prepared>| next.as_ref().is_ok_and(|next| next.request == request);
+        let mut run = vec![bat];
+        while let Some(Ok(next)) = ready.next_if(alike) {
+            run.push(next.bat);
+        }
+        let run: Vec<&Bat> = run.iter().map(|bat| &**bat).collect();
+        let shown = &mut |k: usize, found: Result<Found<'_>>| visit(place + k, found);
+        shown_to(run[0], &run, &request, way, Visit::Figures(shown));
+        place += run.len();
+    }
 }
 
 /// Solves every bat for what is asked of it, with a plan of `model`, and gives each [`Solution`] to `visit`
-/// with its place among the bats: all that [`solve`] gives but the time it took. Bats of which the same is
+/// with its place among the bats: all that [`solve`](crate::modes::solve::solve) gives but the time it took. Bats of which the same is
 /// asked come one after the other.
 ///
 /// A bat's solution is a function of itself, its request and the model, whoever is beside it. Where a mesh
@@ -77,14 +99,24 @@ pub fn solutions(
     way: Way,
     mut visit: impl FnMut(usize, Result<Solution>),
 ) {
-    let mut left: Vec<usize> = (0..asked.len()).collect();
+    let mut ready: Vec<(usize, Prepared)> = Vec::with_capacity(asked.len());
+    for (place, (bat, request)) in asked.iter().enumerate() {
+        match prepare(bat, request) {
+            Ok(one) => ready.push((place, one)),
+            Err(error) => visit(place, Err(error)),
+        }
+    }
+    let mut left: Vec<usize> = (0..ready.len()).collect();
     while let Some(&first) = left.first() {
-        let request = asked[first].1;
+        let request = ready[first].1.request;
         // The first is alike in any case: what is no number is not even equal to itself.
-        let alike = |k: &usize| *k == first || asked[*k].1 == request;
+        let alike = |k: &usize| *k == first || ready[*k].1.request == request;
         let (alike, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(alike);
-        let bats: Vec<&Bat> = alike.iter().map(|k| asked[*k].0).collect();
-        let visit = &mut |k: usize, solution| visit(alike[k], solution);
+        let bats: Vec<&Bat> = alike.iter().map(|k| &*ready[*k].1.bat).collect();
+        let visit = &mut |k: usize, solution: Result<Solution>| {
+            let (place, Prepared { bat, .. }) = &ready[alike[k]];
+            visit(*place, solution.map(|solution| solution.of_tapped(bat.clone())));
+        };
         shown_to(model, &bats, &request, way, Visit::Solutions(visit));
         left = others;
     }
@@ -223,7 +255,7 @@ impl Visit<'_> {
 
     /// One bat with a plan of its own.
     fn alone(&mut self, (place, bat, request): (usize, &Bat, &Request)) {
-        let solved = solve(bat, request);
+        let solved = refine(bat, request);
         match self {
             Self::Solutions(visit) => visit(place, solved),
             Self::Figures(visit) => match solved {

@@ -17,6 +17,7 @@ use crate::modes::plan::Plan;
 use crate::modes::request::Request;
 use crate::modes::solution::Solution;
 use crate::modes::solve::solve;
+use crate::modes::theory_choice;
 
 /// What is proven of a bat's modes.
 #[derive(Debug, Clone)]
@@ -105,6 +106,7 @@ const FINEST: f64 = 1e-14;
 /// [`crate::Error::Value`] for a bat of which nothing is proven yet, with its reason, and those of [`solve`]. A width
 /// that cannot be reached is no error: what is proven comes back with `met` false.
 pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> {
+    let request = &Request { theory: theory_choice::of(bat, request)?, ..*request };
     carried(bat, request.theory)?;
     let layout = Layout::of(bat, request.theory)?;
     let norms = Norms::of(bat, &layout, request.theory)?;

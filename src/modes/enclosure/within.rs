@@ -19,6 +19,7 @@ use crate::bat::profile::{Profile, Stations};
 use crate::modes::enclosure::beam::carried;
 use crate::modes::enclosure::guarantee::{Guarantee, guarantee};
 use crate::modes::request::Request;
+use crate::modes::theory_choice;
 
 /// How far a bat may be from what its file says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +51,7 @@ const ROOM: f64 = 1e-12;
 /// [`Error::Value`] for a hollow bat or one of several materials, for one that was weighed, for tape where
 /// sections turn, for radii that are no more than the allowance, and those of [`guarantee`].
 pub fn band(bat: &Bat, request: &Request, within: Within) -> Result<Band> {
+    let request = &Request { theory: theory_choice::of(bat, request)?, ..*request };
     carried(bat, request.theory)?;
     if request.theory.turns() && !bat.fixtures().tapes.is_empty() {
         // The fastest bat is drawn as thick as the thickest: tape on it would turn more than its own.

@@ -19,7 +19,7 @@ use crate::proof::validation::Truth;
 pub fn many_elements(count: usize) -> Result<Outcome> {
     let truth = Truth::of_dowel(10)?;
     let started = Instant::now();
-    let request = Request { elements: Some(count), tolerance: 1e-12, ..Request::default() };
+    let request = Request { elements: Some(count), tolerance: 1e-12, ..Request::plain() };
     let solution = solve(&truth.bat, &request)?;
     let took = started.elapsed();
     let raised = |(k, f): (usize, &f64)| {
@@ -39,7 +39,7 @@ pub fn many_stations(count: usize) -> Result<Outcome> {
     let cone = Truth::of_cases(&["cone_1_2p64_60"])?;
     let started = Instant::now();
     let bat = on_the_line(&cone.bat, count)?;
-    let request = Request { tolerance: 1e-12, ..Request::default() };
+    let request = Request { tolerance: 1e-12, ..Request::plain() };
     let solution = solve(&bat, &request)?;
     let took = started.elapsed();
     Ok(Outcome { note: note(took), ..against(1e-12, &solution, &cone.frequencies) })
@@ -66,7 +66,7 @@ pub fn one_element() -> Result<Outcome> {
     for degree in 3..=12 {
         let truth = Truth::of_dowel(degree - 1)?;
         let (modes, elements) = (degree - 1, Some(1));
-        let request = Request { modes, elements, degree: Some(degree), ..Request::default() };
+        let request = Request { modes, elements, degree: Some(degree), ..Request::plain() };
         for (mode, exact) in solve(&truth.bat, &request)?.modes.iter().zip(&truth.frequencies) {
             let (error, total) = (mode.frequency() / exact - 1.0, mode.error.total());
             errors.push(error);
@@ -86,14 +86,14 @@ pub fn one_element() -> Result<Outcome> {
 
 /// Two cubic elements bend in four ways.
 pub fn too_few_elements() -> Result<Outcome> {
-    let request = Request { elements: Some(2), ..Request::default() };
+    let request = Request { elements: Some(2), ..Request::plain() };
     Ok(refusal(request.tolerance, solve(&dowel(Size::default())?, &request)))
 }
 
 /// The dense solver would need 320 GB.
 pub fn too_large_for_dense() -> Result<Outcome> {
     let (elements, solver) = (Some(100_000), Solver::Dense);
-    let request = Request { elements, solver, ..Request::default() };
+    let request = Request { elements, solver, ..Request::plain() };
     Ok(refusal(request.tolerance, solve(&dowel(Size::default())?, &request)))
 }
 

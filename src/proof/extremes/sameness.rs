@@ -20,7 +20,7 @@ const ROUNDINGS: f64 = 1e-13;
 pub fn turned_on_one_mesh() -> Result<Outcome> {
     let bat = Truth::of_cases(&["cone_1_1000"])?.bat;
     let turned = bat.with(|parts| parts.profile = parts.profile.clone().reversed())?;
-    let request = Request { elements: Some(400), ..Request::default() };
+    let request = Request { elements: Some(400), ..Request::plain() };
     let (a, b) = (solve(&bat, &request)?, solve(&turned, &request)?);
     Ok(difference(ROUNDINGS, apart(&a, &b, 1.0), a.worst()))
 }
@@ -28,7 +28,7 @@ pub fn turned_on_one_mesh() -> Result<Outcome> {
 /// A bat with stations more, solved for twelve digits, beside what is known of it without.
 fn with_more_stations(case: &str, places: &[f64]) -> Result<Outcome> {
     let truth = Truth::of_cases(&[case])?;
-    let request = Request { tolerance: 1e-12, ..Request::default() };
+    let request = Request { tolerance: 1e-12, ..Request::plain() };
     let solution = solve(&split(&truth.bat, places)?, &request)?;
     Ok(against(1e-12, &solution, &truth.frequencies))
 }
@@ -75,7 +75,7 @@ fn bits(solution: &Solution) -> Vec<u64> {
 
 /// The bats that are solved again and again: steps, points, formulas, stations.
 fn everything() -> Result<Vec<Vec<u64>>> {
-    let request = Request { tolerance: 1e-8, ..Request::default() };
+    let request = Request { tolerance: 1e-8, ..Request::plain() };
     let names = ["meshes/r161.json", "meshes/tanh.json", "meshes/dowel.json"];
     let bats = names.iter().map(|name| bundled_bat(name));
     let cases = ["steps_many", "cone_complete", "dumbbell"];

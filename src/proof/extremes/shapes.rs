@@ -11,7 +11,7 @@ use crate::proof::promise::ALWAYS;
 use crate::proof::validation::Truth;
 
 fn request(modes: usize, tolerance: f64) -> Request {
-    Request { modes, tolerance, ..Request::default() }
+    Request { modes, tolerance, ..Request::plain() }
 }
 
 /// The bat of a validation case, for a tolerance.

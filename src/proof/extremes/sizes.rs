@@ -47,7 +47,7 @@ fn of_size(size: Size) -> Result<Outcome> {
     let Size { length, radius, modulus: youngs_modulus } = size;
     let exact = Dowel { length, radius, youngs_modulus, density: DENSITY };
     let exact: Vec<f64> = (1..=10).map(|n| exact.frequency(Ends::FreeFree, n)).collect();
-    let request = Request { tolerance: ASKED, ..Request::default() };
+    let request = Request { tolerance: ASKED, ..Request::plain() };
     Ok(against(ASKED, &solve(&dowel(size)?, &request)?, &exact))
 }
 
@@ -74,7 +74,7 @@ pub fn out_of_range(modulus: f64) -> Result<Outcome> {
 /// That many modes of the dowel, each with the nodes that theory demands.
 pub fn modes(count: usize, asked: f64) -> Result<Outcome> {
     let truth = Truth::of_dowel(count)?;
-    let request = Request { modes: count, tolerance: asked, ..Request::default() };
+    let request = Request { modes: count, tolerance: asked, ..Request::plain() };
     let solution = solve(&truth.bat, &request)?;
     let outcome = against(asked, &solution, &truth.frequencies);
     let lost = "a mode has not its nodes".to_owned();
@@ -102,7 +102,7 @@ fn r161_times(length: f64, modulus: f64, density: f64) -> Result<Bat> {
 }
 
 fn on_one_mesh(bat: &Bat) -> Result<Solution> {
-    solve(bat, &Request { elements: Some(48), degree: Some(6), ..Request::default() })
+    solve(bat, &Request { elements: Some(48), degree: Some(6), ..Request::plain() })
 }
 
 /// Frequencies go as √(E/ρ)/L. The R161 on one mesh with E, ρ and L by powers of ten.
@@ -154,6 +154,6 @@ pub fn powers_of_two() -> Result<Outcome> {
 /// With the plan made anew: it takes fourth roots of E/ρ over lengths squared, so the steps are
 /// of 4 and of 16.
 pub fn powers_of_two_planned() -> Result<Outcome> {
-    let request = Request { tolerance: 1e-8, ..Request::default() };
+    let request = Request { tolerance: 1e-8, ..Request::plain() };
     by_twos(|bat| solve(bat, &request), [2, 4, 4])
 }

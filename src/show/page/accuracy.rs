@@ -138,7 +138,7 @@ fn small(units: Units, value: f64) -> String {
 pub fn method(analysis: &Analysis) -> Vec<String> {
     let solution = &analysis.solution;
     let theory = match solution.theory {
-        Theory::EulerBernoulli => "Euler–Bernoulli's theory",
+        Theory::EulerBernoulli | Theory::Auto => "Euler–Bernoulli's theory",
         Theory::Rayleigh => "Rayleigh's theory (with rotary inertia)",
         Theory::Timoshenko => "Timoshenko's theory (with rotary inertia and shear)",
     };

@@ -267,7 +267,7 @@ fn two_digits(value: f64) -> String {
 /// A model in words.
 fn model(model: &Model) -> String {
     let theory = match model.theory {
-        Theory::EulerBernoulli => "Euler-Bernoulli",
+        Theory::EulerBernoulli | Theory::Auto => "Euler-Bernoulli",
         Theory::Rayleigh => "Rayleigh (rotary inertia)",
         Theory::Timoshenko => "Timoshenko (rotary inertia, shear)",
     };

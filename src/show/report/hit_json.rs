@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn every_column_is_a_member_of_an_impact() {
         let bat = bundled_bat("meshes/r161.json").unwrap();
-        let solution = solve(&bat, &Request { modes: 6, ..Request::default() }).unwrap();
+        let solution = solve(&bat, &Request { modes: 6, ..Request::plain() }).unwrap();
         let scene = Scene::default();
         let effort = Effort::default();
         let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();

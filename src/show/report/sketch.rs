@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn a_mark_stands_in_the_column_of_its_place() {
         let bat = bundled_bat("meshes/r161.json").unwrap();
-        let solution = solve(&bat, &Request { modes: 3, ..Request::default() }).unwrap();
+        let solution = solve(&bat, &Request { modes: 3, ..Request::plain() }).unwrap();
         let drawn = draw(&bat, &of_modes(&bat, &solution), Units::Both, Glyphs::Blocks);
         for mode in &solution.modes {
             let label = format!("  mode {}", mode.order);

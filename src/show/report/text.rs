@@ -115,7 +115,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     let mut model = format!(
         "Model: {}, {} elements of degree {}, solver {}",
         match solution.theory {
-            Theory::EulerBernoulli => "Euler-Bernoulli",
+            Theory::EulerBernoulli | Theory::Auto => "Euler-Bernoulli",
             Theory::Rayleigh => "Rayleigh (rotary inertia)",
             Theory::Timoshenko => "Timoshenko (rotary inertia and shear)",
         },

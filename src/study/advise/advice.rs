@@ -5,12 +5,12 @@ use std::rc::Rc;
 use crate::base::error::{Error, Result};
 use crate::base::telling::{Tell, nobody};
 use crate::bat::body::Bat;
+use crate::modes::tuned::tuned;
 use crate::study::advise::damping::Damping;
 use crate::study::advise::effect::{Effect, Switch, effects};
 use crate::study::advise::model::{Bench, Model, Solved};
 use crate::study::advise::outside::outside;
 use crate::study::advise::smallest::{Smallest, smallest};
-use crate::study::tuned::tuned;
 
 /// What a bat's model needs.
 #[derive(Debug, Clone)]

@@ -16,11 +16,10 @@ use crate::collision::stated::fewer;
 use crate::collision::sweep::{self as hit, Sweep};
 use crate::collision::sweet_spot::FEW;
 use crate::modes::batch::{Way, solutions};
+use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::solve::{Request, Solution, solve};
 use crate::study::comparison::contender::{Figure, Sought, exit_speed};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
-use crate::study::theory_choice::theory;
-use crate::study::tuned::tuned;
 
 /// What is asked of every bat.
 #[derive(Debug, Clone)]
@@ -150,8 +149,8 @@ impl Asked {
         let hit = self.answers.iter().any(|answer| answer.of_a_hit());
         let modes = if hit { modes.max(Request::default().modes) } else { modes };
         let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
-        let theory = theory(&bat, &request)?.theory;
-        let (bat, request) = (tuned(bat, theory, self.tolerance)?, Request { theory, ..request });
+        let Prepared { bat, request, .. } = prepare(&bat, &request)?;
+        let bat = bat.into_owned();
         let trial = hit.then(|| trial(&bat)).transpose();
         let (trial, off) = trial.map_or_else(|error| (None, Some(error)), |trial| (trial, None));
         let trial = trial.map(|trial| (trial, self.places(&bat)));

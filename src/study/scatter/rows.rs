@@ -13,6 +13,7 @@ use crate::collision::hitter::Hitter;
 use crate::collision::setup::Setup;
 use crate::collision::sweep::{Trial as Hit, sweep};
 use crate::collision::sweet_spot::{FEW, Looked};
+use crate::modes::prepared::prepare;
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::Figure;
 use crate::study::many::answers::Answer;
@@ -20,8 +21,6 @@ use crate::study::many::design::Design;
 use crate::study::many::indices::Kind;
 use crate::study::many::rows::{Asked, Found, Trial};
 use crate::study::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
-use crate::study::theory_choice::theory;
-use crate::study::tuned::tuned;
 
 /// The exit speed of a ball that is hit at the place that differs, as an output.
 pub const AT_IMPACT: &str = "exit_speed_m_s@impact";
@@ -268,7 +267,7 @@ impl ScatterRows {
 /// The bat as heavy and as stiff as it was weighed and tapped, which is then not asked again.
 fn settled(bat: &Bat, tolerance: f64) -> Result<Bat> {
     let request = Request { tolerance, ..Request::default() };
-    let bat = tuned(bat.clone(), theory(bat, &request)?.theory, tolerance)?;
+    let bat = prepare(bat, &request)?.bat;
     let builder = Bat::builder(bat.profile().clone(), bat.material().clone());
     let builder = builder.name(bat.name()).source(bat.source()).inches(bat.inches());
     builder.fixtures(bat.fixtures().clone()).build()
@@ -311,7 +310,6 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let (scene, _) = plan.setup.scene(bat, Some(plan.tolerance))?;
     let model = plan.setup.model()?;
     let request = Request { tolerance: plan.tolerance, ..Request::default() };
-    let request = Request { theory: theory(bat, &request)?.theory, ..request };
     let accuracy = Hit { model, scene: &scene }.accuracy(&request, false);
     let sweep = sweep(bat, model, &scene, &accuracy, &[0.8 * bat.length()])?;
     let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;

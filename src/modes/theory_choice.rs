@@ -5,8 +5,9 @@
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
-use crate::modes::solve::{Request, solve};
-use crate::study::ignored::{Shift, shifts, solved_shifts, with_typical_shear};
+use crate::modes::refine::refine;
+use crate::modes::request::Request;
+use crate::modes::shifts::{Shift, shifts, solved_shifts, with_typical_shear};
 
 /// A theory, and what a person should know about the choice.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ pub struct Choice {
 /// all effects together make it; without shear where a shear modulus is not known.
 ///
 /// ```
-/// use sweetspot::study::theory_choice::theory;
+/// use sweetspot::modes::theory_choice::theory;
 /// use sweetspot::{Bat, Request, Theory};
 ///
 /// # fn main() -> sweetspot::Result<()> {
@@ -36,7 +37,7 @@ pub struct Choice {
 ///
 /// # Errors
 ///
-/// Those of [`solve`].
+/// Those of [`crate::modes::solve::solve`].
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     // What cannot be asked is refused before any work.
     request.check(1)?;
@@ -63,6 +64,18 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
         )
     });
     Ok(Choice { theory, warning })
+}
+
+/// The theory that a request names, or [`theory`]'s choice where it leaves it open.
+///
+/// # Errors
+///
+/// As [`theory`].
+pub fn of(bat: &Bat, request: &Request) -> Result<Theory> {
+    match request.theory {
+        Theory::Auto => Ok(theory(bat, request)?.theory),
+        named => Ok(named),
+    }
 }
 
 /// So many modes may show that every effect is needed: of a wooden bat at 1e-4 they do.
@@ -108,8 +121,8 @@ fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
     /// No shift below that can be told from round-off.
     const FINEST: f64 = 1e-11;
     let Request { modes, tolerance, .. } = *request;
-    let plain = Request { modes, tolerance: tolerance.max(ROUGH), ..Request::default() };
-    let solution = solve(bat, &plain)?;
+    let plain = Request { modes, tolerance: tolerance.max(ROUGH), ..Request::plain() };
+    let solution = refine(bat, &plain)?;
     let known = bat.knows_shear();
     let shearing = with_typical_shear(bat);
     let accuracy = (0.1 * tolerance).clamp(FINEST, ROUGH);

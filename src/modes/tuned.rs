@@ -6,10 +6,12 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
-use crate::modes::solve::{Request, solve};
+use crate::modes::refine::refine;
+use crate::modes::request::Request;
+use crate::modes::theory_choice;
 
 /// The bat, as described, with one factor on every E and G, so that its first bending mode has the
-/// frequency that was tapped; as it is if none was.
+/// frequency that was tapped; as it is if none was, or if it is as stiff already.
 ///
 /// A free bat's frequencies go as the root of the factor, and one step finds it; springs, joints
 /// and hands do not grow with it. How much a frequency does is the share of the bat's own strain
@@ -18,16 +20,17 @@ use crate::modes::solve::{Request, solve};
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where no factor gives that frequency; those of [`solve`].
+/// [`Error::Value`] where no factor gives that frequency; those of
+/// [`crate::modes::solve::solve`]; [`Error::Value`] for a bat that was changed by [`Bat::with`] after its edits,
+/// since the tap was heard of the bat before them: tune first, then change.
 pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     const MOST_STEPS: usize = 60;
     const STIFFER: f64 = 1.01;
-    let Some(tapped) = bat.unedited().weighed().first_bending else { return Ok(bat) };
+    let Some(tapped) = bat.tap() else { return Ok(bat) };
     if !bat.edits().is_empty() {
-        // The tap was heard of the bat before its edits.
-        let tuned = tuned(bat.unedited().clone(), theory, tolerance)?.edited(bat.edits())?;
-        return tuned.with(|parts| bat.name().clone_into(&mut parts.name));
+        return edited(&bat, theory, tolerance);
     }
+    let theory = theory_choice::of(&bat, &Request { tolerance, theory, ..Request::default() })?;
     let tolerance = (0.01 * tolerance).clamp(1e-12, 1e-6);
     // Hands and springs leave at most two slow motions that are rigid by themselves; an absorber
     // adds one more each.
@@ -37,10 +40,10 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut nearest = 0.0_f64;
     for _ in 0..MOST_STEPS {
-        let here = solve(&bat, &request)?;
+        let here = refine(&bat, &request)?;
         let mut stiffer = bat.clone();
         stiffer.scale(1.0, STIFFER);
-        let there = solve(&stiffer, &request)?;
+        let there = refine(&stiffer, &request)?;
         let share = |(a, b): (&Mode, &Mode)| 2.0 * (b.omega / a.omega).ln() / STIFFER.ln();
         let shares: Vec<f64> = here.modes.iter().zip(&there.modes).map(share).collect();
         let bending = shares.iter().position(|share| *share >= 0.5);
@@ -56,6 +59,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         // Where arithmetic knows a frequency less well, as well as it does, and half of --tol.
         let known = here.modes[bending].error.total().min(50.0 * tolerance);
         if (ratio - 1.0).abs() <= known.max(2.0 * tolerance) {
+            bat.heard();
             return Ok(bat);
         }
         // Newton's step in logarithms, never beyond what is known to be too soft or too stiff.
@@ -81,4 +85,15 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         false => "a first bending frequency with the absorber, which takes one near its own away",
     };
     Err(Error::value("weighed.first_bending_hz", found, expected))
+}
+
+/// The edited bat, as stiff as the bat before its edits was tapped.
+fn edited(bat: &Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
+    let named = |other: Bat| other.with(|parts| bat.name().clone_into(&mut parts.name));
+    if named(bat.unedited().edited(bat.edits())?)? != *bat {
+        let found = "a tap of the bat before its edits, and a change after them";
+        let expected = "a bat that is tuned first (modes::prepared::prepare) and then changed";
+        return Err(Error::value("weighed.first_bending_hz", found, expected));
+    }
+    named(tuned(bat.unedited().clone(), theory, tolerance)?.edited(bat.edits())?)
 }

@@ -1,0 +1,108 @@
+//! What are the modes of a bat that is prepared, as accurately as asked?
+//!
+//! [`refine`](fn@refine) plans, solves, looks at the errors and refines, by the theory that is named.
+
+use crate::base::clock::Clock;
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::modes::damping::damping;
+use crate::modes::plan::Plan;
+use crate::modes::referee::Solver;
+use crate::modes::request::{CONVERGED, Request, stop_at, wanted};
+use crate::modes::solution::{Solution, Timing};
+use crate::modes::task::Task;
+
+/// A refinement that leaves more than this of the error gains nothing.
+const STALLED: f64 = 0.7;
+/// Refinements before the answer is given as it is.
+const MOST_ROUNDS: usize = 12;
+
+/// Finds the lowest bending modes of a bat as it is, by the theory that the request names: no tap is
+/// listened to.
+///
+/// # Errors
+///
+/// As [`crate::modes::solve::solve`].
+pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
+    request.check(1)?;
+    if request.theory.shears() && !bat.knows_shear() {
+        let found = format!("timoshenko, but {} has no shear modulus", bat.without_shear());
+        let expected = "\"shear_modulus\" or \"poisson_ratio\" there, or a theory without shear";
+        return Err(Error::value("theory", found, expected));
+    }
+    let started = Clock::start();
+    let plan = match request.elements {
+        Some(elements) => Plan::fixed(bat, elements, request.degree.unwrap_or(3)),
+        None => Plan::cheapest(bat, &wanted(request)),
+    };
+    let timing = Timing { plan: started.elapsed(), ..Timing::default() };
+    if plan.unknowns() < request.modes {
+        let least = request.modes.div_ceil(plan.degree - 1);
+        let found = plan.mesh.len();
+        return Err(Error::TooFewElements { wanted: request.modes, least, found });
+    }
+    request.check_memory(request.memory(bat, &plan), plan.mesh.len())?;
+    damped(bat, request, refined(bat, request, plan, timing)?)
+}
+
+/// The solution with how its motions die out.
+pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result<Solution> {
+    best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
+    let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
+    if best.met && damped > request.tolerance {
+        best.met = false;
+        best.stopped = Some(format!("the damped motions are known to {damped:.1e} only"));
+    }
+    Ok(best)
+}
+
+/// The best solution on this plan and those that follow from its errors.
+fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> Result<Solution> {
+    let mut best: Option<Solution> = None;
+    let mut residual = stop_at(request);
+    if !bat.fixtures().none_moving() {
+        // Two frequencies may be the same, and then are no nearer to the truth than the residual.
+        residual = residual.min(request.tolerance).max(CONVERGED);
+    }
+    for round in 0..MOST_ROUNDS {
+        let task = Task { bat, plan: &plan, request, residual };
+        let answer = match (task.run(&mut timing), &mut best) {
+            (Ok(answer), _) => answer,
+            (Err(error), Some(best)) => {
+                // The answer before this refinement stands.
+                best.stopped = Some(error.to_string());
+                break;
+            }
+            (Err(error), None) => return Err(error),
+        };
+        let again = request.solver == Solver::Statics && residual > CONVERGED;
+        if again && answer.none_missing != Some(true) {
+            // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
+            residual = CONVERGED;
+            continue;
+        }
+        let (solution, defects) = answer.solution(plan, request, timing);
+        let gain = best.as_ref().map_or(0.0, |best| solution.worst() / best.worst());
+        let done = solution.met
+            || request.elements.is_some()
+            || solution.round_off() > request.tolerance
+            || (round > 2 && gain > STALLED);
+        let next = (!done).then(|| {
+            let plan =
+                Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
+            plan.refined(bat, &defects, request.tolerance, request.degree.is_none())
+        });
+        if solution.met || best.is_none() || gain < 1.0 {
+            best = Some(solution);
+        }
+        let Some(next) = next else { break };
+        let last = (round + 1 == MOST_ROUNDS)
+            .then(|| format!("{MOST_ROUNDS} refinements were not enough"));
+        if let Some(stopped) = request.too_large(bat, &next).or(last) {
+            best.iter_mut().for_each(|best| best.stopped = Some(stopped.clone()));
+            break;
+        }
+        plan = next;
+    }
+    Ok(best.expect("there was a round"))
+}
