@@ -6,6 +6,8 @@
 //! | [`ignored`], [`theory_choice`] | what does a theory leave out, and what does that cost; which theory does a bat need |
 //! | [`tuned`] | how stiff is the wood, by a tap |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
+//! | [`verdict`] | how far do the answers hold, by all that is known |
+//! | [`read_to`], [`bat_changes`] | to what step were diameters read; a bat that differs in one thing |
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
@@ -20,6 +22,9 @@ pub mod ignored;
 pub mod theory_choice;
 pub mod tuned;
 pub mod calibrate;
+pub mod verdict;
+pub mod read_to;
+pub(crate) mod bat_changes;
 pub mod spread;
 pub mod advise;
 pub mod comparison;
