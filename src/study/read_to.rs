@@ -6,6 +6,8 @@
 //! chance does not put them all there.
 
 use crate::bat::body::Bat;
+use crate::bat::profile::Stations;
+use crate::collision::hoop_wall::barrel_walls;
 
 const INCH: f64 = 0.0254;
 
@@ -46,8 +48,12 @@ pub fn diameters_read_to(bat: &Bat) -> Option<ReadTo> {
     if profile.formulas.is_some() {
         return None;
     }
-    let mut diameters: Vec<f64> =
-        profile.stations.outer.iter().map(|radius| 2.0 * radius).filter(|d| *d > 0.0).collect();
+    let Stations { outer, inner, .. } = &profile.stations;
+    // Stations of a cup in a solid tip are the cup's; the tip itself was read.
+    let solid = barrel_walls(bat.unedited()).is_empty();
+    let of_cup = |k: usize| k + 1 < inner.len() && (inner[k] > 0.0 || inner[k + 1] > 0.0);
+    let read = (0..outer.len()).filter(|k| !(solid && of_cup(*k)));
+    let mut diameters: Vec<f64> = read.map(|k| 2.0 * outer[k]).filter(|d| *d > 0.0).collect();
     diameters.sort_by(f64::total_cmp);
     diameters.dedup_by(|a, b| (*a - *b).abs() < ROUNDED[0]);
     read_to(&diameters)

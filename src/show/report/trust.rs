@@ -26,6 +26,31 @@ pub fn screen(analysis: &Analysis, units: Units) -> String {
     out + &reasons(analysis, units)
 }
 
+/// The sweet spot in a sentence, with what there is to doubt of it.
+pub fn in_short(analysis: &Analysis, units: Units) -> String {
+    let Analysis { bat, spread, task, verdict, .. } = analysis;
+    let [Some(place), Some(speed)] = [Answer::BestPlace, Answer::ExitSpeed].map(|of| spread.of(of))
+    else {
+        return "Sweet spot: ball and bat do not meet.\n".to_owned();
+    };
+    let open = |answer: Answer| {
+        about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
+    };
+    let shown = |kind: Kind, value: f64| kind.shown(units, value);
+    let told = format!(
+        "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
+         pitch of {}.",
+        shown(Kind::Length, place.value),
+        open(Answer::BestPlace),
+        shown(Kind::Length, bat.length() - place.value),
+        shown(Kind::Speed, speed.value),
+        open(Answer::ExitSpeed),
+        shown(Kind::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
+        shown(Kind::Speed, task.scene.ball_speed)
+    );
+    [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
+}
+
 /// The answers and how far to trust them, as a part of more.
 pub fn text(analysis: &Analysis, units: Units) -> String {
     format!("\nAnswers\n{}{}\n", table(analysis, units), reasons(analysis, units))
