@@ -246,9 +246,9 @@ impl Material {
             d if d > WOODS && d < GLASS && modulus < 8e6 * d => {
                 told("wood: 400 to 900, 8 to 20): is the mass, a diameter or a unit off?")
             }
-            d if d > GLASS && !(OF_METALS[0]..=OF_METALS[1]).contains(&(modulus / d)) => told(
-                "aluminium: 2810, 71.7; wood: 400 to 900, 8 to 20): a thicker wall, or parts not in the file?",
-            ),
+            d if d > GLASS && !(OF_METALS[0]..=OF_METALS[1]).contains(&(modulus / d)) => {
+                told("aluminium: 2810, 71.7): is the wall thicker, or are parts not in the file?")
+            }
             _ => None,
         }
     }

@@ -224,8 +224,8 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             let unit = if units == Units::Us { "in" } else { "mm" };
             let [low, high] = wall.bbcor.range;
             format!(
-                "The wall dents by {} of its {} {unit}: beyond half of it this theory ends, the ball's figures are \
-                 rough. BBCOR {:.3} ({:.3} if stiff, {low:.3} to {high:.3} by the patch).",
+                "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
+                 rough, BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
                 deep(wall.dent),
                 deep(wall.thickness),
                 wall.bbcor.with,
