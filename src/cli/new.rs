@@ -104,12 +104,12 @@ fn analysed(bat: &Bat) -> Result<Analysis> {
     const MODES: usize = 10;
     const TOLERANCE: f64 = 1e-4;
     let request = Request { modes: MODES, tolerance: TOLERANCE, ..Request::default() };
+    let proof = request.clone();
     let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
     let solution = solve(&bat, &request)?;
     let (scene, law) = Setup::default().scene(&bat, Some(TOLERANCE))?;
     let readings = Readings::of(&bat);
-    let (hits, proof) = (request.clone(), request);
-    let task = Task { model: Model::Contact, scene, law, hits, proof, readings };
+    let task = Task { model: Model::Contact, scene, law, hits: request, proof, readings };
     Analysis::new(bat, solution, task)
 }
 

@@ -47,7 +47,8 @@ pub struct Open {
     pub answers: Vec<Answer>,
     /// What could not be counted, a phrase each.
     pub left_out: Vec<String>,
-    /// Why the answers are less certain than that; empty where nothing is known against them.
+    /// Why the answers are less certain than that; left out where nothing is known against them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<Doubt>,
 }
 

@@ -234,7 +234,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
         }
         Doubt::RigidWall(_) => {
             "Left out: how the hollow barrel's wall gives way, which lets the ball leave \
-                                faster; --full says why."
+                                faster (why: hit, or --full)."
                 .to_owned()
         }
         Doubt::ExitSpeeds { error } => format!(
