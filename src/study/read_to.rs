@@ -38,7 +38,7 @@ const GRIDS: [ReadTo; 4] = [
 const ROUNDED: [f64; 3] = [1e-6 * INCH, 0.5e-3 * INCH, 5e-3 * INCH];
 /// So rarely does chance put all diameters of a column on a grid.
 const CHANCE: f64 = 1e-3;
-/// Of numbers that lie on a grid exactly so many different ones tell it.
+/// So many different numbers tell a grid.
 const FEWEST: usize = 3;
 
 /// The coarsest step to which all outer diameters of a bat were read, before its edits; None where they lie on
@@ -71,7 +71,7 @@ fn read_to(diameters: &[f64]) -> Option<ReadTo> {
         // An odd number of eighths, or finer, is typed by nobody who reads decimals.
         let fraction = |d: &f64| inches && off(*d, INCH / 4.0) > exactly;
         let enough = diameters.len() >= FEWEST || diameters.iter().any(fraction);
-        let rounded = ROUNDED[1..].iter().filter(|_| inches);
+        let rounded = ROUNDED[1..].iter().filter(|_| inches && diameters.len() >= FEWEST);
         (on(grid, exactly) && enough)
             || rounded.into_iter().any(|within| on(grid, *within) && by_chance(*within))
     };
