@@ -104,7 +104,7 @@ fn analysed(bat: &Bat) -> Result<Analysis> {
     const MODES: usize = 10;
     const TOLERANCE: f64 = 1e-4;
     let request = Request { modes: MODES, tolerance: TOLERANCE, ..Request::default() };
-    let proof = request.clone();
+    let proof = request;
     let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
     let solution = solve(&bat, &request)?;
     let (scene, law) = Setup::default().scene(&bat, Some(TOLERANCE))?;
