@@ -289,7 +289,7 @@ fn answers_are_asked_and_kept() {
     let plain = told.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(plain.contains("kept in kept.json.draft"), "{told}");
     assert_eq!(folder.names(), ["kept.json.draft"]);
-    let output = answered(&folder, "14.70\n174.5, 581.3, 1187\n\n");
+    let output = answered(&folder, "yes\n14.70\n174.5, 581.3, 1187\n\n");
     assert!(output.status.success(), "{output:?}");
     assert_eq!(folder.names(), ["kept.json"]);
     let again = folder.json(&["calibrate", "r161", "kept.json", "--json", "-"]);

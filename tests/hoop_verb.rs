@@ -408,8 +408,11 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     let without = folder.json(&["analyze", solid, "--quiet", "--json", "-"]);
     assert!(without.get("hoop").is_none());
     // How large the ball's patch is stays open, of hollow bats alone.
-    let open = |document: &Value| document["open"]["left_out"].to_string();
-    assert!(open(&document).contains("patch of the wall"), "{}", open(&document));
+    let open = |document: &Value| document["open"]["sources"].to_string();
+    assert!(open(&document).contains("patch"), "{}", open(&document));
+    // What the dent says against it is in the document too.
+    assert_eq!(document["open"]["doubts"][0]["about"], "dent");
+    assert!(without["open"].get("doubts").is_none());
     assert!(!open(&without).contains("patch"), "{}", open(&without));
     assert!(!folder.text(&["analyze", solid, "--full", "--quiet"]).contains("hoop mode "));
     // The report: a section with what moves, its picture and its numbers.

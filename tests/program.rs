@@ -18,6 +18,7 @@ mod exchange;
 mod features;
 mod figures;
 mod film;
+mod first_screens;
 mod fuzz_corpus;
 mod golden;
 mod hoop_verb;

@@ -261,7 +261,7 @@ fn answered(folder: &Folder, args: &[&str], answers: &str) -> std::process::Outp
 fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     let folder = Folder::new("asked");
     let answers = "Birch, mine\ncm\n8.4\n84\n880\n880 g\npine\n5\n\
-                   5.0\n4.9\n2.6, 3\n99, 3\n1,234\n10, 2.7\n\n6.4\n\n\n\n";
+                   5.0\n4.9\n2.6, 3\n99, 3\n1,234\n10, 2.7\n\n6.4\n\n\n\n\n\n";
     let output = answered(&folder, &[], answers);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{told}");
@@ -299,7 +299,8 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
 }
 
 /// Answers to every question of `new`.
-const ANSWERS: &str = "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1.2\n\n2.5\n22\n170\n10, 0.7 oz\n";
+const ANSWERS: &str =
+    "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1.2\n\n2.5\nno\nnone\n22\n170\n10, 0.7 oz\n";
 
 #[test]
 fn an_interrupted_dialogue_goes_on_where_it_stopped() {
@@ -317,8 +318,10 @@ fn an_interrupted_dialogue_goes_on_where_it_stopped() {
             "{told}"
         );
         assert_eq!(folder.names(), ["mine.json.draft", "whole.json"], "{end}");
-        let output = answered(&folder, &["mine.json"], &ANSWERS[end + 1..]);
+        let rest = format!("yes\n{}", &ANSWERS[end + 1..]);
+        let output = answered(&folder, &["mine.json"], &rest);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(told.contains("Go on with the draft of 'Mine'"), "{told}");
         assert!(output.status.code() == Some(0) && told.contains("Going on after the"), "{told}");
         assert_eq!(folder.names(), ["mine.json", "whole.json"], "{end}");
         assert_eq!(folder.read("mine.json"), whole, "{end}");
@@ -345,16 +348,78 @@ fn an_interrupt_keeps_the_answers() {
     let mut kill = std::process::Command::new("kill");
     kill.args(["-INT", &child.id().to_string()]).status().unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    let rest = ANSWERS.split_once("31 oz\n").unwrap().1;
-    assert_eq!(answered(&folder, &["mine.json"], rest).status.code(), Some(0));
+    let rest = format!("y\n{}", ANSWERS.split_once("31 oz\n").unwrap().1);
+    assert_eq!(answered(&folder, &["mine.json"], &rest).status.code(), Some(0));
     assert_eq!(folder.names(), ["mine.json"]);
+}
+
+#[test]
+fn who_quits_keeps_the_answers_and_a_draft_is_of_one_bat() {
+    let folder = Folder::new("quit");
+    for word in ["quit", "exit", "q"] {
+        let output = answered(&folder, &["mine.json"], &format!("Mine\nin\n33\n{word}\n31 oz\n"));
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let plain = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        assert!(plain.contains("The answers are kept in mine.json.draft"), "{told}");
+        assert!(output.stdout.is_empty() && folder.names() == ["mine.json.draft"], "{word}");
+        fs::remove_file(folder.0.join("mine.json.draft")).unwrap();
+    }
+    // A dialogue without a file has a draft that any bat may be in.
+    answered(&folder, &[], "Mine\nin\n33\nquit\n");
+    assert_eq!(folder.names(), ["sweetspot-new.draft"]);
+    // Another bat's name on the command line leaves it as it is.
+    let kept = folder.read("sweetspot-new.draft");
+    let all = ANSWERS.split_once('\n').unwrap().1;
+    let output = answered(&folder, &["--name", "Other"], all);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(0) && told.contains("of another bat, 'Mine'"), "{told}");
+    assert_eq!(folder.read("sweetspot-new.draft"), kept);
+    assert_eq!(Bat::from_file(folder.0.join("other.json")).unwrap().name(), "Other");
+    // No begins anew, and nothing of the draft is in the other bat.
+    let third = format!("no\n{}", ANSWERS.replace("Mine", "Third").replace("\n33\n", "\n34\n"));
+    assert_eq!(answered(&folder, &[], &third).status.code(), Some(0));
+    let third = Bat::from_file(folder.0.join("third.json")).unwrap();
+    assert!(third.name() == "Third" && (third.length() - 34.0 * 0.0254).abs() < 1e-12);
+    assert_eq!(folder.names(), ["other.json", "third.json"]);
+}
+
+#[test]
+fn a_hollow_bat_and_a_cup_are_asked_for_and_the_sweet_spot_is_told() {
+    let folder = Folder::new("hollow");
+    // Of aluminium somebody has to say whether it is hollow: an empty line is no answer.
+    let metal =
+        "Metal\nin\n33\n30 oz\naluminium-7075\n0.95\n12, 0.9\n23, 2.6\n\n2.6\n\n3 mm\n\n\n\n";
+    let output = answered(&folder, &["metal.json"], metal);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    let shown = String::from_utf8(output.stdout).unwrap();
+    let last = shown.trim_end().rsplit("\n\n").next().unwrap();
+    let last = last.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(last.starts_with("Sweet spot: ") && last.contains("this theory ends"), "{shown}");
+    let section = Bat::from_file(folder.0.join("metal.json")).unwrap().profile().at(0.7);
+    assert!((section.outer - section.inner - 3e-3).abs() < 1e-12);
+    let wood =
+        "Cupped\nin\n33\n31 oz\nsugar-maple-dynamic\n1.9\n1.2\n\n2.5\n\n1 in, 1.6 in\n\n\n\n";
+    let output = answered(&folder, &["wood.json"], wood);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.contains("Sweet spot: ") && !shown.contains("theory ends"), "{shown}");
+    let cupped = Bat::from_file(folder.0.join("wood.json")).unwrap();
+    let rim = cupped.profile().at(cupped.length() * (1.0 - 1e-9));
+    assert!((rim.inner - 0.8 * 0.0254).abs() < 1e-5, "{}", rim.inner);
+    assert!((cupped.inertia().mass - 31.0 * 0.028_349_523_125).abs() < 1e-9);
+    // The same by options.
+    let bat = ["--name", "Cupped", "--length", "33 in", "--mass", "31 oz", "--unit", "in"];
+    let more = ["--material", "sugar-maple-dynamic", "--cup", "1, 1.6"];
+    let along = ["--station", "0, 1.9", "--station", "0.5, 1.2", "--station", "33, 2.5"];
+    let written = folder.text(&[&["new", "-"], &bat[..], &more, &along].concat());
+    assert_eq!(written, folder.read("wood.json"));
 }
 
 #[test]
 fn a_question_is_explained_taken_back_and_left_open() {
     let folder = Folder::new("back");
-    let answers =
-        "Mine\nin\n?\n34\nback\n33\ndon't know\nwhite-ash\n1.9\n1.2\n2\n0.5, 1.1\n\n2.5\n\n\n\n";
+    let answers = "Mine\nin\n?\n34\nback\n33\ndon't know\nwhite-ash\n1.9\n1.2\n2\n0.5, 1.1\n\n2.5\n\n\n\n\n\n";
     let output = answered(&folder, &["mine.json"], answers);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{told}");
@@ -372,7 +437,11 @@ fn options_make_the_same_file_as_answers_and_what_is_missing_is_said() {
     let bat = ["--length", "33 in", "--mass", "31 oz", "--material", "white-ash", "--name", "Mine"];
     let stations = ["--station", "0 in, 1.9 in", "--station", "1 in, 1", "--station", "33, 2.5"];
     let written = folder.text(&[&["new", "-"], &bat[..], &stations].concat());
-    answered(&folder, &["asked.json"], "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1, 1\n\n2.5\n\n\n\n");
+    answered(
+        &folder,
+        &["asked.json"],
+        "Mine\nin\n33\n31 oz\nwhite-ash\n1.9\n1, 1\n\n2.5\n\n\n\n\n\n",
+    );
     assert_eq!(folder.read("asked.json"), written);
     for missing in ["--mass", "--material", "--station"] {
         let kept = [&["new", "new.json"], &bat[..], &stations].concat();

@@ -469,6 +469,7 @@ impl Bat {
         });
         let mut warnings: Vec<String> = strange.collect();
         warnings.extend(strange_material("", self.material(), WALL));
+        warnings.extend(self.density_off());
         self.warn_of_regions(&mut warnings);
         let attached = self.fixtures.attached_mass();
         if attached > mass - attached {
@@ -484,6 +485,38 @@ impl Bat {
             }
         }
         warnings
+    }
+
+    /// What there is to say of a density that no such material has: that which the mass on the scale asks for, far
+    /// from the file's, or one in the file that does not go with the stiffness.
+    ///
+    /// Wood is within 0.8 to 1.25 of its kind's density, a metal within a tenth of its own.
+    pub fn density_off(&self) -> Option<String> {
+        let before = self.unedited();
+        let (material, factor) = (before.material(), before.factors[0]);
+        let own = Material { density: material.density / factor, ..material.clone() };
+        // A tap sets the stiffness; the file's is the material's own.
+        let own = Material { youngs_modulus: own.youngs_modulus / before.factors[1], ..own };
+        let usual = if own.is_metal() { 0.9..1.1 } else { 0.8..1.25 };
+        if usual.contains(&factor) {
+            return own.no_material();
+        }
+        let hollow = before.profile.pieces.iter().any(|piece| piece.at(0.5).inner > 0.0);
+        let [needed, has] = [material.density, own.density].map(plain);
+        let of = own.name.map_or(String::new(), |name| format!(" of {name}"));
+        let hint = match (factor < 1.0, hollow) {
+            (true, false) => {
+                "is the bat hollow? its wall goes into the file: \"wall_thickness\" in \"profile\""
+            }
+            (true, true) => "is the wall thinner, or the mass or a diameter off?",
+            (false, true) => {
+                "is the wall thicker, or a plug, a cap, a knob or a tape not in the file?"
+            }
+            (false, false) => "is it another material, or the mass or a diameter off?",
+        };
+        Some(format!(
+            "to weigh so much it must have {needed} kg/m³, far from the {has} kg/m³{of}: {hint}"
+        ))
     }
 
     /// What there is to say of a balance point that was measured far from where the profile has it.

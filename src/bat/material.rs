@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::base::interval::Rectangle;
+use crate::base::number::significant;
 
 /// A material, along the bat's axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -205,6 +206,61 @@ impl Material {
     }
 }
 
+/// Metals: heavier than this (kg/m³), and with a stiffness over density (m²/s²) within these.
+const METAL: f64 = 1700.0;
+const OF_METALS: [f64; 2] = [20e6, 30e6];
+
+impl Material {
+    /// How much a material differs from piece to piece, as [`Self::scatter`] has it of wood, or from alloy to alloy:
+    /// 2 % of Young's modulus and 1 % of the density of a metal, by which the alloys of a kind differ. None where
+    /// neither is known, as of a composite.
+    ///
+    /// Magnesium, aluminium, titanium and steel all have about 25e6 m²/s² of stiffness over density, by which a metal
+    /// is told.
+    ///
+    /// # Source
+    ///
+    /// The built-in aluminium's own (`BUILT_IN`): other alloys of its kind differ by 1 to 2 %.
+    pub fn differs(&self) -> Option<Scatter> {
+        let metal = Scatter { youngs_modulus: 0.02, density: 0.01 };
+        self.scatter().or(self.is_metal().then_some(metal))
+    }
+
+    /// What there is to say of a density that goes with no stiffness like this: as light as wood and as stiff as a
+    /// metal, as a hollow bat is that is taken for a solid one; or heavier than glass fibre and softer for its
+    /// weight than any metal of bats.
+    pub(crate) fn no_material(&self) -> Option<String> {
+        /// As heavy as the heaviest woods, and as glass fibre in resin (kg/m³).
+        const WOODS: f64 = 1200.0;
+        const GLASS: f64 = 2200.0;
+        let (density, modulus) = (self.density, self.youngs_modulus);
+        let told = |hint: &str| {
+            let [density, modulus] = [density, 1e-9 * modulus].map(|v| significant(v, 4));
+            Some(format!("{density} kg/m³ with {modulus} GPa is no material of bats ({hint}"))
+        };
+        match density {
+            d if d < WOODS && modulus > 30e9 => told(
+                "aluminium: 2810, 71.7): is the bat hollow? its wall goes into the file: \"wall_thickness\" in \
+                 \"profile\"",
+            ),
+            d if d > WOODS && d < GLASS && modulus < 8e6 * d => {
+                told("wood: 400 to 900, 8 to 20): is the mass, a diameter or a unit off?")
+            }
+            d if d > GLASS && !(OF_METALS[0]..=OF_METALS[1]).contains(&(modulus / d)) => {
+                told("aluminium: 2810, 71.7): is the wall thicker, or are parts not in the file?")
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it is as heavy and as stiff as a metal that bats are made of.
+    pub fn is_metal(&self) -> bool {
+        let [low, high] = OF_METALS;
+        let specific = self.youngs_modulus / self.density;
+        self.hoop_modulus.is_none() && self.density > METAL && (low..=high).contains(&specific)
+    }
+}
+
 /// One entry of the built-in list: SI values and where they come from.
 #[derive(Debug, Clone, Copy)]
 pub struct BuiltIn {
@@ -334,9 +390,14 @@ mod tests {
             let material = Material::named(built_in.name).expect(built_in.name);
             let wood = !built_in.name.starts_with("aluminium");
             assert_eq!(material.scatter().is_some(), wood, "{}", built_in.name);
+            assert_eq!(material.is_metal(), !wood, "{}", built_in.name);
+            assert!(material.differs().is_some(), "{}", built_in.name);
         }
         for (density, modulus) in [(200.0, 20e6), (1550.0, 50e9), (2810.0, 71.7e9)] {
             assert_eq!(Material::new(density, modulus).unwrap().scatter(), None, "{density}");
+        }
+        for (density, modulus) in [(200.0, 20e6), (1550.0, 50e9), (4793.91, 49.98e9)] {
+            assert_eq!(Material::new(density, modulus).unwrap().differs(), None, "{density}");
         }
     }
 

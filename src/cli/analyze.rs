@@ -63,10 +63,11 @@ pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// How far the calipers may be off, one standard deviation
-    #[arg(long, value_name = "m", default_value = "0.1 mm", help_heading = "How it was measured",
+    /// How far the calipers may be off, one standard deviation [default: 0.1 mm; of diameters that
+    /// all lie on a step of 1/16, 1/32 or 1/64 in or of 1 mm its share, 1/16 in 0.46 mm]
+    #[arg(long, value_name = "m", help_heading = "How it was measured",
           value_parser = |s: &str| reading(&READING, s))]
-    calipers: f64,
+    calipers: Option<f64>,
 
     /// How far the rule may be off, one standard deviation
     #[arg(long, value_name = "m", default_value = "1 mm", help_heading = "How it was measured",
@@ -151,11 +152,12 @@ pub fn run(args: &Args) -> Result<Done> {
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
+    let readings = Readings::of(&bat);
     let readings = Readings {
-        diameter: args.calipers,
+        diameter: args.calipers.unwrap_or(readings.diameter),
         length: args.rule,
         mass: args.scale,
-        ..Readings::default()
+        ..readings
     };
     let task = Task { model, scene, law, hits, proof, readings };
     let tell = |share: f64, what: &str| progress.say(share, what);
@@ -185,7 +187,7 @@ pub fn run(args: &Args) -> Result<Done> {
         modes: modes_file(args, &analysis, proven.as_ref()),
         hit: hit_file(&analysis),
         strength: aftermath::strengths_file(&analysis.strength),
-        open: trust::open(&analysis.spread),
+        open: trust::open(&analysis),
         hoop: hoop_file(&analysis),
     };
     let code = match &proven {
@@ -200,8 +202,8 @@ pub fn run(args: &Args) -> Result<Done> {
             table(&analysis, &args.output) + &cuts.unwrap_or_default()
         }
         false => {
-            let barrel = analysis.barrel.as_ref().map(report::hoop::in_a_line);
-            trust::screen(&analysis, args.output.units) + &barrel.unwrap_or_default() + MORE
+            let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
+            trust::screen(&analysis, args.output.units) + more.as_deref().unwrap_or(MORE)
         }
     };
     let table = match &proven {
@@ -334,7 +336,7 @@ fn write_out(
 fn advice(analysis: &Analysis) -> String {
     match &analysis.advice {
         Some(found) => advice::short(found),
-        None => "Advice: see sweetspot advise\n".to_owned(),
+        None => "Advice: sweetspot advise has it\n".to_owned(),
     }
 }
 

@@ -172,7 +172,8 @@ pub fn run(args: &Args) -> Result<Done> {
     ];
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
-    let Told { mut readings, name, person } = readings(args, &bat)?;
+    let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
+    let Told { mut readings, name, person } = told;
     told_again(&mut readings.lines, &args.mode)?;
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
@@ -228,22 +229,22 @@ fn draft(args: &Args) -> PathBuf {
     name.into()
 }
 
-/// Reads what was measured, or asks for it.
-fn readings(args: &Args, bat: &Bat) -> Result<Told> {
+/// Reads what was measured, or asks for it; None where who was asked left.
+fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
     let Some(path) = &args.measured else {
         if !args.ask && !stdin().is_terminal() {
             let expected = "a readings file, such as readings.json, or --ask to answer questions";
             return Err(Error::value("MEASURED", "none", expected));
         }
-        let mut person = Dialogue::kept(stdin().lock(), "calibrate", &draft(args));
-        let text = person.hold(|person| asked(person, bat))?;
+        let mut person = Dialogue::kept(stdin().lock(), "calibrate", &draft(args), bat.name());
+        let Some(text) = person.hold(|person| asked(person, bat))? else { return Ok(None) };
         if let Some(path) = &args.readings {
             file::write(path, text.as_bytes())?;
         }
         // Answers that say nothing must not be given again.
         let readings =
             readings_file::from_text("the answers", &text).inspect_err(|_| person.done())?;
-        return Ok(Told { readings, name: "answers".to_owned(), person: Some(person) });
+        return Ok(Some(Told { readings, name: "answers".to_owned(), person: Some(person) }));
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -251,7 +252,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Told> {
         true => of_modes(path, args.quiet)?,
         false => readings_file::from_file(path)?,
     };
-    Ok(Told { readings, name, person: None })
+    Ok(Some(Told { readings, name, person: None }))
 }
 
 /// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.

@@ -12,7 +12,9 @@ use crate::files::schema::hit::HitFile;
 use crate::show::csv;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
+use crate::show::report::text::wrapped;
 use crate::show::report::{hit_json, hit_text, sketch, trust};
+use crate::study::verdict::Verdict;
 
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::csv_option::CsvArgs;
@@ -154,6 +156,9 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     drop(progress);
     let units = args.output.units;
+    let known = Verdict::of(&bat, &scene, &sweep, &figures);
+    let doubts = trust::doubts(&known, units);
+    let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
     let table = format!(
         "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
         hit_text::scene(&bat, &scene, model.name(), units),
@@ -163,7 +168,7 @@ pub fn run(args: &Args) -> Result<Done> {
         hit_text::sweet_spot(&bat, &figures.spot, units),
         hit_text::why(&figures, units),
         hit_text::beyond(&sweep, &scene, units),
-        trust::IN_ANALYZE,
+        doubts + trust::IN_ANALYZE,
         hit_text::figures(&figures, units),
         hit_text::moves(&bat, &figures, units),
     );

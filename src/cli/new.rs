@@ -6,18 +6,25 @@ use std::path::{Path, PathBuf};
 use crate::base::error::Result;
 use crate::base::file;
 use crate::bat::body::Bat;
+use crate::collision::hit::Model;
+use crate::collision::setup::Setup;
+use crate::modes::solve::{Request, solve};
+use crate::show::analysis::{Analysis, Task};
 use crate::show::report::sketch::{self, Places, SketchRow};
 use crate::show::report::text;
 use crate::show::report::text::wrapped;
+use crate::show::report::trust;
 use crate::show::report::units::Units;
+use crate::study::spread::Readings;
 
 use crate::cli::asking::ask::shown_density;
 use crate::cli::asking::dialogue::Dialogue;
 use crate::cli::asking::interview::asked;
 use crate::cli::asking::new_options::{called, given, refuse_existing};
 use crate::cli::bat_text::{self, Measured};
-use crate::cli::common::{glyphs, printed};
+use crate::cli::common::{Prepared, glyphs, prepare, printed};
 use crate::cli::done::Done;
+use crate::cli::value::TheoryChoice;
 
 pub use crate::cli::asking::new_options::Args;
 
@@ -29,8 +36,11 @@ pub fn run(args: &Args) -> Result<Done> {
         let measured = given(args)?;
         return made(args, &measured, &bat_text::text(&measured));
     }
-    let mut person = Dialogue::kept(stdin().lock(), "new", &draft(args));
-    let measured = person.hold(|person| asked(args, person))?;
+    let of = args.name.as_deref().unwrap_or_default();
+    let mut person = Dialogue::kept(stdin().lock(), "new", &draft(args), of);
+    let Some(measured) = person.hold(|person| asked(args, person))? else {
+        return Ok(Done::new(String::new(), 0));
+    };
     let text = bat_text::text(&measured);
     let done = made(args, &measured, &text).inspect_err(|_| {
         // Show the bat, too, unless standard error is closed.
@@ -72,11 +82,35 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
     format!(
-        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n",
+        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
         text::summary(bat, units),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict(bat, measured), 0),
+        sweet_spot(bat, units),
     )
+}
+
+/// Where the bat is best and how fast the ball leaves there, as `analyze` has it, or why that is not known.
+fn sweet_spot(bat: &Bat, units: Units) -> String {
+    match analysed(bat) {
+        Ok(analysis) => trust::in_short(&analysis, units),
+        Err(error) => wrapped(&format!("Sweet spot: not known ({error})."), 0),
+    }
+}
+
+/// All of the bat in the usual scene.
+fn analysed(bat: &Bat) -> Result<Analysis> {
+    /// Modes that hits are computed by at first, and the accuracy, as of `analyze`.
+    const MODES: usize = 10;
+    const TOLERANCE: f64 = 1e-4;
+    let request = Request { modes: MODES, tolerance: TOLERANCE, ..Request::default() };
+    let proof = request;
+    let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
+    let solution = solve(&bat, &request)?;
+    let (scene, law) = Setup::default().scene(&bat, Some(TOLERANCE))?;
+    let readings = Readings::of(&bat);
+    let task = Task { model: Model::Contact, scene, law, hits: request, proof, readings };
+    Analysis::new(bat, solution, task)
 }
 
 /// What the mass says of the diameters, as one sentence or two.
@@ -95,9 +129,12 @@ fn verdict(bat: &Bat, measured: &Measured) -> String {
         shown(density),
         measured.material,
         shown(density / factor),
-        match factor {
-            0.8..1.25 => "That is as wood differs.",
-            _ => "That is another material, a hollow bat, or a slip: look at mass and diameters.",
+        match (bat.density_off(), bat.material().is_metal()) {
+            (Some(_), _) => {
+                "That is another material, a hollow bat, or a slip: look at mass and diameters."
+            }
+            (None, true) => "That is near enough.",
+            (None, false) => "That is as wood differs.",
         }
     )
 }

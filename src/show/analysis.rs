@@ -14,6 +14,7 @@ use crate::proof::validation::dowel_proof;
 use crate::study::advise::advice::{Advice, advise};
 use crate::study::spread::{Analysed, Readings, Spread};
 use crate::study::trampoline::barrel::{Barrel, BarrelTest};
+use crate::study::verdict::Verdict;
 
 /// Impact points along the outer half of the bat.
 pub const POINTS: usize = 101;
@@ -67,11 +68,16 @@ pub struct Analysis {
     /// What calipers, scale and wood leave open; uncounted for a bat of so many pieces that it would
     /// take long.
     pub spread: Spread,
-    /// What the model needs; None for a bat of so many pieces that it would take long, and where
-    /// there is none to give.
+    /// How far the answers hold, by all that is known of them.
+    pub verdict: Verdict,
+    /// What the model needs; None for a bat of so many pieces that it would take long, and where it could not be
+    /// found, for the reason in [`Self::failed`].
     pub advice: Option<Advice>,
-    /// How the barrel of a hollow bat rings, and what its wall does to the ball; None for others.
+    /// How the barrel of a hollow bat rings, and what its wall does to the ball; None for others, and where it
+    /// could not be found, for the reason in [`Self::failed`].
     pub barrel: Option<Barrel>,
+    /// What could not be found, and why, a sentence each.
+    pub failed: Vec<String>,
 }
 
 impl Analysis {
@@ -119,10 +125,25 @@ impl Analysis {
             0..=MOST_PIECES => Spread::new(&analysed, &task.readings),
             _ => Spread::uncounted(&analysed),
         };
+        let verdict = Verdict::of(&bat, scene, &hits, &figures);
         tell(0.9, "what the model needs");
-        let advice = advice(&bat, task.hits.tolerance);
-        let barrel = barrel(&bat, &task, accuracy);
-        Ok(Self { bat, solution, task, hits, figures, strength, proof, spread, advice, barrel })
+        let mut failed = vec![];
+        let advice = found(advice(&bat, task.hits.tolerance), "what the model needs", &mut failed);
+        let barrel = found(barrel(&bat, &task, accuracy), "how the barrel rings", &mut failed);
+        Ok(Self {
+            bat,
+            solution,
+            task,
+            hits,
+            figures,
+            strength,
+            proof,
+            spread,
+            verdict,
+            advice,
+            barrel,
+            failed,
+        })
     }
 }
 
@@ -138,20 +159,26 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
     places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
 }
 
+/// What was found; what could not be is noted with its reason.
+fn found<T>(of: Option<Result<T>>, what: &str, failed: &mut Vec<String>) -> Option<T> {
+    let noted = |error| failed.push(format!("Not found: {what} ({error})"));
+    of?.map_err(noted).ok()
+}
+
 /// The barrel of a hollow bat under the scene's ball, shot as laboratories do; None where there is none to ring.
-fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Barrel> {
+fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Result<Barrel>> {
     if !rings(bat) || bat.profile().pieces.len() > MOST_PIECES {
         return None;
     }
     let test = BarrelTest::of(bat, task.scene.ball.clone(), accuracy);
     let known = task.scene.hoop.wall().cloned();
-    Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }).ok()
+    Some(Barrel::of(bat, BarrelTest { cor: task.scene.cor, known, ..test }))
 }
 
-fn advice(bat: &Bat, tolerance: f64) -> Option<Advice> {
+fn advice(bat: &Bat, tolerance: f64) -> Option<Result<Advice>> {
     const MODES: usize = 5;
     if bat.profile().pieces.len() > MOST_PIECES {
         return None;
     }
-    advise(bat, MODES, tolerance).ok()
+    Some(advise(bat, MODES, tolerance))
 }

@@ -5,6 +5,8 @@
 //! | [`trade`] | what does a digit cost on this bat |
 //! | [`ignored`] | what does a theory leave out, and what does that cost |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
+//! | [`verdict`] | how far do the answers hold, by all that is known |
+//! | [`read_to`], [`bat_changes`] | to what step were diameters read; a bat that differs in one thing |
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
@@ -19,6 +21,9 @@ pub use crate::modes::{theory_choice, tuned};
 pub mod trade;
 pub mod ignored;
 pub mod calibrate;
+pub mod verdict;
+pub mod read_to;
+pub(crate) mod bat_changes;
 pub mod spread;
 pub mod advise;
 pub mod comparison;

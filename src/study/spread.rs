@@ -28,13 +28,16 @@ use crate::base::error::Result;
 use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::material::Material;
-use crate::bat::profile::{Profile, Stations};
 use crate::collision::figures::SwingLaw;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::hitter::Hitter;
+use crate::collision::hoop_wall::{HoopInHit, HoopWall, barrel_walls};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{FEW, Looked, SweetSpot};
+use crate::collision::wall_choice::hoop_request;
 use crate::modes::solve::{Request, Solution, solve};
+use crate::study::bat_changes::{Change, PATCH_FACTOR, Property, changed};
+use crate::study::read_to::diameters_read_to;
 
 /// How exactly a bat was measured, as standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -47,6 +50,20 @@ pub struct Readings {
     pub mass: f64,
     /// Frequency of a tapped note, relative.
     pub tap: f64,
+}
+
+impl Readings {
+    /// Those of a bat whose diameters were read to a step of 1/16 in, 1 mm or the like: a reading that was rounded
+    /// to a step lies anywhere within half of it, a standard deviation of `step/√12`; that of calipers at least.
+    ///
+    /// # Source
+    ///
+    /// JCGM 100:2008 (GUM), 4.3.7: a rectangular distribution.
+    pub fn of(bat: &Bat) -> Self {
+        let usual = Self::default();
+        let rounded = diameters_read_to(bat).map_or(0.0, |read| read.deviation());
+        Self { diameter: usual.diameter.max(rounded), ..usual }
+    }
 }
 
 impl Default for Readings {
@@ -75,6 +92,9 @@ pub enum Input {
     Mass,
     /// First bending frequency as it was tapped, which settles the stiffness. Relative.
     Tap,
+    /// Compression of the ball by which it presses on a hollow barrel's wall as a patch: the largest error of the
+    /// wall's model. Relative, as a logarithm.
+    Patch,
 }
 
 impl Input {
@@ -88,6 +108,7 @@ impl Input {
             Self::Length => "length",
             Self::Mass => "mass",
             Self::Tap => "tap",
+            Self::Patch => "patch",
         }
     }
 }
@@ -201,37 +222,16 @@ pub struct Analysed<'a> {
     pub spot: &'a SweetSpot,
 }
 
-/// Step of a relative input (in its logarithm), and of diameters and length (m).
-const RELATIVE_STEP: f64 = 0.05;
-const DIAMETER_STEP: f64 = 1e-4;
-const LENGTH_STEP: f64 = 1e-3;
 /// Relative accuracy of the modes of the bats that differ: a small part of what 0.1 mm do to a frequency,
 /// some thousandths.
 const TOLERANCE: f64 = 1e-6;
+/// Accuracy of exit speeds for which the walls of these bats are solved.
+const WALL_TOLERANCE: f64 = 1e-3;
 const ANSWERS: usize = Answer::ALL.len();
 
 /// The answers of one bat, or what a source makes of them, in the order of [`Answer::ALL`]; None where
 /// there is none, as of a place that no ball is hit at.
 type Answers = [Option<f64>; ANSWERS];
-
-/// How another bat differs.
-#[derive(Debug, Clone, PartialEq)]
-enum Change {
-    /// In a property of one material, wherever the bat has it.
-    Of(Box<Material>, Property),
-    /// In a property of all materials.
-    All(Property),
-    Diameters,
-    Bores,
-    Length,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Property {
-    /// E, and G with it.
-    Stiffness,
-    Density,
-}
 
 /// A reading of the whole bat that settles a property of all its materials.
 struct Settled {
@@ -251,14 +251,13 @@ impl Spread {
     /// What is open of the answers of a bat that was measured so.
     pub fn new(analysed: &Analysed, readings: &Readings) -> Self {
         let mut left_out = vec![];
-        if analysed.scene.hoop.wall().is_some() {
-            left_out.push(
-                "how large a patch of the wall the ball presses on (hit says what that does)"
-                    .to_owned(),
-            );
-        }
         let settled = settled(analysed, readings, &mut left_out);
-        let open = open(analysed.bat, readings, &settled, &mut left_out);
+        let mut open = open(analysed.bat, readings, &settled, &mut left_out);
+        if analysed.scene.hoop.wall().is_some() && analysed.spot.exit_speed_max.is_some() {
+            let deviation = PATCH_FACTOR.ln();
+            let source = Source { input: Input::Patch, material: String::new(), deviation };
+            open.push((Change::Patch, source));
+        }
         let changes = open.iter().map(|(change, _)| change.clone());
         let factors = settled.iter().map(|settled| Change::All(settled.property));
         let changes: Vec<Change> = changes.chain(factors).collect();
@@ -364,7 +363,7 @@ fn open(
             of.is_none_or(|settled| !only && settled.answer.is_some())
         };
         let unsettled: Vec<Property> = properties.into_iter().filter(unsettled).collect();
-        let Some(scatter) = material.scatter() else {
+        let Some(scatter) = material.differs() else {
             if !unsettled.is_empty() {
                 left_out.push(format!("the scatter of {place}, of which none is known here"));
             }
@@ -380,17 +379,18 @@ fn open(
             open.push((Change::Of(Box::new(material.clone()), property), source));
         }
     }
-    if bat.profile().formulas.is_some() {
-        left_out.push("diameters and length, which are a formula's".to_owned());
-        return open;
-    }
-    let hollow = bat.profile().stations.inner.iter().any(|inner| *inner > 0.0);
+    let hollow = !barrel_walls(bat).is_empty()
+        || bat.profile().stations.inner.iter().any(|inner| *inner > 0.0);
     let bores = hollow.then_some((Change::Bores, Input::Bores, readings.diameter));
-    let measured = [
-        (Change::Diameters, Input::Diameters, readings.diameter),
-        (Change::Length, Input::Length, readings.length),
-    ];
-    for (change, input, deviation) in measured.into_iter().chain(bores) {
+    let outside = Some((Change::Diameters, Input::Diameters, readings.diameter));
+    let length = match bat.profile().formulas {
+        None => Some((Change::Length, Input::Length, readings.length)),
+        Some(_) => {
+            left_out.push("the length, which is a formula's".to_owned());
+            None
+        }
+    };
+    for (change, input, deviation) in outside.into_iter().chain(length).chain(bores) {
         open.push((change, Source { input, material: String::new(), deviation }));
     }
     open
@@ -454,15 +454,18 @@ impl Analysed<'_> {
     /// What a change by 1 makes of every answer, by central differences; None where a bat that differs
     /// so cannot be computed.
     fn slopes(&self, changes: &[Change]) -> Vec<Option<Answers>> {
-        let step = |change: &Change| match change {
-            Change::Of(..) | Change::All(_) => RELATIVE_STEP,
-            Change::Diameters | Change::Bores => narrowest(self.bat.profile()).min(DIAMETER_STEP),
-            Change::Length => LENGTH_STEP.min(0.01 * self.bat.length()),
-        };
+        let step = |change: &Change| change.step(self.bat);
         let sides = threads::map(2 * changes.len(), |k| {
             let change = &changes[k / 2];
             let by = if k % 2 == 0 { -step(change) } else { step(change) };
-            self.beside(&changed(self.bat, change, by)?)
+            let mut scene = self.scene.clone();
+            if *change == Change::Patch {
+                // δ goes as the square of the patch's radius.
+                let ball = &mut scene.ball;
+                let compression = by.exp() * ball.patch_compression();
+                ball.contact_radius = Some((ball.radius * compression).sqrt());
+            }
+            self.beside(&changed(self.bat, change, by)?, scene)
         });
         let slope = |(change, sides): (&Change, &[Result<Answers>])| {
             let [Ok(less), Ok(more)] = sides else { return None };
@@ -472,8 +475,9 @@ impl Analysed<'_> {
         changes.iter().zip(sides.chunks(2)).map(slope).collect()
     }
 
-    /// The answers of another bat in the same scene, by as many modes and such steps.
-    fn beside(&self, bat: &Bat) -> Result<Answers> {
+    /// The answers of another bat in that scene, by as many modes and such steps. Its wall is solved anew, roughly:
+    /// of the two sides of a difference alike.
+    fn beside(&self, bat: &Bat, scene: Scene) -> Result<Answers> {
         let modes = self.hits.solution.modes.len();
         let request = Request {
             modes: modes.max(self.solution.modes.len().min(3)),
@@ -488,7 +492,14 @@ impl Analysed<'_> {
         }
         solution.modes.truncate(modes);
         let swing = self.law.map_or(self.scene.swing, |law| law.swing(bat));
-        let scene = Scene { swing, ..self.scene.clone() };
+        let hoop = match &scene.hoop {
+            HoopInHit::Counted(_) => {
+                let request = hoop_request(WALL_TOLERANCE);
+                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius, &request)?)
+            }
+            other => other.clone(),
+        };
+        let scene = Scene { swing, hoop, ..scene };
         let hitter = Hitter::new(self.model, &scene, bat, &solution, self.hits.effort)?;
         let looked = Looked::outer(FEW, &hitter);
         let peak = looked.fastest();
@@ -517,65 +528,6 @@ fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) ->
         Answer::ZoneTo => hit.map(|_| to),
     };
     Answer::ALL.map(of)
-}
-
-/// The thinnest wall or the smallest bore (m): diameters may differ by less.
-fn narrowest(profile: &Profile) -> f64 {
-    let Stations { outer, inner, .. } = &profile.stations;
-    let walls = outer.iter().zip(inner).map(|(outer, inner)| outer - inner);
-    walls.chain(inner.iter().copied()).filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min)
-}
-
-/// The bat with one thing changed: a property by a factor `e^by`, a measure by so much (m). What comes
-/// to a point stays one, and what is solid stays solid.
-fn changed(bat: &Bat, change: &Change, by: f64) -> Result<Bat> {
-    let scaled = |material: &mut Material, property: Property| match property {
-        Property::Density => material.density *= by.exp(),
-        Property::Stiffness => {
-            material.youngs_modulus *= by.exp();
-            material.shear_modulus.iter_mut().for_each(|shear| *shear *= by.exp());
-        }
-    };
-    match change {
-        Change::All(property) => {
-            let mut other = bat.clone();
-            match property {
-                Property::Density => other.scale(by.exp(), 1.0),
-                Property::Stiffness => other.scale(1.0, by.exp()),
-            }
-            Ok(other)
-        }
-        Change::Of(which, property) => bat.with(|parts| {
-            let regions = parts.fixtures.regions.iter_mut();
-            let others = regions.flat_map(|region| region.layup.materials_mut());
-            let all = std::iter::once(&mut parts.material).chain(others);
-            all.filter(|one| **one == **which).for_each(|one| scaled(one, *property));
-        }),
-        Change::Diameters => reshaped(bat, |stations| wider(&mut stations.outer, by)),
-        Change::Bores => reshaped(bat, |stations| wider(&mut stations.inner, by)),
-        Change::Length => {
-            let ratio = 1.0 + by / bat.length();
-            let mut longer = bat.profile().stations.clone();
-            longer.x.iter_mut().for_each(|x| *x *= ratio);
-            let profile = Profile::new(longer)?;
-            bat.with(|parts| {
-                parts.profile = profile;
-                parts.fixtures.places().for_each(|x| *x *= ratio);
-            })
-        }
-    }
-}
-
-fn reshaped(bat: &Bat, change: impl Fn(&mut Stations)) -> Result<Bat> {
-    let mut stations = bat.profile().stations.clone();
-    change(&mut stations);
-    let profile = Profile::new(stations)?;
-    bat.with(|parts| parts.profile = profile)
-}
-
-/// Radii whose diameters are larger by so much (m).
-fn wider(radii: &mut [f64], by: f64) {
-    radii.iter_mut().filter(|radius| **radius > 0.0).for_each(|radius| *radius += 0.5 * by);
 }
 
 /// Relative standard deviation of every frequency of a bat of one wood by the wood alone, without a

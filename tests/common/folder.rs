@@ -77,9 +77,15 @@ impl Folder {
 }
 
 /// What was said on standard error, without the last line if it is that a material's shear modulus
-/// is missing: one test has that.
+/// is missing, and without what the densities of two bats give to say: one test each has that.
 pub fn but_shear(told: &str) -> String {
-    let mut lines: Vec<&str> = told.lines().collect();
+    let effective = "warning: northwestern_aluminium: 4794 kg/m³ with";
+    let by_path = "northwestern_aluminium.json: 4794 kg/m³ with";
+    // The bat that has every member there is.
+    let full = "bat-1.json: to weigh so much it must have";
+    let known = [effective, by_path, full];
+    let lines = told.lines().filter(|line| !known.iter().any(|known| line.contains(known)));
+    let mut lines: Vec<&str> = lines.collect();
     if lines.last().is_some_and(|line| line.starts_with("warning: shear is left out")) {
         lines.pop();
     }

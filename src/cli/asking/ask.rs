@@ -1,6 +1,7 @@
 //! What a person with a bat, a ruler, calipers and a scale answers.
 
 use crate::base::error::Complaint;
+use crate::base::number::rounded;
 use crate::base::typed;
 use crate::base::units::{self, Quantity, inches};
 use crate::bat::material::{BUILT_IN, BuiltIn};
@@ -207,6 +208,45 @@ pub fn tape(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     Ok(Some(format!("{{ \"from\": 0, \"to\": \"{reach} {unit}\", \"mass\": {mass} }}")))
 }
 
+/// The thickness of the wall of a hollow bat, as a bat file has it; None of a solid one.
+pub fn wall(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<String>> {
+    if unknown(text) {
+        return Ok(None);
+    }
+    let thickness = measured(text, unit)?;
+    let diameters = stations.iter().map(|station| station[1]).filter(|diameter| *diameter > 0.0);
+    let most = 0.5 * diameters.fold(f64::INFINITY, f64::min);
+    if 0.0 < thickness && thickness < most && (1e-4..=0.02).contains(&in_metres(thickness, unit)) {
+        let bare = typed::number(text).is_some();
+        return Ok(Some(if bare { format!("{thickness} {unit}") } else { text.to_owned() }));
+    }
+    let expected = format!(
+        "a wall below {} {unit}, half the smallest diameter; 0.06 to 0.2 in (1.5 to 5 mm) are usual",
+        rounded(most, 3)
+    );
+    Err(Complaint::new("", format!("{thickness} {unit}"), expected))
+}
+
+/// Depth and diameter of a cup in the tip, in `unit`; None where there is none.
+pub fn cup(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<[f64; 2]>> {
+    /// The deepest (m): deeper is a hollow barrel.
+    const DEEPEST: f64 = 0.039;
+    if unknown(text) {
+        return Ok(None);
+    }
+    let tip = stations.last().map_or(0.0, |station| station[1]);
+    let expected = format!(
+        "its depth, up to 1.5 in (3.9 cm), and its diameter, below {tip} {unit}, such as: 1 in, 1.6 in"
+    );
+    let wrong = |found: String| Complaint::new("", found, expected.clone());
+    let (depth, diameter) = apart(text, false).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+    let [depth, diameter] = [measured(depth, unit)?, measured(diameter, unit)?];
+    if 0.0 < depth && in_metres(depth, unit) <= DEEPEST && 0.0 < diameter && diameter < tip {
+        return Ok(Some([depth, diameter]));
+    }
+    Err(wrong(format!("{depth} {unit} deep and {diameter} {unit} wide")))
+}
+
 /// A mass with its unit, as it was written.
 pub fn weighed(text: &str) -> Read<String> {
     let kilograms = match typed::number(text) {
@@ -299,6 +339,20 @@ mod tests {
         assert!(tap("17 kHz").is_err() && balance("40", 33.0, "in").is_err());
         let tape = tape("10 in, 0.7 oz", 33.0, "in").unwrap().unwrap();
         assert_eq!(tape, "{ \"from\": 0, \"to\": \"10 in\", \"mass\": \"0.7 oz\" }");
+    }
+
+    #[test]
+    fn a_wall_and_a_cup_fit_the_bat() {
+        let stations = [[0.0, 1.9], [3.0, 0.9], [33.0, 2.5]];
+        assert_eq!(wall("3 mm", &stations, "in"), Ok(Some("3 mm".into())));
+        assert_eq!(wall("0.12", &stations, "in"), Ok(Some("0.12 in".into())));
+        assert_eq!(wall("no", &stations, "in"), Ok(None));
+        assert!(wall("0.5", &stations, "in").is_err() && wall("0", &stations, "in").is_err());
+        assert_eq!(cup("1, 1.6", &stations, "in"), Ok(Some([1.0, 1.6])));
+        assert_eq!(cup("none", &stations, "in"), Ok(None));
+        for wrong in ["1", "2, 1.6", "1, 2.5", "1 in, 0"] {
+            assert!(cup(wrong, &stations, "in").is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -20,6 +20,10 @@ const LONGEST: u64 = 1 << 16;
 /// somebody's own.
 const ANSWERS_TO: &str = "# Answers to sweetspot ";
 const GOES_ON: &str = ", which goes on after them";
+/// The second line, before the bat's name, where that was no question.
+const OF: &str = "# of: ";
+/// The question about the bat's name.
+pub const NAME: &str = "name";
 
 /// What an answer means, or why it is invalid.
 pub type Read<T> = std::result::Result<T, Complaint>;
@@ -28,6 +32,8 @@ pub type Read<T> = std::result::Result<T, Complaint>;
 pub enum Halt {
     /// The person wants to answer the question before it anew.
     Back,
+    /// The person wants to leave; the answers are kept.
+    Left,
     /// The answers have ended, or were wrong too often.
     Failed(Error),
 }
@@ -61,6 +67,8 @@ pub struct Dialogue<R> {
     /// How many of them have been passed over since the beginning.
     passed: usize,
     draft: Option<Draft>,
+    /// A draft of before, until somebody says whether to go on with it.
+    before: Option<Answers>,
 }
 
 /// Where answers are kept.
@@ -68,49 +76,118 @@ struct Draft {
     path: PathBuf,
     /// Its first line.
     header: String,
+    /// Which bat it is of; empty where an answer says so.
+    of: String,
 }
+
+/// The answers of a draft.
+#[derive(Default)]
+struct Answers {
+    /// Which bat they are of; empty where none has said so.
+    of: String,
+    /// Each after the name of its question.
+    given: Vec<[String; 2]>,
+}
+
+/// Words that leave a dialogue.
+const LEAVING: [&str; 3] = ["quit", "exit", "q"];
 
 impl<R: BufRead> Dialogue<R> {
     /// A dialogue that is kept nowhere.
     #[cfg(test)]
     pub fn new(answers: R) -> Self {
-        Self { answers, given: vec![], passed: 0, draft: None }
+        Self { answers, given: vec![], passed: 0, draft: None, before: None }
     }
 
-    /// A dialogue of that verb that is kept in a draft, and goes on with the answers in it if there is one.
-    pub fn kept(answers: R, verb: &str, draft: &Path) -> Self {
+    /// A dialogue of that verb about that bat, which may not have a name yet, that is kept in a draft. Where there is
+    /// one of this bat, [`Self::hold`] asks whether to go on with it; one of another bat stays as it is.
+    pub fn kept(answers: R, verb: &str, draft: &Path, of: &str) -> Self {
         let header = format!("{ANSWERS_TO}{verb}{GOES_ON}");
-        let before = fs::read_to_string(draft).ok();
-        let ours = before.as_ref().is_none_or(|text| text.starts_with(&header));
-        let read = |text: &String| read_draft(text, &header);
-        let given: Vec<[String; 2]> = before.iter().flat_map(read).collect();
-        let kept = ours.then(|| Draft { path: draft.to_owned(), header });
-        let dialogue = Self { answers, given, passed: 0, draft: kept };
+        let text = fs::read_to_string(draft).ok();
         let name = printed(draft);
-        match (dialogue.given.len(), ours) {
-            (_, false) => dialogue.tell(&format!("{name} is another file: nothing is kept.")),
-            (0, _) => dialogue.tell(&format!("Answers are kept in {name} until all is done.")),
-            (count, _) => dialogue.tell(&format!(
-                "Going on after the {count} answers in {name}; remove it to begin anew."
-            )),
+        let before = match &text {
+            None => Some(Answers::default()),
+            Some(text) => read_draft(text, &header),
+        };
+        let other = before.as_ref().map(|before| &before.of);
+        let other = other.filter(|other| !of.is_empty() && !other.is_empty() && *other != of);
+        let note = match (&before, other) {
+            (None, _) => format!("{name} is another file: nothing is kept."),
+            (_, Some(other)) => {
+                format!(
+                    "{name} is of another bat, '{other}': it stays as it is, and nothing is kept."
+                )
+            }
+            (Some(before), _) if before.given.is_empty() => {
+                format!("Answers are kept in {name} until all is done.")
+            }
+            _ => String::new(),
+        };
+        let kept = before.is_some() && other.is_none();
+        let before = before.filter(|before| kept && !before.given.is_empty());
+        let draft = Draft { path: draft.to_owned(), header, of: of.to_owned() };
+        let draft = kept.then_some(draft);
+        let dialogue = Self { answers, given: vec![], passed: 0, draft, before };
+        if !note.is_empty() {
+            dialogue.tell(&note);
         }
         dialogue
     }
 
-    /// Asks until there is a result, from the beginning each time that somebody goes back.
+    /// Asks until there is a result, from the beginning each time that somebody goes back; None where the person
+    /// leaves before. A draft of before is asked about first.
     ///
     /// # Errors
     ///
     /// As [`Self::ask`].
-    pub fn hold<T>(&mut self, dialogue: impl Fn(&mut Self) -> Asked<T>) -> Result<T> {
+    pub fn hold<T>(&mut self, dialogue: impl Fn(&mut Self) -> Asked<T>) -> Result<Option<T>> {
+        match self.resume() {
+            Ok(()) => {}
+            Err(Halt::Failed(error)) => return Err(error),
+            Err(Halt::Back | Halt::Left) => return Ok(self.left()),
+        }
         loop {
             self.passed = 0;
             match dialogue(self) {
-                Ok(result) => return Ok(result),
+                Ok(result) => return Ok(Some(result)),
                 Err(Halt::Failed(error)) => return Err(error),
+                Err(Halt::Left) => return Ok(self.left()),
                 Err(Halt::Back) => {}
             }
         }
+    }
+
+    /// Asks whether to go on with a draft of before, by the name of its bat.
+    fn resume(&mut self) -> Asked<()> {
+        let Some(before) = self.before.take() else { return Ok(()) };
+        let draft = self.draft.as_ref().map_or(String::new(), |draft| printed(&draft.path));
+        let of = if before.of.is_empty() { "a bat without a name" } else { &before.of };
+        let count = before.given.len();
+        let answers = if count == 1 { "answer" } else { "answers" };
+        let text =
+            format!("Go on with the draft of '{of}' ({count} {answers} in {draft}), yes or no");
+        let help = "Yes goes on after its last answer. No begins anew: the draft is written over by the \
+                    next answer.";
+        let question = Question { name: "go on", text: &text, usual: None, help };
+        if self.answered(&question, yes_or_no)?.1 {
+            self.given = before.given;
+            self.tell(&format!("Going on after the {count} {answers} in {draft}."));
+        }
+        Ok(())
+    }
+
+    /// Says where the answers are once somebody has left.
+    fn left<T>(&self) -> Option<T> {
+        let kept = self.draft.as_ref().filter(|draft| draft.path.is_file());
+        self.tell(&match kept {
+            Some(draft) => format!(
+                "Left, and nothing is written. The answers are kept in {}; the same command asks whether to go \
+                 on with them.",
+                printed(&draft.path)
+            ),
+            None => "Left, and nothing is written.".to_owned(),
+        });
+        None
     }
 
     /// Removes the draft, once what it is for is done.
@@ -140,6 +217,19 @@ impl<R: BufRead> Dialogue<R> {
         if let Some(value) = self.known(question, &read) {
             return Ok(value);
         }
+        let (answer, value) = self.answered(question, read)?;
+        self.given.push([question.name.to_owned(), answer]);
+        self.passed += 1;
+        self.keep();
+        Ok(value)
+    }
+
+    /// An answer as it was typed, and what it means.
+    fn answered<T>(
+        &mut self,
+        question: &Question,
+        read: impl Fn(&str) -> Read<T>,
+    ) -> Asked<(String, T)> {
         for _ in 0..MOST_TRIES {
             let line = self.line(question)?;
             let answer = if line.is_empty() { question.usual.unwrap_or("") } else { &line };
@@ -151,12 +241,10 @@ impl<R: BufRead> Dialogue<R> {
                     self.keep();
                     return Err(Halt::Back);
                 }
-                (_, Ok(value)) => {
-                    self.given.push([question.name.to_owned(), answer.to_owned()]);
-                    self.passed += 1;
-                    self.keep();
-                    return Ok(value);
+                (word, _) if LEAVING.contains(&word.to_lowercase().as_str()) => {
+                    return Err(Halt::Left);
                 }
+                (_, Ok(value)) => return Ok((answer.to_owned(), value)),
                 (_, Err(complaint)) => self.tell(&format!("  {complaint}")),
             }
         }
@@ -194,7 +282,7 @@ impl<R: BufRead> Dialogue<R> {
         let kept = self.draft.as_ref().filter(|draft| draft.path.is_file());
         let kept = kept.map_or("nothing was written".to_owned(), |draft| {
             let draft = printed(&draft.path);
-            format!("the others are kept in {draft}, and the same command goes on after them")
+            format!("the others are kept in {draft}, and the same command asks whether to go on with them")
         });
         Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
     }
@@ -207,18 +295,32 @@ impl<R: BufRead> Dialogue<R> {
         let _ = match self.given.is_empty() {
             true => fs::remove_file(&draft.path),
             false => {
-                let text = format!("{}\n{}", draft.header, lines.collect::<String>());
+                let of = if draft.of.is_empty() { "" } else { &format!("{OF}{}\n", draft.of) };
+                let text = format!("{}\n{of}{}", draft.header, lines.collect::<String>());
                 fs::write(&draft.path, text)
             }
         };
     }
 }
 
-/// The answers of a draft with that first line, each after the name of its question; none of another file.
-fn read_draft(text: &str, header: &str) -> Vec<[String; 2]> {
-    let Some(lines) = text.strip_prefix(header) else { return vec![] };
+/// The answers of a draft with that first line, each after the name of its question, and the bat they are of; None of
+/// another file.
+fn read_draft(text: &str, header: &str) -> Option<Answers> {
+    let lines = text.strip_prefix(header)?;
+    let of = lines.lines().find_map(|line| line.strip_prefix(OF));
+    let lines = lines.lines().filter(|line| !line.starts_with(OF));
     let answer = |line: &str| line.split_once(':').map(|(a, b)| [a, b.trim()].map(str::to_owned));
-    lines.lines().filter_map(answer).collect()
+    let given: Vec<[String; 2]> = lines.filter_map(answer).collect();
+    let named = given.iter().find(|[name, _]| name == NAME).map(|[_, name]| name.as_str());
+    Some(Answers { of: of.or(named).unwrap_or_default().to_owned(), given })
+}
+
+fn yes_or_no(text: &str) -> Read<bool> {
+    match text.to_lowercase().as_str() {
+        "y" | "yes" => Ok(true),
+        "n" | "no" => Ok(false),
+        _ => Err(Complaint::new("", format!("\"{text}\""), "yes or no")),
+    }
 }
 
 #[cfg(test)]
@@ -233,9 +335,21 @@ mod tests {
     fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {
         let mut dialogue = Dialogue::new("31\nheavy\n?\nback\n31.5 oz\n".as_bytes());
         let mass = |dialogue: &mut Dialogue<&[u8]>| dialogue.ask(&MASS, mass);
-        assert_eq!(dialogue.hold(mass).unwrap().as_deref(), Some("31.5 oz"));
+        assert_eq!(dialogue.hold(mass).unwrap().unwrap().as_deref(), Some("31.5 oz"));
         let two = |dialogue: &mut Dialogue<&[u8]>| mass(dialogue).and_then(|_| mass(dialogue));
         assert!(dialogue.hold(two).is_err());
+    }
+
+    #[test]
+    fn who_quits_is_asked_nothing_more() {
+        for word in ["quit", "exit", "q", "Quit"] {
+            let answers = format!("30 oz\n{word}\n31 oz\n");
+            let mut dialogue = Dialogue::new(answers.as_bytes());
+            let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
+                Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+            };
+            assert!(dialogue.hold(two).unwrap().is_none(), "{word}");
+        }
     }
 
     #[test]
@@ -251,7 +365,7 @@ mod tests {
             }
             Ok(both)
         };
-        let found = dialogue.hold(three).unwrap();
+        let found = dialogue.hold(three).unwrap().unwrap();
         assert_eq!(found.map(Option::unwrap), ["32 oz", "33 oz"]);
     }
 }

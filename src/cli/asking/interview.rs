@@ -3,9 +3,10 @@
 use std::io::BufRead;
 
 use crate::base::error::Complaint;
+use crate::bat::material::Material;
 
 use crate::cli::asking::ask;
-use crate::cli::asking::dialogue::{Asked, Dialogue, Question, Read};
+use crate::cli::asking::dialogue::{Asked, Dialogue, NAME, Question, Read};
 use crate::cli::asking::new_options::{
     Args, called, length, like, of_option, refuse_existing, source, stations, unit,
 };
@@ -13,7 +14,7 @@ use crate::cli::bat_text::Measured;
 use crate::cli::common::printed;
 
 const WELCOME: &str = "A bat file. An empty line takes what stands in [ ]; ? explains a question, \
-                       back goes to the one before.";
+                       back goes to the one before, quit leaves and keeps the answers.";
 const ON_NAME: &str = "What the bat is called in tables and pictures. Where the command names no file, \
                        the file is called after it.";
 const ON_UNIT: &str = "Bare numbers are in it from here on; others are taken with their unit.";
@@ -26,6 +27,11 @@ const ON_MATERIAL: &str = "What the bat is made of, by name or number. For a woo
 const ON_STATION: &str = "The diameter here, or a place and the diameter there (2.5, 1.1). A place that \
                           was measured before is corrected so. A place and two diameters (2.5, 1.9, \
                           1.1) are a step.";
+const ON_WALL: &str = "Bats of metal or of a composite are tubes: how thick is the wall of the tube, such as 3 mm or \
+                       0.12 in? Where it differs, take the barrel's, and edit \"wall_thickness\" in the file, which has \
+                       one for every place. A solid bat: no.";
+const ON_CUP: &str = "How deep the tip is hollowed out and how wide at its rim, such as: 1 in, 1.6 in. The scale has \
+                      weighed the bat with it. A tip without a cup: none.";
 const ON_BALANCE: &str = "Where the bat balances on an edge, from the knob end. It is compared with what \
                           the diameters say, which shows a slip of the calipers.";
 const ON_TAP: &str = "Hold the bat loosely some 6 in from the knob, tap the barrel and read the lowest \
@@ -40,7 +46,7 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
         Some(name) => free(args, name).map_err(of_option("--name"))?,
         None => {
             let question =
-                Question { name: "name", text: "Name", usual: Some("My bat"), help: ON_NAME };
+                Question { name: NAME, text: "Name", usual: Some("My bat"), help: ON_NAME };
             person.ask(&question, |answer| free(args, answer))?
         }
     };
@@ -82,8 +88,37 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
         (None, false) => stations(args, unit)?,
         (None, true) => measured_along(person, length, unit)?,
     };
+    let wall = match &args.wall {
+        Some(wall) => ask::wall(wall, &stations, unit).map_err(of_option("--wall"))?,
+        None => hollow(person, &material, &stations, unit)?,
+    };
+    let cup = match (&args.cup, &wall) {
+        (Some(cup), _) => ask::cup(cup, &stations, unit).map_err(of_option("--cup"))?,
+        (None, Some(_)) => None,
+        (None, None) => {
+            let text = "Cup in the tip: its depth and its diameter";
+            let question = Question { name: "cup", text, usual: Some("none"), help: ON_CUP };
+            person.ask(&question, |text| ask::cup(text, &stations, unit))?
+        }
+    };
     let [balance, tap, tape] = extras(person, length, unit)?;
-    Ok(Measured { name, source: source(args), material, mass, unit, stations, balance, tap, tape })
+    let source = source(args);
+    Ok(Measured { name, source, material, mass, unit, stations, wall, cup, balance, tap, tape })
+}
+
+/// The thickness of the wall of a hollow bat, as the file has it; None of a solid one. Wood is solid unless somebody
+/// says otherwise, of a metal somebody has to say it.
+fn hollow<R: BufRead>(
+    person: &mut Dialogue<R>,
+    material: &str,
+    stations: &[[f64; 2]],
+    unit: &'static str,
+) -> Asked<Option<String>> {
+    let wood = Material::named(material).is_some_and(|material| material.scatter().is_some());
+    let usual = wood.then_some("no");
+    let text = format!("Hollow: thickness of its wall, {unit} (or: no)");
+    let question = Question { name: "wall", text: &text, usual, help: ON_WALL };
+    person.ask(&question, |text| ask::wall(text, stations, unit))
 }
 
 /// What may be known besides: balance point, tap tone and tape, as the file has them.
@@ -153,7 +188,7 @@ mod tests {
 
     fn along(answers: &str) -> Vec<[f64; 2]> {
         let mut dialogue = Dialogue::new(answers.as_bytes());
-        dialogue.hold(|person| measured_along(person, 33.0, "in")).unwrap()
+        dialogue.hold(|person| measured_along(person, 33.0, "in")).unwrap().unwrap()
     }
 
     #[test]

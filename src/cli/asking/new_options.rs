@@ -14,10 +14,10 @@ use crate::cli::bat_text::Measured;
 /// All it needs is a ruler, calipers and a scale: the length, the mass, the material, and the
 /// diameter at the knob, along the handle and every few inches from there. At a terminal it asks
 /// for what the options do not say, and asks again where an answer cannot be right: ? explains a
-/// question, back goes to the one before. Answers are kept in a draft beside the file until it is
-/// written, so that an interrupted dialogue goes on where it stopped. The file is commented and
-/// meant to be edited. In the end it draws the bat and says how dense its material
-/// must be to weigh that much, which tells a slip of the calipers.
+/// question, back goes to the one before, quit leaves. Answers are kept in a draft beside the file
+/// until it is written; the next time it asks whether to go on with them. The file is commented and
+/// meant to be edited. In the end it draws the bat, says how dense its material must be to weigh
+/// that much, which tells a slip of the calipers, and where its sweet spot is.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -58,6 +58,14 @@ pub struct Args {
     #[arg(long = "station", value_name = "X, D", help_heading = "The bat")]
     pub stations: Vec<String>,
 
+    /// Thickness of the wall of a hollow bat, such as "3 mm"; a bare number is in the file's unit
+    #[arg(long, value_name = "THICKNESS", help_heading = "The bat", conflicts_with = "cup")]
+    pub wall: Option<String>,
+
+    /// Cup in the tip: its depth and its diameter, such as "1 in, 1.6 in"
+    #[arg(long, value_name = "DEPTH, D", help_heading = "The bat")]
+    pub cup: Option<String>,
+
     /// The diameters of a bat that is built in, stretched to the length: r161 or torpedo
     #[arg(long, value_name = "BAT", help_heading = "The bat", conflicts_with = "stations",
           value_parser = ["r161", "torpedo"], hide_possible_values = true)]
@@ -72,6 +80,11 @@ Examples:
   sweetspot new mine.json --like r161 --length \"34 in\" --mass \"31.5 oz\" \\
       --material white-ash-dynamic
       a longer R161
+
+  sweetspot new metal.json --length \"33 in\" --mass \"30 oz\" --wall \"3 mm\" \\
+      --material aluminium-7075 --station \"0, 0.9\" --station \"12, 0.9\" \\
+      --station \"23, 2.6\" --station \"33, 2.6\"
+      a hollow bat
 
   sweetspot new fungo.json --length \"35 in\" --mass \"22 oz\" \\
       --material white-ash-dynamic --station \"0 in, 1.7 in\" \\
@@ -91,7 +104,11 @@ pub fn given(args: &Args) -> Result<Measured> {
         (Some(name), _) => like(name, length(args, unit)?, unit)?,
         (None, false) => stations(args, unit)?,
     };
+    let wall = args.wall.as_ref().map(|wall| ask::wall(wall, &stations, unit));
+    let cup = args.cup.as_ref().map(|cup| ask::cup(cup, &stations, unit));
     Ok(Measured {
+        wall: wall.transpose().map_err(of_option("--wall"))?.flatten(),
+        cup: cup.transpose().map_err(of_option("--cup"))?.flatten(),
         name: args.name.clone().unwrap_or_else(|| "My bat".to_owned()),
         source: source(args),
         material: args.material.clone().ok_or_else(|| missing("--material"))?,

@@ -16,7 +16,7 @@ use crate::cli::asking::ask;
 use crate::cli::asking::dialogue::{Asked, Dialogue, Question, Read};
 
 const WELCOME: &str = "What was measured of the bat. An empty line takes what stands in [ ]; ? explains a \
-                       question, back goes to the one before.";
+                       question, back goes to the one before, quit leaves.";
 const ON_MASS: &str = "As the scale shows it, with all that is on the bat; taken as within 1 g, or as 31 oz ± \
                        0.1 oz says.";
 const ON_BALANCE: &str = "Where the bat balances on an edge, from the knob end; taken as within 1 mm, or as 22.8 \
@@ -133,7 +133,8 @@ mod tests {
         let bat = Bat::from_text("bat.json", bat, "".as_ref()).unwrap();
         let answers =
             "31 oz ± 0.1\n?\n16.5 in ± 1/32 in\nlong\n14.7 s\n581, 174\n174.5, 581.3\n40\n";
-        let text = Dialogue::new(answers.as_bytes()).hold(|person| asked(person, &bat)).unwrap();
+        let text =
+            Dialogue::new(answers.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
         let read = from_text("answers", &text).unwrap();
         assert!((read.pendulum.unwrap().period.value - 1.47).abs() < 1e-12);
         assert_eq!(read.lines.len(), 2);
@@ -143,7 +144,8 @@ mod tests {
         assert!((balance.deviation - 0.0254 / 32.0).abs() < 1e-12);
         assert!((read.mass.unwrap().deviation - 0.1 * 0.028_349_523_125).abs() < 1e-12);
         let nothing = "\n\n\n\n\n";
-        let text = Dialogue::new(nothing.as_bytes()).hold(|person| asked(person, &bat)).unwrap();
+        let text =
+            Dialogue::new(nothing.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
         assert_eq!(from_text("answers", &text).unwrap(), Default::default());
     }
 }

@@ -47,18 +47,33 @@ pub struct Open {
     pub answers: Vec<Answer>,
     /// What could not be counted, a phrase each.
     pub left_out: Vec<String>,
+    /// Why the answers are less certain than that; left out where nothing is known against them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<Doubt>,
+}
+
+/// A reason why the answers are less certain than what is counted as open of them.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Doubt {
+    /// What it is about: the density of the material, the dent in a hollow barrel's wall, a wall that is taken as
+    /// rigid, exit speeds that are less accurate than was asked.
+    #[schemars(extend("enum" = ["density", "dent", "rigid_wall", "exit_speeds"]))]
+    pub about: &'static str,
+    /// The doubt in a sentence.
+    pub text: String,
 }
 
 /// Something that is not known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Source {
     /// What it is: E (and G with it) or density of a material from piece to piece, readings of diameters,
-    /// bores, length and mass, the note of a tap.
-    #[schemars(extend("enum" = ["stiffness", "density", "diameters", "bores", "length", "mass", "tap"]))]
+    /// bores, length and mass, the note of a tap, the patch on which the ball presses on a hollow barrel's wall.
+    #[schemars(extend("enum" = ["stiffness", "density", "diameters", "bores", "length", "mass", "tap", "patch"]))]
     pub input: &'static str,
     /// The material as the bat file calls it, where the bat has several; empty otherwise.
     pub material: String,
-    /// Standard deviation; relative of stiffness, density and tap, in m of lengths, in kg of the mass.
+    /// Standard deviation; relative of stiffness, density, tap and patch (of the ball's compression, as a
+    /// logarithm), in m of lengths, in kg of the mass.
     pub standard_deviation: f64,
 }
 

@@ -138,7 +138,7 @@ impl<'a> Report<'a> {
         if !self.hits() {
             return vec![Part::Missing(NO_HIT)];
         }
-        let headline = Part::Facts("headline", self.summary.headline(units, &self.analysis.spread));
+        let headline = Part::Facts("headline", self.summary.headline(units, self.analysis));
         let why = accuracy::why(self.analysis, units).map(Part::Text);
         [Part::Picture("sweet_spot"), headline].into_iter().chain(why).collect()
     }
@@ -151,7 +151,7 @@ impl<'a> Report<'a> {
     }
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {
-        let facts = Part::Facts("facts", self.summary.facts(units, &self.analysis.spread));
+        let facts = Part::Facts("facts", self.summary.facts(units, self.analysis));
         let edits = edits::listed(&self.analysis.bat, units);
         let edited = (!edits.is_empty())
             .then(|| Part::Text(format!("Edited after it was weighed: {edits}.")));

@@ -8,7 +8,7 @@ use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length};
 use crate::show::report::trust::about;
 use crate::show::report::units::Units;
-use crate::study::spread::{Answer, Spread};
+use crate::study::spread::Answer;
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -79,7 +79,7 @@ impl Summary {
 
     /// The three answers: where, how fast, how wide, and how far the bat in hand may be from them. Empty
     /// where no ball is hit.
-    pub fn headline(&self, units: Units, spread: &Spread) -> Vec<Fact> {
+    pub fn headline(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
         let (Some(x), Some(speed), Some([from, to])) =
             (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
         else {
@@ -93,7 +93,7 @@ impl Summary {
         );
         let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
         let [tip, scene] = [(tip, Answer::BestPlace), (scene, Answer::ExitSpeed)]
-            .map(|(note, answer)| with_open(note, about(spread, answer, units)));
+            .map(|(note, answer)| with_open(note, about(analysis, answer, units)));
         let (place, width) = (length(units, x), length(units, to - from));
         vec![
             fact("sweet_spot_m", "Sweet spot, from the knob", place, tip),
@@ -103,15 +103,15 @@ impl Summary {
     }
 
     /// All the rest, those left out that there are no numbers for.
-    pub fn facts(&self, units: Units, spread: &Spread) -> Vec<Fact> {
-        let mut facts = self.body(units, spread);
+    pub fn facts(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
+        let mut facts = self.body(units, analysis);
         if let Some((first, others)) = self.frequencies_hz.split_first() {
             let others: Vec<String> = others.iter().map(|f| shown::decimals(*f, 1)).collect();
             let note = match others.is_empty() {
                 true => String::new(),
                 false => format!("then {} Hz", others.join(" and ")),
             };
-            let note = with_open(note, about(spread, Answer::Frequency1, units));
+            let note = with_open(note, about(analysis, Answer::Frequency1, units));
             let value = format!("{} Hz", shown::decimals(*first, 1));
             facts.push(fact("frequencies_hz", "First bending frequency", value, note));
         }
@@ -123,11 +123,11 @@ impl Summary {
     }
 
     /// The bat as a rigid body.
-    fn body(&self, units: Units, spread: &Spread) -> Vec<Fact> {
+    fn body(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
         let from_tip = |x: f64| format!("{} from the tip", length(units, self.length_m - x));
         let (balance, weight) = (self.balance_point_m, self.inertia_pivot_kg_m2);
         let along = |x: f64| length(units, x);
-        let open = |answer: Answer| about(spread, answer, units);
+        let open = |answer: Answer| about(analysis, answer, units);
         let mut facts = vec![
             fact("length_m", "Length", along(self.length_m), String::new()),
             fact(

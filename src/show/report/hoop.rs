@@ -167,14 +167,13 @@ fn both(units: Units, si: String, us: String) -> String {
     }
 }
 
-/// The first hoop mode and the wall under the ball, in a line.
-pub fn in_a_line(barrel: &Barrel) -> String {
+/// What a short answer of a hollow bat ends with, the first hoop mode in it; None where there is none.
+pub fn in_a_line(barrel: &Barrel) -> Option<String> {
     let lowest = barrel.hoop().lowest(1);
-    let Some(mode) = lowest.first() else { return String::new() };
-    let wall = barrel.struck.wall.as_ref().map_or(String::new(), |wall| {
-        format!(", wall {} MN/m under the ball", significant(wall.stiffness() / MEGA, 3))
-    });
-    format!("Hoop modes from {:.0} Hz{wall}; more: sweetspot hoop\n", mode.frequency())
+    let hertz = lowest.first()?.frequency();
+    Some(format!(
+        "Hoop modes from {hertz:.0} Hz: sweetspot hoop. All else: --full or --report FILE.html\n"
+    ))
 }
 
 /// The first hoop modes, the wall and the rebound, as a part of more.

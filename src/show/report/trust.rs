@@ -3,15 +3,18 @@
 use crate::base::number::{percent, significant};
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::Bat;
+use crate::bat::material::{Material, Scatter};
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::Model;
 use crate::files::schema::analysis as file;
+use crate::modes::mode::Mode;
 use crate::show::analysis::Analysis;
 use crate::show::report::columns::{Columns, first};
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
-use crate::study::ignored::thinnest_wall;
+use crate::study::read_to::diameters_read_to;
 use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
+use crate::study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers, and how far to trust them: 24 lines at most.
 pub fn screen(analysis: &Analysis, units: Units) -> String {
@@ -21,6 +24,31 @@ pub fn screen(analysis: &Analysis, units: Units) -> String {
     out += &wrapped(&scene(analysis, units), 2);
     out += &table(analysis, units);
     out + &reasons(analysis, units)
+}
+
+/// The sweet spot in a sentence, with what there is to doubt of it.
+pub fn in_short(analysis: &Analysis, units: Units) -> String {
+    let Analysis { bat, spread, task, verdict, .. } = analysis;
+    let [Some(place), Some(speed)] = [Answer::BestPlace, Answer::ExitSpeed].map(|of| spread.of(of))
+    else {
+        return "Sweet spot: ball and bat do not meet.\n".to_owned();
+    };
+    let open = |answer: Answer| {
+        about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
+    };
+    let shown = |kind: Kind, value: f64| kind.shown(units, value);
+    let told = format!(
+        "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
+         pitch of {}.",
+        shown(Kind::Length, place.value),
+        open(Answer::BestPlace),
+        shown(Kind::Length, bat.length() - place.value),
+        shown(Kind::Speed, speed.value),
+        open(Answer::ExitSpeed),
+        shown(Kind::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
+        shown(Kind::Speed, task.scene.ball_speed)
+    );
+    [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
 }
 
 /// The answers and how far to trust them, as a part of more.
@@ -124,7 +152,8 @@ fn decimals(value: f64) -> usize {
 /// What moves an answer, in a word.
 fn word(source: &Source) -> &'static str {
     match source.input {
-        Input::Diameters => "calipers",
+        Input::Diameters => "diameters",
+        Input::Patch => "wall",
         Input::Length => "rule",
         Input::Mass => "scale",
         other => other.name(),
@@ -143,7 +172,7 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
         let Some(estimate) = spread.of(answer) else { return };
         let kind = Kind::of(answer);
         let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
-        let open = about(spread, answer, units).unwrap_or_default();
+        let open = about(analysis, answer, units).unwrap_or_default();
         let value = kind.shown(units, estimate.value);
         out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
         if answer == Answer::BestPlace {
@@ -163,55 +192,100 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     out
 }
 
-/// What of a hollow barrel is left out, in short: [`crate::study::ignored::in_hit`] says more.
-const HOLLOW: &str = "Left out: how a hollow barrel's wall gives way; --full says what that means.";
-
 /// How far to trust the answers: the bat first, what would settle it, then the computation.
 pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
     let mut told = of_bat(analysis, units);
     told.push(computation(analysis));
-    let rigid = thinnest_wall(&analysis.bat).filter(|_| !analysis.task.scene.wall_gives_way());
-    told.extend(rigid.map(|_| HOLLOW.to_owned()));
     told
 }
 
-/// What is open of the bat in hand, and what would settle it.
+/// What is open of the bat in hand, what there is to doubt, and what would settle it.
 pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
-    [bat_first(&analysis.spread, units)].into_iter().chain(settled_by(analysis, units)).collect()
+    let doubts = doubts(&analysis.verdict, units);
+    let failed = analysis.failed.iter().map(|text| format!("{text}."));
+    let bat = [bat_first(analysis, units)].into_iter().chain(doubts).chain(failed);
+    bat.chain(settled_by(analysis, units)).collect()
 }
 
-/// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open.
-pub fn about(spread: &Spread, answer: Answer, units: Units) -> Option<String> {
+/// What there is to doubt of a hit, a sentence each.
+pub fn doubts(verdict: &Verdict, units: Units) -> Vec<String> {
+    verdict.doubts.iter().map(|doubt| doubted(doubt, units)).collect()
+}
+
+/// A doubt in a sentence.
+fn doubted(doubt: &Doubt, units: Units) -> String {
+    match doubt {
+        Doubt::Density(text) => format!("Look at the file: {text}"),
+        Doubt::Dent(wall) => {
+            let deep = |length: f64| match units {
+                Units::Us => format!("{:.2}", inches(length)),
+                _ => format!("{:.1}", 1e3 * length),
+            };
+            let unit = if units == Units::Us { "in" } else { "mm" };
+            let [low, high] = wall.bbcor.range;
+            format!(
+                "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
+                 rough, BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                deep(wall.dent),
+                deep(wall.thickness),
+                wall.bbcor.with,
+                wall.bbcor.stiff
+            )
+        }
+        Doubt::RigidWall(_) => {
+            "Left out: how the hollow barrel's wall gives way, which lets the ball leave \
+                                faster (why: hit, or --full)."
+                .to_owned()
+        }
+        Doubt::ExitSpeeds { error } => format!(
+            "Exit speeds are less accurate than was asked: the worst within {error:.0e} of the closing speed."
+        ),
+    }
+}
+
+/// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
+/// does has more to it where the wall is beyond its theory or left out.
+pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String> {
+    let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
-    Some(format!("± {}", Kind::of(answer).about(units, deviation)))
+    let of_ball = [Answer::BestPlace, Answer::ExitSpeed, Answer::ZoneFrom, Answer::ZoneTo];
+    let more = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
+    let over = if more { "over " } else { "" };
+    Some(format!("{over}± {}", Kind::of(answer).about(units, deviation)))
 }
 
 /// What is open of the bat, and what that makes of its first frequency.
-fn bat_first(spread: &Spread, units: Units) -> String {
+fn bat_first(analysis: &Analysis, units: Units) -> String {
+    let Analysis { bat, spread, .. } = analysis;
     let mut told: Vec<String> = vec![];
     let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
     let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
-    let wood = [(Input::Stiffness, "stiffness"), (Input::Density, "density")];
-    let wood = wood.into_iter().filter_map(|(input, what)| {
-        find(input).map(|source| format!("{} in {what}", share(source)))
-    });
-    let wood: Vec<String> = wood.collect();
-    if !wood.is_empty() {
-        told.push(format!("clear wood of one kind differs by {}", wood.join(" and ")));
-    }
+    told.extend(materials(bat, spread));
     let small = |si: (f64, &str), us: (f64, &str), value: f64| {
         let (factor, unit) = if units == Units::Us { us } else { si };
         format!("{} {unit}", significant(factor * value, 2))
     };
     let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
+    let readings = match (diameters_read_to(bat), bat.profile().formulas.is_some()) {
+        // Unless calipers were told that are worse, or better.
+        (Some(read), _)
+            if Some(read.deviation()) == find(Input::Diameters).map(|of| of.deviation) =>
+        {
+            format!("diameters read to {} are off by", read.name)
+        }
+        (_, true) => "bats are made to a formula within".to_owned(),
+        _ => "calipers are off by".to_owned(),
+    };
+    let times = |source: &Source| significant(source.deviation.exp(), 2);
     let read = [
-        (Input::Diameters, "calipers are off by", &length as &dyn Fn(&Source) -> String),
+        (Input::Diameters, &*readings, &length as &dyn Fn(&Source) -> String),
         (Input::Length, "a rule by", &length),
         (Input::Mass, "a scale by", &|source| {
             small((1e3, "g"), (ounces(1.0), "oz"), source.deviation)
         }),
         (Input::Tap, "a tapped note by", &share),
+        (Input::Patch, "the ball's patch by a factor of", &times),
     ];
     let read = read.into_iter().filter_map(|(input, what, size)| {
         find(input).map(|source| format!("{what} {}", size(source)))
@@ -235,6 +309,28 @@ fn bat_first(spread: &Spread, units: Units) -> String {
     format!("The bat first: {}{range}.{left_out}", told.join(", "))
 }
 
+/// By how much the bat's materials differ, a phrase for wood and one for metals.
+fn materials(bat: &Bat, spread: &Spread) -> Vec<String> {
+    let all: Vec<&Material> = bat.layups().iter().flat_map(|layup| layup.materials()).collect();
+    let wood = all.iter().find_map(|material| material.scatter());
+    let metal = all.iter().filter(|material| material.is_metal());
+    let metal = metal.filter_map(|material| material.differs()).next();
+    let told = |(kind, scatter): (&str, Option<Scatter>)| {
+        let Scatter { youngs_modulus, density, .. } = scatter?;
+        let of =
+            [(Input::Stiffness, youngs_modulus, "stiffness"), (Input::Density, density, "density")];
+        let open = of.into_iter().filter(|(input, size, _)| {
+            spread.sources.iter().any(|source| source.input == *input && source.deviation == *size)
+        });
+        let open: Vec<String> = open
+            .map(|(_, size, what)| format!("{} % in {what}", significant(100.0 * size, 2)))
+            .collect();
+        (!open.is_empty()).then(|| format!("{kind} by {}", open.join(" and ")))
+    };
+    let kinds = [("clear wood of one kind differs", wood), ("alloys differ", metal)];
+    kinds.into_iter().filter_map(told).collect()
+}
+
 /// What would settle most of it, where a note or a scale would.
 fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     /// From this share of the variance on it is worth a tap.
@@ -243,7 +339,10 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     let by = |answer: Answer, input: Input| {
         spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
     };
-    if by(Answer::Frequency1, Input::Stiffness) {
+    // A note that is known no better than the answer settles nothing.
+    let frequency = spread.of(Answer::Frequency1);
+    let open = frequency.and_then(|of| Some(of.deviation? / of.value)).unwrap_or(0.0);
+    if by(Answer::Frequency1, Input::Stiffness) && open > 2.0 * task.readings.tap {
         let known = percent(task.readings.tap, 0);
         let free = bat.fixtures().rigid_modes() == 2;
         let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
@@ -269,20 +368,52 @@ fn computation(analysis: &Analysis) -> String {
     let mut told = vec![];
     let shown = solution.modes.iter().take(3).map(|mode| mode.error.total());
     if let Some(worst) = shown.reduce(f64::max) {
-        told.push(format!("these frequencies within {worst:.0e}"));
+        told.push(format!("frequencies within {worst:.0e}"));
     }
     if let Some((_, outcome)) = hits.worst() {
-        told.push(format!("exit speeds within {:.0e} of the closing speed", outcome.error));
+        told.push(format!("exit speeds within {:.0e}", outcome.error));
     }
     let asked = analysis.task.hits.tolerance;
     let verdict = match (analysis.task.hits.elements, solution.met && hits.met) {
-        (None, true) => ", which adds nothing that matters".to_owned(),
-        (None, false) => format!(", asked within {asked:.0e} and NOT met"),
-        (Some(_), _) => ", with the elements that were asked for".to_owned(),
+        (None, true) if far_more_exact(analysis) => " itself is far more exact than that",
+        (None, true) => "",
+        (None, false) => &format!(" was asked within {asked:.0e}, NOT met"),
+        (Some(_), _) => ", with the elements that were asked for",
     };
     let told =
         if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
-    format!("Then the computation{verdict}: {told}.")
+    // Beside a doubt nobody asks what an exit speed is counted in.
+    let of = if analysis.verdict.doubts.is_empty() { " of the closing speed" } else { "" };
+    let of = if told.contains("exit") { of } else { "" };
+    format!("The computation{verdict}: {told}{of}.")
+}
+
+/// Whether the errors of the computation are a tenth at most of what is open of every answer that has one. Of a hit
+/// that is in doubt nobody knows how much is open.
+fn far_more_exact(analysis: &Analysis) -> bool {
+    const SMALL: f64 = 0.1;
+    let Analysis { solution, hits, spread, verdict, .. } = analysis;
+    let open = |answer: Answer| {
+        spread.of(answer).map(|of| of.deviation.filter(|_| !spread.sources.is_empty()))
+    };
+    let frequencies = [Answer::Frequency1, Answer::Frequency2, Answer::Frequency3];
+    let frequency = |(answer, mode): (Answer, &Mode)| match open(answer) {
+        None => true,
+        Some(open) => {
+            open.is_some_and(|open| mode.error.total() * mode.frequency() <= SMALL * open)
+        }
+    };
+    let speed = match (open(Answer::ExitSpeed), hits.worst()) {
+        (Some(open), Some((impact, outcome))) => {
+            let closing = impact.bat_speed + analysis.task.scene.ball_speed;
+            open.is_some_and(|open| outcome.error * closing <= SMALL * open)
+        }
+        _ => true,
+    };
+    verdict.doubts.is_empty()
+        && !spread.sources.is_empty()
+        && speed
+        && frequencies.into_iter().zip(&solution.modes).all(frequency)
 }
 
 /// How far the wood alone leaves every frequency open, in a line; empty where that is not known.
@@ -313,7 +444,15 @@ pub const IN_ANALYZE: &str =
     "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
 
 /// The member `open` of the `sweetspot-analysis/1` document.
-pub fn open(spread: &Spread) -> file::Open {
+pub fn open(analysis: &Analysis) -> file::Open {
+    let Analysis { spread, verdict, .. } = analysis;
+    let doubt = |doubt: &Doubt| file::Doubt {
+        about: doubt.about(),
+        text: match doubt {
+            Doubt::RigidWall(why) => why.clone(),
+            other => doubted(other, Units::Si),
+        },
+    };
     let source = |source: &Source| file::Source {
         input: source.input.name(),
         material: source.material.clone(),
@@ -329,6 +468,7 @@ pub fn open(spread: &Spread) -> file::Open {
         sources: spread.sources.iter().map(source).collect(),
         answers: spread.estimates.iter().map(answer).collect(),
         left_out: spread.left_out.clone(),
+        doubts: verdict.doubts.iter().map(doubt).collect(),
     }
 }
 

@@ -1,0 +1,77 @@
+//! How far do the answers of a hit hold, by the worst of all that the program knows?
+//!
+//! Computed once: [`Verdict::of`] a hit, and read by every screen that tells of it, so that no screen is more
+//! certain than another.
+
+use crate::bat::body::Bat;
+use crate::collision::figures::Figures;
+use crate::collision::hit::Scene;
+use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
+use crate::collision::sweep::Sweep;
+use crate::collision::wall_figures::WallFigures;
+use crate::study::ignored::{in_hit, thinnest_wall};
+
+/// Why the answers of a hit are less certain than they are computed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// The density that the mass asks for is not that of the material.
+    Density(String),
+    /// The wall of the barrel is dented deeper than half of it, where the theory of it ends.
+    Dent(Box<WallFigures>),
+    /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
+    RigidWall(String),
+    /// Exit speeds are less accurate than was asked.
+    ExitSpeeds {
+        /// The largest error, over the closing speed.
+        error: f64,
+    },
+}
+
+impl Doubt {
+    /// What the doubt is about, in a word.
+    pub fn about(&self) -> &'static str {
+        match self {
+            Self::Density(_) => "density",
+            Self::Dent(_) => "dent",
+            Self::RigidWall(_) => "rigid_wall",
+            Self::ExitSpeeds { .. } => "exit_speeds",
+        }
+    }
+}
+
+/// How far the answers of a hit hold.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Verdict {
+    /// What there is to doubt; the bat first.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Verdict {
+    /// The verdict on the hits of a bat and their figures.
+    pub fn of(bat: &Bat, scene: &Scene, hits: &Sweep, figures: &Figures) -> Self {
+        let density = bat.density_off().map(Doubt::Density);
+        let deep = figures.wall.filter(WallFigures::is_deep);
+        let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
+        let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
+        let unmet = hits.worst().filter(|_| !hits.met);
+        let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
+        Self { doubts: density.into_iter().chain(dent).chain(rigid).chain(unmet).collect() }
+    }
+
+    /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is
+    /// beyond its theory, or left out.
+    pub fn ball_is_open(&self) -> bool {
+        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Dent(_) | Doubt::RigidWall(_)))
+    }
+}
+
+/// Why the wall of a hollow barrel is rigid in a hit that it would change; None where it gives way, and where it
+/// changes less than was asked for.
+fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
+    if let HoopInHit::LeftOut(WhyRigid::Small { .. }) = scene.hoop {
+        return None;
+    }
+    thinnest_wall(bat).filter(|_| !scene.wall_gives_way())?;
+    in_hit(bat, scene).pop()
+}
