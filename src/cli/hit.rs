@@ -153,7 +153,7 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     drop(progress);
-    let units = args.output.units;
+    let units = args.output.units(&bat);
     let table = format!(
         "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
         hit_text::scene(&bat, &scene, model.name(), units),

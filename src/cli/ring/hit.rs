@@ -61,7 +61,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     for (load, swing) in &mut report.loads {
         *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
-    let units = args.output.units;
+    let units = args.output.units(&bat);
     let mut text = format!(
         "{}{}{}",
         hit_text::scene(&bat, &scene, model.name(), units),

@@ -185,7 +185,7 @@ fn label(row: &ComparedFigure, scale: &Scale) -> String {
 
 /// The values of all bats.
 fn overview(comparison: &Comparison, units: Units) -> String {
-    let us = units == Units::Us;
+    let us = units.us_first();
     let width = (48 / comparison.bats.len()).min(10);
     let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
     let columns =
@@ -238,7 +238,7 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
         let scale = match figure.unit {
             // Too wide a name for the columns of a terminal.
             Unit::Joules => Scale { factor, decimals: 2, name },
-            unit => scale(unit, units == Units::Us),
+            unit => scale(unit, units.us_first()),
         };
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
@@ -269,11 +269,11 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
 
 /// Figures of one bat beside those of the first.
 pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
-    let (us, name) = (units == Units::Us, letter(bat));
+    let (us, name) = (units.us_first(), letter(bat));
     let less = format!("{name} less A");
     let title = format!("{name} beside A");
-    let in_us = if units == Units::Both { less.clone() } else { String::new() };
-    let heads = [title, "A".into(), name.to_string(), less, "within".into(), in_us];
+    let other = if units.both() { less.clone() } else { String::new() };
+    let heads = [title, "A".into(), name.to_string(), less, "within".into(), other];
     let mut out = format!("\n{}", columns(heads).heads());
     for figure in all {
         let scale = scale(figure.unit, us);
@@ -289,36 +289,32 @@ fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Un
         .iter()
         .filter(hit)
         .map(|(distance, row)| {
-            let place = match units {
-                Units::Si => format!("  at {:.2} cm", 100.0 * **distance),
-                Units::Us => format!("  at {:.2} in", inches(**distance)),
-                Units::Both => {
-                    format!("  at {:.2} cm, {:.2} in", 100.0 * **distance, inches(**distance))
-                }
-            };
-            compared(row, bat, &place, units)
+            let [cm, inch] = [(100.0 * **distance, "cm"), (inches(**distance), "in")];
+            let told = |(x, unit)| format!("{x:.2} {unit}");
+            let place: Vec<String> = units.pick(cm, inch).into_iter().map(told).collect();
+            compared(row, bat, &format!("  at {}", place.join(", ")), units)
         })
         .collect();
     if lines.is_empty() {
         return String::new();
     }
-    let unit = scale(Unit::MetresPerSecond, units == Units::Us).name;
+    let unit = scale(Unit::MetresPerSecond, units.us_first()).name;
     format!("{title}, {unit}\n{}", lines.concat())
 }
 
 /// A line of two values and their difference.
 fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> String {
-    let scale_here = scale(figure.unit, units == Units::Us);
+    let scale_here = scale(figure.unit, units.us_first());
     let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
     let difference = figure.difference(bat);
     let size = figure.values[0].map_or(0.0, |f| f.value);
-    let in_us = difference.filter(|d| units == Units::Both && d.is_real());
-    let in_us = in_us.map_or(String::new(), |d| {
-        let us = scale(figure.unit, true);
-        if us.name == scale_here.name {
+    let in_other = difference.filter(|d| units.both() && d.is_real());
+    let in_other = in_other.map_or(String::new(), |d| {
+        let other = scale(figure.unit, !units.us_first());
+        if other.name == scale_here.name {
             String::new()
         } else {
-            format!("{} {}", us.difference(d), us.name)
+            format!("{} {}", other.difference(d), other.name)
         }
     });
     let cells = [
@@ -327,21 +323,21 @@ fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> S
         value(bat),
         difference.map_or(String::new(), |d| scale_here.difference(d)),
         difference.map_or(String::new(), |d| scale_here.within(d, size)),
-        in_us,
+        in_other,
     ];
     columns(Default::default()).row(cells)
 }
 
 /// 80 columns.
 fn columns(heads: [String; 6]) -> Columns {
-    let [label, a, b, difference, within, us] = heads;
+    let [label, a, b, difference, within, other] = heads;
     Columns::new([
         first(32, label),
         numbers(9, a),
         numbers(9, b),
         numbers(10, difference),
         numbers(8, within),
-        numbers(12, us),
+        numbers(12, other),
     ])
 }
 

@@ -17,11 +17,7 @@ const MORE: &str =
 /// What differs, and where along the barrel: of five bats 48 lines at most. Several bats count in one
 /// system of units, that of the first one's file unless another is asked for.
 pub fn screen(comparison: &Comparison, units: Units) -> String {
-    let one = match units {
-        Units::Both if comparison.bats[0].bat.inches() => Units::Us,
-        Units::Both => Units::Si,
-        one => one,
-    };
+    let one = units.first();
     let mut out = bats(comparison, one) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
     out += &match (comparison.bats.len(), differing.is_empty()) {

@@ -91,10 +91,9 @@ impl Kind {
         let told = |(factor, decimals, name): (f64, usize, &str)| {
             format!("{} {name}", say(factor, decimals))
         };
-        match (units, self) {
-            (_, Self::Frequency) | (Units::Si, _) => told(si),
-            (Units::Us, _) => told(us),
-            (Units::Both, _) => format!("{} ({})", told(si), told(us)),
+        match self {
+            Self::Frequency => told(si),
+            _ => units.beside(told(si), told(us)),
         }
     }
 
@@ -201,7 +200,7 @@ fn bat_first(spread: &Spread, units: Units) -> String {
         told.push(format!("clear wood of one kind differs by {}", wood.join(" and ")));
     }
     let small = |si: (f64, &str), us: (f64, &str), value: f64| {
-        let (factor, unit) = if units == Units::Us { us } else { si };
+        let (factor, unit) = if units.us_first() { us } else { si };
         format!("{} {unit}", significant(factor * value, 2))
     };
     let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
