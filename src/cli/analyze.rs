@@ -195,13 +195,16 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = match args.full {
         true => {
-            let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
+            let cuts =
+                lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
             let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
             table(&analysis, &args.output) + &cuts.unwrap_or_default()
         }
         false => {
             let barrel = analysis.barrel.as_ref().map(report::hoop::in_a_line);
-            trust::screen(&analysis, args.output.units(&analysis.bat)) + &barrel.unwrap_or_default() + MORE
+            trust::screen(&analysis, args.output.units(&analysis.bat))
+                + &barrel.unwrap_or_default()
+                + MORE
         }
     };
     let table = match &proven {

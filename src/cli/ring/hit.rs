@@ -68,10 +68,10 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         aftermath::impact(&impact, units),
         aftermath::text(&report, units)
     );
-    if let Some(path) = &args.wav
-        && let Some(told) = write_sound(path, &after.sound(&solution))?
-    {
-        text += &wrapped(&format!("Sound: {told}"), 2);
+    if let Some(path) = &args.wav {
+        for told in write_sound(path, &bat, &after.sound(&solution))? {
+            text += &wrapped(&format!("Sound: {told}"), 2);
+        }
     }
     if let Some(folder) = &args.plots {
         let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();

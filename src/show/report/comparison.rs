@@ -1,5 +1,6 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
+use crate::base::number::significant;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
@@ -119,8 +120,8 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         }
     }
     out += &hit(comparison, units);
-    let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
-                  with a smaller --tol. A difference within it is shown as none.";
+    let within = "Within: how far a difference may be off by the computation, from the errors stated of both \
+                  bats; less with a smaller --tol. A difference within it is shown as none.";
     out + &wrapped(within, 5)
 }
 
@@ -212,6 +213,8 @@ pub struct Row {
     pub values: Vec<String>,
     /// Difference of the second bat and those after it from the first; "none" within the errors.
     pub differences: Vec<String>,
+    /// By how much two pieces of one wood differ, with ±; empty where that is not known.
+    pub pieces: String,
     /// Whether any bat differs from the first by more than the errors.
     pub differs: bool,
 }
@@ -248,6 +251,14 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
             label: alone(figure, scale.name),
             values: figure.values.iter().map(value).collect(),
             differences: differences().map(told).collect(),
+            pieces: {
+                let all = (1..bats).filter_map(|bat| comparison.between_pieces(&figure.key, bat));
+                let most = all.fold(0.0, f64::max) * scale.factor;
+                match most > 0.0 {
+                    true => format!("± {}", significant(most, 2)),
+                    false => String::new(),
+                }
+            },
             differs: differences().flatten().any(|difference| difference.is_real()),
         }
     };
@@ -346,6 +357,7 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
     let mut all = vec![];
     for bat in 1..comparison.bats.len() {
         all.push(best(comparison, bat, units));
+        all.push(of_pieces(comparison, bat));
         let parts = along(comparison, bat, units);
         if !parts.is_empty() {
             all.push(format!("{ALONG}: {parts}."));
@@ -391,15 +403,46 @@ fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     if !difference.is_real() {
         return format!(
             "{name} and A hit equally hard at their best: the difference is no more than the \
-             errors, {}.",
+             computation's error, {}.",
             speed(difference.within)
         );
     }
     let (harder, other) = if difference.by > 0.0 { (name, 'A') } else { ('A', name) };
+    let by =
+        format!("{harder} hits harder at its best than {other}, by {}", speed(difference.by.abs()));
+    match comparison.between_pieces("best_exit_speed", bat) {
+        Some(pieces) if difference.by.abs() > pieces => {
+            format!(
+                "{by}: a clear difference; two pieces of one wood differ by ± {}.",
+                speed(pieces)
+            )
+        }
+        Some(pieces) => format!(
+            "{by}. That is less than the ± {} by which two pieces of one wood differ: of two such bats from \
+             a shelf either may hit harder.",
+            speed(pieces)
+        ),
+        None => format!("{by}."),
+    }
+}
+
+/// Whether the wood's scatter is in a comparison, in a sentence; ± is one standard deviation.
+pub fn of_pieces(comparison: &Comparison, bat: usize) -> String {
+    let name = letter(bat);
+    if comparison.one_piece(bat) {
+        return format!(
+            "{name} and A are one and the same piece: what pieces of one wood differ by cancels."
+        );
+    }
+    if comparison.between_pieces("frequency_1", bat).is_none() {
+        return format!(
+            "How much two pieces of the material of {name} and A differ is not known here: the errors are \
+             those of the computation alone."
+        );
+    }
     format!(
-        "{harder} hits harder at its best than {other}, by {}, and that is more than the errors, {}.",
-        speed(difference.by.abs()),
-        speed(difference.within)
+        "± is one standard deviation between two pieces, the wood of {name} and of A each by itself; the \
+         errors beside it are those of the computation alone."
     )
 }
 

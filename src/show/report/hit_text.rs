@@ -223,7 +223,7 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     peak("fastest ball", spot.exit_speed_max, &speed);
     peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
     let slow = |v: f64| match units.us_first() {
-        true => format!("{:.2} mph", miles_per_hour(v)),
+        true => format!("{:.1} mph", miles_per_hour(v)),
         false => format!("{v:.2} m/s"),
     };
     peak("least hand speed, undamped", spot.hands_velocity_min, &slow);

@@ -295,18 +295,6 @@ pub fn of_wood(bat: &Bat) -> String {
     wrapped(&text, 7)
 }
 
-/// What the wood alone makes of the differences between bats, in a line; empty where none is of wood.
-pub fn between_bats<'a>(bats: impl Iterator<Item = &'a Bat>) -> String {
-    let open = bats.filter_map(of_frequencies).fold(0.0, f64::max);
-    match open > 0.0 {
-        true => format!(
-            "Trust: the wood alone leaves a bat's frequencies open by {}: sweetspot analyze\n",
-            percent(open, 0)
-        ),
-        false => String::new(),
-    }
-}
-
 /// Where what is open of a hit is told.
 pub const IN_ANALYZE: &str =
     "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";

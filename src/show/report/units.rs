@@ -1,8 +1,8 @@
 //! In which units are numbers said?
 
 use crate::base::number::rounded;
-use crate::bat::body::Bat;
 use crate::base::units::{FOOT_POUND, inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::bat::body::Bat;
 
 /// Which units the tables are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
