@@ -40,11 +40,14 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
         out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    out + &beside_pieces(comparison, &differing) + MORE
+    out + &beside_pieces(comparison, one) + MORE
 }
 
+/// Figures whose scatter is told.
+const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
+
 /// The differences beside what two pieces of one wood differ by; of one piece that this cancels.
-fn beside_pieces(comparison: &Comparison, differing: &[Row]) -> String {
+fn beside_pieces(comparison: &Comparison, units: Units) -> String {
     let others = 1..comparison.bats.len();
     let same = others.clone().filter(|bat| comparison.one_piece(*bat));
     let same: Vec<String> = same.map(|bat| letter(bat).to_string()).collect();
@@ -56,7 +59,8 @@ fn beside_pieces(comparison: &Comparison, differing: &[Row]) -> String {
         );
         out += &wrapped(&text, 7);
     }
-    let told = differing.iter().filter(|row| !row.pieces.is_empty());
+    let known = rows(comparison, units).into_iter();
+    let told = known.filter(|row| OF_WOOD.contains(&row.key.as_str()) && !row.pieces.is_empty());
     let told: Vec<String> = told
         .map(|row| match row.label.rsplit_once(", ") {
             Some((name, unit)) => format!("{name} {} {unit}", row.pieces),
@@ -71,7 +75,7 @@ fn beside_pieces(comparison: &Comparison, differing: &[Row]) -> String {
         );
         out += &wrapped(&text, 7);
     }
-    if same.len() < others.len() && told.is_empty() && !differing.is_empty() {
+    if same.len() < others.len() && told.is_empty() {
         let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
                     computation alone.";
         out += &wrapped(text, 7);
