@@ -177,3 +177,69 @@ fn words_are_taken_apart_as_by_a_shell() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(words(&found[0]), ["hit", "b.json", "--pitch", "85 mph", "--at", "1"]);
 }
+
+/// A bat of ash with the stations in that unit, so many of it an inch.
+fn counted_in(unit: &str, per_inch: f64) -> String {
+    let of = |all: [f64; 7]| all.map(|value| (value * per_inch).to_string()).join(", ");
+    let x = of([0.0, 0.5, 1.0, 12.0, 22.0, 30.0, 33.0]);
+    let diameter = of([1.9, 1.9, 1.0, 1.0, 1.9, 2.5, 2.4]);
+    format!(
+        r#"{{ "format": "sweetspot-bat/1", "name": "Ash 33", "material": "white-ash",
+             "profile": {{ "unit": "{unit}", "x": [{x}], "diameter": [{diameter}] }} }}"#
+    )
+}
+
+#[test]
+fn a_bat_is_answered_in_the_units_of_its_file_first_by_every_verb() {
+    let folder = Folder::new("units_first");
+    folder.write("inch.json", counted_in("in", 1.0));
+    folder.write("metric.json", counted_in("mm", 25.4));
+    for (args, us, si) in [
+        (&["modes", "BAT", "-n", "2"][..], "33.00 in", "0.8382 m"),
+        (&["analyze", "BAT"], " mph", " m/s"),
+        (&["analyze", "BAT", "--full"], "33.00 in", "0.8382 m"),
+        (&["hit", "BAT", "--points", "3"], "2.50 in", "0.0635 m"),
+        (&["bbcor", "BAT"], "6.00 in", "0.1524 m"),
+        (&["compare", "BAT", "r161"], "2.50 in", "0.0635 m"),
+        (&["compare", "BAT", "r161", "--full"], "2.50 in", "0.0635 m"),
+        (&["ring", "BAT", "--hit", "0.7"], "27.56 in", "70.00 cm"),
+        (&["advise", "BAT"], " oz in²", " kg m²"),
+        (&["lathe", "BAT"], "2.50 in", "0.0635 m"),
+        (&["frf", "BAT", "--at", "0.1", "--points", "3"], "3.94 in", "0.1000 m"),
+    ] {
+        for (file, us_first) in [("inch.json", true), ("metric.json", false)] {
+            let args: Vec<&str> =
+                args.iter().map(|word| if *word == "BAT" { file } else { *word }).collect();
+            let text = folder.text(&args);
+            let [us, si] = [us, si].map(|unit| text.find(unit).unwrap_or(usize::MAX));
+            assert_eq!(us < si, us_first, "{args:?}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn a_tip_is_within_two_letters_or_there_is_none() {
+    let folder = Folder::new("tips");
+    let said = |args: &[&str]| {
+        let output = folder.run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    for args in
+        [&["maple"][..], &["conversation"], &["modes", "r161", "--modelling"], &["hut-of-wood"]]
+    {
+        let told = said(args);
+        assert!(!told.contains("similar") && !told.contains("did you mean"), "{told}");
+    }
+    for (args, near) in [
+        (&["compar", "r161"][..], "'compare'"),
+        (&["mdoes", "r161"], "'modes'"),
+        (&["hit", "r161", "--ptich", "90 mph"], "'--pitch'"),
+        (&["hit", "r161", "--model", "contcat"], "'contact'"),
+        (&["hit", "r116"], "r161"),
+        (&["hit", "r161", "--wood", "maple"], "sugar-maple"),
+    ] {
+        let told = said(args);
+        assert!(told.contains(near), "{told}");
+    }
+}

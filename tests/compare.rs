@@ -313,3 +313,47 @@ fn what_cannot_be_compared_is_refused() {
         assert!(output.stdout.is_empty());
     }
 }
+
+#[test]
+fn differences_stand_beside_what_two_pieces_of_one_wood_differ_by() {
+    let folder = Folder::new("pieces");
+    let text = folder.text(&["compare", "r161", "torpedo", "--units", "us"]);
+    let one = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(one.contains("two pieces of one wood differ too") && one.contains("mph;"), "{text}");
+    let edit = folder.text(&["compare", "r161", "--edit", "knob 2 oz"]);
+    let one = edit.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(one.contains("one and the same piece") && !one.contains("differ too"), "{edit}");
+    folder.text(&["compare", "r161", "torpedo", "--report", "two.html"]);
+    let page = folder.read("two.html");
+    assert!(page.contains("two pieces of one wood") && !page.contains("more than the errors"));
+}
+
+/// A relative change of the density by 10 % is one of the mass: of two pieces √2 as much.
+#[test]
+fn two_pieces_of_one_model_differ_in_mass_by_the_root_of_two_times_the_scatter() {
+    let ash = sweetspot::Bat::from_text(
+        "ash.json",
+        r#"{ "format": "sweetspot-bat/1", "name": "a", "material": "white-ash",
+             "profile": { "x": [0, 0.8], "diameter": [0.04, 0.06] } }"#,
+        std::path::Path::new(""),
+    )
+    .unwrap();
+    let two = compare(&[ash.clone(), ash.clone()], 1e-4);
+    let mass = two.between_pieces("mass", 1).unwrap();
+    let expected = 2.0_f64.sqrt() * 0.1 * ash.inertia().mass;
+    // Central differences over a step of 5 % of the logarithm: right to its square over 6.
+    assert!((mass / expected - 1.0).abs() < 5e-4, "{mass} {expected}");
+    assert!(two.between_pieces("best_exit_speed", 1).unwrap() > 0.5);
+    assert_eq!(two.between_pieces("length", 1), None);
+}
+
+#[test]
+fn a_reference_inertia_without_its_exponent_is_refused_with_a_source() {
+    let folder = Folder::new("alone");
+    let alone = ["compare", "r161", "torpedo", "--reference-inertia", "10000 oz in2"];
+    let output = folder.run(&alone);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("--swing-exponent") && told.contains("ssl.wsu.edu"), "{told}");
+    folder.text(&[&alone[..], &["--swing-exponent", "0.25"]].concat());
+}

@@ -42,7 +42,16 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
             &["analyze", bat][..],
             &["analyze", bat, "--full"],
             &["modes", bat, "-n", "25"],
-            &["hit", bat, "--points", "3", "--reference-inertia", "10000 oz in2"],
+            &[
+                "hit",
+                bat,
+                "--points",
+                "3",
+                "--reference-inertia",
+                "10000 oz in2",
+                "--swing-exponent",
+                "0.25",
+            ],
             &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
             &["frf", bat, "--at", "0.6", "--points", "3"],
             &["advise", bat],
@@ -108,6 +117,20 @@ fn seen(folder: &Folder, args: &str, settings: &[(&str, &str)]) -> Option<String
     }
     script.env("TERM", "xterm").envs(settings.iter().copied());
     Some(String::from_utf8_lossy(&script.output().ok()?.stdout).into_owned())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_blow_has_a_screen_at_a_terminal_and_csv_in_a_pipe() {
+    let folder = Folder::new("blow");
+    let blow = format!("ring {} --at 0.6 --impulse \"1 N s\"", mesh("dowel"));
+    let Some(shown) = seen(&folder, &blow, &[]) else { return };
+    assert!(shown.contains("largest") && shown.contains("--csv FILE"), "{shown}");
+    assert!(!shown.contains("x_m,") && shown.lines().count() < 24, "{shown}");
+    let piped = folder.text(&["ring", &mesh("dowel"), "--at", "0.6", "--impulse", "1 N s"]);
+    assert!(piped.starts_with("x_m,w_m_at_0_s,") && piped.lines().count() == 102, "{piped}");
+    let csv = seen(&folder, &format!("{blow} --csv -"), &[]).unwrap();
+    assert_eq!(csv.replace('\r', ""), piped);
 }
 
 #[cfg(target_os = "linux")]

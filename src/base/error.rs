@@ -263,20 +263,22 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
 
 /// The nearest of `names` to a misspelt `word`, if one is near enough to be meant.
 ///
-/// Nearness is the number of edits of a letter (Damerau's and Levenshtein's distance), at most a third of the
-/// longer word, or two words that differ by case and separators only; else a word of three letters or more is
-/// that part of a name, the last of those that have it.
+/// Nearness is the number of edits of a letter (Damerau's and Levenshtein's distance), two at most and no
+/// more than a third of the longer word, or two words that differ by case and separators only; else a word of
+/// three letters or more is a whole part of a name, as `maple` of `sugar-maple`, the last of those that have
+/// it.
 pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let plain = |s: &str| s.to_lowercase().replace(['_', '-', ' '], "");
     let word = plain(word);
     names
         .iter()
         .map(|name| (edits(&word, &plain(name)), *name))
-        .filter(|(d, name)| 3 * d <= word.chars().count().max(name.chars().count()))
+        .filter(|(d, name)| *d <= 2 && 3 * d <= word.chars().count().max(name.chars().count()))
         .min_by_key(|(d, _)| *d)
         .map(|(_, name)| name)
         .or_else(|| {
-            let holds = |name: &&&str| word.chars().count() >= 3 && plain(name).contains(&word);
+            let part = |name: &str| name.split(['_', '-', ' ']).any(|part| plain(part) == word);
+            let holds = |name: &&&str| word.chars().count() >= 3 && part(name);
             names.iter().rev().find(holds).copied()
         })
 }
@@ -312,6 +314,9 @@ mod tests {
         assert_eq!(nearest("picth", &["hands", "pitch"]), Some("pitch"));
         assert_eq!(nearest("youngsModulus", &keys), Some("youngs_modulus"));
         assert_eq!(nearest("colour", &keys), None);
+        assert_eq!(nearest("maple", &["calibrate", "completions", "compare"]), None);
+        assert_eq!(nearest("maple", &["hickory", "sugar-maple"]), Some("sugar-maple"));
+        assert_eq!(nearest("completely", &["completions"]), None);
         assert_eq!(nearest("", &keys), None);
     }
 

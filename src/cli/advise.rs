@@ -56,7 +56,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
     drop(progress);
     let code = verdict(args, &advice);
-    let table = advice::text(&advice, args.output.units);
+    let table = advice::text(&advice, args.output.units(&bat));
     Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
 }
 

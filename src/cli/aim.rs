@@ -9,7 +9,6 @@ use crate::collision::sweet_spot::FINE;
 use crate::files::aim_file::AimFile;
 use crate::files::{aim_text, rules_file};
 use crate::show::plot::{change, compared};
-use crate::show::report::units::Units;
 use crate::show::report::{aimed, aimed_text};
 use crate::show::template::pages::pages;
 use crate::show::template::pdf::pdf;
@@ -188,11 +187,7 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.out {
         file::write(path, text.as_bytes())?;
     }
-    let us = match args.output.units {
-        Units::Si => false,
-        Units::Us => true,
-        Units::Both => bat.inches(),
-    };
+    let us = args.output.units(&bat).us_first();
     let rules = wish.rules.as_ref();
     let table = aimed_text::text(&outcome, rules, args.pass, us);
     let table = put(&args.cuts, table, || Ok(aimed::cuts_csv(&outcome, args.pass)))?;

@@ -197,13 +197,14 @@ pub fn run(args: &Args) -> Result<Done> {
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
     let table = match args.full {
         true => {
-            let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units));
+            let cuts =
+                lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
             let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
             table(&analysis, &args.output) + &cuts.unwrap_or_default()
         }
         false => {
             let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
-            trust::screen(&analysis, args.output.units) + more.as_deref().unwrap_or(MORE)
+            trust::screen(&analysis, args.output.units(&analysis.bat)) + more.as_deref().unwrap_or(MORE)
         }
     };
     let table = match &proven {
@@ -267,8 +268,8 @@ fn rows(analysis: &Analysis) -> Vec<SketchRow> {
 
 /// Everything, on several screens.
 fn table(analysis: &Analysis, output: &OutputArgs) -> String {
-    let units = output.units;
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let units = output.units(bat);
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
     format!(
         "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",

@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let source = report::cor_source(&tested, args.cannon.cor().is_some());
     let code = verdict(&args.solve, &tested.sweep, &args.output);
-    let table = report::text(&tested, &source, args.output.units);
+    let table = report::text(&tested, &source, args.output.units(&tested.bat));
     let out = args.output.deliver(table, || report::document(&tested, &source))?;
     let text = args.csv.deliver(out, || report::csv(&tested))?;
     Ok(Done::new(text, code).with(warning))

@@ -270,11 +270,11 @@ pub struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 
-    /// Units of the tables, and of pictures and reports, which count in one: si, us or both [pictures
-    /// and reports: as the bat file]
+    /// Units of the tables, and of pictures and reports, which count in one: si, us or both (the bat
+    /// file's first; pictures and reports in it)
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
           hide_possible_values = true)]
-    pub units: Units,
+    units: Units,
 
     /// No warnings and no progress on standard error
     #[arg(long)]
@@ -282,6 +282,11 @@ pub struct OutputArgs {
 }
 
 impl OutputArgs {
+    /// The units that a bat is answered in: those asked for, and of both those of its file first.
+    pub fn units(&self, bat: &Bat) -> Units {
+        self.units.of(bat)
+    }
+
     /// Writes the JSON where it was asked for; what is left for standard output.
     pub fn deliver<D: Serialize>(
         &self,
@@ -298,15 +303,12 @@ impl OutputArgs {
 
     /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
     pub fn sheet(&self, bat: &Bat) -> Sheet {
-        match self.units {
-            Units::Both => Sheet::of(bat),
-            units => Sheet::file(units == Units::Us),
-        }
+        Sheet::file(self.units(bat).us_first())
     }
 
     /// The bat and its places drawn with what this terminal can show.
     pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
-        sketch::draw(bat, rows, self.units, glyphs())
+        sketch::draw(bat, rows, self.units(bat), glyphs())
     }
 
     /// Says something on standard error.

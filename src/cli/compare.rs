@@ -189,7 +189,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
             args.output.quiet,
         )?;
     }
-    let text = report::measured::text(&bat, &study, args.output.units);
+    let text = report::measured::text(&bat, &study, args.output.units(&bat));
     let name = path.display().to_string();
     let text = args.output.deliver(text, || report::measured::document(&bat, &name, &study))?;
     let code = args.solve.verdict(&study.solution, &args.output);
@@ -235,9 +235,10 @@ fn bats_beside(args: &Args) -> Result<Done> {
     };
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;
+    let units = args.output.units(&compared.bats[0].bat);
     let table = match args.full {
-        true => comparison::text(&compared, args.output.units),
-        false => comparison_screen::screen(&compared, args.output.units),
+        true => comparison::text(&compared, units),
+        false => comparison_screen::screen(&compared, units),
     };
     let text = put(&args.csv, table, || Ok(comparison_data::csv(&compared)))?;
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;

@@ -155,7 +155,7 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     drop(progress);
-    let units = args.output.units;
+    let units = args.output.units(&bat);
     let known = Verdict::of(&bat, &scene, &sweep, &figures);
     let doubts = trust::doubts(&known, units);
     let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();

@@ -141,9 +141,9 @@ pub fn run(args: &Args) -> Result<Done> {
         all.extend(wall_sweep::picture(sheet, bat.name(), &tried));
         pictures::write(folder, &all, args.output.quiet)?;
     }
-    let mut table = report::text(&bat, &barrel, count, args.output.units);
+    let mut table = report::text(&bat, &barrel, count, args.output.units(&bat));
     if args.wall_sweep {
-        table += &report::sweep(&tried, args.output.units);
+        table += &report::sweep(&tried, args.output.units(&bat));
     }
     let samples = usize::from(args.shape_points);
     let text =

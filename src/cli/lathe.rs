@@ -148,7 +148,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let picture: Vec<_> = plot::picture(args.output.sheet(&bat), &map).into_iter().collect();
         pictures::write(folder, &picture, args.output.quiet)?;
     }
-    let table = report::text(&map, &hit.scene, args.output.units);
+    let table = report::text(&map, &hit.scene, args.output.units(map.piece.bat()));
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
     let text = args.csv.deliver(out, || report::csv(&map))?;
     let code = if map.piece.met || !args.solve.enforced() { 0 } else { NOT_REACHED };

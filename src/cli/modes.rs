@@ -95,9 +95,9 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let table = format!(
         "{}\n{}\n{}\n{}{}",
-        text::summary(&bat, args.output.units),
+        text::summary(&bat, args.output.units(&bat)),
         args.output.sketch(&bat, &sketch::of_modes(&bat, &solution)),
-        text::modes(&bat, &solution, solution.modes.len(), args.output.units)
+        text::modes(&bat, &solution, solution.modes.len(), args.output.units(&bat))
             + &proven.as_ref().map_or(String::new(), proven::text),
         text::model(&bat, &solution),
         trust::of_wood(&bat)

@@ -106,12 +106,13 @@ pub struct SceneArgs {
 
     /// The swing speed is that of a bat with this swing weight
     ///
-    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2".
+    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2". With
+    /// --swing-exponent, without which it changes no swing.
     #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
           value_parser = |s: &str| SWING_WEIGHT.read(s))]
     reference_inertia: Option<f64>,
 
-    /// How swings slow down with the swing weight [default: 0]
+    /// How swings slow down with the swing weight
     ///
     /// A bat of another inertia I is swung at (I_ref/I)^N times the speed: 0 is the same angular
     /// speed, 0.5 the same energy of rotation.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Complaint, Error, Result, nearest};
 use crate::base::file;
 use crate::proof::bundled;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -114,7 +114,8 @@ pub fn run() -> Result<Done> {
 /// `ring --hit` alone in that verb.
 fn parse() -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = help::fitted(Cli::command()).try_get_matches().map_err(file_for_a_verb)?;
+    let matches = help::fitted(Cli::command()).try_get_matches();
+    let matches = matches.map_err(|said| file_for_a_verb(near_tips(said)))?;
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
         if let Some(name) = stray.and_then(clap::Arg::get_long) {
@@ -123,6 +124,39 @@ fn parse() -> std::result::Result<Cli, clap::Error> {
         }
     }
     Cli::from_arg_matches(&matches)
+}
+
+/// What is said, with a tip only where it is near what was typed, as everywhere in the program: clap's own
+/// ones share letters with it and no more, as `completions` with `maple`.
+fn near_tips(mut said: clap::Error) -> clap::Error {
+    use ContextKind::{
+        InvalidArg, InvalidSubcommand, InvalidValue, SuggestedArg, SuggestedSubcommand,
+        SuggestedValue,
+    };
+    let text = |value: Option<&ContextValue>| match value {
+        Some(ContextValue::String(word)) => vec![word.clone()],
+        Some(ContextValue::Strings(words)) => words.clone(),
+        _ => vec![],
+    };
+    let kinds = [
+        (InvalidSubcommand, SuggestedSubcommand),
+        (InvalidArg, SuggestedArg),
+        (InvalidValue, SuggestedValue),
+    ];
+    for (typed, tip) in kinds {
+        let Some(word) = text(said.get(typed)).into_iter().next() else { continue };
+        let mut known = text(said.remove(tip).as_ref());
+        if typed == InvalidSubcommand {
+            let command = Cli::command();
+            known = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
+        }
+        let names: Vec<&str> = known.iter().map(String::as_str).collect();
+        match nearest(&word, &names) {
+            Some(near) => said.insert(tip, ContextValue::String(near.to_owned())),
+            None => continue,
+        };
+    }
+    said
 }
 
 /// What is said of a file or a built-in bat where a verb should stand; other mistakes as they are.

@@ -14,10 +14,11 @@ use crate::files::document::Document;
 use crate::files::json_node::Node;
 
 /// Members that say something only beside another one.
-const BESIDE: [(&str, &str); 3] = [
+const BESIDE: [(&str, &str); 4] = [
     ("bat_speed_at", "bat_speed"),
     ("wall_mass", "wall_stiffness"),
     ("swing_exponent", "reference_inertia"),
+    ("reference_inertia", "swing_exponent"),
 ];
 /// Members that say the same in two ways.
 const APART: [[&str; 2]; 2] = [["swing_speed", "bat_speed"], ["reference_inertia", "bat_speed"]];

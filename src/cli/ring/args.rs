@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::Result;
 use crate::base::file;
+use crate::bat::body::Bat;
 use crate::modes::solve::Solution;
 use crate::motion::sound::Sound;
 use crate::show::exchange::wav;
+use crate::study::ignored::thinnest_wall;
 
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;
@@ -19,7 +21,7 @@ use crate::show::csv::{Cell, Csv};
 /// the table says how the watched places move, the spectrum there, where the strain is largest, and
 /// what share the stress is of the strength that is published for the material. With
 /// --at and --impulse or --force, or with --initial, the deflection at even places and given
-/// instants is written as CSV.
+/// instants is written as CSV; on a terminal, without --csv, how far the bat is bent at each of them.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -97,7 +99,7 @@ pub struct Args {
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub shape_points: u32,
 
-    /// Write CSV to this file (- = standard output, the default)
+    /// Write CSV to this file (- = standard output, the default where that is no terminal)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub csv: Option<PathBuf>,
 
@@ -135,15 +137,21 @@ Examples:
   sweetspot ring meshes/r161.json --hit \"60 cm\" --wav sting.wav
       the crack of a ball hit 10 cm closer to the handle than it should be";
 
-/// Writes a sound; what was assumed for it is given back.
-pub fn write_sound(path: &Path, sound: &Sound) -> Result<Option<String>> {
+/// Writes a sound of a bat; what was assumed for it and what is not in it is given back.
+pub fn write_sound(path: &Path, bat: &Bat, sound: &Sound) -> Result<Vec<String>> {
     file::write(path, &wav::file(&sound.samples(wav::RATE)))?;
-    Ok(sound.assumed_loss_factor.map(|loss| {
+    let assumed = sound.assumed_loss_factor.map(|loss| {
         format!(
             "the bat has no damping of its own; a loss factor of {loss} is taken for the sound only \
              (give the material a \"loss_factor\")"
         )
-    }))
+    });
+    let ping = thinnest_wall(bat).map(|_| {
+        "the ping of this hollow barrel is not in it: its wall rings in hoop modes, which are not \
+         bending (sweetspot hoop has their frequencies)"
+            .to_owned()
+    });
+    Ok(assumed.into_iter().chain(ping).collect())
 }
 
 /// The instants asked for, or nine over a period of mode 1.

@@ -61,17 +61,17 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     for (load, swing) in &mut report.loads {
         *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
-    let units = args.output.units;
+    let units = args.output.units(&bat);
     let mut text = format!(
         "{}{}{}",
         hit_text::scene(&bat, &scene, model.name(), units),
         aftermath::impact(&impact, units),
         aftermath::text(&report, units)
     );
-    if let Some(path) = &args.wav
-        && let Some(told) = write_sound(path, &after.sound(&solution))?
-    {
-        text += &wrapped(&format!("Sound: {told}"), 2);
+    if let Some(path) = &args.wav {
+        for told in write_sound(path, &bat, &after.sound(&solution))? {
+            text += &wrapped(&format!("Sound: {told}"), 2);
+        }
     }
     if let Some(folder) = &args.plots {
         let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();

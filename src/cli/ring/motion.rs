@@ -1,5 +1,7 @@
 //! `ring` without a hit: the deflection along the bat after a blow, under a force or from a shape.
 
+use std::io::{IsTerminal, stdout};
+
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
@@ -12,6 +14,7 @@ use crate::motion::ringing::Ringing;
 use crate::motion::shape::InitialShape;
 use crate::motion::sound::Sound;
 use crate::show::plot::ringing::{self, Moving};
+use crate::show::report::motion::{self, Frames};
 
 use crate::cli::common::{Solved, on_the_bat};
 use crate::cli::done::Done;
@@ -34,10 +37,10 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
     };
     let last = f64::from(args.shape_points - 1);
     let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
-    if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse))
-        && let Some(told) = write_sound(path, &Sound::of_blow(&solution, x, [impulse, 0.0]))?
-    {
-        args.output.warn(&format!("note: {told}"));
+    if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse)) {
+        for told in write_sound(path, &bat, &Sound::of_blow(&solution, x, [impulse, 0.0]))? {
+            args.output.warn(&format!("note: {told}"));
+        }
     }
     let times = times(args, &solution);
     let shapes = ringing.shapes(&x);
@@ -54,6 +57,11 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         let picture = ringing::moving(args.output.sheet(&bat), &moving);
         pictures::write(folder, picture.as_slice(), args.output.quiet)?;
     }
+    let screen = motion::screen(
+        (&bat, &solution),
+        &Frames { x: &x, times: &times, frames: &frames },
+        args.output.units(&bat),
+    );
     let table = csv(&x, &times, &frames);
     let document = || {
         RingFile::Motion(Motion {
@@ -78,6 +86,8 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         }
         // With JSON asked for, the table is not thrown in besides.
         None if args.output.json.is_some() => String::new(),
+        // Numbers by the hundred are for a file or another program.
+        None if stdout().is_terminal() => screen,
         _ => table,
     };
     Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))

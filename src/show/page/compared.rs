@@ -48,8 +48,9 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
         sentences.partition(|text| text.starts_with(ALONG));
     let section = |fold, id, title, parts| Section { fold, id, title, parts };
     let pictures = |names: &[&'static str]| names.iter().map(|name| Part::Picture(name)).collect();
-    let differs =
-        |rows| Part::Table(table(comparison, "What differs by more than the errors", rows));
+    let differs = |rows| {
+        Part::Table(table(comparison, "What differs by more than the computation's errors", rows))
+    };
     let rest = vec![
         differs(others),
         Part::Table(table(comparison, "No significant difference", same)),
@@ -94,7 +95,7 @@ fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
         shown::sentence(
             swing(comparison, units).split_whitespace().collect::<Vec<_>>().join(" ").as_str(),
         ),
-        "A difference within the stated errors of both bats counts as none.".to_owned(),
+        "A difference within the errors stated of both computations counts as none.".to_owned(),
     ]
 }
 
@@ -109,14 +110,17 @@ fn ordered(mut rows: Vec<Row>) -> Vec<Row> {
 fn table(comparison: &Comparison, caption: &str, rows: Vec<Row>) -> Table {
     let bats = comparison.bats.len();
     let letters = (0..bats).map(|k| letter(k).to_string());
-    let head: Vec<String> = [String::new()].into_iter().chain(letters).collect();
+    let pieces = rows.iter().any(|row| !row.pieces.is_empty());
+    let last = pieces.then(|| "two pieces of one wood".to_owned());
+    let head: Vec<String> = [String::new()].into_iter().chain(letters).chain(last).collect();
     let mut table = Table { caption: caption.to_owned(), head, ..Table::default() };
-    for Row { label, values, differences, .. } in rows {
+    for Row { label, values, differences, pieces: apart, .. } in rows {
         let others = values[1..].iter().zip(differences).map(|(value, by)| match by.as_str() {
             "" | "none" => value.clone(),
             by => format!("{value}\n{}", by.replace('-', "−")),
         });
         let cells = [label, values[0].clone()].into_iter().chain(others);
+        let cells = cells.chain(pieces.then_some(apart));
         table.row(cells);
     }
     table

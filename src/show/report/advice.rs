@@ -41,11 +41,7 @@ pub fn text(advice: &Advice, units: Units) -> String {
         },
     );
     out += &others(advice);
-    for (scale, unit) in match units {
-        Units::Si => vec![(100.0, "cm")],
-        Units::Us => vec![(inches(1.0), "in")],
-        Units::Both => vec![(100.0, "cm"), (inches(1.0), "in")],
-    } {
+    for (scale, unit) in units.pick((100.0, "cm"), (inches(1.0), "in")) {
         let _ = writeln!(out, "Nodes: the one that each part moves most, towards the tip, {unit}");
         out += &tables(
             advice,
@@ -180,11 +176,7 @@ fn others(advice: &Advice) -> String {
 
 /// Mass, balance point and swing weight, where something changes them.
 fn bodies(advice: &Advice, units: Units) -> String {
-    let both = |si: String, us: String| match units {
-        Units::Si => si,
-        Units::Us => us,
-        Units::Both => format!("{si} ({us})"),
-    };
+    let both = |si: String, us: String| units.beside(si, us);
     let mut out = String::new();
     for effect in advice.effects.iter().filter(|effect| effect.switch != Switch::Theory) {
         let [mass, balance, swing] = effect.body;

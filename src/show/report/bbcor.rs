@@ -59,7 +59,7 @@ pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
 }
 
 fn table(tested: &Tested, units: Units) -> String {
-    let us = units == Units::Us;
+    let us = units.us_first();
     let (near, fast) = if us { ("in", "mph") } else { ("cm", "m/s") };
     let columns = Columns::new([
         numbers(9, "knob"),
@@ -70,7 +70,11 @@ fn table(tested: &Tested, units: Units) -> String {
         numbers(10, "BBCOR"),
         numbers(10, "within"),
     ]);
-    let [tip, second] = if units == Units::Both { ["in", "mph"] } else { [near, ""] };
+    let [tip, second] = match units {
+        Units::Both => ["in", "mph"],
+        Units::BothUsFirst => ["in", "m/s"],
+        _ => [near, ""],
+    };
     let mut out = String::from("\n");
     out += &columns.heads();
     out += &columns.row([near, tip, fast, second, "", "", ""]);
@@ -81,13 +85,15 @@ fn table(tested: &Tested, units: Units) -> String {
         let x = place.impact.x;
         let outcome = place.impact.outcome.as_ref();
         let shown = |v: f64| format!("{:.2}", if us { miles_per_hour(v) } else { v });
-        let mph = |v: f64| format!("{:.1}", miles_per_hour(v));
-        let both = units == Units::Both;
+        let other = |v: f64| match us {
+            true => format!("{v:.2}"),
+            false => format!("{:.1}", miles_per_hour(v)),
+        };
         let line = columns.row([
             length(x, near),
             length(tested.bat.length() - x, tip),
             outcome.map_or("no value".to_owned(), |o| shown(o.exit_speed)),
-            outcome.filter(|_| both).map_or(String::new(), |o| mph(o.exit_speed)),
+            outcome.filter(|_| units.both()).map_or(String::new(), |o| other(o.exit_speed)),
             outcome.map_or(String::new(), |o| format!("{:.4}", o.collision_efficiency)),
             place.bbcor.map_or(String::new(), |bbcor| format!("{bbcor:.4}")),
             place.error.map_or(String::new(), |error| format!("{error:.0e}")),

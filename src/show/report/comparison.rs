@@ -1,5 +1,6 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
+use crate::base::number::significant;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
@@ -119,8 +120,8 @@ fn legend(comparison: &Comparison, units: Units) -> String {
         }
     }
     out += &hit(comparison, units);
-    let within = "Within: how far a difference may be off, by the errors stated of both bats; less \
-                  with a smaller --tol. A difference within it is shown as none.";
+    let within = "Within: how far a difference may be off by the computation, from the errors stated of both \
+                  bats; less with a smaller --tol. A difference within it is shown as none.";
     out + &wrapped(within, 5)
 }
 
@@ -185,7 +186,7 @@ fn label(row: &ComparedFigure, scale: &Scale) -> String {
 
 /// The values of all bats.
 fn overview(comparison: &Comparison, units: Units) -> String {
-    let us = units == Units::Us;
+    let us = units.us_first();
     let width = (48 / comparison.bats.len()).min(10);
     let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
     let columns =
@@ -212,6 +213,8 @@ pub struct Row {
     pub values: Vec<String>,
     /// Difference of the second bat and those after it from the first; "none" within the errors.
     pub differences: Vec<String>,
+    /// By how much two pieces of one wood differ, with ±; empty where that is not known.
+    pub pieces: String,
     /// Whether any bat differs from the first by more than the errors.
     pub differs: bool,
 }
@@ -238,7 +241,7 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
         let scale = match figure.unit {
             // Too wide a name for the columns of a terminal.
             Unit::Joules => Scale { factor, decimals: 2, name },
-            unit => scale(unit, units == Units::Us),
+            unit => scale(unit, units.us_first()),
         };
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
@@ -248,6 +251,14 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
             label: alone(figure, scale.name),
             values: figure.values.iter().map(value).collect(),
             differences: differences().map(told).collect(),
+            pieces: {
+                let all = (1..bats).filter_map(|bat| comparison.between_pieces(&figure.key, bat));
+                let most = all.fold(0.0, f64::max) * scale.factor;
+                match most > 0.0 {
+                    true => format!("± {}", significant(most, 2)),
+                    false => String::new(),
+                }
+            },
             differs: differences().flatten().any(|difference| difference.is_real()),
         }
     };
@@ -269,11 +280,11 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
 
 /// Figures of one bat beside those of the first.
 pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
-    let (us, name) = (units == Units::Us, letter(bat));
+    let (us, name) = (units.us_first(), letter(bat));
     let less = format!("{name} less A");
     let title = format!("{name} beside A");
-    let in_us = if units == Units::Both { less.clone() } else { String::new() };
-    let heads = [title, "A".into(), name.to_string(), less, "within".into(), in_us];
+    let other = if units.both() { less.clone() } else { String::new() };
+    let heads = [title, "A".into(), name.to_string(), less, "within".into(), other];
     let mut out = format!("\n{}", columns(heads).heads());
     for figure in all {
         let scale = scale(figure.unit, us);
@@ -289,36 +300,32 @@ fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Un
         .iter()
         .filter(hit)
         .map(|(distance, row)| {
-            let place = match units {
-                Units::Si => format!("  at {:.2} cm", 100.0 * **distance),
-                Units::Us => format!("  at {:.2} in", inches(**distance)),
-                Units::Both => {
-                    format!("  at {:.2} cm, {:.2} in", 100.0 * **distance, inches(**distance))
-                }
-            };
-            compared(row, bat, &place, units)
+            let [cm, inch] = [(100.0 * **distance, "cm"), (inches(**distance), "in")];
+            let told = |(x, unit)| format!("{x:.2} {unit}");
+            let place: Vec<String> = units.pick(cm, inch).into_iter().map(told).collect();
+            compared(row, bat, &format!("  at {}", place.join(", ")), units)
         })
         .collect();
     if lines.is_empty() {
         return String::new();
     }
-    let unit = scale(Unit::MetresPerSecond, units == Units::Us).name;
+    let unit = scale(Unit::MetresPerSecond, units.us_first()).name;
     format!("{title}, {unit}\n{}", lines.concat())
 }
 
 /// A line of two values and their difference.
 fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> String {
-    let scale_here = scale(figure.unit, units == Units::Us);
+    let scale_here = scale(figure.unit, units.us_first());
     let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
     let difference = figure.difference(bat);
     let size = figure.values[0].map_or(0.0, |f| f.value);
-    let in_us = difference.filter(|d| units == Units::Both && d.is_real());
-    let in_us = in_us.map_or(String::new(), |d| {
-        let us = scale(figure.unit, true);
-        if us.name == scale_here.name {
+    let in_other = difference.filter(|d| units.both() && d.is_real());
+    let in_other = in_other.map_or(String::new(), |d| {
+        let other = scale(figure.unit, !units.us_first());
+        if other.name == scale_here.name {
             String::new()
         } else {
-            format!("{} {}", us.difference(d), us.name)
+            format!("{} {}", other.difference(d), other.name)
         }
     });
     let cells = [
@@ -327,21 +334,21 @@ fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> S
         value(bat),
         difference.map_or(String::new(), |d| scale_here.difference(d)),
         difference.map_or(String::new(), |d| scale_here.within(d, size)),
-        in_us,
+        in_other,
     ];
     columns(Default::default()).row(cells)
 }
 
 /// 80 columns.
 fn columns(heads: [String; 6]) -> Columns {
-    let [label, a, b, difference, within, us] = heads;
+    let [label, a, b, difference, within, other] = heads;
     Columns::new([
         first(32, label),
         numbers(9, a),
         numbers(9, b),
         numbers(10, difference),
         numbers(8, within),
-        numbers(12, us),
+        numbers(12, other),
     ])
 }
 
@@ -350,6 +357,7 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
     let mut all = vec![];
     for bat in 1..comparison.bats.len() {
         all.push(best(comparison, bat, units));
+        all.push(of_pieces(comparison, bat));
         let parts = along(comparison, bat, units);
         if !parts.is_empty() {
             all.push(format!("{ALONG}: {parts}."));
@@ -395,15 +403,46 @@ fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     if !difference.is_real() {
         return format!(
             "{name} and A hit equally hard at their best: the difference is no more than the \
-             errors, {}.",
+             computation's error, {}.",
             speed(difference.within)
         );
     }
     let (harder, other) = if difference.by > 0.0 { (name, 'A') } else { ('A', name) };
+    let by =
+        format!("{harder} hits harder at its best than {other}, by {}", speed(difference.by.abs()));
+    match comparison.between_pieces("best_exit_speed", bat) {
+        Some(pieces) if difference.by.abs() > pieces => {
+            format!(
+                "{by}: a clear difference; two pieces of one wood differ by ± {}.",
+                speed(pieces)
+            )
+        }
+        Some(pieces) => format!(
+            "{by}. That is less than the ± {} by which two pieces of one wood differ: of two such bats from \
+             a shelf either may hit harder.",
+            speed(pieces)
+        ),
+        None => format!("{by}."),
+    }
+}
+
+/// Whether the wood's scatter is in a comparison, in a sentence; ± is one standard deviation.
+pub fn of_pieces(comparison: &Comparison, bat: usize) -> String {
+    let name = letter(bat);
+    if comparison.one_piece(bat) {
+        return format!(
+            "{name} and A are one and the same piece: what pieces of one wood differ by cancels."
+        );
+    }
+    if comparison.between_pieces("frequency_1", bat).is_none() {
+        return format!(
+            "How much two pieces of the material of {name} and A differ is not known here: the errors are \
+             those of the computation alone."
+        );
+    }
     format!(
-        "{harder} hits harder at its best than {other}, by {}, and that is more than the errors, {}.",
-        speed(difference.by.abs()),
-        speed(difference.within)
+        "± is one standard deviation between two pieces, the wood of {name} and of A each by itself; the \
+         errors beside it are those of the computation alone."
     )
 }
 

@@ -4,7 +4,6 @@ use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
 use crate::show::report::edits;
 use crate::show::report::text::wrapped;
-use crate::show::report::trust;
 use crate::show::report::units::Units;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::table::Comparison;
@@ -17,11 +16,7 @@ const MORE: &str =
 /// What differs, and where along the barrel: of five bats 48 lines at most. Several bats count in one
 /// system of units, that of the first one's file unless another is asked for.
 pub fn screen(comparison: &Comparison, units: Units) -> String {
-    let one = match units {
-        Units::Both if comparison.bats[0].bat.inches() => Units::Us,
-        Units::Both => Units::Si,
-        one => one,
-    };
+    let one = units.first();
     let mut out = bats(comparison, one) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
     out += &match (comparison.bats.len(), differing.is_empty()) {
@@ -45,7 +40,47 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
         out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    out + &trust::between_bats(comparison.bats.iter().map(|contender| &contender.bat)) + MORE
+    out + &beside_pieces(comparison, one) + MORE
+}
+
+/// Figures whose scatter is told.
+const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
+
+/// The differences beside what two pieces of one wood differ by; of one piece that this cancels.
+fn beside_pieces(comparison: &Comparison, units: Units) -> String {
+    let others = 1..comparison.bats.len();
+    let same = others.clone().filter(|bat| comparison.one_piece(*bat));
+    let same: Vec<String> = same.map(|bat| letter(bat).to_string()).collect();
+    let mut out = String::new();
+    if !same.is_empty() {
+        let text = format!(
+            "Trust: {} and A are one and the same piece, so that what pieces of one wood differ by cancels.",
+            same.join(", ")
+        );
+        out += &wrapped(&text, 7);
+    }
+    let known = rows(comparison, units).into_iter();
+    let told = known.filter(|row| OF_WOOD.contains(&row.key.as_str()) && !row.pieces.is_empty());
+    let told: Vec<String> = told
+        .map(|row| match row.label.rsplit_once(", ") {
+            Some((name, unit)) => format!("{name} {} {unit}", row.pieces),
+            None => format!("{} {}", row.label, row.pieces),
+        })
+        .collect();
+    if !told.is_empty() {
+        let text = format!(
+            "Trust: two pieces of one wood differ too (one standard deviation): {}. A difference that is less \
+             may be either way of two bats from a shelf; \"within\" is the computation alone.",
+            told.join("; ")
+        );
+        out += &wrapped(&text, 7);
+    }
+    if same.len() < others.len() && told.is_empty() {
+        let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
+                    computation alone.";
+        out += &wrapped(text, 7);
+    }
+    out
 }
 
 /// The bats, each in a line.

@@ -32,8 +32,8 @@ fn in_us(units: Units, inches: bool, si: &[f64], us: &[f64]) -> bool {
     match units {
         Units::Si => false,
         Units::Us => true,
-        Units::Both if long(si) == long(us) => inches,
-        Units::Both => long(us) < long(si),
+        Units::Both | Units::BothUsFirst if long(si) == long(us) => inches,
+        Units::Both | Units::BothUsFirst => long(us) < long(si),
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::frf::{
@@ -141,8 +140,9 @@ pub fn csv(kind: Kind, samples: &[Sample]) -> String {
     table.text()
 }
 
-fn place(x: f64) -> String {
-    format!("{x:.4} m ({:.2} in)", inches(x))
+fn place(x: f64, bat: &Bat) -> String {
+    let units = Units::Both.of(bat);
+    units.inline(units.length(x))
 }
 
 /// Degrees; 0 of nothing.
@@ -164,8 +164,11 @@ pub fn unit(kind: Kind) -> &'static str {
 pub fn text(told: &Told) -> String {
     let Told { bat, kind, places: [at, to], frf, samples, asked, peaks, measured } = *told;
     let name = kind.name();
-    let title =
-        format!("Frequency response: {name} from a force at {} to {}", place(at), place(to));
+    let title = format!(
+        "Frequency response: {name} from a force at {} to {}",
+        place(at, bat),
+        place(to, bat)
+    );
     let mut out = wrapped(&title, 4) + &edited(bat, Units::Both);
     let columns = Columns::new([
         numbers(16, "frequency, Hz"),

@@ -47,11 +47,12 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     let mut out = row(heads.map(str::to_owned));
     let heads = ["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""];
     out += &row(heads.map(str::to_owned));
-    let (near, far) = if units == Units::Us { ("in", "mph") } else { ("cm", "m/s") };
+    let (near, far) = if units.us_first() { ("in", "mph") } else { ("cm", "m/s") };
     let (tip, second) = match units {
         Units::Si => ("cm", ""),
         Units::Us => ("in", ""),
         Units::Both => ("in", "mph"),
+        Units::BothUsFirst => ("in", "m/s"),
     };
     let energy = units.of_energy().0;
     out += &row([near, tip, far, far, second, far, "", energy, energy].map(str::to_owned));
@@ -60,7 +61,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         // Adding 0 turns a length of −0 into 0.
         format!("{:.2}", value + 0.0)
     };
-    let fast = |v: f64| if units == Units::Us { miles_per_hour(v) } else { v };
+    let fast = |v: f64| if units.us_first() { miles_per_hour(v) } else { v };
     for impact in impacts {
         let from_tip = (bat.length() - impact.x).max(0.0);
         let mut cells = [const { String::new() }; 9];
@@ -75,8 +76,11 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         if cells[3].is_empty() {
             cells[3] = "no value".to_owned();
         }
-        if units == Units::Both {
-            cells[4] = told(columns::EXIT_SPEED, &|v| format!("{:.1}", miles_per_hour(v)));
+        if !second.is_empty() {
+            cells[4] = told(columns::EXIT_SPEED, &|v| match units.us_first() {
+                true => format!("{v:.2}"),
+                false => format!("{:.1}", miles_per_hour(v)),
+            });
         }
         cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
         cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
@@ -107,7 +111,7 @@ fn row(cells: [String; 9], walls: bool) -> String {
 
 /// Exit speed along the barrel, drawn.
 pub fn curve(impacts: &[Impact], units: Units) -> String {
-    let us = units == Units::Us;
+    let us = units.us_first();
     let fast = |v: f64| if us { miles_per_hour(v) } else { v };
     let places: Vec<f64> =
         impacts.iter().map(|i| if us { inches(i.x) } else { 100.0 * i.x }).collect();
@@ -203,10 +207,10 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
         String::from("Sweet spot                             from knob            from tip\n");
     let mut line = |what: &str, x: Option<f64>, value: Option<String>| {
         let Some(x) = x else { return };
-        let place = |x: f64| match units {
-            Units::Si => format!("{:.2} cm", 100.0 * x),
-            Units::Us => format!("{:.2} in", inches(x)),
-            Units::Both => format!("{:.2} cm, {:.2} in", 100.0 * x, inches(x)),
+        let place = |x: f64| {
+            let [cm, inch] = [(100.0 * x, "cm"), (inches(x), "in")];
+            let told = |(x, unit)| format!("{x:.2} {unit}");
+            units.pick(cm, inch).into_iter().map(told).collect::<Vec<_>>().join(", ")
         };
         let what = value.map_or(what.to_owned(), |value| format!("{what}, {value}"));
         let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
@@ -218,9 +222,9 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let speed = |v: f64| units.inline(units.speed(v));
     peak("fastest ball", spot.exit_speed_max, &speed);
     peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
-    let slow = |v: f64| match units {
-        Units::Us => format!("{:.2} mph", miles_per_hour(v)),
-        _ => format!("{v:.2} m/s"),
+    let slow = |v: f64| match units.us_first() {
+        true => format!("{:.1} mph", miles_per_hour(v)),
+        false => format!("{v:.2} m/s"),
     };
     peak("least hand speed, undamped", spot.hands_velocity_min, &slow);
     if bat.damped() {
@@ -310,9 +314,9 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
             (Some(before), Some(after)) => {
                 let change = after.value - before.value;
-                match units {
-                    Units::Us => format!("{} mph", signed(miles_per_hour(change), 1)),
-                    _ => format!("{} m/s", signed(change, 2)),
+                match units.us_first() {
+                    true => format!("{} mph", signed(miles_per_hour(change), 1)),
+                    false => format!("{} m/s", signed(change, 2)),
                 }
             }
             _ => String::new(),

@@ -142,29 +142,21 @@ fn patch(units: Units, wall: &PressedWall) -> String {
     let sides = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
     let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
     let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
-    both(units, format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
+    units.beside(format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
 }
 
 /// A small length (m).
 fn small(units: Units, length: f64) -> String {
     let si = format!("{} mm", significant(length / MM, 3));
     let us = format!("{} in", rounded(inches(length), 3));
-    both(units, si, us)
+    units.beside(si, us)
 }
 
 /// A force (N).
 fn forces(units: Units, force: f64) -> String {
     let si = format!("{} kN", significant(1e-3 * force, 3));
     let us = format!("{:.0} lbf", force / POUND_FORCE);
-    both(units, si, us)
-}
-
-fn both(units: Units, si: String, us: String) -> String {
-    match units {
-        Units::Si => si,
-        Units::Us => us,
-        Units::Both => format!("{si} ({us})"),
-    }
+    units.beside(si, us)
 }
 
 /// What a short answer of a hollow bat ends with, the first hoop mode in it; None where there is none.

@@ -21,7 +21,7 @@ const THOU: f64 = 2.54e-5;
 impl TableUnits {
     /// Those asked for; where both are, those that the bat was measured in.
     pub fn of(units: Units, inches: bool) -> Self {
-        Self { us: units == Units::Us || units == Units::Both && inches }
+        Self { us: units.us_first() || units == Units::Both && inches }
     }
 
     /// Whether they are US units.

@@ -19,6 +19,7 @@ pub mod hit_text;
 pub mod hit_json;
 pub mod bbcor;
 pub mod aftermath;
+pub mod motion;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;

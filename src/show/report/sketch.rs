@@ -64,13 +64,9 @@ impl SketchRow {
 /// The bat, rulers from the knob end, and the rows; 78 columns wide.
 pub fn draw(bat: &Bat, rows: &[SketchRow], units: Units, glyphs: Glyphs) -> String {
     let mut out = outline(bat, glyphs);
-    for (unit, of_a_metre, step) in [("inches", inches(1.0), 5.0), ("cm", 100.0, 10.0)] {
-        let shown = match units {
-            Units::Both => true,
-            Units::Us => unit == "inches",
-            Units::Si => unit == "cm",
-        };
-        if shown {
+    let rulers = [(Units::Us, "inches", inches(1.0), 5.0), (Units::Si, "cm", 100.0, 10.0)];
+    for (system, unit, of_a_metre, step) in rulers {
+        if units.both() || units == system {
             let line = ruler(bat.length() * of_a_metre, step, glyphs);
             line_of(unit, &line, &mut out);
         }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::base::units::ounces;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
@@ -82,7 +83,10 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
             fixed(mode.omega / lowest, 3),
             String::new(),
             format!("within {:.0e}", mode.error.total()),
-            format!("{} g", fixed(1e3 * mode.modal_mass, 1)),
+            match units.us_first() {
+                true => format!("{} oz", fixed(ounces(mode.modal_mass), 3)),
+                false => format!("{} g", fixed(1e3 * mode.modal_mass, 1)),
+            },
         ]);
     }
     out += &damped::table(solution);

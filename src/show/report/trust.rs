@@ -119,10 +119,9 @@ impl Kind {
         let told = |(factor, decimals, name): (f64, usize, &str)| {
             format!("{} {name}", say(factor, decimals))
         };
-        match (units, self) {
-            (_, Self::Frequency) | (Units::Si, _) => told(si),
-            (Units::Us, _) => told(us),
-            (Units::Both, _) => format!("{} ({})", told(si), told(us)),
+        match self {
+            Self::Frequency => told(si),
+            _ => units.beside(told(si), told(us)),
         }
     }
 
@@ -263,7 +262,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
     told.extend(materials(bat, spread));
     let small = |si: (f64, &str), us: (f64, &str), value: f64| {
-        let (factor, unit) = if units == Units::Us { us } else { si };
+        let (factor, unit) = if units.us_first() { us } else { si };
         format!("{} {unit}", significant(factor * value, 2))
     };
     let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
@@ -425,18 +424,6 @@ pub fn of_wood(bat: &Bat) -> String {
         percent(open, 0)
     );
     wrapped(&text, 7)
-}
-
-/// What the wood alone makes of the differences between bats, in a line; empty where none is of wood.
-pub fn between_bats<'a>(bats: impl Iterator<Item = &'a Bat>) -> String {
-    let open = bats.filter_map(of_frequencies).fold(0.0, f64::max);
-    match open > 0.0 {
-        true => format!(
-            "Trust: the wood alone leaves a bat's frequencies open by {}: sweetspot analyze\n",
-            percent(open, 0)
-        ),
-        false => String::new(),
-    }
 }
 
 /// Where what is open of a hit is told.

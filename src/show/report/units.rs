@@ -2,6 +2,7 @@
 
 use crate::base::number::rounded;
 use crate::base::units::{FOOT_POUND, inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::bat::body::Bat;
 
 /// Which units the tables are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,17 +11,60 @@ pub enum Units {
     Si,
     /// US units alone.
     Us,
-    /// Both, side by side.
+    /// Both, side by side, SI first.
     Both,
+    /// Both, side by side, US units first.
+    BothUsFirst,
 }
 
 impl Units {
+    /// These units as a bat is answered in: where both systems are shown, that of the bat's file comes
+    /// first.
+    pub fn of(self, bat: &Bat) -> Self {
+        match self {
+            Self::Both if bat.inches() => Self::BothUsFirst,
+            asked => asked,
+        }
+    }
+
+    /// Whether US units come first, or alone.
+    pub fn us_first(self) -> bool {
+        matches!(self, Self::Us | Self::BothUsFirst)
+    }
+
+    /// Whether both systems are shown.
+    pub fn both(self) -> bool {
+        matches!(self, Self::Both | Self::BothUsFirst)
+    }
+
+    /// The system that comes first, alone.
+    pub fn first(self) -> Self {
+        if self.us_first() { Self::Us } else { Self::Si }
+    }
+
+    /// Those of two values, in SI and in US units, that are shown, in their order.
+    pub fn pick<T>(self, si: T, us: T) -> Vec<T> {
+        match self {
+            Self::Si => vec![si],
+            Self::Us => vec![us],
+            Self::Both => vec![si, us],
+            Self::BothUsFirst => vec![us, si],
+        }
+    }
+
     /// A value in SI, in US units, or in both.
     pub fn show(self, si: String, us: String) -> String {
-        match self {
-            Self::Si => si,
-            Self::Us => us,
-            Self::Both => format!("{si:<18} {us}"),
+        match &self.pick(si, us)[..] {
+            [first, second] => format!("{first:<18} {second}"),
+            one => one.concat(),
+        }
+    }
+
+    /// A value in SI, in US units, or the second of both in brackets.
+    pub fn beside(self, si: String, us: String) -> String {
+        match &self.pick(si, us)[..] {
+            [first, second] => format!("{first} ({second})"),
+            one => one.concat(),
         }
     }
 
@@ -60,8 +104,8 @@ impl Units {
 
     /// A quantity of this type's other functions as running text: `0.0635 m (2.50 in)`.
     pub fn inline(self, value: String) -> String {
-        match (self, value.split_once("   ")) {
-            (Self::Both, Some((si, us))) => format!("{si} ({})", us.trim()),
+        match value.split_once("   ") {
+            Some((first, second)) if self.both() => format!("{first} ({})", second.trim()),
             _ => value.split_whitespace().collect::<Vec<_>>().join(" "),
         }
     }
@@ -73,10 +117,6 @@ impl Units {
             format!("{} {unit}", shown.join("  "))
         };
         let (si, us) = (list(100.0, "cm"), list(inches(1.0), "in"));
-        match self {
-            Self::Si => vec![si],
-            Self::Us => vec![us],
-            Self::Both => vec![si, us],
-        }
+        self.pick(si, us)
     }
 }

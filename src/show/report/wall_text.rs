@@ -24,7 +24,7 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
 
 /// What a hollow barrel's wall does at a place, and to that BBCOR there: names and values.
 pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[String; 2]> {
-    let short = |x: f64| units.inline(units.show(millimetres(x), format!("{:.1} in", inches(x))));
+    let short = |x: f64| units.inline(units.show(millimetres(x), format!("{:.2} in", inches(x))));
     let [along, around] = wall.patch.map(|half| 2.0 * half);
     let [low, high] = bbcor.range;
     let deep =

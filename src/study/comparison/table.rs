@@ -6,6 +6,7 @@ use crate::collision::figures::SwingLaw;
 use crate::collision::hit::Scene;
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::{Contender, Terms, multiples, places};
+use crate::study::comparison::pieces::{ByWood, answer, by_wood, one_piece};
 use crate::study::comparison::rows::{ComparedFigure, From, figures, speeds};
 use crate::study::comparison::stretches::{Stretch, stretches};
 
@@ -39,6 +40,8 @@ pub struct Comparison {
     pub from_knob: Vec<f64>,
     /// The exit speeds there.
     pub by_knob: Vec<ComparedFigure>,
+    /// What the wood alone leaves open of every bat.
+    by_wood: Vec<ByWood>,
 }
 
 /// How much of the shortest bat is compared, from the tip on.
@@ -68,8 +71,10 @@ impl Comparison {
         }
         let from_tip = multiples([0.0, reach], 0.25 * terms.every);
         let from_knob = multiples([longest - reach, shortest], terms.every);
+        let by_wood = bats.iter().map(|bat| by_wood(bat, terms.model)).collect();
         Ok(Self {
             terms,
+            by_wood,
             figures: figures(&bats),
             by_tip: speeds(&bats, From::Tip, &from_tip),
             by_knob: speeds(&bats, From::Knob, &from_knob),
@@ -85,6 +90,21 @@ impl Comparison {
             let first = self.bats[0].bat.length();
             (length.value - first).abs() > 1e-9 * first
         })
+    }
+
+    /// By how much that figure of another piece of that bat's wood and of another of the first's differ,
+    /// one standard deviation, in the unit of the figure; None where no scatter is known, or where both bats
+    /// are one piece.
+    pub fn between_pieces(&self, key: &str, bat: usize) -> Option<f64> {
+        let answer = answer(key.trim_end_matches("_from_tip"))? as usize;
+        let [a, b] = [self.by_wood[0][answer]?, self.by_wood[bat][answer]?];
+        let by = a.hypot(b);
+        (!self.one_piece(bat) && by > 0.0).then_some(by)
+    }
+
+    /// Whether that bat is the first one with edits, or the first is: one and the same piece of wood.
+    pub fn one_piece(&self, bat: usize) -> bool {
+        one_piece(&self.bats[0].bat, &self.bats[bat].bat)
     }
 
     /// Where that bat hits harder than the first.
