@@ -174,7 +174,7 @@ fn target(node: &Node) -> Result<Target> {
 
 fn ask(object: &Object, goal: Goal) -> Result<Ask> {
     let mut mistakes = Mistakes::default();
-    let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::amount)).transpose();
+    let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::value)).transpose();
     let within = object.get("within").map(|node| said(node, goal, aim_text::tolerance)).transpose();
     let within = mistakes.note(within);
     let change = object.get("change").map(|node| said(node, goal, aim_text::change)).transpose();

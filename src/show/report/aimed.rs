@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::base::number::{rounded, shortest, significant};
+use crate::base::number::{rounded, shortest, signed, significant};
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::Bat;
 use crate::bat::profile::Interpolation;
@@ -34,7 +34,17 @@ pub fn shown(goal: Goal, value: f64, us: bool) -> String {
         ("Hz", _) => format!("{value:.2} Hz"),
         ("m/s", false) => format!("{value:.2} m/s"),
         ("m/s", true) => format!("{:.1} mph", miles_per_hour(value)),
+        // As the trade writes it: three ounces fewer than inches are -3.
+        _ if goal == Goal::Drop => signed(-value, 2),
         (unit, _) => format!("{} {unit}", significant(value, 4)).trim_end().to_owned(),
+    }
+}
+
+/// The size of a difference of a goal's values, without a sign.
+pub fn size(goal: Goal, value: f64, us: bool) -> String {
+    match goal {
+        Goal::Drop => shortest(rounded(value.abs(), 3)),
+        goal => shown(goal, value.abs(), us),
     }
 }
 
@@ -60,10 +70,16 @@ pub fn called(goal: Goal) -> String {
 /// What a band asks, in words.
 pub fn asked(band: &Band, us: bool) -> String {
     let said = |value: f64| shown(band.goal, value, us);
+    if band.goal == Goal::Drop && !(band.low.is_finite() && band.high.is_finite()) {
+        // A limit of a drop is of ounces fewer than inches, without the sign.
+        let (word, limit) =
+            if band.high.is_finite() { ("at most", band.high) } else { ("at least", band.low) };
+        return format!("{word} {} fewer", shortest(rounded(limit, 3)));
+    }
     match (band.low.is_finite(), band.high.is_finite()) {
         (true, true) => {
             let (middle, half) = (0.5 * (band.low + band.high), 0.5 * (band.high - band.low));
-            format!("{} ± {}", said(middle), said(half).split(' ').next().unwrap_or_default())
+            format!("{} ± {}", said(middle), size(band.goal, half, us).split(' ').next().unwrap_or_default())
         }
         (true, false) => format!("at least {}", said(band.low)),
         _ => format!("at most {}", said(band.high)),

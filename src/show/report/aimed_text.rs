@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::base::number::{rounded, shortest, signed, significant};
 use crate::base::units::{inches, ounce_square_inches, ounces};
-use crate::show::report::aimed::{asked, called, conflict_words, shown};
+use crate::show::report::aimed::{asked, called, conflict_words, shown, size};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
 use crate::study::aim::cuts::cuts;
@@ -146,8 +146,8 @@ fn targets(outcome: &Outcome, us: bool) -> String {
 fn missed_by(band: &Band, value: f64, us: bool) -> String {
     let limit = if value > band.high { band.high } else { band.low };
     let by = (value - limit).abs();
-    match shown(band.goal, by, us) {
-        little if little == shown(band.goal, 0.0, us) => {
+    match size(band.goal, by, us) {
+        little if little == size(band.goal, 0.0, us) => {
             format!("{} {}", significant(by, 2), band.goal.unit()).trim_end().to_owned()
         }
         said => said,
@@ -222,10 +222,11 @@ fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
 /// A value of a rule.
 fn of_rule(rule: Rule, value: f64, us: bool) -> String {
     let goal = match rule {
+        Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
         Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
         Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
         Rule::LengthAtMost(_) => Goal::Answer(Answer::BalancePoint),
-        Rule::DropAtMost(_) | Rule::BbcorAtMost(_) => Goal::Drop,
+        Rule::DropAtMost(_) => Goal::Drop,
         _ => return across(value, us),
     };
     shown(goal, value, us)
