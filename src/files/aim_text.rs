@@ -274,8 +274,12 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
         (Some(Verb::More), Way::Plain(size) | Way::More(size)) if !size.is_empty() => {
             Ok(Ask::Change(by(size, goal, 1.0)?, None))
         }
-        (None, Way::More(size)) if !size.is_empty() => Ok(Ask::Change(moved(rest, size, goal, 1.0)?, None)),
-        (None, Way::Less(size)) if !size.is_empty() => Ok(Ask::Change(moved(rest, size, goal, -1.0)?, None)),
+        (None, Way::More(size)) if !size.is_empty() => {
+            Ok(Ask::Change(moved(rest, size, goal, 1.0)?, None))
+        }
+        (None, Way::Less(size)) if !size.is_empty() => {
+            Ok(Ask::Change(moved(rest, size, goal, -1.0)?, None))
+        }
         (None, Way::Plain(size)) if !size.is_empty() => {
             let share = size.ends_with('%');
             if goal == Goal::Drop && !share || !share && !size.starts_with(['+', '-']) {
@@ -295,7 +299,10 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
 /// ways along a bat.
 fn moved(rest: &str, size: &str, goal: Goal, sign: f64) -> Said<Amount> {
     if goal == Goal::Drop && wish_words::of_weight(rest) {
-        return Err(wrong(rest, "\"1 more\" or \"1 less\" of a drop, or \"1 oz lighter\" of the bat"));
+        return Err(wrong(
+            rest,
+            "\"1 more\" or \"1 less\" of a drop, or \"1 oz lighter\" of the bat",
+        ));
     }
     let upright = rest.split(' ').any(|word| matches!(word, "up" | "down"));
     if upright && goal.quantity() == Some(Quantity::Length) {
@@ -332,10 +339,12 @@ fn wording(text: &str) -> Option<String> {
         }
     }
     // An amount of something that is not named.
-    let other = ["mass", "swing weight", "sweet spot", "best ball", "f1", "drop"].into_iter().find_map(|name| {
-        let both = [format!("{name} {text}"), format!("{text} {name}")];
-        both.into_iter().find(|other| said(other))
-    });
+    let other = ["mass", "swing weight", "sweet spot", "best ball", "f1", "drop"]
+        .into_iter()
+        .find_map(|name| {
+            let both = [format!("{name} {text}"), format!("{text} {name}")];
+            both.into_iter().find(|other| said(other))
+        });
     other.map(|other| format!("say of what, such as \"{other}\""))
 }
 
@@ -481,8 +490,21 @@ mod tests {
     fn a_drop_is_the_trade_s_whatever_its_sign() {
         let drop = |ask: Ask| Ok(Target { goal: Goal::Drop, ask });
         for text in [
-            "drop -3", "drop 3", "drop3", "drop-3", "drop \u{2212}3", "-3", "\u{2212}3", "minus 3", "drop of 3",
-            "drop to -3", "drop = 3", "Drop (-3)", "drop three", "drop minus three", "make it a drop 3",
+            "drop -3",
+            "drop 3",
+            "drop3",
+            "drop-3",
+            "drop \u{2212}3",
+            "-3",
+            "\u{2212}3",
+            "minus 3",
+            "drop of 3",
+            "drop to -3",
+            "drop = 3",
+            "Drop (-3)",
+            "drop three",
+            "drop minus three",
+            "make it a drop 3",
         ] {
             assert_eq!(target(text), drop(Ask::Value(Amount::Si(3.0), None)), "{text}");
         }
@@ -498,7 +520,9 @@ mod tests {
         ] {
             assert_eq!(target(text), drop(change(by)), "{text}");
         }
-        for text in ["drop +3", "drop 1 oz", "drop an ounce", "drop 1 lighter", "drop -1 more", "drop"] {
+        for text in
+            ["drop +3", "drop 1 oz", "drop an ounce", "drop 1 lighter", "drop -1 more", "drop"]
+        {
             let found = target(text).unwrap_err().to_string();
             assert!(found.contains("drop") || found.contains("sign"), "{text}: {found}");
         }
@@ -541,7 +565,8 @@ mod tests {
         ] {
             let (goal, ask) = mass(by);
             let found = target(text).map_err(|error| error.to_string());
-            let Ok(Target { goal: found_goal, ask: Ask::Change(Amount::Si(found), None) }) = found else {
+            let Ok(Target { goal: found_goal, ask: Ask::Change(Amount::Si(found), None) }) = found
+            else {
                 panic!("{text}: {found:?}, not {ask:?}")
             };
             assert!(found_goal == goal && (found - by).abs() < 1e-15, "{text}: {found}");
@@ -570,16 +595,28 @@ mod tests {
         assert_eq!(target("don't lose pop"), Ok(Target { goal: pop, ask: at_least }));
         let swing = Goal::Answer(Answer::Inertia);
         let less = Ask::Change(Amount::Share(-0.03), None);
-        for text in ["3 % less swing weight", "lose 3 % swing weight", "lower the swing weight by 3 %"] {
+        for text in
+            ["3 % less swing weight", "lose 3 % swing weight", "lower the swing weight by 3 %"]
+        {
             assert_eq!(target(text), Ok(Target { goal: swing, ask: less }), "{text}");
         }
         let most = Ask::Between(None, Some(Amount::Si(30.0 * oz)));
-        for text in ["at most 30 oz", "no heavier than 30 oz", "mass 30 oz or less", "mass under 30 oz"] {
-            assert_eq!(target(text), Ok(Target { goal: Goal::Answer(Answer::Mass), ask: most }), "{text}");
+        for text in
+            ["at most 30 oz", "no heavier than 30 oz", "mass 30 oz or less", "mass under 30 oz"]
+        {
+            assert_eq!(
+                target(text),
+                Ok(Target { goal: Goal::Answer(Answer::Mass), ask: most }),
+                "{text}"
+            );
         }
         let out = Ask::Change(Amount::Si(0.0254), None);
         let place = Goal::Answer(Answer::ExitSpeedPlace);
-        for text in ["sweet spot 1 in outward", "move the sweet spot out 1 in", "sweet spot 1 in further out"] {
+        for text in [
+            "sweet spot 1 in outward",
+            "move the sweet spot out 1 in",
+            "sweet spot 1 in further out",
+        ] {
             assert_eq!(target(text), Ok(Target { goal: place, ask: out }), "{text}");
         }
     }
@@ -599,7 +636,21 @@ mod tests {
             let found = target(text).unwrap_err().to_string();
             assert!(found.contains(said), "{text}: {found}");
         }
-        for text in ["", " ", "-", "+", "lose", "keep", "half", "\u{212a}eep pop", "±", "within", "-1", "drop -", "é"] {
+        for text in [
+            "",
+            " ",
+            "-",
+            "+",
+            "lose",
+            "keep",
+            "half",
+            "\u{212a}eep pop",
+            "±",
+            "within",
+            "-1",
+            "drop -",
+            "é",
+        ] {
             let _ = target(text);
         }
     }

@@ -71,8 +71,23 @@ const VERBS: [(&str, Verb); 32] = [
     ("raise", Verb::More),
 ];
 const FILLERS: [&str; 17] = [
-    "please", "i want to", "i want", "make", "get", "move", "shift", "let", "have", "it", "the", "my", "its",
-    "this", "bat", "be", "with",
+    "please",
+    "i want to",
+    "i want",
+    "make",
+    "get",
+    "move",
+    "shift",
+    "let",
+    "have",
+    "it",
+    "the",
+    "my",
+    "its",
+    "this",
+    "bat",
+    "be",
+    "with",
 ];
 const SAME: [&str; 16] = [
     "same",
@@ -95,31 +110,93 @@ const SAME: [&str; 16] = [
 const LINKS: [&str; 10] =
     [":", "should be", "must be", "stays", "is", "be", "weighs", "by", "of", "further"];
 const AT_MOST: [&str; 16] = [
-    "at most", "no more than", "not more than", "no heavier than", "not above", "not over", "lighter than",
-    "less than", "under", "below", "up to", "maximum", "max", "<=", "≤", "<",
+    "at most",
+    "no more than",
+    "not more than",
+    "no heavier than",
+    "not above",
+    "not over",
+    "lighter than",
+    "less than",
+    "under",
+    "below",
+    "up to",
+    "maximum",
+    "max",
+    "<=",
+    "≤",
+    "<",
 ];
 const AT_LEAST: [&str; 14] = [
-    "at least", "no less than", "not less than", "no lighter than", "not below", "not under", "heavier than",
-    "more than", "over", "above", "minimum", ">=", "≥", ">",
+    "at least",
+    "no less than",
+    "not less than",
+    "no lighter than",
+    "not below",
+    "not under",
+    "heavier than",
+    "more than",
+    "over",
+    "above",
+    "minimum",
+    ">=",
+    "≥",
+    ">",
 ];
-const OR_LESS: [&str; 6] = ["at most", "at the most", "or less", "or lighter", "or below", "maximum"];
+const OR_LESS: [&str; 6] =
+    ["at most", "at the most", "or less", "or lighter", "or below", "maximum"];
 const OR_MORE: [&str; 5] = ["at least", "or more", "or heavier", "or above", "minimum"];
 const TO: [&str; 4] = ["to", "=", "at", "exactly"];
 const MORE: [&str; 19] = [
-    "outward", "outwards", "out", "further out", "farther out", "towards the tip", "toward the tip",
-    "towards the barrel", "toward the barrel", "towards the end", "toward the end", "more", "higher", "heavier",
-    "faster", "up", "larger", "bigger", "increase",
+    "outward",
+    "outwards",
+    "out",
+    "further out",
+    "farther out",
+    "towards the tip",
+    "toward the tip",
+    "towards the barrel",
+    "toward the barrel",
+    "towards the end",
+    "toward the end",
+    "more",
+    "higher",
+    "heavier",
+    "faster",
+    "up",
+    "larger",
+    "bigger",
+    "increase",
 ];
 const LESS: [&str; 20] = [
-    "inward", "inwards", "further in", "towards the knob", "toward the knob", "towards the handle",
-    "toward the handle", "towards the hands", "toward the hands", "less", "lower", "lighter", "slower", "down",
-    "smaller", "off", "fewer", "lighten", "reduction", "decrease",
+    "inward",
+    "inwards",
+    "further in",
+    "towards the knob",
+    "toward the knob",
+    "towards the handle",
+    "toward the handle",
+    "towards the hands",
+    "toward the hands",
+    "less",
+    "lower",
+    "lighter",
+    "slower",
+    "down",
+    "smaller",
+    "off",
+    "fewer",
+    "lighten",
+    "reduction",
+    "decrease",
 ];
-const THAN_NOW: [&str; 5] = ["than now", "than before", "than it is", "than it was", "than it is now"];
+const THAN_NOW: [&str; 5] =
+    ["than now", "than before", "than it is", "than it was", "than it is now"];
 
 /// A text in plain signs: "don't" in full, one blank between words, no full stop at its end.
 pub fn plain(text: &str) -> String {
-    let full = ["n't", "n’t", "N'T"].iter().fold(text.to_owned(), |text, not| text.replace(not, " not"));
+    let full =
+        ["n't", "n’t", "N'T"].iter().fold(text.to_owned(), |text, not| text.replace(not, " not"));
     let words: Vec<String> = typed::plain(&full).split_whitespace().map(str::to_owned).collect();
     words.join(" ").trim_end_matches(['.', '!']).trim_end().to_owned()
 }
@@ -131,7 +208,8 @@ pub fn after<'a>(text: &'a str, word: &str) -> Option<&'a str> {
     let (last, next) = (head.chars().last()?, rest.chars().next());
     let goes_on = next.is_some_and(|next| {
         let letter = |c: char| c.is_alphabetic() || matches!(c, '_' | '@');
-        letter(last) && letter(next) || last.is_ascii_digit() && (next.is_alphanumeric() || next == '.')
+        letter(last) && letter(next)
+            || last.is_ascii_digit() && (next.is_alphanumeric() || next == '.')
     });
     (head.eq_ignore_ascii_case(word) && !goes_on).then(|| rest.trim_start())
 }
@@ -145,16 +223,15 @@ pub fn before<'a>(text: &'a str, word: &str) -> Option<&'a str> {
 }
 
 /// The longest of the words that stands there, and the rest.
-fn longest<'a>(
-    words: &[&str],
-    rest: impl Fn(&str) -> Option<&'a str>,
-) -> Option<&'a str> {
+fn longest<'a>(words: &[&str], rest: impl Fn(&str) -> Option<&'a str>) -> Option<&'a str> {
     words.iter().filter_map(|word| rest(word)).min_by_key(|rest| rest.len())
 }
 
 /// The verb that a text begins with, and the rest of it, without words that say nothing.
 pub fn verb(mut text: &str) -> (Option<Verb>, &str) {
-    while let Some(rest) = longest(&FILLERS, |word| after(text, word)).filter(|_| of_verbs(text).is_none()) {
+    while let Some(rest) =
+        longest(&FILLERS, |word| after(text, word)).filter(|_| of_verbs(text).is_none())
+    {
         text = rest;
     }
     of_verbs(text).map_or((None, text), |(verb, rest)| (Some(verb), rest))
@@ -211,13 +288,35 @@ pub fn of_weight(text: &str) -> bool {
 /// Numbers in words as figures: "half an ounce" is `0.5 oz`, "an ounce and a half" `1.5 oz`, "minus 3" `-3`.
 pub fn figures(text: &str) -> String {
     const NUMBERS: [(&str, &str); 16] = [
-        ("a", "1"), ("an", "1"), ("one", "1"), ("two", "2"), ("three", "3"), ("four", "4"), ("five", "5"),
-        ("six", "6"), ("seven", "7"), ("eight", "8"), ("nine", "9"), ("ten", "10"), ("twelve", "12"),
-        ("half", "0.5"), ("quarter", "0.25"), ("zero", "0"),
+        ("a", "1"),
+        ("an", "1"),
+        ("one", "1"),
+        ("two", "2"),
+        ("three", "3"),
+        ("four", "4"),
+        ("five", "5"),
+        ("six", "6"),
+        ("seven", "7"),
+        ("eight", "8"),
+        ("nine", "9"),
+        ("ten", "10"),
+        ("twelve", "12"),
+        ("half", "0.5"),
+        ("quarter", "0.25"),
+        ("zero", "0"),
     ];
     const UNITS: [(&str, &str); 12] = [
-        ("ounce", "oz"), ("ounces", "oz"), ("oz.", "oz"), ("gram", "g"), ("grams", "g"), ("gramme", "g"),
-        ("grammes", "g"), ("pound", "lb"), ("pounds", "lb"), ("hertz", "Hz"), ("percent", "%"),
+        ("ounce", "oz"),
+        ("ounces", "oz"),
+        ("oz.", "oz"),
+        ("gram", "g"),
+        ("grams", "g"),
+        ("gramme", "g"),
+        ("grammes", "g"),
+        ("pound", "lb"),
+        ("pounds", "lb"),
+        ("hertz", "Hz"),
+        ("percent", "%"),
         ("OZ", "oz"),
     ];
     let of = |table: &[(&str, &'static str)], word: &str| {
@@ -233,9 +332,15 @@ pub fn figures(text: &str) -> String {
             (Some("1"), _) if counted && word.starts_with(['a', 'A']) => {}
             (None, _) if counted && word == "of" => {}
             // "a half ounce".
-            (Some(part @ ("0.5" | "0.25")), "1") => *out.last_mut().expect("it has one") = part.to_owned(),
-            (Some(number), "minus" | "-") => *out.last_mut().expect("it has one") = format!("-{number}"),
-            (Some(number), "plus" | "+") => *out.last_mut().expect("it has one") = format!("+{number}"),
+            (Some(part @ ("0.5" | "0.25")), "1") => {
+                *out.last_mut().expect("it has one") = part.to_owned()
+            }
+            (Some(number), "minus" | "-") => {
+                *out.last_mut().expect("it has one") = format!("-{number}")
+            }
+            (Some(number), "plus" | "+") => {
+                *out.last_mut().expect("it has one") = format!("+{number}")
+            }
             (Some(number), _) => out.push(number.to_owned()),
             (None, "minus" | "-") if word.starts_with(|c: char| c.is_ascii_digit()) => {
                 *out.last_mut().expect("it has one") = format!("-{word}");
@@ -266,7 +371,8 @@ fn and_a_half(words: &mut Vec<String>) {
 /// Every word that a wish may have beside names and numbers.
 pub fn known() -> Vec<&'static str> {
     let verbs = VERBS.iter().map(|(word, _)| *word);
-    let lists = [&SAME[..], &AT_MOST, &AT_LEAST, &MORE, &LESS, &["within", "ounce", "ounces"]].concat();
+    let lists =
+        [&SAME[..], &AT_MOST, &AT_LEAST, &MORE, &LESS, &["within", "ounce", "ounces"]].concat();
     verbs.chain(lists).filter(|word| word.chars().all(|c| c.is_ascii_alphabetic())).collect()
 }
 

@@ -280,8 +280,43 @@ impl<'a> Search<'a> {
                 return Ok(least);
             }
         }
+        Err(self.no_room(program, p, rooms))
+    }
+
+    /// Where the limits leave no room: where a curve that breaks them as little as it can breaks them most.
+    fn no_room(&self, mut program: Program, p: &[f64], rooms: &[Room]) -> Error {
+        /// Price of a break of 1 mm, far above that of any change (mm²).
+        const PENALTY: f64 = 1e6;
+        let trust = f64::from(1 << 5) * TRUST;
+        program.wishes.clear();
+        let elastic = |wish: Bounded| Elastic { wish, penalty: PENALTY };
+        program.wishes.extend(rooms.iter().map(|room| elastic(self.row(room, p, trust))));
+        program.wishes.extend(self.inclines.iter().cloned().map(elastic));
         let expected = "limits of the diameter that a smooth curve can keep";
-        Err(Error::value("diameter", "limits that leave no room", expected))
+        let Some(least) = program.solve() else {
+            return Error::value("diameter", "limits that leave no room", expected);
+        };
+        let over = |wish: &Bounded| {
+            let value: f64 = wish.row.iter().zip(&least.p).map(|(a, p)| a * p).sum();
+            let (over, under) = (value - wish.high, wish.low - value);
+            if over >= under { over } else { -under }
+        };
+        let by: Vec<f64> = program.wishes.iter().map(|elastic| over(&elastic.wish)).collect();
+        let size = |k: &usize| by[*k].max(if by[*k] < 0.0 { -by[*k] } else { 0.0 });
+        // A place inside its limits counts for nothing: `over` tells the nearer of the two.
+        let broken = |k: &usize| {
+            let wish = &program.wishes[*k].wish;
+            let value: f64 = wish.row.iter().zip(&least.p).map(|(a, p)| a * p).sum();
+            value > wish.high || value < wish.low
+        };
+        let worst = (0..rooms.len()).filter(broken).max_by(|a, b| size(a).total_cmp(&size(b)));
+        match worst {
+            Some(k) => self.limits.no_room(rooms[k].x, 1e-3 * by[k]),
+            None => {
+                let found = "limits of the diameter and of the slope that leave no room together";
+                Error::value("slope", found, "a greater slope, or wider limits of the diameter")
+            }
+        }
     }
 
     fn within(
