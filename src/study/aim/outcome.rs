@@ -340,7 +340,7 @@ impl Writing<'_> {
         let (mut bands, mut gentler) = (wanted.clone(), limits.clone());
         let (mut found, mut bats) = (first.clone(), 0);
         let mut best: Option<(Rounded, Option<&'static str>)> = None;
-        for last in (0..ANEW).map(|k| k + 1 == ANEW) {
+        for again in 1..=ANEW {
             let search = Search::new(bench, &gentler);
             let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
             bats += rounded.drafts;
@@ -348,14 +348,18 @@ impl Writing<'_> {
             if best.as_ref().is_none_or(|(best, _)| best.worst > rounded.worst) {
                 best = Some((rounded, found.stopped));
             }
-            if last || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
+            if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
                 break;
             }
             // The search anew, for goals that rounding then puts where they are to be.
             for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
                 let by = off * of.scale;
-                // Finer digits take as little room as they moved the goal by.
-                let room = if finer > 1.0 { off.abs().min(INSIDE / finer) } else { INSIDE };
+                // Finer digits need a part of what they moved the goal by, then more of it.
+                let share = again as f64 / ANEW as f64;
+                let room = match finer > 1.0 {
+                    true => (share * share * off.abs()).min(INSIDE / finer),
+                    false => INSIDE,
+                };
                 let inside = (room * of.scale).min(INSIDE * (of.high - of.low));
                 band.low = of.low - by + inside;
                 band.high = of.high - by - inside;
