@@ -486,3 +486,94 @@ fn a_bat_of_few_stations_keeps_the_curve_of_what_is_kept() {
         assert!(moved <= 1e-5 && moved <= 1.01 * outcome.kept_within, "{moved:e}");
     }
 }
+
+/// Two targets that bind at once may leave less room than a tenth of a millimetre takes: finer stations have them, at
+/// the norm of the least change, 0.178 mm.
+#[test]
+fn a_wish_that_can_be_had_is_not_refused_by_rounding() {
+    let balance = Ask::Change(Amount::Si(1e-3), None);
+    let targets = vec![
+        target(Answer::Mass, Ask::Change(Amount::Si(0.0), None)),
+        target(Answer::BalancePoint, balance),
+    ];
+    let wish = Wish { targets, remove_only: true, ..Wish::default() };
+    let outcome = Outcome::of(&r161(), &wish, &terms()).unwrap();
+    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.values);
+    assert!((outcome.norm / 0.178 - 1.0).abs() < 0.1, "{}", outcome.norm);
+    let (new, _) = written(&outcome, &[Answer::Mass]);
+    let [_, added, ..] = along(&r161(), &new);
+    assert!(added <= 1e-9, "{added:e}");
+    // What is said of the knob is the largest of any place of a closer look.
+    let moved = |x: f64| 2.0 * (new.profile().at(x).outer - r161().profile().at(x).outer).abs();
+    let most = (0..60_000).map(|k| moved(5e-7 * f64::from(k))).fold(0.0, f64::max);
+    assert!(outcome.kept_within >= most && outcome.kept_within < 1.01 * most + 1e-12, "{most:e}");
+}
+
+/// A weighed bat exists: it is cut, and wood is added only where that is allowed. What changes is in the list.
+#[test]
+fn a_weighed_bat_is_only_cut_unless_wood_may_be_added() {
+    let folder = Folder::new("aim-weighed");
+    let bat = include_str!("../meshes/r161.json");
+    let mut value: serde_json::Value = serde_json::from_str(bat).unwrap();
+    value["weighed"] = serde_json::json!({ "mass": "31 oz" });
+    folder.write("mine.json", value.to_string());
+    let wish = ["aim", "mine.json", "--target", "f1 +2 Hz", "--json", "-"];
+    let cut: serde_json::Value = serde_json::from_slice(&folder.run(&wish).stdout).unwrap();
+    assert!(cut["largest_added_m"].as_f64().unwrap() <= 1e-9, "{}", cut["largest_added_m"]);
+    let added = folder.json(&[&wish[..], &["--add"]].concat());
+    assert!(added["largest_added_m"].as_f64().unwrap() > 1e-5);
+    let changed = added["change"].as_array().unwrap().iter();
+    let changed = changed
+        .filter(|at| (at["old_m"].as_f64().unwrap() - at["new_m"].as_f64().unwrap()).abs() > 1e-9);
+    assert_eq!(changed.count(), added["cuts"].as_array().unwrap().len());
+    let table = folder.text(&["aim", "mine.json", "--target", "lose an ounce"]);
+    assert!(table.contains("--add") && table.contains("nothing added"), "{table}");
+    let told = folder.run(&["aim", "mine.json", "--target", "1 oz heavier"]);
+    let said = String::from_utf8_lossy(&told.stderr).into_owned();
+    assert!(told.status.code() == Some(2) && said.contains("--add"), "{said}");
+}
+
+/// A barrel above 2.61 in is warned of with the rule.
+#[test]
+fn a_barrel_that_rules_forbid_is_warned_of() {
+    let folder = Folder::new("aim-wide");
+    let wish = ["aim", "r161", "--target", "sweet spot 1 in outward", "--target", "-1 oz"];
+    let output = folder.run(&wish);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("Warning") && text.contains("rule 3.02 of Major League"), "{text}");
+    assert!(text.contains("wood added"), "{text}");
+}
+
+/// A drop is the trade's: three ounces fewer than inches make a lighter bat, and tables have its sign.
+#[test]
+fn a_drop_of_three_is_lighter() {
+    let folder = Folder::new("aim-drop");
+    for drop in ["drop -3", "drop 3", "-3"] {
+        let table = folder.text(&["aim", "r161", "--target", drop]);
+        assert!(table.contains("-3.00 ± 0.05") && table.contains("-2.42"), "{drop}: {table}");
+        let document = folder.json(&["aim", "r161", "--target", drop, "--json", "-"]);
+        let target = &document["targets"][0];
+        let [start, found] = ["start", "found"].map(|key| target[key].as_f64().unwrap());
+        assert!((start - 2.418).abs() < 1e-3 && (found - 3.0).abs() <= 0.05 + 1e-9, "{target}");
+    }
+}
+
+/// Limits between which no smooth curve goes are told with their place.
+#[test]
+fn limits_that_leave_no_room_are_told_with_their_place() {
+    let folder = Folder::new("aim-room");
+    let wish = [
+        "aim",
+        "r161",
+        "--target",
+        "mass same",
+        "--diameter",
+        "400 mm to 405 mm, at most 20 mm",
+        "--diameter",
+        "410 mm to 415 mm, at least 60 mm",
+    ];
+    let output = folder.run(&wish);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("leave no room at") && said.contains("--diameter"), "{said}");
+}

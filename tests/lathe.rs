@@ -518,6 +518,13 @@ fn the_verb_writes_what_it_finds() {
     args.extend(["--csv", "map.csv", "--plots", "p", "--theory", "timoshenko"]);
     let table = folder.text(&args);
     assert!(table.contains("n=1/2") && table.contains("knob weight 1 oz"), "{table}");
+    // Every column is told what it means.
+    for head in [
+        "from:", "mass:", "bal.:", "swing:", "f1:", "node 1:", "n=0:", "n=1/2:", "spot:", "hands:",
+        "in %",
+    ] {
+        assert!(table.contains(head), "{head}: {table}");
+    }
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
     assert!(folder.read("p/lathe.svg").contains("sweet spot, outward"));
     args.truncate(12);

@@ -53,13 +53,18 @@ pub struct Args {
     /// What is aimed at (sweet spot, swing weight, mass, balance point, f1, node 1, best ball, bbcor, drop, or
     /// the name of an output), then by how much it is to change ("-3 %", "1 cm outward", "+2 Hz", "same"),
     /// what it is to be ("180 Hz", "6.5 in from the tip"), or "at most 31 oz", "at least 99.5 %". "within 0.5
-    /// Hz" after a change or a value is how far beside it will do.
+    /// Hz" after a change or a value is how far beside it will do. "lose 1 oz", "1 oz lighter" and "keep pop" are
+    /// understood too. "drop -3" and "drop 3" are one: three ounces fewer than inches.
     #[arg(long = "target", value_name = "TARGET", allow_hyphen_values = true)]
     targets: Vec<String>,
 
     /// Wood is only taken off
     #[arg(long)]
     remove_only: bool,
+
+    /// Wood may be added to a bat that was weighed, which otherwise is only cut
+    #[arg(long, conflicts_with = "remove_only")]
+    add: bool,
 
     /// A stretch that stays as it is, such as "0 to 30 mm"; may be repeated [default: the knob, 0 to 30 mm]
     #[arg(long, value_name = "STRETCH")]
@@ -224,7 +229,8 @@ fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
         let rules = rules_file::named(name, Path::new(""));
         wish.rules = Some(rules.map_err(|error| error.placed(option("--rules")))?);
     }
-    wish.remove_only |= args.remove_only;
+    wish.remove_only = (wish.remove_only || args.remove_only) && !args.add;
+    wish.add |= args.add;
     wish.stations = args.stations.or(wish.stations);
     wish.round = args.round.or(wish.round);
     wish.slope = args.slope.or(wish.slope);

@@ -19,6 +19,7 @@ const KEYS: &[&str] = &[
     "targets",
     "rules",
     "remove_only",
+    "add",
     "keep",
     "diameter",
     "stations",
@@ -83,6 +84,10 @@ fn wish(document: &Document, folder: &Path) -> Result<Wish> {
         wish.rules = mistakes.some(rules(node, folder));
     }
     wish.remove_only = mistakes.note(truth(&root, "remove_only"));
+    wish.add = mistakes.note(truth(&root, "add"));
+    if let Some(node) = root.get("add").filter(|_| wish.add && wish.remove_only) {
+        mistakes.add(node.error("\"add\" beside \"remove_only\"", "one of them"));
+    }
     if let Some(node) = root.get("keep") {
         wish.keep = mistakes.note(list(node, stretch));
     }
@@ -174,7 +179,7 @@ fn target(node: &Node) -> Result<Target> {
 
 fn ask(object: &Object, goal: Goal) -> Result<Ask> {
     let mut mistakes = Mistakes::default();
-    let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::amount)).transpose();
+    let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::value)).transpose();
     let within = object.get("within").map(|node| said(node, goal, aim_text::tolerance)).transpose();
     let within = mistakes.note(within);
     let change = object.get("change").map(|node| said(node, goal, aim_text::change)).transpose();

@@ -4,26 +4,37 @@ use crate::base::error::{Complaint, Error, nearest};
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::material::{BUILT_IN, Material};
+use crate::files::wish_words::{self, Verb, Way, after, before};
 use crate::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target};
 use crate::study::many::answers::Answer;
 
 /// What people call a goal.
-const CALLED: [(&str, Goal); 20] = [
+const CALLED: [(&str, Goal); 30] = [
     ("sweet spot", Goal::Answer(Answer::ExitSpeedPlace)),
     ("best place", Goal::Answer(Answer::ExitSpeedPlace)),
     ("swing weight", Goal::Answer(Answer::Inertia)),
+    ("swingweight", Goal::Answer(Answer::Inertia)),
     ("moment of inertia", Goal::Answer(Answer::Inertia)),
+    ("moi", Goal::Answer(Answer::Inertia)),
     ("mass", Goal::Answer(Answer::Mass)),
     ("weight", Goal::Answer(Answer::Mass)),
     ("balance point", Goal::Answer(Answer::BalancePoint)),
     ("balance", Goal::Answer(Answer::BalancePoint)),
+    ("cop", Goal::Answer(Answer::CenterOfPercussion)),
     ("center of percussion", Goal::Answer(Answer::CenterOfPercussion)),
     ("centre of percussion", Goal::Answer(Answer::CenterOfPercussion)),
     ("exit speed", Goal::Answer(Answer::ExitSpeed)),
     ("best ball", Goal::Answer(Answer::ExitSpeed)),
+    ("pop", Goal::Answer(Answer::ExitSpeed)),
+    ("exit velocity", Goal::Answer(Answer::ExitSpeed)),
+    ("exit velo", Goal::Answer(Answer::ExitSpeed)),
+    ("ball speed", Goal::Answer(Answer::ExitSpeed)),
+    ("batted-ball speed", Goal::Answer(Answer::ExitSpeed)),
+    ("batted ball speed", Goal::Answer(Answer::ExitSpeed)),
     ("vibration", Goal::Answer(Answer::Vibration)),
     ("bbcor", Goal::Answer(Answer::Bbcor)),
     ("drop", Goal::Drop),
+    ("fundamental", Goal::Answer(Answer::Frequency(1))),
     ("first frequency", Goal::Answer(Answer::Frequency(1))),
     ("second frequency", Goal::Answer(Answer::Frequency(2))),
     ("node 1", Goal::Answer(Answer::Node(1))),
@@ -86,44 +97,52 @@ pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
     units::parse_or_si(&text, quantity).map(Amount::Si)
 }
 
+/// A value as it is wished: as [`amount`], but a drop is the trade's: 3, -3 and "drop -3" are three ounces fewer
+/// than inches.
+pub fn value(text: &str, goal: Goal) -> Said<Amount> {
+    if goal != Goal::Drop || text.trim_end().ends_with('%') {
+        return amount(text, goal);
+    }
+    let text = wish_words::figures(&wish_words::plain(text));
+    let inner = text.trim_start_matches('(').trim_end_matches(')');
+    match typed::number(inner) {
+        Some(number) if number.is_finite() && !inner.starts_with('+') => {
+            Ok(Amount::Si(number.abs()))
+        }
+        _ => {
+            let expected = "a drop as \"3\" or \"-3\": ounces fewer than inches";
+            let hint = match units::parse_or_si(inner.trim_start_matches('+'), Quantity::Mass) {
+                Ok(_) if typed::number(inner).is_none() => {
+                    let size = inner.trim_start_matches(['-', '+']).trim();
+                    format!("say \"lose {size}\" of the mass, or \"drop 3\" of a drop")
+                }
+                _ => "a change is \"drop 1 more\"".to_owned(),
+            };
+            Err(wrong(&text, expected).hinted(hint))
+        }
+    }
+}
+
 /// A change: a number with its sign, or with a word that says where to.
 pub fn change(text: &str, goal: Goal) -> Said<Amount> {
-    const MORE: [&str; 8] = [
-        "outward",
-        "outwards",
-        "towards the tip",
-        "toward the tip",
-        "more",
-        "higher",
-        "heavier",
-        "faster",
-    ];
-    const LESS: [&str; 8] = [
-        "inward",
-        "inwards",
-        "towards the knob",
-        "toward the knob",
-        "less",
-        "lower",
-        "lighter",
-        "slower",
-    ];
-    let text = typed::plain(text);
-    let ended =
-        |words: &[&str]| words.iter().find_map(|word| text.strip_suffix(word)).map(str::trim);
-    let signed = |amount: Amount, sign: f64| match amount {
-        Amount::Si(value) => Amount::Si(sign * value),
-        Amount::Share(share) => Amount::Share(sign * share),
-        place => place,
-    };
-    let found = match (ended(&MORE), ended(&LESS)) {
-        (Some(size), _) => signed(amount(size, goal)?, 1.0),
-        (_, Some(size)) => signed(amount(size, goal)?, -1.0),
-        _ => amount(&text, goal)?,
-    };
-    match found {
-        Amount::FromTip(_) => Err(wrong(&text, "a change, such as \"1 cm outward\"")),
-        found => Ok(found),
+    let text = wish_words::figures(&wish_words::plain(text));
+    match wish_words::way(&text) {
+        Way::More(size) => by(size, goal, 1.0),
+        Way::Less(size) => by(size, goal, -1.0),
+        Way::Same => Ok(Amount::Si(0.0)),
+        _ => match amount(&text, goal)? {
+            Amount::FromTip(_) => Err(wrong(&text, "a change, such as \"1 cm outward\"")),
+            found => Ok(found),
+        },
+    }
+}
+
+/// A change of that size, with a word or a verb that has its sign.
+fn by(size: &str, goal: Goal, sign: f64) -> Said<Amount> {
+    match amount(size, goal)? {
+        Amount::Si(value) if value >= 0.0 => Ok(Amount::Si(sign * value)),
+        Amount::Share(share) if share >= 0.0 => Ok(Amount::Share(sign * share)),
+        _ => Err(wrong(size, "a size without a sign: the word beside it has it")),
     }
 }
 
@@ -138,57 +157,200 @@ pub fn tolerance(text: &str, goal: Goal) -> Said<Amount> {
     }
 }
 
-/// A target: its name, then what is wished of it.
+/// A target: what is aimed at and what is wished of it, as people say it.
+///
+/// The name may stand first ("mass -1 oz"), last ("keep the balance", "lose 3 % swing weight") or be left out where a
+/// word or a unit says it: "1 oz lighter", "-1 oz"; "-3" alone is a drop.
 pub fn target(text: &str) -> Said<Target> {
-    let text = typed::plain(text);
-    let (goal, rest) = named(&text)?;
-    let parted = ["within", "±", "+-", "+/-"].iter().find_map(|word| rest.split_once(word));
-    let (rest, within) = match parted {
-        Some((rest, within)) => (rest.trim(), Some(tolerance(within.trim(), goal)?)),
-        None => (rest, None),
+    let text = wish_words::plain(text);
+    read(&text).map_err(|complaint| match complaint.hint.is_empty() {
+        true => match wording(&text) {
+            Some(hint) => complaint.hinted(hint),
+            None => complaint,
+        },
+        false => complaint,
+    })
+}
+
+fn read(text: &str) -> Said<Target> {
+    const BESIDE: [&str; 6] = [" within", "±", "+-", "+/-", " plus or minus", " give or take"];
+    let parted = BESIDE.iter().find_map(|word| text.split_once(word));
+    let (wish, within) = match parted {
+        Some((wish, within)) => (wish.trim(), Some(within.trim())),
+        None => (text, None),
     };
-    let after = |word: &str| rest.strip_prefix(word).map(str::trim);
-    if let Some(most) = after("at most") {
-        return Ok(Target { goal, ask: Ask::Between(None, Some(amount(most, goal)?)) });
-    }
-    if let Some(least) = after("at least") {
-        return Ok(Target { goal, ask: Ask::Between(Some(amount(least, goal)?), None) });
-    }
-    if matches!(rest, "same" | "kept" | "unchanged" | "as it is") {
-        return Ok(Target { goal, ask: Ask::Change(Amount::Si(0.0), within) });
-    }
-    if let Some(value) = after("to ").or(after("=")).or(after("at ")) {
-        return Ok(Target { goal, ask: Ask::Value(amount(value, goal)?, within) });
-    }
-    let signed = rest.starts_with(['+', '-']) || rest.ends_with('%');
-    let ends_in_a_word = rest.chars().last().is_some_and(char::is_alphabetic);
-    if rest.is_empty() {
-        let expected =
-            "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
-        return Err(wrong(&text, expected));
-    }
-    if !signed && let Ok(value) = amount(rest, goal) {
-        return Ok(Target { goal, ask: Ask::Value(value, within) });
-    }
-    match change(rest, goal) {
-        Ok(change) => Ok(Target { goal, ask: Ask::Change(change, within) }),
-        Err(_) if ends_in_a_word && goal.quantity().is_none() => {
-            Err(wrong(rest, "a number, or a percentage and its sign"))
+    let (verb, rest) = wish_words::verb(wish);
+    let (goal, rest) = of_what(verb, rest)?;
+    let within = within.map(|within| tolerance(&wish_words::figures(within), goal)).transpose()?;
+    let ask = asked(text, verb, &rest, goal)?;
+    match (ask, within) {
+        (Ask::Change(by, _), _) => Ok(Target { goal, ask: Ask::Change(by, within) }),
+        (Ask::Value(value, _), _) => Ok(Target { goal, ask: Ask::Value(value, within) }),
+        (Ask::Between(..), None) => Ok(Target { goal, ask }),
+        (Ask::Between(..), Some(_)) => {
+            Err(wrong(text, "\"within\" beside a change or a value: a limit is kept exactly"))
         }
-        Err(complaint) => Err(complaint),
     }
 }
 
-/// The goal that a text begins with, and the rest of it.
+/// What is aimed at, and the other words with their numbers in figures.
+fn of_what(verb: Option<Verb>, rest: &str) -> Said<(Goal, String)> {
+    let rest = ["the", "its", "my", "any", "of"]
+        .iter()
+        .fold(rest, |rest, word| after(rest, word).unwrap_or(rest));
+    let first = CALLED.iter().filter_map(|(called, goal)| Some((after(rest, called)?, *goal)));
+    if let Some((rest, goal)) = first.min_by_key(|(rest, _)| rest.len()) {
+        return Ok((goal, wish_words::figures(rest)));
+    }
+    let last = CALLED.iter().filter_map(|(called, goal)| Some((before(rest, called)?, *goal)));
+    if let Some((mut rest, goal)) = last.min_by_key(|(rest, _)| rest.len()) {
+        while let Some(shorter) =
+            ["the", "its", "my", "of", "off", "from"].iter().find_map(|word| before(rest, word))
+        {
+            rest = shorter;
+        }
+        return Ok((goal, wish_words::figures(rest)));
+    }
+    let words = wish_words::figures(rest);
+    if let Some(goal) = unnamed(verb, &words) {
+        let plain = words.replace("weighing", "").replace("weighs", "").replace("weigh", "");
+        return Ok((goal, plain.trim().to_owned()));
+    }
+    named(rest).map(|(goal, rest)| (goal, wish_words::figures(rest)))
+}
+
+/// The goal that a wish without a name is of: by a word such as "lighter", by a unit that only one goal has, or the
+/// drop of a number with a minus.
+fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
+    if wish_words::of_weight(words) {
+        return Some(Goal::Answer(Answer::Mass));
+    }
+    let way = wish_words::way(words);
+    let (size, bare) = match way {
+        Way::Plain(size) => (size, true),
+        Way::AtMost(size) | Way::AtLeast(size) | Way::More(size) | Way::Less(size) => (size, false),
+        Way::To(_) | Way::Same => return None,
+    };
+    let signed = size.starts_with(['+', '-']);
+    if bare && verb.is_none() && size.starts_with('-') && typed::number(size).is_some() {
+        return Some(Goal::Drop);
+    }
+    let is = |quantity: Quantity| {
+        typed::number(size).is_none() && units::parse_or_si(size, quantity).is_ok()
+    };
+    let said = !bare || signed || verb.is_some();
+    match () {
+        () if said && is(Quantity::Mass) => Some(Goal::Answer(Answer::Mass)),
+        () if said && is(Quantity::Inertia) => Some(Goal::Answer(Answer::Inertia)),
+        () => None,
+    }
+}
+
+/// What is wished of a goal, by the verb and the other words.
+fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
+    let way = wish_words::way(rest);
+    let none = Way::Plain("");
+    match (verb, way) {
+        (None, Way::Same) => Ok(Ask::Change(Amount::Si(0.0), None)),
+        (Some(Verb::Keep), way) if way == none || way == Way::Same => {
+            Ok(Ask::Change(Amount::Si(0.0), None))
+        }
+        (Some(Verb::NoLess), way) if way == none => {
+            Ok(Ask::Between(Some(Amount::Share(1.0)), None))
+        }
+        (None | Some(Verb::Keep), Way::AtMost(most)) => {
+            Ok(Ask::Between(None, Some(value(most, goal)?)))
+        }
+        (None | Some(Verb::Keep), Way::AtLeast(least)) => {
+            Ok(Ask::Between(Some(value(least, goal)?), None))
+        }
+        (Some(Verb::Keep), Way::To(size)) | (None, Way::To(size)) => {
+            Ok(Ask::Value(value(size, goal)?, None))
+        }
+        (Some(Verb::Less | Verb::More), Way::To(size)) => Ok(Ask::Value(value(size, goal)?, None)),
+        (Some(Verb::Less), Way::Plain(size) | Way::Less(size)) if !size.is_empty() => {
+            Ok(Ask::Change(by(size, goal, -1.0)?, None))
+        }
+        (Some(Verb::More), Way::Plain(size) | Way::More(size)) if !size.is_empty() => {
+            Ok(Ask::Change(by(size, goal, 1.0)?, None))
+        }
+        (None, Way::More(size)) if !size.is_empty() => {
+            Ok(Ask::Change(moved(rest, size, goal, 1.0)?, None))
+        }
+        (None, Way::Less(size)) if !size.is_empty() => {
+            Ok(Ask::Change(moved(rest, size, goal, -1.0)?, None))
+        }
+        (None, Way::Plain(size)) if !size.is_empty() => {
+            let share = size.ends_with('%');
+            if goal == Goal::Drop && !share || !share && !size.starts_with(['+', '-']) {
+                return Ok(Ask::Value(value(size, goal)?, None));
+            }
+            Ok(Ask::Change(change(size, goal)?, None))
+        }
+        _ => {
+            let expected =
+                "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
+            Err(wrong(text, expected))
+        }
+    }
+}
+
+/// A change by a word. A lighter bat has the greater drop, which nobody means by "drop 1 lighter"; up and down are no
+/// ways along a bat.
+fn moved(rest: &str, size: &str, goal: Goal, sign: f64) -> Said<Amount> {
+    if goal == Goal::Drop && wish_words::of_weight(rest) {
+        return Err(wrong(
+            rest,
+            "\"1 more\" or \"1 less\" of a drop, or \"1 oz lighter\" of the bat",
+        ));
+    }
+    let upright = rest.split(' ').any(|word| matches!(word, "up" | "down"));
+    if upright && goal.quantity() == Some(Quantity::Length) {
+        return Err(wrong(rest, "\"outward\" or \"inward\" of a place"));
+    }
+    by(size, goal, sign)
+}
+
+/// The nearest wording that is understood, of one that is not: with another name or word, or as two targets.
+fn wording(text: &str) -> Option<String> {
+    let said = |wish: &str| read(wish).is_ok();
+    // Two wishes in one.
+    for part in [", ", " and ", " but ", "; ", " with "] {
+        if let Some((first, second)) = text.split_once(part)
+            && said(first)
+            && said(second.trim_start_matches("and ").trim_start_matches("but "))
+        {
+            let second = second.trim_start_matches("and ").trim_start_matches("but ");
+            return Some(format!("a target each: --target \"{first}\" --target \"{second}\""));
+        }
+    }
+    // A word with a slip in it.
+    let known = wish_words::known();
+    let names = CALLED.iter().flat_map(|(called, _)| called.split(' '));
+    let all: Vec<&str> = known.into_iter().chain(names).filter(|word| word.len() > 2).collect();
+    let words: Vec<&str> = text.split(' ').collect();
+    for (k, word) in words.iter().enumerate().filter(|(_, word)| word.len() > 2) {
+        let Some(near) = nearest(word, &all).filter(|near| near != word) else { continue };
+        let mut other = words.clone();
+        other[k] = near;
+        let other = other.join(" ");
+        if said(&other) {
+            return Some(format!("did you mean \"{other}\"?"));
+        }
+    }
+    // An amount of something that is not named.
+    let other = ["mass", "swing weight", "sweet spot", "best ball", "f1", "drop"]
+        .into_iter()
+        .find_map(|name| {
+            let both = [format!("{name} {text}"), format!("{text} {name}")];
+            both.into_iter().find(|other| said(other))
+        });
+    other.map(|other| format!("say of what, such as \"{other}\""))
+}
+
+/// The goal that a text begins with by the name of an output, and the rest of it.
 fn named(text: &str) -> Said<(Goal, &str)> {
     let lower = text.to_lowercase();
-    let begins = |called: &&(&str, Goal)| {
-        lower.strip_prefix(called.0).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
-    };
-    let longest = CALLED.iter().filter(begins).max_by_key(|(called, _)| called.len());
-    if let Some((called, goal)) = longest {
-        return Ok((*goal, text[called.len()..].trim()));
-    }
     let (name, rest) = text.split_once(' ').unwrap_or((text, ""));
     goal(name).map(|goal| (goal, rest.trim())).map_err(|complaint| {
         // Of two words the first may be half a name.
@@ -315,12 +477,182 @@ mod tests {
             ("f1 same", f1, Ask::Change(si(0.0), None)),
             ("weight 5 % less", mass, Ask::Change(share(-0.05), None)),
             ("drop at most 3", Goal::Drop, Ask::Between(None, Some(si(3.0)))),
+            ("drop at most -3", Goal::Drop, Ask::Between(None, Some(si(3.0)))),
         ] {
             assert_eq!(target(text), Ok(Target { goal, ask }), "{text}");
         }
         let node = target("node 1 6.5 in from the tip within 0.01 in").unwrap();
         let Ask::Value(Amount::FromTip(x), Some(_)) = node.ask else { panic!("{node:?}") };
         assert!((x - 6.5 * 0.0254).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_drop_is_the_trade_s_whatever_its_sign() {
+        let drop = |ask: Ask| Ok(Target { goal: Goal::Drop, ask });
+        for text in [
+            "drop -3",
+            "drop 3",
+            "drop3",
+            "drop-3",
+            "drop \u{2212}3",
+            "-3",
+            "\u{2212}3",
+            "minus 3",
+            "drop of 3",
+            "drop to -3",
+            "drop = 3",
+            "Drop (-3)",
+            "drop three",
+            "drop minus three",
+            "make it a drop 3",
+        ] {
+            assert_eq!(target(text), drop(Ask::Value(Amount::Si(3.0), None)), "{text}");
+        }
+        let value = Ask::Value(Amount::Si(2.5), Some(Amount::Si(0.1)));
+        assert_eq!(target("drop -2.5 within 0.1"), drop(value));
+        let change = |by: f64| Ask::Change(Amount::Si(by), None);
+        for (text, by) in [
+            ("drop 1 more", 1.0),
+            ("drop 1 less", -1.0),
+            ("drop one more", 1.0),
+            ("drop same", 0.0),
+            ("keep the drop", 0.0),
+        ] {
+            assert_eq!(target(text), drop(change(by)), "{text}");
+        }
+        for text in
+            ["drop +3", "drop 1 oz", "drop an ounce", "drop 1 lighter", "drop -1 more", "drop"]
+        {
+            let found = target(text).unwrap_err().to_string();
+            assert!(found.contains("drop") || found.contains("sign"), "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_maker_s_own_words_are_understood() {
+        let oz = 0.028_349_523_125;
+        let mass = |by: f64| (Goal::Answer(Answer::Mass), Ask::Change(Amount::Si(by), None));
+        for (text, by) in [
+            ("lose 1 oz", -oz),
+            ("lose an ounce", -oz),
+            ("Lose one ounce.", -oz),
+            ("-1 oz", -oz),
+            ("\u{2212}1 oz", -oz),
+            ("- 1 oz", -oz),
+            ("minus 1 oz", -oz),
+            ("minus an ounce", -oz),
+            ("1 oz lighter", -oz),
+            ("an ounce lighter", -oz),
+            ("lighter by 1 oz", -oz),
+            ("make it an ounce lighter", -oz),
+            ("make the bat 1 oz lighter", -oz),
+            ("1 oz less", -oz),
+            ("take off 1 oz", -oz),
+            ("take an ounce off", -oz),
+            ("lose 1 oz of weight", -oz),
+            ("mass down 1 oz", -oz),
+            ("reduce mass by 1 oz", -oz),
+            ("weight 1 oz less", -oz),
+            ("2 oz lighter", -2.0 * oz),
+            ("half an ounce lighter", -0.5 * oz),
+            ("\u{bd} oz lighter", -0.5 * oz),
+            ("lose an ounce and a half", -1.5 * oz),
+            ("lose 30 g", -0.03),
+            ("30 grams lighter", -0.03),
+            ("1 oz heavier", oz),
+            ("+1 oz", oz),
+            ("gain an ounce", oz),
+        ] {
+            let (goal, ask) = mass(by);
+            let found = target(text).map_err(|error| error.to_string());
+            let Ok(Target { goal: found_goal, ask: Ask::Change(Amount::Si(found), None) }) = found
+            else {
+                panic!("{text}: {found:?}, not {ask:?}")
+            };
+            assert!(found_goal == goal && (found - by).abs() < 1e-15, "{text}: {found}");
+        }
+        let same = |answer: Answer| Target {
+            goal: Goal::Answer(answer),
+            ask: Ask::Change(Amount::Si(0.0), None),
+        };
+        for (text, answer) in [
+            ("keep pop", Answer::ExitSpeed),
+            ("same pop", Answer::ExitSpeed),
+            ("the same pop", Answer::ExitSpeed),
+            ("pop stays the same", Answer::ExitSpeed),
+            ("same exit speed", Answer::ExitSpeed),
+            ("same sweet spot", Answer::ExitSpeedPlace),
+            ("keep the balance", Answer::BalancePoint),
+            ("hold the swing weight", Answer::Inertia),
+            ("swing weight unchanged", Answer::Inertia),
+            ("keep f1", Answer::Frequency(1)),
+            ("don't change the mass", Answer::Mass),
+        ] {
+            assert_eq!(target(text), Ok(same(answer)), "{text}");
+        }
+        let at_least = Ask::Between(Some(Amount::Share(1.0)), None);
+        let pop = Goal::Answer(Answer::ExitSpeed);
+        assert_eq!(target("don't lose pop"), Ok(Target { goal: pop, ask: at_least }));
+        let swing = Goal::Answer(Answer::Inertia);
+        let less = Ask::Change(Amount::Share(-0.03), None);
+        for text in
+            ["3 % less swing weight", "lose 3 % swing weight", "lower the swing weight by 3 %"]
+        {
+            assert_eq!(target(text), Ok(Target { goal: swing, ask: less }), "{text}");
+        }
+        let most = Ask::Between(None, Some(Amount::Si(30.0 * oz)));
+        for text in
+            ["at most 30 oz", "no heavier than 30 oz", "mass 30 oz or less", "mass under 30 oz"]
+        {
+            assert_eq!(
+                target(text),
+                Ok(Target { goal: Goal::Answer(Answer::Mass), ask: most }),
+                "{text}"
+            );
+        }
+        let out = Ask::Change(Amount::Si(0.0254), None);
+        let place = Goal::Answer(Answer::ExitSpeedPlace);
+        for text in [
+            "sweet spot 1 in outward",
+            "move the sweet spot out 1 in",
+            "sweet spot 1 in further out",
+        ] {
+            assert_eq!(target(text), Ok(Target { goal: place, ask: out }), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_understood_is_refused_with_the_nearest_wording() {
+        for (text, said) in [
+            ("loose 1 oz", "did you mean \"lose 1 oz\"?"),
+            ("1 oz ligther", "did you mean \"1 oz lighter\"?"),
+            ("keep popp", "did you mean"),
+            ("lose 1 oz and keep pop", "--target \"lose 1 oz\" --target \"keep pop\""),
+            ("lose 5 %", "say of what, such as \"lose 5 % mass\""),
+            ("30 oz", "say of what, such as \"mass 30 oz\""),
+            ("lose -1 oz", "without a sign"),
+            ("sweet spot 1 in up", "outward"),
+        ] {
+            let found = target(text).unwrap_err().to_string();
+            assert!(found.contains(said), "{text}: {found}");
+        }
+        for text in [
+            "",
+            " ",
+            "-",
+            "+",
+            "lose",
+            "keep",
+            "half",
+            "\u{212a}eep pop",
+            "±",
+            "within",
+            "-1",
+            "drop -",
+            "é",
+        ] {
+            let _ = target(text);
+        }
     }
 
     #[test]

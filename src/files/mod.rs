@@ -13,7 +13,7 @@
 //! | [`scatter_file`] | what differs between bats of one model |
 //! | [`study_vary`], [`study_file`], [`study_rows`] | what a study varies; what it asks; row k of it |
 //! | `study_warnings` | what of a study is strange, or without effect |
-//! | `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
+//! | `wish_words`, `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
 //! | [`measured`] | measured modes, as laboratories write them |
@@ -38,6 +38,8 @@ pub mod study_vary;
 pub mod study_file;
 pub mod study_rows;
 mod study_warnings;
+#[cfg(feature = "aim")]
+pub mod wish_words;
 #[cfg(feature = "aim")]
 pub mod aim_text;
 #[cfg(feature = "aim")]

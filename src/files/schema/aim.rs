@@ -29,6 +29,8 @@ pub struct AimForm {
     pub rules: Option<String>,
     /// Whether wood may only be taken off. Without it false.
     pub remove_only: Option<bool>,
+    /// Whether wood may be added to a bat that was weighed, which otherwise is only cut. Without it false.
+    pub add: Option<bool>,
     /// Stretches that stay as they are. Without it the knob, 0 to 30 mm.
     pub keep: Option<Vec<AimStretch>>,
     /// Limits of the diameter, which hold along the whole curve.

@@ -53,8 +53,11 @@ pub struct AimedFile {
     pub outputs: Vec<AimedOutput>,
     /// Every station of the new bat.
     pub change: Vec<AimedStation>,
-    /// What to turn off, station by station.
+    /// What changes, station by station: what to turn off, and where wood is added.
     pub cuts: Vec<AimedCut>,
+    /// What to know before the bat is turned, such as a barrel that a rule forbids; missing where there is nothing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// The new bat: a bat file in its own right.
     pub new_bat: ResolvedBat,
 }
@@ -172,7 +175,7 @@ pub struct AimedStation {
     pub new_m: f64,
 }
 
-/// A cut at a station.
+/// A change at a station.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AimedCut {
     /// Where (m).
@@ -181,6 +184,6 @@ pub struct AimedCut {
     pub from_m: f64,
     /// Diameter after (m).
     pub to_m: f64,
-    /// How much is off the diameter after each pass (m).
+    /// How much is off the diameter after each pass (m); empty where wood is added.
     pub passes_m: Vec<f64>,
 }

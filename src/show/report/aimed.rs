@@ -1,11 +1,14 @@
 //! The bat that meets a wish: its file, its document, its cut list.
 
+use std::path::Path;
+
 use serde_json::{Value, json};
 
-use crate::base::number::{rounded, shortest, significant};
+use crate::base::number::{rounded, shortest, signed, significant};
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::Bat;
 use crate::bat::profile::Interpolation;
+use crate::files::rules_file;
 use crate::files::schema;
 use crate::files::schema::aimed as file;
 use crate::files::schema::document::{BatName, Format, Generator};
@@ -34,7 +37,17 @@ pub fn shown(goal: Goal, value: f64, us: bool) -> String {
         ("Hz", _) => format!("{value:.2} Hz"),
         ("m/s", false) => format!("{value:.2} m/s"),
         ("m/s", true) => format!("{:.1} mph", miles_per_hour(value)),
+        // As the trade writes it: three ounces fewer than inches are -3.
+        _ if goal == Goal::Drop => signed(-value, 2),
         (unit, _) => format!("{} {unit}", significant(value, 4)).trim_end().to_owned(),
+    }
+}
+
+/// The size of a difference of a goal's values, without a sign.
+pub fn size(goal: Goal, value: f64, us: bool) -> String {
+    match goal {
+        Goal::Drop => shortest(rounded(value.abs(), 3)),
+        goal => shown(goal, value.abs(), us),
     }
 }
 
@@ -60,10 +73,20 @@ pub fn called(goal: Goal) -> String {
 /// What a band asks, in words.
 pub fn asked(band: &Band, us: bool) -> String {
     let said = |value: f64| shown(band.goal, value, us);
+    if band.goal == Goal::Drop && !(band.low.is_finite() && band.high.is_finite()) {
+        // A limit of a drop is of ounces fewer than inches, without the sign.
+        let (word, limit) =
+            if band.high.is_finite() { ("at most", band.high) } else { ("at least", band.low) };
+        return format!("{word} {} fewer", shortest(rounded(limit, 3)));
+    }
     match (band.low.is_finite(), band.high.is_finite()) {
         (true, true) => {
             let (middle, half) = (0.5 * (band.low + band.high), 0.5 * (band.high - band.low));
-            format!("{} ± {}", said(middle), said(half).split(' ').next().unwrap_or_default())
+            format!(
+                "{} ± {}",
+                said(middle),
+                size(band.goal, half, us).split(' ').next().unwrap_or_default()
+            )
         }
         (true, false) => format!("at least {}", said(band.low)),
         _ => format!("at most {}", said(band.high)),
@@ -174,7 +197,42 @@ pub fn bat_text(outcome: &Outcome) -> String {
     columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
 }
 
-/// The cut list as CSV: a line for each pass at each station, in mm and in inches.
+/// What a maker should know before turning: a barrel that rules forbid, with the rule.
+pub fn warning(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> Option<String> {
+    let widest = outcome.widest();
+    let shown = |value: f64| match us {
+        true => format!("{:.2} in", inches(value)),
+        false => format!("{:.1} mm", 1e3 * value),
+    };
+    // Rules that were asked for have a table of their own.
+    if rules.is_some_and(|rules| rules.diameter().is_finite()) {
+        return None;
+    }
+    let known = |name: &str| rules_file::named(name, Path::new("")).ok();
+    let games = [
+        ("mlb", "rule 3.02 of Major League Baseball"),
+        (
+            "nfhs",
+            "the high schools' (NFHS) and, but for wood, the \
+        colleges' (NCAA) rule",
+        ),
+    ];
+    let broken = games.iter().filter_map(|(name, game)| {
+        let most = known(name)?.diameter();
+        (widest > most + 1e-6).then(|| format!("{game} allows {}", shown(most)))
+    });
+    let broken: Vec<String> = broken.collect();
+    (!broken.is_empty()).then(|| {
+        format!(
+            "the new bat is {} across: {}; --rules mlb, or that of another game, keeps to it",
+            shown(widest),
+            broken.join(", ")
+        )
+    })
+}
+
+/// The cut list as CSV: a line for each pass at each station, in mm and in inches; where wood is added one of pass 0,
+/// less than nothing off.
 pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     let mut table = Csv::new([
         "x_mm",
@@ -190,13 +248,16 @@ pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     let mm = |value: f64| rounded(1e3 * value, 6);
     let inch = |value: f64| rounded(inches(value), 6);
     for cut in cuts(&outcome.stations, pass) {
-        for (k, off) in cut.passes.iter().enumerate() {
+        // Wood that is added is no pass: 0, and less than nothing off.
+        let added = cut.adds().then(|| (0, cut.off()));
+        let passes = cut.passes.iter().enumerate().map(|(k, off)| (k + 1, *off));
+        for (number, off) in added.into_iter().chain(passes) {
             table.row([
                 mm(cut.x).into(),
                 mm(cut.from).into(),
                 mm(cut.to).into(),
-                (k + 1).into(),
-                mm(*off).into(),
+                number.into(),
+                mm(off).into(),
                 mm(cut.from - off).into(),
                 inch(cut.x).into(),
                 inch(cut.from).into(),
@@ -255,6 +316,7 @@ pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::
         outputs: outputs(outcome),
         change: outcome.stations.iter().map(station).collect(),
         cuts: cuts(&outcome.stations, pass).into_iter().map(of_cut).collect(),
+        warnings: warning(outcome, rules, us).into_iter().collect(),
         new_bat: resolved(&outcome.bat, &source(outcome)),
     }
 }

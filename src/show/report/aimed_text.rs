@@ -4,10 +4,11 @@ use std::fmt::Write;
 
 use crate::base::number::{rounded, shortest, signed, significant};
 use crate::base::units::{inches, ounce_square_inches, ounces};
-use crate::show::report::aimed::{asked, called, conflict_words, shown};
+use crate::bat::weighed::Weighed;
+use crate::show::report::aimed::{asked, called, conflict_words, shown, size, warning};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
-use crate::study::aim::cuts::cuts;
+use crate::study::aim::cuts::{StationCut, cuts};
 use crate::study::aim::limits::KEPT;
 use crate::study::aim::outcome::Outcome;
 use crate::study::aim::rules::{Rule, RuleSet};
@@ -21,7 +22,7 @@ const SHOWN: usize = 24;
 
 /// Everything there is to say, in one system of units.
 pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> String {
-    let mut out = head(outcome, us);
+    let mut out = head(outcome, rules, us);
     out += &targets(outcome, us);
     if let Some(conflict) = &outcome.conflict {
         out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
@@ -53,7 +54,7 @@ fn place(x: f64, us: bool) -> String {
     }
 }
 
-fn head(outcome: &Outcome, us: bool) -> String {
+fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
     let limits = outcome.broken > KEPT || outcome.steeper > KEPT;
     let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
         (true, false, false) => "every target is met by the bat as it is written",
@@ -77,6 +78,21 @@ fn head(outcome: &Outcome, us: bool) -> String {
         counted(outcome.bats, "bat")
     );
     out += &wrapped(&line, 2);
+    if let Some(line) = warning(outcome, rules, us) {
+        out += &wrapped(&format!("Warning: {line}"), 2);
+    }
+    if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
+        let line = "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a \
+                    new bat";
+        out += &wrapped(line, 2);
+    }
+    if outcome.finer > 1.0 {
+        let line = format!(
+            "stations are rounded to {} mm: coarser ones would miss a target",
+            shortest(rounded(1e3 * outcome.grid.round, 9))
+        );
+        out += &wrapped(&line, 2);
+    }
     if let Some((x, left)) = outcome.weakest().filter(|(_, left)| *left < WEAK) {
         let line = format!(
             "at {} the section has {} % of its strength in bending left: --diameter \"at least ...\" and --keep \
@@ -146,8 +162,8 @@ fn targets(outcome: &Outcome, us: bool) -> String {
 fn missed_by(band: &Band, value: f64, us: bool) -> String {
     let limit = if value > band.high { band.high } else { band.low };
     let by = (value - limit).abs();
-    match shown(band.goal, by, us) {
-        little if little == shown(band.goal, 0.0, us) => {
+    match size(band.goal, by, us) {
+        little if little == size(band.goal, 0.0, us) => {
             format!("{} {}", significant(by, 2), band.goal.unit()).trim_end().to_owned()
         }
         said => said,
@@ -222,10 +238,11 @@ fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
 /// A value of a rule.
 fn of_rule(rule: Rule, value: f64, us: bool) -> String {
     let goal = match rule {
+        Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
         Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
         Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
         Rule::LengthAtMost(_) => Goal::Answer(Answer::BalancePoint),
-        Rule::DropAtMost(_) | Rule::BbcorAtMost(_) => Goal::Drop,
+        Rule::DropAtMost(_) => Goal::Drop,
         _ => return across(value, us),
     };
     shown(goal, value, us)
@@ -254,36 +271,67 @@ fn choices(outcome: &Outcome, us: bool) -> String {
 }
 
 fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
-    let mut all = cuts(&outcome.stations, pass);
+    let every = cuts(&outcome.stations, pass);
     // What would be shown as nothing.
-    all.retain(|cut| cut.from - cut.to >= if us { 1.27e-5 } else { 5e-6 });
+    let least = if us { 1.27e-5 } else { 5e-6 };
+    let (all, little): (Vec<StationCut>, Vec<StationCut>) =
+        every.into_iter().partition(|cut| cut.off().abs() >= least);
+    let mut out = String::new();
+    let added = all.iter().filter(|cut| cut.adds()).count();
     if all.is_empty() {
-        return "Nothing is turned off.\n".to_owned();
+        out += "Nothing is turned off.\n";
+    } else {
+        out += &cut_rows(&all, us);
     }
+    if added > 0 {
+        let line = format!(
+            "Wood is added at {}: that is a bat to be turned anew, from a thicker billet. --remove-only only cuts.",
+            counted(added, "station")
+        );
+        out += &wrapped(&line, 0);
+    }
+    if all.len() > SHOWN {
+        let line =
+            format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
+        out += &wrapped(&line, 0);
+    }
+    if !little.is_empty() {
+        let line = format!(
+            "{} more change by less than {}, as --cuts FILE has them.",
+            counted(little.len(), "station"),
+            if us { "0.0005 in" } else { "0.005 mm" }
+        );
+        out += &wrapped(&line, 0);
+    }
+    out
+}
+
+/// The rows that are shown: every so many where there are more.
+fn cut_rows(all: &[StationCut], us: bool) -> String {
+    let adds = all.iter().any(StationCut::adds);
     let columns = Columns::new([
-        first(12, "Cut at"),
+        first(12, if adds { "Change at" } else { "Cut at" }),
         numbers(12, "from"),
         numbers(12, "to"),
-        numbers(12, "off"),
+        numbers(12, if adds { "change" } else { "off" }),
         labels(26, "after each pass"),
     ]);
     let mut out = columns.heads();
-    let every = all.len().div_ceil(SHOWN);
-    for cut in all.iter().step_by(every) {
-        let place = place(cut.x, us);
+    for cut in all.iter().step_by(all.len().div_ceil(SHOWN)) {
         let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
         let passes = match passes.len() {
+            0 => "wood added".to_owned(),
             1 => "one pass".to_owned(),
             count if count > 3 => format!("{count} passes"),
             _ => passes.join(", "),
         };
-        let [from, to, off] = [cut.from, cut.to, cut.from - cut.to].map(|value| across(value, us));
-        out += &columns.row([place, from, to, off, passes]);
-    }
-    if every > 1 {
-        let line =
-            format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
-        out += &wrapped(&line, 0);
+        let [from, to, by] = [cut.from, cut.to, cut.off().abs()].map(|value| across(value, us));
+        let by = match (adds, cut.adds()) {
+            (false, _) => by,
+            (true, true) => format!("+{by}"),
+            (true, false) => format!("-{by}"),
+        };
+        out += &columns.row([place(cut.x, us), from, to, by, passes]);
     }
     out
 }

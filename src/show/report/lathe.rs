@@ -7,7 +7,7 @@ use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::lathe as file;
 use crate::show::csv::{Cell, Csv};
 use crate::show::report::hit_json::scene_out;
-use crate::show::report::lathe_table::{TableUnits, table};
+use crate::show::report::lathe_table::{TableUnits, legend, table};
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
@@ -94,7 +94,7 @@ pub fn per(map: &LatheMap, units: Units) -> &'static str {
 
 /// What stands below the tables.
 fn words(map: &LatheMap, shown: TableUnits) -> String {
-    let mut out = String::from("\n");
+    let mut out = format!("\n{}\n", wrapped(&legend(map, shown), 2));
     for line in recipes(map, shown) {
         out += &wrapped(&line, 2);
     }

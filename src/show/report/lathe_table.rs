@@ -81,9 +81,10 @@ impl TableUnits {
     }
 }
 
-/// A column: its head in two lines, width, decimals, and what is shown of a band's change per metre.
+/// A column: its head in two lines, width, decimals, what it means, and what is shown of a band's change per metre.
 struct Shown {
     head: [String; 2],
+    means: &'static str,
     width: usize,
     decimals: usize,
     answer: usize,
@@ -98,6 +99,39 @@ impl Shown {
     }
 }
 
+/// What a column says of a cut.
+fn meaning(answer: Answer, exponent: f64) -> &'static str {
+    match answer {
+        Answer::Mass => "what the bat weighs",
+        Answer::BalancePoint => "balance point, + towards the tip",
+        Answer::Inertia => "swing weight about the point 6 in from the knob end",
+        Answer::Frequency(1) => "first bending frequency",
+        Answer::Frequency(_) => "second bending frequency",
+        Answer::Node(_) => "node of the first mode next to the tip, + towards the tip",
+        Answer::ExitSpeedPlace => "sweet spot, where the ball leaves fastest, + towards the tip",
+        Answer::ExitSpeed if exponent == 0.0 => {
+            "speed of the fastest ball, the bat swung as fast as before"
+        }
+        Answer::ExitSpeed if exponent == 0.5 => {
+            "the same, swung with the energy of before: a lighter bat is swung faster"
+        }
+        Answer::ExitSpeed => "the same, swung by the law of --swing-exponent",
+        _ => "acceleration that the hands feel of a hit, in % of what they feel now",
+    }
+}
+
+/// What the columns of the table are, and what a mil is.
+pub fn legend(map: &LatheMap, units: TableUnits) -> String {
+    let columns = shown(map, units);
+    let part = |column: &Shown| format!("{}: {}", column.head[0], column.means);
+    let mut parts = vec!["from: where the band begins, from the knob end".to_owned()];
+    parts.extend(columns.iter().map(part));
+    if columns.iter().any(|column| column.head[1] == "mil") {
+        parts.push("1 mil: 0.001 in".to_owned());
+    }
+    format!("Columns: {}.", parts.join("; "))
+}
+
 /// The columns that the map has answers for.
 fn shown(map: &LatheMap, units: TableUnits) -> Vec<Shown> {
     let answers = &map.terms.answers;
@@ -108,9 +142,10 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<Shown> {
     };
     let mut add = |answer: Answer, head: &str, width: usize, unit: (&str, f64, usize), exponent| {
         if let Some(k) = answers.iter().position(|known| *known == answer) {
+            let means = meaning(answer, exponent);
             let head = [head.to_owned(), unit.0.to_owned()];
             let (scale, decimals) = (unit.1, unit.2);
-            all.push(Shown { head, width, decimals, answer: k, exponent, scale });
+            all.push(Shown { head, means, width, decimals, answer: k, exponent, scale });
         }
     };
     let length = pick(("mm", 1e3, 2), ("mil", 1.0 / THOU, 1));

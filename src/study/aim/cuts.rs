@@ -1,8 +1,8 @@
-//! What does the lathe take off, station by station and pass by pass?
+//! What does the lathe take off, station by station and pass by pass, and where is wood added?
 
 use crate::study::aim::laying::Station;
 
-/// What is turned off at a station; lengths in m.
+/// What changes at a station; lengths in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StationCut {
     /// Place from the knob end.
@@ -11,23 +11,38 @@ pub struct StationCut {
     pub from: f64,
     /// Diameter after.
     pub to: f64,
-    /// How much is off the diameter after each pass.
+    /// How much is off the diameter after each pass; empty where wood is added, which no lathe does.
     pub passes: Vec<f64>,
 }
 
-/// What is less is nothing to a lathe (m).
-const LEAST: f64 = 5e-6;
+impl StationCut {
+    /// What comes off the diameter (m), below 0 where wood is added.
+    pub fn off(&self) -> f64 {
+        self.from - self.to
+    }
 
-/// The cuts at every station that loses wood, in passes that take no more than `pass` off the diameter (m).
-/// The last one leaves the new diameter, the others are equally deep.
+    /// Whether wood is added.
+    pub fn adds(&self) -> bool {
+        self.to > self.from
+    }
+}
+
+/// A smaller change of a diameter is rounding (m).
+const LEAST: f64 = 1e-9;
+
+/// The change at every station that changes; what is turned off in passes that take no more than `pass` off the
+/// diameter (m). The last one leaves the new diameter, the others are equally deep.
 pub fn cuts(stations: &[Station], pass: f64) -> Vec<StationCut> {
     let cut = |station: &Station| {
         let off = station.old - station.new;
-        if off < LEAST {
+        if off.abs() < LEAST {
             return None;
         }
         let count = (off / pass - 1e-9).ceil().max(1.0) as usize;
-        let passes = (1..=count).map(|k| off * k as f64 / count as f64).collect();
+        let passes = match off > 0.0 {
+            true => (1..=count).map(|k| off * k as f64 / count as f64).collect(),
+            false => vec![],
+        };
         Some(StationCut { x: station.x, from: station.old, to: station.new, passes })
     };
     stations.iter().filter_map(cut).collect()

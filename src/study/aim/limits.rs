@@ -137,6 +137,28 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
+    /// The error that the limits leave no room at `x`, where the nearest smooth curve is so much too thick, or below 0
+    /// too thin (m).
+    pub fn no_room(&self, x: f64, by: f64) -> Error {
+        let at = shown_length(x);
+        let here = 2.0 * self.bat.profile().at(x).outer;
+        let field = match self.blamed(x, by < 0.0) {
+            Some(k) => format!("diameter[{k}]"),
+            None if by > 0.0 && self.rule.is_finite() => "rules".to_owned(),
+            None => "diameter".to_owned(),
+        };
+        let found = format!(
+            "limits that leave no room at {at}, where the bat is {} across",
+            shown_length(here)
+        );
+        let side = if by > 0.0 { "thicker" } else { "thinner" };
+        let expected = format!(
+            "limits of the diameter that a smooth curve can keep: the nearest one is {} {side} there than they allow",
+            shown_length(by.abs())
+        );
+        Error::value(field, found, expected)
+    }
+
     fn why(&self, fixed: bool) -> &'static str {
         if fixed { "it stays as it is there" } else { "wood is only taken off" }
     }

@@ -6,11 +6,12 @@
 //! made anew with bands that are moved by as much.
 
 use crate::base::error::{Error, Result};
+use crate::base::golden;
 use crate::bat::body::Bat;
 use crate::study::aim::bench::{Bench, Extra, Terms};
 use crate::study::aim::conflict::{Conflict, missed};
 use crate::study::aim::laying::Station;
-use crate::study::aim::limits::{KEPT, Limits};
+use crate::study::aim::limits::{KEPT, Limits, section};
 use crate::study::aim::rounding::{Rounded, Rounding};
 use crate::study::aim::rules::{Rule, Ruled};
 use crate::study::aim::search::{Found, MISSED, Search, Weights};
@@ -28,6 +29,8 @@ pub struct Outcome {
     pub stations: Vec<Station>,
     /// How they were laid.
     pub grid: Grid,
+    /// How many times finer than it was wished they are rounded, so that every goal is met.
+    pub finer: f64,
     /// What each goal may be.
     pub bands: Vec<Band>,
     /// What each goal is, of the bat that is written.
@@ -56,6 +59,8 @@ pub struct Outcome {
     /// How much steeper the surface is anywhere than it may be, radius over length; 0 where it is not, or
     /// nothing limits it.
     pub steeper: f64,
+    /// Whether wood was only taken off.
+    pub remove_only: bool,
     /// What else was chosen, with its value in SI.
     pub extras: Vec<(Extra, f64)>,
     /// The wood that was chosen.
@@ -81,6 +86,9 @@ const TOLD: [Answer; 10] = [
 ];
 /// How often the search is made anew at most, where rounding has taken the bat out of its bands.
 const ANEW: usize = 4;
+/// How many times finer the stations are rounded where no rounding as it was wished leaves the goals in their bands:
+/// two that bind at once may leave less room than a tenth of a millimetre takes.
+const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 
 /// The least change of one bat, before it is written.
 struct Least {
@@ -137,6 +145,7 @@ impl Outcome {
             let expected = "one target at least, such as \"swing weight -3 %\"";
             return Err(Error::value("targets", "no target", expected));
         }
+        let wish = &wish.of_bat(bat);
         let bench = Bench::new(bat, wish, terms.clone())?;
         let start = bench.look(&vec![0.0; bench.unknowns()])?.values;
         if let Some(k) = start.iter().position(|value| !value.is_finite()) {
@@ -210,6 +219,12 @@ impl Outcome {
         cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// The greatest diameter of the bat that is written (m).
+    pub fn widest(&self) -> f64 {
+        let radii = &self.bat.profile().stations.outer;
+        2.0 * radii.iter().fold(0.0_f64, |a, b| a.max(*b))
+    }
+
     /// The largest amount taken off a diameter, and the largest put on (m).
     pub fn largest(&self) -> [f64; 2] {
         let changes = self.stations.iter().map(|station| station.new - station.old);
@@ -238,6 +253,15 @@ struct Writing<'a> {
     grid: Grid,
 }
 
+/// A least change that is to be rounded, and whether once will do.
+#[derive(Clone, Copy)]
+struct Tries<'a> {
+    bench: &'a Bench,
+    limits: &'a Limits<'a>,
+    first: &'a Found,
+    once: bool,
+}
+
 impl Writing<'_> {
     fn outcome(self, least: Least) -> Result<Outcome> {
         let Least { bench, mut found, wood, .. } = least;
@@ -248,43 +272,32 @@ impl Writing<'_> {
         if missed(&found, &self.bands, &all) {
             (found, conflict) = self.nearest(&bench, &search, found)?;
         }
-        let mut best: Option<Rounded> = None;
-        let mut bands = self.bands.clone();
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
         let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
         let iterations = found.iterations;
-        let (wanted, grid) = (&self.bands, self.grid);
-        let rounding = Rounding { bench: &bench, limits: &limits, bands: wanted, grid };
-        let mut gentler = limits.clone();
-        for _ in 0..ANEW {
-            let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
-            bats += rounded.drafts;
-            gentler.gentler_by(1.2 * rounded.steeper);
-            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
-                best = Some(rounded);
-            }
-            let done = best.as_ref().is_some_and(|best| best.worst <= 1e-9);
-            if done || conflict.is_some() {
+        let first = found;
+        let (mut best, mut stopped) = (None::<Rounded>, first.stopped);
+        for finer in FINER {
+            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || conflict.is_some()) {
                 break;
             }
-            // The search anew, for goals that rounding then puts where they are to be.
-            for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
-                let by = off * of.scale;
-                let inside = (0.25 * of.scale).min(0.25 * (of.high - of.low));
-                band.low = of.low - by + inside;
-                band.high = of.high - by - inside;
+            let tries =
+                Tries { bench: &bench, limits: &limits, first: &first, once: conflict.is_some() };
+            let (rounded, by, tried) = self.rounded(&tries, finer)?;
+            bats += tried;
+            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
+                (best, stopped) = (Some(rounded), by);
             }
-            let search = Search::new(&bench, &gentler);
-            found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
-            bats += found.bats;
         }
         let rounded = best.expect("one draft at least was made");
-        let Rounded { draft, values, p, norm: written, steeper, .. } = rounded;
+        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
         let extras = bench.extras().iter().enumerate();
         let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
-        let kept = |x: f64| !bench.splines().stretches().iter().any(|s| x > s[0] && x < s[1]);
-        let kept_within = moved_where(&kept, &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+        let stretch = bench.stretch(&p);
+        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
+        let kept_within =
+            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
         let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
         let bat = draft.bat.with(|parts| self.name(parts))?;
         let mut outcome = Outcome {
@@ -293,7 +306,8 @@ impl Writing<'_> {
             rules: rules(self.wish, &bat, &bench)?,
             bat,
             stations: draft.stations,
-            grid: self.grid,
+            grid,
+            finer: self.grid.round / grid.round,
             bands: self.bands,
             values,
             prices,
@@ -302,16 +316,60 @@ impl Writing<'_> {
             norm: written,
             iterations,
             bats,
-            stopped: found.stopped,
+            stopped,
             broken,
             kept_within,
             slope: self.wish.slope,
             steeper,
+            remove_only: self.wish.remove_only,
             extras,
             wood,
         };
         outcome.judge();
         Ok(outcome)
+    }
+
+    /// The best rounding of a least change so many times finer than it was wished, why its search stopped, and the
+    /// bats that were computed. Where a rounding takes a goal out, the change is sought anew in narrower bands.
+    fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
+        /// So far inside its band a goal is sought anew, in tolerances.
+        const INSIDE: f64 = 0.25;
+        let Tries { bench, limits, first, once } = *tries;
+        let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });
+        let rounding = Rounding { bench, limits, bands: wanted, grid, finer };
+        let (mut bands, mut gentler) = (wanted.clone(), limits.clone());
+        let (mut found, mut bats) = (first.clone(), 0);
+        let mut best: Option<(Rounded, Option<&'static str>)> = None;
+        for again in 1..=ANEW {
+            let search = Search::new(bench, &gentler);
+            let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
+            bats += rounded.drafts;
+            gentler.gentler_by(1.2 * rounded.steeper);
+            if best.as_ref().is_none_or(|(best, _)| best.worst > rounded.worst) {
+                best = Some((rounded, found.stopped));
+            }
+            if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
+                break;
+            }
+            // The search anew, for goals that rounding then puts where they are to be.
+            for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
+                let by = off * of.scale;
+                // Finer digits need a part of what they moved the goal by, then more of it.
+                let share = again as f64 / ANEW as f64;
+                let room = match finer > 1.0 {
+                    true => (share * share * off.abs()).min(INSIDE / finer),
+                    false => INSIDE,
+                };
+                let inside = (room * of.scale).min(INSIDE * (of.high - of.low));
+                band.low = of.low - by + inside;
+                band.high = of.high - by - inside;
+            }
+            let search = Search::new(bench, &gentler);
+            found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
+            bats += found.bats;
+        }
+        let (rounded, stopped) = best.expect("one draft at least was made");
+        Ok((rounded, stopped, bats))
     }
 
     /// The nearest bat to bands that a search has missed, and their conflict: None where the bat that is found
@@ -367,13 +425,36 @@ fn total(bands: &[Band], found: &Found) -> f64 {
     bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
 }
 
-/// The largest difference of two bats' diameters where `kept` (m).
-fn moved_where(kept: &dyn Fn(f64) -> bool, old: &Bat, new: &Bat) -> f64 {
-    const PLACES: usize = 4000;
+/// The largest difference of two bats' diameters beside the stretches that may change (m): between any two stations of
+/// either the two curves are cubics, and the largest is sought between the nearest places of a close look.
+fn moved_beside(free: &[[f64; 2]], old: &Bat, new: &Bat) -> f64 {
+    const PLACES: usize = 16;
     let length = old.length();
-    let place = |k: usize| length * (k as f64 + 0.5) / PLACES as f64;
-    let by = |x: f64| 2.0 * (old.profile().at(x).outer - new.profile().at(x).outer).abs();
-    (0..PLACES).map(place).filter(|x| kept(*x)).map(by).fold(0.0, f64::max)
+    let mut borders =
+        [old.profile().borders(), new.profile().borders(), vec![0.0, length]].concat();
+    borders.extend(free.iter().flatten());
+    borders.retain(|x| (0.0..=length).contains(x));
+    borders.sort_by(f64::total_cmp);
+    let kept = |x: f64| !free.iter().any(|s| x > s[0] && x < s[1]);
+    let mut most: f64 = 0.0;
+    for ends in borders.windows(2).filter(|ends| ends[1] > ends[0]) {
+        let (from, to) = (ends[0], ends[1]);
+        let inside = 0.5 * (from + to);
+        if !kept(inside) {
+            continue;
+        }
+        let by = |x: f64| {
+            let [a, b] = [old, new].map(|bat| section(bat.profile(), x, inside).outer);
+            2.0 * (a - b).abs()
+        };
+        let place = |k: usize| from + (to - from) * k as f64 / PLACES as f64;
+        let nearest = (0..=PLACES).max_by(|a, b| by(place(*a)).total_cmp(&by(place(*b))));
+        let k = nearest.unwrap_or_default();
+        let around = [place(k.saturating_sub(1)), place((k + 1).min(PLACES))];
+        let top = golden::least(around[0], around[1], |x| -by(x));
+        most = most.max(by(top)).max(by(place(k)));
+    }
+    most
 }
 
 /// The main answers of both bats, swung alike.

@@ -25,12 +25,16 @@ pub struct Rounding<'a> {
     pub bands: &'a [Band],
     /// How stations are laid.
     pub grid: Grid,
+    /// How many times finer than it was wished they are rounded.
+    pub finer: f64,
 }
 
 /// A bat with rounded stations.
 pub struct Rounded {
     /// Its stations, and the bat.
     pub draft: Draft,
+    /// What its stations are rounded to.
+    pub grid: Grid,
     /// Its goals.
     pub values: Vec<f64>,
     /// The unknowns that were rounded.
@@ -77,9 +81,9 @@ impl Rounding<'_> {
                 best.drafts = drafts;
             }
             if best.as_ref().is_none_or(|(best, _)| best.worst > worst) {
-                let p = found.p.clone();
-                best =
-                    Some((Rounded { draft, values, p, norm, worst, steeper, drafts }, off.clone()));
+                let (p, grid) = (found.p.clone(), self.grid);
+                let rounded = Rounded { draft, grid, values, p, norm, worst, steeper, drafts };
+                best = Some((rounded, off.clone()));
             }
             if worst <= 1e-9 {
                 break;
@@ -108,7 +112,7 @@ impl Rounding<'_> {
         };
         let of = |(k, density): (usize, &Vec<f64>)| {
             let width = (self.bands[k].high - self.bands[k].low) / self.bands[k].scale;
-            let far = one(density).clamp(0.02, 0.4).min(0.4 * width);
+            let far = one(density).clamp(0.02 / self.finer, 0.4).min(0.4 * width);
             match found.prices[k] {
                 price if price > 1e-6 => far,
                 price if price < -1e-6 => -far,

@@ -18,6 +18,8 @@ const MOST: usize = 24;
 const STEPS_TAKEN: &str = "24 steps";
 /// A step changes no coefficient by more than that (mm).
 const TRUST: f64 = 3.0;
+/// Where the limits leave nothing in that, by so many times as much at most.
+const WIDEST: f64 = 32.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
 const STILL: f64 = 1e-3;
 /// Or where a step makes what is made least less by that share only: at a corner of the limits steps go on and
@@ -274,14 +276,53 @@ impl<'a> Search<'a> {
     /// a wider one where the limits leave nothing in it. `rooms` are the places where limits are asked, to which
     /// are added those where they would be broken.
     fn solve(&self, program: Program, p: &[f64], rooms: &mut Vec<Room>) -> Result<Least> {
-        for wider in 0..6 {
-            let trust = TRUST * f64::from(1 << wider);
+        let mut trust = TRUST;
+        while trust <= WIDEST * TRUST {
             if let Some(least) = self.within(&program, p, trust, rooms) {
                 return Ok(least);
             }
+            trust *= 2.0;
         }
+        Err(self.no_room(program, p, rooms))
+    }
+
+    /// Where the limits leave no room: where a curve that breaks them as little as it can breaks them most.
+    fn no_room(&self, mut program: Program, p: &[f64], rooms: &[Room]) -> Error {
+        /// Price of a break of 1 mm, far above that of any change (mm²).
+        const PENALTY: f64 = 1e4;
+        let trust = WIDEST * TRUST;
+        program.wishes.clear();
+        program.limits.extend(self.trusted(p, trust));
+        let elastic = |wish: Bounded| Elastic { wish, penalty: PENALTY };
+        program.wishes.extend(rooms.iter().map(|room| elastic(self.row(room, p, trust))));
+        program.wishes.extend(self.inclines.iter().cloned().map(elastic));
         let expected = "limits of the diameter that a smooth curve can keep";
-        Err(Error::value("diameter", "limits that leave no room", expected))
+        let Some(least) = program.solve() else {
+            return Error::value("diameter", "limits that leave no room", expected);
+        };
+        let by = |k: usize| {
+            let wish = &program.wishes[k].wish;
+            let value: f64 = wish.row.iter().zip(&least.p).map(|(a, p)| a * p).sum();
+            if value > wish.high { value - wish.high } else { (value - wish.low).min(0.0) }
+        };
+        let worst = (0..rooms.len()).max_by(|a, b| by(*a).abs().total_cmp(&by(*b).abs()));
+        match worst.filter(|k| by(*k) != 0.0) {
+            Some(k) => self.limits.no_room(rooms[k].x, 1e-3 * by(k)),
+            None => {
+                let found = "limits of the diameter and of the slope that leave no room together";
+                Error::value("slope", found, "a greater slope, or wider limits of the diameter")
+            }
+        }
+    }
+
+    /// The trust region: what a step may change each unknown to.
+    fn trusted<'b>(&'b self, p: &'b [f64], trust: f64) -> impl Iterator<Item = Bounded> + 'b {
+        let around = move |(k, p): (usize, &f64)| Bounded {
+            row: self.unit(k),
+            low: p - trust,
+            high: p + trust,
+        };
+        p.iter().enumerate().map(around)
     }
 
     fn within(
@@ -294,11 +335,7 @@ impl<'a> Search<'a> {
         let mut least = None;
         for _ in 0..ROUNDS {
             let mut program = program.clone();
-            program.limits.extend((0..p.len()).map(|k| Bounded {
-                row: self.unit(k),
-                low: p[k] - trust,
-                high: p[k] + trust,
-            }));
+            program.limits.extend(self.trusted(p, trust));
             program.limits.extend(self.inclines.iter().cloned());
             program.limits.extend(rooms.iter().map(|room| self.row(room, p, trust)));
             let found = program.solve()?;

@@ -7,6 +7,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
+use crate::bat::weighed::Weighed;
 use crate::study::aim::rules::{Rule, RuleSet};
 use crate::study::many::answers::Answer;
 
@@ -85,6 +86,8 @@ pub struct Wish {
     pub rules: Option<RuleSet>,
     /// Whether wood may only be taken off.
     pub remove_only: bool,
+    /// Whether wood may be added to a bat that was weighed: one that exists can only be cut.
+    pub add: bool,
     /// Stretches that stay as they are (m).
     pub keep: Vec<[f64; 2]>,
     /// Limits of the diameter.
@@ -137,6 +140,7 @@ impl Default for Wish {
             targets: vec![],
             rules: None,
             remove_only: false,
+            add: false,
             keep: vec![KNOB],
             diameter: vec![],
             stations: None,
@@ -286,6 +290,12 @@ impl Band {
 }
 
 impl Wish {
+    /// This wish of a bat: one that was weighed exists, and wood is only taken off it unless it may be added.
+    pub fn of_bat(&self, bat: &Bat) -> Self {
+        let exists = bat.weighed() != Weighed::default();
+        Self { remove_only: self.remove_only || exists && !self.add, ..self.clone() }
+    }
+
     /// Every goal that is asked of the bat: those of the targets, then those of the rules, each with its
     /// rule.
     pub fn goals(&self) -> Vec<(Goal, Option<Rule>)> {
@@ -376,7 +386,11 @@ impl Wish {
             let found = format!("{} {}", band.goal.name(), range(band));
             let expected =
                 format!("at most the {} that there is: wood is only taken off", said(band.start));
-            return Err(Error::value(field, found, expected));
+            let complaint = Complaint::new(field, found, expected);
+            return Err(Error::Value(match bat.weighed() == Weighed::default() || self.add {
+                true => complaint,
+                false => complaint.hinted("a weighed bat is only cut; --add lets wood be added"),
+            }));
         }
         Ok(())
     }
