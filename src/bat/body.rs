@@ -11,7 +11,7 @@ use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
 use crate::base::number::significant;
 use crate::base::quadrature::{RunningSum, converged, gauss};
-use crate::base::units::shown_length;
+use crate::base::units::{ounce_square_inches, shown_length};
 use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
@@ -530,6 +530,42 @@ impl Bat {
             format!(
                 "the balance point was measured at {measured}, and is at {computed} by the profile: the \
                  diameters, the mass or the measured place is off, or the wood is not alike everywhere"
+            )
+        })
+    }
+
+    /// The swing weight that was measured (kg m², about 6 in from the knob end), as such or by a pendulum:
+    /// `I = m g d T²/4π²` about its pivot, d from there to the balance point, with mass and balance point as
+    /// they were measured, or else as computed.
+    pub fn measured_swing_weight(&self) -> Option<f64> {
+        const GRAVITY: f64 = 9.806_65;
+        let weighed = self.weighed;
+        let of_pendulum = || {
+            let computed = self.unedited().inertia();
+            let mass = weighed.mass.unwrap_or(computed.mass);
+            let balance_point = weighed.balance_point.unwrap_or(computed.balance_point);
+            let arm = balance_point - weighed.pendulum_pivot.unwrap_or(STANDARD_PIVOT);
+            let turns = weighed.pendulum_period? / std::f64::consts::TAU;
+            let about_pivot = mass * GRAVITY * arm.abs() * turns.powi(2);
+            let other = balance_point - STANDARD_PIVOT;
+            Some(about_pivot + mass * (other.powi(2) - arm.powi(2)))
+        };
+        weighed.swing_weight.or_else(of_pendulum)
+    }
+
+    /// What there is to say of a swing weight that was measured far from what the profile has.
+    pub fn swing_weight_off(&self) -> Option<String> {
+        /// Beyond what a pendulum and a table of diameters tell (share).
+        const FAR: f64 = 0.02;
+        let measured = self.measured_swing_weight()?;
+        let computed = self.unedited().inertia().about(STANDARD_PIVOT);
+        ((computed / measured - 1.0).abs() > FAR || measured <= 0.0).then(|| {
+            let told = |value: f64| format!("{:.0} oz in²", ounce_square_inches(value));
+            let [computed, measured] = [computed, measured].map(told);
+            format!(
+                "the swing weight (6 in from the knob) was measured as {measured}, and is {computed} by the \
+                 profile: the diameters, the mass or what was measured is off, or the wood is not alike \
+                 everywhere"
             )
         })
     }

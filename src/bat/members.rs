@@ -127,11 +127,25 @@ impl Part for Weighed {
             Unknown(&mut w.balance_point)
         })
         .like("22 in"),
+        Field::<Self>::new("swing_weight", Quantity::Inertia, Range::Positive, |w| {
+            Unknown(&mut w.swing_weight)
+        })
+        .like("10425 oz in^2"),
+        Field::<Self>::new("pendulum_period", Quantity::Time, Range::Positive, |w| {
+            Unknown(&mut w.pendulum_period)
+        })
+        .like("1.4 s"),
+        Field::<Self>::new("pendulum_pivot", Quantity::Length, Range::OnBat, |w| {
+            Unknown(&mut w.pendulum_pivot)
+        })
+        .like("6 in")
+        .with("pendulum_period", "\"pendulum_period\": the time of a swing to and fro about it"),
         Field::<Self>::new("first_bending_hz", Quantity::Frequency, Range::Positive, |w| {
             Unknown(&mut w.first_bending)
         }),
     ];
-    const SOME: &'static [&'static str] = &["mass", "balance_point", "first_bending_hz"];
+    const SOME: &'static [&'static str] =
+        &["mass", "balance_point", "swing_weight", "pendulum_period", "first_bending_hz"];
 }
 
 impl Part for Region {

@@ -135,7 +135,7 @@ pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
-    if let Some(off) = bat.balance_off() {
+    for off in bat.balance_off().into_iter().chain(bat.swing_weight_off()) {
         args.output.warn(&format!("note: {off}"));
     }
     let progress = args.output.progress("modes");

@@ -248,7 +248,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let readings = match ["csv", "uff", "unv"].contains(&ending.as_str()) {
+    let readings = match measured::is_table(path) || ["uff", "unv"].contains(&ending.as_str()) {
         true => of_modes(path, args.quiet)?,
         false => readings_file::from_file(path)?,
     };

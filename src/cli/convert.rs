@@ -2,24 +2,33 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
+use crate::files::document::Document;
+use crate::files::schema;
 use crate::files::uff::{self, Stamp};
+use crate::modes::solve::{self, Request};
+use crate::proof::bundled;
 use crate::show::exchange::modes_file::{self, ModeTable};
 use crate::show::exchange::{csv, modes_uff, npz, vtu};
+use crate::show::report::json::{self, ShapePoints};
 
+use crate::cli::common::{self, Prepared};
 use crate::cli::done::{Done, printable};
+use crate::cli::edits::EditArgs;
 use crate::cli::progress::Progress;
+use crate::cli::value::TheoryChoice;
 
 /// Modes in the files of other programs: universal file, VTK, NumPy, CSV
 ///
-/// MODES.json is what sweetspot modes BAT --json MODES.json wrote. The bat lies along x, knob at 0,
+/// MODES.json is what sweetspot modes BAT --json MODES.json wrote; a bat is solved for its first ten modes
+/// in place of that. The bat lies along x, knob at 0,
 /// and deflects along y; rotations are about z. Shapes have their largest deflection 1, lengths are
 /// in m.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Modes file (JSON) of sweetspot modes
+    /// Modes file (JSON) of sweetspot modes; or a bat, by its file or its name
     modes: PathBuf,
 
     /// uff: universal file, datasets 151, 164, 2411, 82 and 55, for modal test programs;
@@ -55,6 +64,9 @@ Examples:
   sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
       for ParaView: Warp By Vector with mode, then step through the frequencies
 
+  sweetspot convert r161 --to uff
+      the same of a bat that is solved for it
+
   sweetspot convert r161.json --to csv
   sweetspot convert r161.json --to npz
       for spreadsheets and NumPy";
@@ -80,7 +92,7 @@ impl Format {
 
 pub fn run(args: &Args) -> Result<Done> {
     check(args)?;
-    let table = modes_file::read(&args.modes)?;
+    let (table, solved) = modes(&args.modes)?;
     let out = match &args.out {
         Some(out) => out.clone(),
         None => {
@@ -107,7 +119,43 @@ pub fn run(args: &Args) -> Result<Done> {
         file::write(path, contents)?;
     }
     drop(progress);
-    Ok(Done::new(said(&table, &files), 0))
+    Ok(Done::new(said(&table, &files), 0).with(solved))
+}
+
+/// The modes of a file, or of a bat that is solved for them, and what is to be said of that.
+fn modes(path: &Path) -> Result<(ModeTable, Option<String>)> {
+    if bundled::named(path)?.is_some() {
+        return of_bat(path);
+    }
+    let document = Document::read(path)?;
+    let text = &document.text;
+    if text.lines().find(|line| !line.trim().is_empty()).is_some_and(|line| line.trim() == "-1") {
+        let expected = "modes of sweetspot (JSON) or a bat: universal files are written here";
+        let complaint = Complaint::new("", "a universal file", expected);
+        let hint = "sweetspot compare BAT --measured FILE and sweetspot calibrate BAT FILE read its shapes";
+        return Err(document.error(0..0, complaint.hinted(hint)));
+    }
+    let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
+    match value["format"].as_str() {
+        Some(format) if format.starts_with("sweetspot-bat/") => of_bat(path),
+        _ => Ok((modes_file::from_text(&document.file, text)?, None)),
+    }
+}
+
+/// The first modes of a bat.
+fn of_bat(path: &Path) -> Result<(ModeTable, Option<String>)> {
+    const MODES: usize = 10;
+    const POINTS: usize = 101;
+    let (bat, _) = common::read_with_text(path, &EditArgs::default(), false)?;
+    let request = Request { modes: MODES, tolerance: 1e-4, ..Request::default() };
+    let Prepared { bat, request, warning } =
+        common::prepare(bat, TheoryChoice(None), request, false)?;
+    let solution = solve::solve(&bat, &request)?;
+    let document = json::modes(&bat, &solution, ShapePoints::Even(POINTS), false);
+    let table = modes_file::from_text(&path.display().to_string(), &schema::text(&document))?;
+    let said = format!("note: the bat was solved for its first {MODES} modes, within 0.01 %");
+    common::warn(&said, false);
+    Ok((table, warning))
 }
 
 /// Options that fit the format.

@@ -40,6 +40,9 @@ pub const LIMIT_SOURCE: &str =
 /// Where the ball's restitution is from that is taken if none is given.
 pub const COR_SOURCE: &str =
     "A. M. Nathan, Am. J. Phys. 68, 979 (2000), at game speed; the paper's fit at 58 m/s has 0.53";
+/// Where the definitions of BESR and BPF are from.
+pub const MEASURES_SOURCE: &str = "Sports Science Laboratory, Washington State University, \"Bat Performance \
+                                   Measures\", ssl.wsu.edu/glossary/bat-performance-measures";
 /// The first and the last place of the scan, from the tip: 12 in and 1 in (m).
 const SCAN: [f64; 2] = [12.0 * 0.0254, 0.0254];
 
@@ -68,6 +71,28 @@ pub struct Place {
     pub bbcor: Option<f64>,
     /// Error bound of [`Self::bbcor`].
     pub error: Option<f64>,
+}
+
+impl Place {
+    /// Ball exit speed ratio of a bat at rest, `e_A + 1/2`; None where ball and bat do not meet.
+    ///
+    /// # Source
+    ///
+    /// [`MEASURES_SOURCE`].
+    pub fn besr(&self) -> Option<f64> {
+        Some(self.impact.outcome.as_ref()?.collision_efficiency + 0.5)
+    }
+
+    /// Bat performance factor, BBCOR over the ball's coefficient of restitution; None where there is no
+    /// BBCOR, or the ball does not bounce.
+    ///
+    /// # Source
+    ///
+    /// [`MEASURES_SOURCE`].
+    pub fn bpf(&self, protocol: &Protocol) -> Option<f64> {
+        let cor = protocol.ball.restitution_at(protocol.ball_speed).unwrap_or(protocol.cor);
+        Some(self.bbcor? / cor).filter(|bpf| bpf.is_finite())
+    }
 }
 
 /// A bat that was tested.

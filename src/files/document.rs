@@ -16,10 +16,27 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Reads a file as UTF-8.
+    /// Reads a file as UTF-8, or as UTF-16 if it begins with the mark of that.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = file::read(path)?;
         let name = path.display().to_string();
+        let wide = match bytes[..] {
+            [0xff, 0xfe, ..] => Some(utf_16(&bytes, u16::from_le_bytes)),
+            [0xfe, 0xff, ..] => Some(utf_16(&bytes, u16::from_be_bytes)),
+            _ => None,
+        };
+        if let Some((text, whole)) = wide {
+            let document = Self::new(name, &text);
+            if whole {
+                return Ok(document);
+            }
+            let at = document.text.find(char::REPLACEMENT_CHARACTER).unwrap_or(0);
+            let end = at + document.text[at..].chars().next().map_or(0, char::len_utf8);
+            let complaint = Complaint::new("", "bytes that are not UTF-16 text", "text");
+            return Err(
+                document.error(at..end, complaint.hinted("save it as UTF-8 in your editor"))
+            );
+        }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, &text)),
             Err(error) => {
@@ -28,16 +45,18 @@ impl Document {
                 let text = String::from_utf8_lossy(error.as_bytes());
                 let marked = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
                 let document = Self { file: name, text: text.into_owned(), last: START.into() };
-                let utf_16 = matches!(error.as_bytes(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
-                let found = if utf_16 { "UTF-16 text" } else { "bytes that are not text" };
-                let complaint = Complaint::new("", found, "UTF-8 text");
+                let complaint = Complaint::new("", "bytes that are not text", "UTF-8 text");
                 Err(document.error(marked, complaint.hinted("save it as UTF-8 in your editor")))
             }
         }
     }
 
     pub fn new(file: String, text: &str) -> Self {
-        let text = text.trim_start_matches('\u{feff}').to_owned();
+        let mut text = text.trim_start_matches('\u{feff}').to_owned();
+        // Some spreadsheets end lines with a carriage return alone.
+        if !text.contains('\n') {
+            text = text.replace('\r', "\n");
+        }
         Self { file, text, last: START.into() }
     }
 
@@ -71,6 +90,15 @@ impl Document {
         };
         self.last.set((offset, line, column));
         (line, column)
+    }
+}
+
+/// The text of UTF-16 bytes, and whether it is whole.
+fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> (String, bool) {
+    let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+    match String::from_utf16(&units) {
+        Ok(text) if bytes.len().is_multiple_of(2) => (text, true),
+        _ => (String::from_utf16_lossy(&units), false),
     }
 }
 

@@ -5,7 +5,8 @@
 //! | file | question |
 //! |---|---|
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
-//! | `csv_file`, `station_table` | a table; the stations of a profile |
+//! | `sheet_number`, `sheet`, `csv_file` | a number in a table; its cells; columns of numbers |
+//! | `station_table` | the stations of a profile |
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
@@ -21,6 +22,8 @@
 pub(crate) mod document;
 pub(crate) mod broken_json;
 pub(crate) mod json_node;
+mod sheet_number;
+pub(crate) mod sheet;
 pub(crate) mod csv_file;
 pub(crate) mod station_table;
 pub(crate) mod amounts;

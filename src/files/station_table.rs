@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
+use crate::base::typed;
 use crate::base::units::Quantity;
 use crate::bat::profile::{Interpolation, Stations};
 use crate::files::csv_file::Csv;
@@ -140,7 +141,8 @@ impl<'a> StationTable<'a> {
     /// Whether the places of the stations are written in inches or feet.
     pub fn in_inches(&self) -> bool {
         let last = self.written("x", self.x.values.len().saturating_sub(1));
-        let unit = last.trim_matches('"').trim_start_matches(|c: char| !c.is_alphabetic());
+        let unit = typed::plain(last.trim_matches('"'));
+        let unit = unit.trim_start_matches(|c: char| !c.is_alphabetic());
         ["in", "inch", "inches", "ft", "foot", "feet"].contains(&unit)
     }
 
@@ -199,7 +201,7 @@ impl<'a> StationTable<'a> {
                 if shown.starts_with('"') { shown } else { format!("{shown} {unit}") }
             }
             Places::Csv { document, csv } => {
-                let (at, unit) = csv.cell(&document.text, key, k);
+                let (at, unit) = csv.cell(key, k);
                 format!("{} {unit}", &document.text[at]).trim_end().to_owned()
             }
         }

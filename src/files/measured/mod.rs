@@ -1,6 +1,5 @@
 //! Measured modes from a file: a table that somebody typed, or a universal file.
 
-mod cells;
 pub mod table;
 pub mod places;
 pub mod direction;
@@ -16,6 +15,12 @@ use crate::study::measured::data::Measured;
 
 /// Fewer points tell no shape from another.
 const FEWEST: usize = 3;
+
+/// Whether a file is a table, by the ending of its name: what spreadsheets and modal programs call one.
+pub fn is_table(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    ["csv", "txt", "tsv"].contains(&ending.as_str())
+}
 
 /// Reads measured modes, by the ending of the file's name.
 ///
@@ -43,14 +48,14 @@ pub struct Beside {
 pub fn read_with(path: &Path, beside: &Beside) -> Result<Measured> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match ending.as_str() {
-        "csv" if *beside != Beside::default() => {
+        _ if is_table(path) && *beside != Beside::default() => {
             let expected = "a universal file: a table names its units and places itself";
             Err(Error::value("--unit or --places", path.display(), expected))
         }
-        "csv" => table::read(path),
+        _ if is_table(path) => table::read(path),
         "uff" | "unv" => universal::read_with(path, beside),
         _ => {
-            let expected = "a file whose name ends with .csv, .uff or .unv";
+            let expected = "a file whose name ends with .csv, .txt, .uff or .unv";
             Err(Error::value("measured modes", path.display(), expected))
         }
     }

@@ -6,7 +6,8 @@ use std::path::Path;
 use crate::base::error::{Error, Result};
 use crate::base::units::{self, Quantity};
 use crate::files::document::Document;
-use crate::files::measured::cells::CellTable;
+use crate::files::measured::is_table;
+use crate::files::sheet::{Sheet, normal};
 
 /// Distance of every node from the knob end (m), by its label.
 pub type Places = BTreeMap<i64, f64>;
@@ -24,7 +25,7 @@ const EXAMPLE: &str = "nodes and places such as \"1=0 in, 2=3 in\", or a CSV fil
 pub fn read(text: &str) -> Result<Places> {
     match text.contains('=') {
         true => typed(text),
-        false if text.to_lowercase().ends_with(".csv") => file(Path::new(text)),
+        false if is_table(Path::new(text)) => file(Path::new(text)),
         false => Err(Error::value("--places", text, EXAMPLE)),
     }
 }
@@ -58,8 +59,8 @@ fn typed(text: &str) -> Result<Places> {
 fn file(path: &Path) -> Result<Places> {
     const FAR: f64 = 1e6;
     let document = Document::read(path)?;
-    let table = CellTable::new(&document)?;
-    if table.header.cells.len() != 2 || table.header.cells[0] != "node" {
+    let table = Sheet::new(&document, "a header such as node,x_in")?;
+    if table.header.cells.len() != 2 || normal(table.header.cells[0]) != "node" {
         let expected = "two columns, node and x_in (or another unit)";
         return Err(table.strange((&table.header, 0), "header", expected));
     }
@@ -69,7 +70,7 @@ fn file(path: &Path) -> Result<Places> {
         let Ok(node) = row.cells[0].parse() else {
             return Err(table.strange((row, 0), "node", "the label of a node, a whole number"));
         };
-        let place = metres * table.number((row, 1), &table.header.cells[1], [-FAR, FAR])?;
+        let place = metres * table.number((row, 1), table.header.cells[1], [-FAR, FAR])?;
         if places.insert(node, place).is_some() {
             let found = format!("{node} a second time");
             return Err(table.wrong((row, 0), "node", &found, "every node once"));

@@ -12,8 +12,8 @@
 //! …
 //! ```
 //!
-//! Or frequencies alone: columns `mode`, `frequency_hz` and `damping_ratio` or `damping_percent`. Lines
-//! that begin with `#` are comments.
+//! Or frequencies alone: columns `mode`, `frequency_hz` and `damping_ratio` or `damping_percent`. A
+//! [`Sheet`] says in which ways a table may be written.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use crate::base::error::Result;
 use crate::base::units::Quantity;
 use crate::files::document::Document;
 use crate::files::measured::FEWEST;
-use crate::files::measured::cells::{CellRow, CellTable};
+use crate::files::sheet::{Sheet, SheetRow, normal};
 use crate::study::measured::data::{Measured, MeasuredMode};
 
 /// Reads measured modes from CSV.
@@ -33,8 +33,10 @@ use crate::study::measured::data::{Measured, MeasuredMode};
 /// [`crate::base::error::Error::Read`], and [`crate::base::error::Error::Input`] with the line and the column.
 pub fn read(path: &Path) -> Result<Measured> {
     let document = Document::read(path)?;
-    let table = CellTable::new(&document)?;
-    let measured = match table.header.cells[0].starts_with("x_") || table.header.cells[0] == "x" {
+    let names = "a header such as x_in,mode_1,mode_2 or mode,frequency_hz";
+    let table = Sheet::new(&document, names)?;
+    let first = normal(table.header.cells[0]);
+    let measured = match first.starts_with("x_") || first == "x" {
         true => shapes(&table)?,
         false => frequencies(&table)?,
     };
@@ -48,14 +50,14 @@ const HIGHEST: f64 = 1e6;
 const ANY: [f64; 2] = [-1e100, 1e100];
 
 /// Shapes: points downwards, modes side by side.
-fn shapes(table: &CellTable) -> Result<Measured> {
+fn shapes(table: &Sheet) -> Result<Measured> {
     let to_metres = table.factor((&table.header, 0), "x", Quantity::Length)?;
     let mut modes = named(table)?;
-    let (told, points) = apart(table)?;
+    let [told, points] = apart(table)?;
     for row in told {
         tell(table, row, &mut modes)?;
     }
-    let place = &table.header.cells[0];
+    let place = table.header.cells[0];
     let along: Vec<f64> = points
         .iter()
         .map(|row| Ok(to_metres * table.number((row, 0), place, [-1e6, 1e6])?))
@@ -86,7 +88,7 @@ fn shapes(table: &CellTable) -> Result<Measured> {
 }
 
 /// The modes of the header, without anything but their names.
-fn named(table: &CellTable) -> Result<Vec<MeasuredMode>> {
+fn named(table: &Sheet) -> Result<Vec<MeasuredMode>> {
     let names = &table.header.cells[1..];
     if names.is_empty() {
         let expected = "a column for each mode";
@@ -101,9 +103,10 @@ fn named(table: &CellTable) -> Result<Vec<MeasuredMode>> {
 }
 
 /// The rows that tell frequencies and dampings, each once, and those of the points.
-fn apart<'a>(table: &'a CellTable) -> Result<(Vec<&'a CellRow>, Vec<&'a CellRow>)> {
-    let kind = |row: &CellRow| row.cells[0].split('_').next().unwrap_or_default().to_owned();
-    let (told, points): (Vec<&CellRow>, Vec<&CellRow>) =
+fn apart<'a, 'b>(table: &'a Sheet<'b>) -> Result<[Vec<&'a SheetRow<'b>>; 2]> {
+    let kind =
+        |row: &SheetRow| normal(row.cells[0]).split('_').next().unwrap_or_default().to_owned();
+    let (told, points): (Vec<&SheetRow>, Vec<&SheetRow>) =
         table.rows.iter().partition(|row| ["frequency", "damping"].contains(&kind(row).as_str()));
     let again = |k: &usize| told[..*k].iter().any(|row| kind(row) == kind(told[*k]));
     if let Some(k) = (1..told.len()).find(again) {
@@ -114,16 +117,16 @@ fn apart<'a>(table: &'a CellTable) -> Result<(Vec<&'a CellRow>, Vec<&'a CellRow>
         let expected = "a row with frequency_hz in its first cell";
         return Err(table.wrong((&table.header, 0), "", "no frequencies", expected));
     }
-    if let Some(row) = points.iter().find(|row| row.cells[0].parse::<f64>().is_err()) {
+    if let Some(row) = points.iter().find(|row| table.value(row.cells[0]).is_err()) {
         let expected = "a place, or frequency_hz, damping_ratio or damping_percent";
-        return Err(table.strange((row, 0), &table.header.cells[0], expected));
+        return Err(table.strange((row, 0), table.header.cells[0], expected));
     }
-    Ok((told, points))
+    Ok([told, points])
 }
 
 /// A row of frequencies or of dampings.
-fn tell(table: &CellTable, row: &CellRow, modes: &mut [MeasuredMode]) -> Result<()> {
-    let name = &row.cells[0];
+fn tell(table: &Sheet, row: &SheetRow, modes: &mut [MeasuredMode]) -> Result<()> {
+    let name = &normal(row.cells[0]);
     let frequencies = name.starts_with("frequency");
     if !frequencies && name != "damping_ratio" && name != "damping_percent" {
         return Err(table.strange((row, 0), "", "damping_ratio or damping_percent"));
@@ -138,42 +141,40 @@ fn tell(table: &CellTable, row: &CellRow, modes: &mut [MeasuredMode]) -> Result<
 }
 
 /// The frequency in a cell (Hz), its unit in the name in another.
-fn frequency(table: &CellTable, cell: (&CellRow, usize), name: (&CellRow, usize)) -> Result<f64> {
+fn frequency(table: &Sheet, cell: (&SheetRow, usize), name: (&SheetRow, usize)) -> Result<f64> {
     let factor = table.factor(name, "frequency", Quantity::Frequency)?;
-    let field = &name.0.cells[name.1];
+    let field = name.0.cells[name.1];
     Ok(factor * table.number(cell, field, [0.0, HIGHEST / factor])?)
 }
 
-/// A damping ratio, or percents of it; a cell may be left empty.
-fn damping(
-    table: &CellTable,
-    at: (&CellRow, usize),
-    field: &str,
-    name: &str,
-) -> Result<Option<f64>> {
-    let most = if name == "damping_percent" { 100.0 } else { 1.0 };
-    match at.0.cells[at.1].is_empty() {
+/// A damping ratio, or percents of it, of which a cell may have the sign; it may be left empty.
+fn damping(table: &Sheet, at: (&SheetRow, usize), field: &str, name: &str) -> Result<Option<f64>> {
+    let cell = at.0.cells[at.1];
+    let number = cell.strip_suffix('%').map(str::trim_end);
+    let most = if name == "damping_percent" || number.is_some() { 100.0 } else { 1.0 };
+    match cell.is_empty() {
         true => Ok(None),
-        false => Ok(Some(table.number(at, field, [0.0, most])? / most)),
+        false => Ok(Some(table.number_of(number.unwrap_or(cell), field, [0.0, most])? / most)),
     }
 }
 
 /// Frequencies alone: modes downwards.
-fn frequencies(table: &CellTable) -> Result<Measured> {
-    let names = &table.header.cells;
+fn frequencies(table: &Sheet) -> Result<Measured> {
+    let written = &table.header.cells;
+    let names: Vec<String> = written.iter().map(|name| normal(name)).collect();
     let known = |name: &str| {
         ["mode", "damping_ratio", "damping_percent"].contains(&name)
             || name.starts_with("frequency_")
     };
     if let Some(k) = names.iter().position(|name| !known(name)) {
-        let found = format!("column \"{}\"", names[k]);
+        let found = format!("column \"{}\"", written[k]);
         let expected = "x_in and modes for shapes, or mode, frequency_hz, damping_ratio";
         return Err(table.wrong((&table.header, k), "header", &found, expected));
     }
     let stem = |name: &str| name.split('_').next().unwrap_or_default().to_owned();
     let again = |k: &usize| names[..*k].iter().any(|name| stem(name) == stem(&names[*k]));
     if let Some(k) = (1..names.len()).find(again) {
-        let found = format!("column \"{}\" beside another", names[k]);
+        let found = format!("column \"{}\" beside another", written[k]);
         return Err(table.wrong((&table.header, k), "header", &found, "one of a kind"));
     }
     let column = |kind: &str| names.iter().position(|name| stem(name) == kind);
@@ -188,7 +189,7 @@ fn frequencies(table: &CellTable) -> Result<Measured> {
             None => k + 1,
         };
         let damping_ratio = match column("damping") {
-            Some(cell) => damping(table, (row, cell), &names[cell], &names[cell])?,
+            Some(cell) => damping(table, (row, cell), written[cell], &names[cell])?,
             None => None,
         };
         let frequency = frequency(table, (row, at), (&table.header, at))?;
@@ -204,8 +205,9 @@ fn frequencies(table: &CellTable) -> Result<Measured> {
 }
 
 /// The number of a mode, each once.
-fn order(table: &CellTable, at: (&CellRow, usize), before: &[MeasuredMode]) -> Result<usize> {
-    match at.0.cells[at.1].parse::<usize>() {
+fn order(table: &Sheet, at: (&SheetRow, usize), before: &[MeasuredMode]) -> Result<usize> {
+    let whole = |value: f64| if value.fract() == 0.0 { value as usize } else { 0 };
+    match table.value(at.0.cells[at.1]).map(whole) {
         Ok(order) if before.iter().any(|mode| mode.order == Some(order)) => {
             Err(table.wrong(at, "mode", &format!("{order} a second time"), "it once"))
         }

@@ -153,7 +153,12 @@ fn skipped(universal: &Universal) -> Option<String> {
     let mut numbers: Vec<i64> = universal.skipped.iter().map(|skipped| skipped.number).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    let list: Vec<String> = numbers.iter().map(i64::to_string).collect();
+    // One of nodes would have been read.
+    let named = |number: &i64| match number {
+        2414 => "2414 (data on elements, not at nodes)".to_owned(),
+        number => number.to_string(),
+    };
+    let list: Vec<String> = numbers.iter().map(named).collect();
     match list.len() {
         0 => None,
         1 => Some(format!("dataset {} is", list[0])),

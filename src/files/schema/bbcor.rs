@@ -68,6 +68,9 @@ pub struct Protocol {
     pub cor_source: String,
     /// Where the limit is from.
     pub limit_source: String,
+    /// Where the definitions of BESR and BPF are from.
+    #[serde(default)]
+    pub measures_source: String,
 }
 
 /// One place of the scan. Most is null where ball and bat do not meet; `flags` says why.
@@ -83,6 +86,12 @@ pub struct Place {
     pub collision_efficiency: Option<f64>,
     /// BBCOR, e_A (1 + r) + r with r = m Q²/I about the pivot.
     pub bbcor: Option<f64>,
+    /// Ball exit speed ratio, e_A + 1/2.
+    #[serde(default)]
+    pub besr: Option<f64>,
+    /// Bat performance factor, BBCOR over the coefficient of restitution of the ball at the test speed.
+    #[serde(default)]
+    pub bpf: Option<f64>,
     /// What is unusual in the hit, as in a hit file.
     pub flags: Vec<String>,
     /// How far the numbers above may be off.
@@ -107,6 +116,12 @@ pub struct Largest {
     pub from_tip_m: f64,
     /// BBCOR there.
     pub bbcor: f64,
+    /// Ball exit speed ratio there, e_A + 1/2.
+    #[serde(default)]
+    pub besr: Option<f64>,
+    /// Bat performance factor there, BBCOR over the coefficient of restitution of the ball.
+    #[serde(default)]
+    pub bpf: Option<f64>,
     /// How far it may be off.
     pub error: f64,
 }

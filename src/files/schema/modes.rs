@@ -76,6 +76,12 @@ pub struct WeighedFactors {
     /// Computed balance point less the measured one (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub balance_point_difference_m: Option<f64>,
+    /// The swing weight that was measured, about 6 in from the knob end, as such or by a pendulum (kg m²).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_pivot_kg_m2: Option<f64>,
+    /// Computed swing weight less the measured one (kg m²).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_pivot_difference_kg_m2: Option<f64>,
 }
 
 /// What was computed, and how.

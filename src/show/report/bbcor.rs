@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use crate::base::units::{inches, miles_per_hour};
 use crate::bat::body::STANDARD_PIVOT;
-use crate::collision::bbcor::{COR_SOURCE, LIMIT, LIMIT_SOURCE, Place, STEP, Tested};
+use crate::collision::bbcor::{
+    COR_SOURCE, LIMIT, LIMIT_SOURCE, MEASURES_SOURCE, Place, Protocol, STEP, Tested,
+};
 use crate::collision::columns::{BBCOR, EFFICIENCY, EXIT_SPEED, X};
 use crate::files::schema::bbcor as file;
 use crate::files::schema::document::{Format, Generator};
@@ -119,13 +121,21 @@ fn verdict(tested: &Tested, units: Units) -> String {
         "Largest {bbcor:.4}, {place} from the tip: {against} ({LIMIT_SOURCE}). It rises with the \
          ball's cor by about as much; a laboratory's ball and limit decide, not this."
     );
-    format!("\n{}", wrapped(&text, 0))
+    let figures = most.besr().zip(most.bpf(&tested.protocol)).map(|(besr, bpf)| {
+        let text = format!(
+            "There BESR, e_A + 1/2, is {besr:.4}, and BPF, BBCOR over the ball's cor, {bpf:.3} \
+             ({MEASURES_SOURCE})."
+        );
+        wrapped(&text, 0)
+    });
+    format!("\n{}{}", wrapped(&text, 0), figures.unwrap_or_default())
 }
 
 /// A line for each place, SI.
 pub fn csv(tested: &Tested) -> String {
     let [x, exit, efficiency, bbcor] = [X, EXIT_SPEED, EFFICIENCY, BBCOR].map(|c| c.name);
-    let mut table = Csv::new([x, "from_tip_m", exit, efficiency, bbcor, "bbcor_error"]);
+    let mut table =
+        Csv::new([x, "from_tip_m", exit, efficiency, bbcor, "bbcor_error", "besr", "bpf"]);
     for place in &tested.places {
         table.row([
             place.impact.x.into(),
@@ -134,6 +144,8 @@ pub fn csv(tested: &Tested) -> String {
             EFFICIENCY.at(&place.impact).into(),
             place.bbcor.into(),
             place.error.into(),
+            place.besr().into(),
+            place.bpf(&tested.protocol).into(),
         ]);
     }
     table.text()
@@ -147,6 +159,8 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
             x_m: place.impact.x,
             from_tip_m: length - place.impact.x,
             bbcor: place.bbcor?,
+            besr: place.besr(),
+            bpf: place.bpf(protocol),
             error: place.error?,
         })
     };
@@ -165,8 +179,9 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
             cor: protocol.cor,
             cor_source: cor_source.to_owned(),
             limit_source: LIMIT_SOURCE.to_owned(),
+            measures_source: MEASURES_SOURCE.to_owned(),
         },
-        places: tested.places.iter().map(|at| place(at, length, protocol.ball_speed)).collect(),
+        places: tested.places.iter().map(|at| place(at, length, protocol)).collect(),
         largest: tested.most().and_then(largest),
         wall: tested.wall.map(|wall| wall_under_ball(&wall, wall.bbcor_pivoted)),
         limit: LIMIT,
@@ -176,7 +191,7 @@ pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
     }
 }
 
-fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {
+fn place(place: &Place, length: f64, protocol: &Protocol) -> file::Place {
     let (impact, outcome) = (&place.impact, place.impact.outcome.as_ref());
     file::Place {
         x_m: impact.x,
@@ -184,9 +199,11 @@ fn place(place: &Place, length: f64, ball_speed: f64) -> file::Place {
         exit_speed_m_s: EXIT_SPEED.at(impact),
         collision_efficiency: EFFICIENCY.at(impact),
         bbcor: place.bbcor,
+        besr: place.besr(),
+        bpf: place.bpf(protocol),
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
         error: file::PlaceError {
-            exit_speed_m_s: outcome.map(|o| o.error * ball_speed),
+            exit_speed_m_s: outcome.map(|o| o.error * protocol.ball_speed),
             bbcor: place.error,
         },
     }

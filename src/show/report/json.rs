@@ -97,6 +97,7 @@ fn places(bat: &Bat, solution: &Solution, points: ShapePoints) -> Vec<f64> {
 fn summary(bat: &Bat) -> file::Summary {
     let inertia = bat.inertia();
     let measured = bat.weighed().balance_point;
+    let swing_weight = bat.measured_swing_weight();
     // That was said of the bat before its edits.
     let weighed = bat.unedited().inertia();
     let weighed = (bat.weighed() != Weighed::default()).then(|| file::WeighedFactors {
@@ -104,6 +105,9 @@ fn summary(bat: &Bat) -> file::Summary {
         modulus_factor: bat.factors()[1],
         balance_point_m: measured,
         balance_point_difference_m: measured.map(|x| weighed.balance_point - x),
+        inertia_pivot_kg_m2: swing_weight,
+        inertia_pivot_difference_kg_m2: swing_weight
+            .map(|measured| weighed.about(STANDARD_PIVOT) - measured),
     });
     file::Summary {
         length_m: bat.length(),

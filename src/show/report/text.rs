@@ -34,6 +34,10 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     }
     line("inertia about balance point", units.inertia(inertia.about_balance));
     line("swing weight (6 in from knob)", units.inertia(inertia.about(STANDARD_PIVOT)));
+    if let Some(measured) = bat.measured_swing_weight() {
+        let computed = bat.unedited().inertia().about(STANDARD_PIVOT);
+        line("  less the measured one", units.inertia(computed - measured));
+    }
     if let Some(center) = inertia.center_of_percussion(STANDARD_PIVOT) {
         line("centre of percussion, from knob", units.length(center));
         line("centre of percussion, from tip", units.length(length - center));
@@ -55,6 +59,17 @@ fn fixed(value: f64, decimals: usize) -> String {
         0.0 | 1e-2..1e6 => format!("{value:.decimals$}"),
         _ => format!("{value:.2e}"),
     }
+}
+
+/// A frequency (Hz) with the digits that are known by its relative error, two decimals at least and nine
+/// characters at most.
+fn as_known(frequency: f64, error: f64) -> String {
+    const LONGEST: usize = 9;
+    let known = (-(error * frequency).log10()).floor();
+    let whole = fixed(frequency, 0).len();
+    let room = LONGEST.saturating_sub(whole + 1).max(2);
+    let decimals = if known > 2.0 { (known.min(room as f64)) as usize } else { 2 };
+    fixed(frequency, decimals)
 }
 
 /// The nodes of so many modes fit a screen or two.
@@ -79,7 +94,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     for mode in &solution.modes {
         out += &columns.row([
             mode.order.to_string(),
-            format!("{} Hz", fixed(mode.frequency(), 2)),
+            format!("{} Hz", as_known(mode.frequency(), mode.error.total())),
             fixed(mode.omega / lowest, 3),
             String::new(),
             format!("within {:.0e}", mode.error.total()),

@@ -1,0 +1,324 @@
+//! The cells of a table as programs and spreadsheets write it, each with its place.
+//!
+//! Commas, semicolons or tabs between the cells (the first line may say which, as in `sep=;`), quotes
+//! around them, decimal points or commas, fractions of an inch rule, cells and rows left empty at the end.
+//! Lines that begin with `#` are comments. Names of columns in any capitals, their units after `_` or in
+//! brackets: `Frequency (Hz)` is `frequency_hz`.
+
+use std::ops::Range;
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::base::mistakes;
+use crate::base::typed;
+use crate::base::units::{self, Quantity};
+use crate::files::document::Document;
+use crate::files::sheet_number::{self, Decimal};
+
+/// A header and the rows below it.
+pub(crate) struct Sheet<'a> {
+    document: &'a Document,
+    pub header: SheetRow<'a>,
+    /// Rows below the header, each as wide as the header.
+    pub rows: Vec<SheetRow<'a>>,
+    decimal: Decimal,
+}
+
+/// One row: its cells without the spaces and quotes around them.
+pub(crate) struct SheetRow<'a> {
+    start: usize,
+    pub cells: Vec<&'a str>,
+}
+
+impl<'a> Sheet<'a> {
+    /// Splits the text into cells; `names` says what a header may be.
+    pub fn new(document: &'a Document, names: &str) -> Result<Self> {
+        let text = &document.text[..];
+        let (mut at, separator) = beginning(document)?;
+        let mut rows = vec![];
+        while at < text.len() {
+            if text[at..].starts_with('#') {
+                at = text[at..].find('\n').map_or(text.len(), |end| at + end + 1);
+                continue;
+            }
+            let start = at;
+            let cells;
+            (cells, at) = record(text, at, separator).map_err(|quote| {
+                let field = if rows.is_empty() { "header" } else { "" };
+                let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
+                document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
+            })?;
+            // Spreadsheets leave lines that hold only separators.
+            if cells.iter().any(|cell| !cell.is_empty()) {
+                rows.push(SheetRow { start, cells });
+            }
+        }
+        if rows.is_empty() {
+            let complaint = Complaint::new("", "no header", names);
+            return Err(document.error(0..0, complaint));
+        }
+        let mut header = rows.remove(0);
+        while header.cells.last().is_some_and(|cell| cell.is_empty()) {
+            header.cells.pop();
+        }
+        let width = header.cells.len();
+        mistakes::all(rows.iter_mut().map(|row| {
+            while row.cells.len() > width && row.cells.last().is_some_and(|cell| cell.is_empty()) {
+                row.cells.pop();
+            }
+            let many = row.cells.len();
+            if many == width {
+                return Ok(());
+            }
+            let found = format!("{many} {} in this row", if many == 1 { "cell" } else { "cells" });
+            let mut complaint = Complaint::new("", found, format!("{width}, as in the header"));
+            if separator == b',' && many > width {
+                let hint = "commas stand between the cells here: numbers have points, or semicolons \
+                            stand between the cells";
+                complaint = complaint.hinted(hint);
+            }
+            Err(document.error(line(text, row.start), complaint))
+        }))?;
+        let mut sheet = Self { document, header, rows, decimal: Decimal::Point };
+        sheet.decimal = sheet.settled(separator)?;
+        Ok(sheet)
+    }
+
+    /// The decimal sign of the table: that of its numbers that can be read in one way, or else the one that
+    /// goes with the separator.
+    fn settled(&self, separator: u8) -> Result<Decimal> {
+        let mut first: Option<(Decimal, &str)> = None;
+        for cell in self.rows.iter().flat_map(|row| &row.cells) {
+            let Some(sign) = sheet_number::certain(cell) else { continue };
+            match first {
+                Some((settled, before)) if settled != sign => {
+                    let found = format!("\"{cell}\" beside \"{before}\"");
+                    let expected = "one decimal sign in the whole table";
+                    let complaint = Complaint::new("", found, expected);
+                    return Err(self.document.error(self.place(cell), complaint));
+                }
+                None => first = Some((sign, cell)),
+                Some(_) => {}
+            }
+        }
+        let usual = if separator == b';' { Decimal::Comma } else { Decimal::Point };
+        Ok(first.map_or(usual, |(sign, _)| sign))
+    }
+
+    /// Where a part of the text stands, in bytes.
+    pub fn place(&self, part: &str) -> Range<usize> {
+        let start = part.as_ptr() as usize - self.document.text.as_ptr() as usize;
+        start..start + part.len()
+    }
+
+    /// Where the header stands.
+    pub fn header_line(&self) -> Range<usize> {
+        line(&self.document.text, self.header.start)
+    }
+
+    /// The number in a cell.
+    ///
+    /// # Errors
+    ///
+    /// What was found and what was expected, without a field.
+    pub fn value(&self, cell: &str) -> std::result::Result<f64, Complaint> {
+        sheet_number::value(cell, self.decimal)
+    }
+
+    /// An error about a cell, from a complaint.
+    pub fn error(&self, (row, cell): (&SheetRow, usize), complaint: Complaint) -> Error {
+        self.document.error(self.place(row.cells[cell]), complaint)
+    }
+
+    /// An error about a cell.
+    pub fn wrong(
+        &self,
+        at: (&SheetRow, usize),
+        field: &str,
+        found: &str,
+        expected: impl Into<String>,
+    ) -> Error {
+        self.error(at, Complaint::new(field, found, expected))
+    }
+
+    /// An error about a cell with its own words in quotes.
+    pub fn strange(
+        &self,
+        (row, cell): (&SheetRow, usize),
+        field: &str,
+        expected: impl Into<String>,
+    ) -> Error {
+        let found = format!("\"{}\"", row.cells[cell]);
+        self.wrong((row, cell), field, &found, expected)
+    }
+
+    /// The number in a cell, if it is in that range.
+    pub fn number(&self, at: (&SheetRow, usize), field: &str, range: [f64; 2]) -> Result<f64> {
+        self.number_of(at.0.cells[at.1], field, range)
+    }
+
+    /// The number in a part of a cell, if it is in that range.
+    pub fn number_of(&self, cell: &str, field: &str, [low, high]: [f64; 2]) -> Result<f64> {
+        let wrong = |complaint: Complaint| {
+            self.document
+                .error(self.place(cell), Complaint { field: field.to_owned(), ..complaint })
+        };
+        match self.value(cell).map_err(wrong)? {
+            value if value >= low && value <= high => Ok(value),
+            _ => Err(wrong(Complaint::new("", cell, format!("{low:?} to {high:?}")))),
+        }
+    }
+
+    /// The factor to SI of a name such as `x_in`, its beginning being `stem`.
+    pub fn factor(&self, at: (&SheetRow, usize), stem: &str, quantity: Quantity) -> Result<f64> {
+        let name = normal(at.0.cells[at.1]);
+        let Some(unit) = name.strip_prefix(stem).and_then(|rest| rest.strip_prefix('_')) else {
+            let example = if quantity == Quantity::Length { "x_in or x_m" } else { "frequency_hz" };
+            return Err(self.strange(at, "", format!("its unit too, as in {example}")));
+        };
+        factor(unit, quantity)
+            .map_err(|complaint| self.wrong(at, &name, &complaint.found, complaint.expected))
+    }
+}
+
+/// The factor to SI of a unit in small letters, as names of columns have them.
+///
+/// # Errors
+///
+/// Those of [`units::factor`].
+pub(crate) fn factor(unit: &str, quantity: Quantity) -> std::result::Result<f64, Complaint> {
+    let marked = typed::plain(unit);
+    let unit = match marked.trim_end_matches('.') {
+        "hz" => "Hz",
+        "khz" => "kHz",
+        "n" => "N",
+        "kn" => "kN",
+        "sec" | "seconds" => "s",
+        unit => unit,
+    };
+    units::factor(unit, quantity)
+}
+
+/// A column's name in small letters, its unit after `_`: `Inner Diameter [mm]` is `inner_diameter_mm`.
+pub(crate) fn normal(name: &str) -> String {
+    let small = name.trim().to_lowercase();
+    let bracket = small.ends_with([')', ']', '}']).then(|| small.rfind(['(', '[', '{'])).flatten();
+    let (stem, unit) = match (bracket, small.split_once([',', '/'])) {
+        (Some(at), _) => (&small[..at], Some(&small[at + 1..small.len() - 1])),
+        (None, Some((stem, unit))) => (stem, Some(unit)),
+        (None, None) => (&small[..], None),
+    };
+    let stem = stem.trim().replace([' ', '-'], "_").replace('.', "");
+    let stem = match stem.as_str() {
+        "position" | "distance" | "place" | "location" | "station" => "x",
+        "od" | "outer_diameter" | "outside_diameter" => "diameter",
+        "id" | "inside_diameter" | "bore" => "inner_diameter",
+        "outer_radius" => "radius",
+        "wall" => "wall_thickness",
+        "freq" | "damped_frequency" | "natural_frequency" => "frequency",
+        "mode_no" | "mode_nr" | "mode_number" | "no" | "nr" => "mode",
+        "time" => "t",
+        stem => stem,
+    };
+    match unit.map(str::trim) {
+        Some("%") if stem.starts_with("damping") => "damping_percent".to_owned(),
+        Some("-" | "1") | None => stem.to_owned(),
+        Some(unit) => format!("{stem}_{unit}"),
+    }
+}
+
+/// Where the header may begin, and what stands between the cells.
+fn beginning(document: &Document) -> Result<(usize, u8)> {
+    let text = &document.text[..];
+    let blank = |line: &str| line.trim_matches([' ', '\r', '\n']).is_empty();
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        let told = line.trim_matches([' ', '"', '\r', '\n']);
+        if blank(line) || line.starts_with('#') {
+            at += line.len();
+            continue;
+        }
+        // Spreadsheets say so in the first line.
+        let Some(sign) =
+            told.get(..4).filter(|s| s.eq_ignore_ascii_case("sep=")).map(|_| &told[4..])
+        else {
+            return Ok((at, between(text, at)));
+        };
+        let sign = sign.bytes().next();
+        let Some(sign) = sign.filter(|sign| [b',', b';', b'\t', b'|'].contains(sign)) else {
+            let expected = "a comma, a semicolon, a tab or | after sep=";
+            let complaint = Complaint::new("", format!("\"{told}\""), expected);
+            return Err(document.error(at..at + line.trim_end().len(), complaint));
+        };
+        return Ok((at + line.len(), sign));
+    }
+    Ok((at, b','))
+}
+
+/// What stands between the names of a header: semicolons or tabs if there are any, or else commas.
+/// Those in quotes or brackets are part of a name.
+fn between(text: &str, at: usize) -> u8 {
+    let (mut quoted, mut fresh, mut depth, mut best) = (false, true, 0, b',');
+    for byte in text[at..].bytes() {
+        match byte {
+            // Inside of a name a quote is the mark of inches.
+            b'"' if quoted || fresh => quoted = !quoted,
+            b'(' | b'[' if !quoted => depth += 1,
+            b')' | b']' if !quoted => depth -= 1,
+            b'\n' if !quoted => break,
+            b';' if !quoted && depth <= 0 => return b';',
+            b'\t' if !quoted && depth <= 0 => best = b'\t',
+            _ => {}
+        }
+        fresh = matches!(byte, b',' | b'\t') || (fresh && byte == b' ');
+    }
+    best
+}
+
+/// The cells of the row at `at`, and where the next one begins; or where a quote is without its end.
+fn record(
+    text: &str,
+    mut at: usize,
+    separator: u8,
+) -> std::result::Result<(Vec<&str>, usize), usize> {
+    let bytes = text.as_bytes();
+    let ends = |i: usize| bytes.get(i).is_none_or(|byte| *byte == separator || *byte == b'\n');
+    let blank = |i: usize| matches!(bytes.get(i), Some(b' ' | b'\t' | b'\r')) && !ends(i);
+    let mut cells = vec![];
+    loop {
+        let start = (at..).find(|i| !blank(*i)).unwrap_or(at);
+        let mut end = start;
+        let cell = if bytes.get(start) == Some(&b'"') {
+            end = start + 1;
+            while bytes.get(end) != Some(&b'"') || bytes.get(end + 1) == Some(&b'"') {
+                end += if bytes.get(end) == Some(&b'"') { 2 } else { 1 };
+                if end >= bytes.len() {
+                    return Err(start);
+                }
+            }
+            let inside = &text[start + 1..end];
+            end += 1;
+            while blank(end) {
+                end += 1;
+            }
+            inside
+        } else {
+            ""
+        };
+        let closed = ends(end);
+        while !ends(end) {
+            end += 1;
+        }
+        let cell = if end > start && closed { cell } else { &text[start..end] };
+        cells.push(cell.trim_start().trim_end());
+        at = end + 1;
+        if bytes.get(end) != Some(&separator) {
+            return Ok((cells, at.min(bytes.len())));
+        }
+    }
+}
+
+/// The line that begins at `offset`, without its end.
+fn line(text: &str, offset: usize) -> Range<usize> {
+    let line = text[offset..].lines().next().unwrap_or_default();
+    offset..offset + line.trim_end().len()
+}
