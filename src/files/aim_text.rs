@@ -163,7 +163,8 @@ pub fn tolerance(text: &str, goal: Goal) -> Said<Amount> {
 /// word or a unit says it: "1 oz lighter", "-1 oz"; "-3" alone is a drop.
 pub fn target(text: &str) -> Said<Target> {
     let text = wish_words::plain(text);
-    read(&text).map_err(|complaint| match complaint.hint.is_empty() {
+    let several = [", ", " and ", " but ", "; ", " with "].iter().any(|part| text.contains(*part));
+    read(&text).map_err(|complaint| match complaint.hint.is_empty() || several {
         true => match wording(&text) {
             Some(hint) => complaint.hinted(hint),
             None => complaint,
