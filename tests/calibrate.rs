@@ -367,7 +367,8 @@ fn a_hum_is_a_stranger_and_readings_of_another_bat_do_not_fit() {
     assert_eq!(found["labels"]["taken"], serde_json::json!([1, 2, 3, null]));
     assert!(found["labels"]["second"].is_array(), "{found}");
     // No wood has these: most of them are left out, which is no success.
-    let (found, code) = calibrated(r#"{ "hz": 174.51 }, { "hz": 260 }, { "hz": 330 }, { "hz": 395 }"#);
+    let (found, code) =
+        calibrated(r#"{ "hz": 174.51 }, { "hz": 260 }, { "hz": 330 }, { "hz": 395 }"#);
     assert_eq!(code, Some(1), "{found}");
     let said = found["words"].to_string();
     assert!(said.contains("no bending mode") || said.contains("do not fit"), "{said}");
@@ -401,8 +402,7 @@ fn what_no_tone_tells_widens_what_is_told() {
             "diameter": [1.0161363737, 1.0161363737] } }"#;
     let bat = Bat::from_text("bar.json", text, "".as_ref()).unwrap();
     let mass = Some(reading(0.1903, 0.6e-3));
-    let readings =
-        BatReadings { mass, lines: lines(&[(957.0, 1.0, 1)]), ..BatReadings::default() };
+    let readings = BatReadings { mass, lines: lines(&[(957.0, 1.0, 1)]), ..BatReadings::default() };
     let found = Calibration::new(&bat, readings, &CalibrationPlan::default()).unwrap();
     let one = &found.parameters[0];
     let [low, high] = one.interval.map(|end| end / 25.91e9 - 1.0);

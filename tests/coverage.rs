@@ -79,7 +79,12 @@ const KINDS: [Kind; 11] = [
     Kind { name: "1 line", mass: false, ..USUAL },
     Kind { name: "3 lines", lines: 3, mass: false, ..USUAL },
     Kind { name: "mass, pendulum, 2 lines", lines: 2, pendulum: true, ..USUAL },
-    Kind { name: "mass and 2 lines, G by itself", lines: 2, shear: ShearPrior::Alone(0.35), ..USUAL },
+    Kind {
+        name: "mass and 2 lines, G by itself",
+        lines: 2,
+        shear: ShearPrior::Alone(0.35),
+        ..USUAL
+    },
     Kind {
         name: "two regions: mass, balance point, pendulum, 3 lines",
         lines: 3,
@@ -92,8 +97,9 @@ const KINDS: [Kind; 11] = [
 /// Reads a bat of that wood.
 fn read(kind: &Kind, wood: &WoodenBat, logs: &Logs, drawn: &mut Drawn) -> BatReadings {
     let shown = wood.shown(logs, kind.lines).unwrap();
-    let mut off = |value: f64, deviation: f64| {
-        Reading { value: value + deviation * drawn.normal(), deviation }
+    let mut off = |value: f64, deviation: f64| Reading {
+        value: value + deviation * drawn.normal(),
+        deviation,
     };
     let priors = Priors { shear: kind.shear, ..Priors::default() };
     let mut readings = BatReadings { priors, ..BatReadings::default() };

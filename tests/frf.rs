@@ -223,7 +223,18 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
     // Which of two is asked for by its number.
     let two = dataset_58((12, "m/s2"), 13, along, &five()).repeat(2);
     folder.write("tap.uff", two);
-    folder.text(&["frf", "bat.json", "--measured", "tap.uff", "--function", "2", "--at", "0.7"]);
+    folder.text(&[
+        "frf",
+        "bat.json",
+        "--measured",
+        "tap.uff",
+        "--function",
+        "2",
+        "--at",
+        "0.7",
+        "--to",
+        "0.1",
+    ]);
 }
 
 /// Dataset 2414 by its description, records 1 to 15, and dataset 55 of the same mode.

@@ -46,8 +46,14 @@ fn a_profile_is_read_however_its_table_is_written() {
     };
     for (name, text) in [
         ("ours.csv", "x_in,diameter_in\n0,1\n6.5,0.9375\n20.25,1.5\n33,2.5\n"),
-        ("rule.csv", "Position (in);Outer diameter (in)\n0;1\n6 1/2;15/16\n20 1/4;1 1/2\n33;2 1/2\n"),
-        ("comma.txt", "X [IN]\tDiameter [in]\t\n0\t1\t\n6,5\t0,9375\t\n20,25\t1,5\t\n33\t2,5\t\n\t\t\n"),
+        (
+            "rule.csv",
+            "Position (in);Outer diameter (in)\n0;1\n6 1/2;15/16\n20 1/4;1 1/2\n33;2 1/2\n",
+        ),
+        (
+            "comma.txt",
+            "X [IN]\tDiameter [in]\t\n0\t1\t\n6,5\t0,9375\t\n20,25\t1,5\t\n33\t2,5\t\n\t\t\n",
+        ),
     ] {
         folder.write(name, text);
         folder.write(&format!("{name}.json"), bat(name));

@@ -204,7 +204,8 @@ pub fn run(args: &Args) -> Result<Done> {
         }
         false => {
             let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
-            trust::screen(&analysis, args.output.units(&analysis.bat)) + more.as_deref().unwrap_or(MORE)
+            trust::screen(&analysis, args.output.units(&analysis.bat))
+                + more.as_deref().unwrap_or(MORE)
         }
     };
     let table = match &proven {

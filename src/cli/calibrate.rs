@@ -8,20 +8,23 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::files::schema;
 use crate::files::{measured, readings_file};
+use crate::modes::solve::Request;
 use crate::show::plot::calibrate as pictures_of;
 use crate::show::report::{calibrate, calibrated_bat};
 use crate::study::calibrate::calibration::{Calibration, CalibrationPlan};
 use crate::study::calibrate::labels::MOST_MODES;
 use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use crate::study::calibrate::unknowns::Unknown;
+use crate::study::measured::data::Measured;
+use crate::study::measured::study::Study;
 
 use crate::cli::asking::dialogue::Dialogue;
 use crate::cli::asking::readings_asked::asked;
-use crate::cli::common::{examples, printed, read_with_text, warn};
+use crate::cli::common::{Prepared, examples, prepare, printed, read_with_text, warn};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, FAILED};
 use crate::cli::edits::EditArgs;
-use crate::cli::value::{PLACE, choice};
+use crate::cli::value::{PLACE, TheoryChoice, choice};
 use crate::cli::{pictures, style};
 
 /// What a bat's wood is: E, G and density from scale, ruler, pendulum and tap
@@ -109,7 +112,9 @@ fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
 /// A line by its frequency (Hz), and the mode that it is.
 fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
     let expected = || {
-        format!("expected a frequency in Hz and the number of its bending mode, 1 to {MOST_MODES} or none, such as \"1187 = 3\"")
+        format!(
+            "expected a frequency in Hz and the number of its bending mode, 1 to {MOST_MODES} or none, such as \"1187 = 3\""
+        )
     };
     let (hz, mode) = text.split_once('=').ok_or_else(expected)?;
     let hz = hz.trim().trim_end_matches("Hz").trim().parse().map_err(|_| expected())?;
@@ -159,7 +164,10 @@ fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
     };
     let labels: String = found.identified.changed().iter().map(label).collect();
     (!labels.is_empty()).then(|| {
-        format!("With these labels:\n  sweetspot calibrate {} {measured}{labels}\n", printed(&args.bat))
+        format!(
+            "With these labels:\n  sweetspot calibrate {} {measured}{labels}\n",
+            printed(&args.bat)
+        )
     })
 }
 
@@ -249,27 +257,52 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let readings = match measured::is_table(path) || ["uff", "unv"].contains(&ending.as_str()) {
-        true => of_modes(path, args.quiet)?,
+        true => of_modes(path, bat, args.quiet)?,
         false => readings_file::from_file(path)?,
     };
     Ok(Some(Told { readings, name, person: None }))
 }
 
 /// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.
-fn of_modes(path: &Path, quiet: bool) -> Result<BatReadings> {
+fn of_modes(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     /// Standard deviation of a frequency in a table (Hz).
     const WITHIN: f64 = 0.5;
     let measured = measured::read(path)?;
     measured.assumed.iter().for_each(|text| warn(&format!("note: {text}"), quiet));
+    let labels = by_shape(bat, &measured)?;
+    let settled = labels.iter().any(Option::is_some);
     let mut readings = BatReadings::default();
-    for mode in &measured.modes {
+    for (mode, label) in measured.modes.iter().zip(labels) {
+        if settled && label.is_none() {
+            let text = "is like no bending mode of this bat, or another is more so: left out";
+            warn(&format!("note: {} {text}", mode.name), quiet);
+            continue;
+        }
+        let order = mode.order.or(label);
         let frequency = Reading { value: mode.frequency, deviation: WITHIN };
-        readings.lines.push(SpectralLine { frequency, mode: mode.order });
+        readings.lines.push(SpectralLine { frequency, mode: order });
         let damped = mode.damping_ratio.filter(|ratio| *ratio > 0.0);
-        if let (Some(order), Some(damped)) = (mode.order, damped) {
+        if let (Some(order), Some(damped)) = (order, damped) {
             let ratio = (-std::f64::consts::TAU * damped).exp();
             readings.ring_down.push(RingDown { mode: order, cycles: 1.0, ratio });
         }
     }
     Ok(readings)
+}
+
+/// The number of the computed mode whose shape each measured one has; None where its shape does not tell.
+fn by_shape(bat: &Bat, measured: &Measured) -> Result<Vec<Option<usize>>> {
+    /// A MAC that leaves no doubt, at points that tell the modes apart.
+    const ALIKE: f64 = 0.8;
+    let mut labels = vec![None; measured.modes.len()];
+    if !measured.has_shapes() {
+        return Ok(labels);
+    }
+    let request = Request { modes: 10, ..Request::default() };
+    let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
+    let study = Study::new(&bat, measured.clone(), &request, false, Default::default())?;
+    for pair in study.pairs.iter().filter(|pair| pair.mac.is_some_and(|mac| mac >= ALIKE)) {
+        labels[pair.measured] = Some(pair.computed + 1);
+    }
+    Ok(labels)
 }

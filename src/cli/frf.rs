@@ -114,7 +114,8 @@ pub fn run(args: &Args) -> Result<Done> {
     apart(&files)?;
     let bat = args.bat.read(&args.output)?;
     let measured = args.measured.as_ref();
-    let measured = measured.map(|path| response::read(path, args.function, args.unit.as_ref()));
+    let measured =
+        measured.map(|path| response::read_as(path, args.function, args.unit.as_ref(), args.kind));
     let measured = measured.transpose()?;
     let [at, to] = places(args, &bat, measured.as_ref())?;
     args.grid.check(bat.fixtures().rigid_modes() > 0)?;
@@ -196,6 +197,11 @@ fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result
         let expected = "its node in a dataset 15 or 2411, or --at and --to";
         return Err(Error::value(source, "no place of the force", expected));
     };
-    let to = args.to.or(if args.at.is_some() { None } else { to }).unwrap_or(at);
+    let here = measured.is_none_or(|m| m.drive_point);
+    let Some(to) = args.to.or(to).or(here.then_some(at)) else {
+        let source = measured.map_or(String::new(), |m| m.source.clone());
+        let expected = "its node in a dataset 15 or 2411, or --to";
+        return Err(Error::value(source, "no place of the answer", expected));
+    };
     Ok([on_the_bat(bat, "--at", at)?, on_the_bat(bat, "--to", to)?])
 }

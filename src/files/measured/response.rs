@@ -9,6 +9,7 @@ use faer::c64;
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::linear::dot;
+use crate::base::units::{POUND_FORCE, Quantity, factor};
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::uff::{self, Dataset, Dof, Function, Units, Universal, Values, at_line};
 use crate::motion::frf::Kind;
@@ -33,6 +34,20 @@ const FORCES: [i64; 2] = [9, 13];
 /// several of which none was chosen; [`Error::Input`] with the line for one that is not of a motion
 /// per force over frequency, or not along one direction.
 pub fn read(path: &Path, which: Option<usize>, unit: Option<&Units>) -> Result<MeasuredResponse> {
+    read_as(path, which, unit, None)
+}
+
+/// As [`read`]; `told` is the kind of an answer whose axis does not say it.
+///
+/// # Errors
+///
+/// Those of [`read`].
+pub fn read_as(
+    path: &Path,
+    which: Option<usize>,
+    unit: Option<&Units>,
+    told: Option<Kind>,
+) -> Result<MeasuredResponse> {
     let name = path.display().to_string();
     let bytes = file::read(path)?;
     let universal = uff::parse_in(&name, &bytes, unit)?;
@@ -41,23 +56,47 @@ pub fn read(path: &Path, which: Option<usize>, unit: Option<&Units>) -> Result<M
     let wrong = |record: usize, found: String, expected: &str| {
         at_line(&name, &bytes, first + record, found, expected)
     };
-    let (kind, sign) = meaning(function, &wrong)?;
+    let (kind, sign) = meaning(function, told, &wrong)?;
     let named = universal.datasets.iter().any(|dataset| matches!(dataset, Dataset::Units(_)));
     let mut assumed = vec![];
     let mut factor = sign;
     if !named {
-        let label = function.axes[1].unit.to_lowercase();
-        if kind == Kind::Accelerance && ["g", "gn"].contains(&label.as_str()) {
-            factor *= GRAVITY;
-            assumed.push("accelerations are taken in g, as their axis is named".to_owned());
-        } else if unit.is_none() {
+        let labels = Labels::of(function, kind);
+        // What was told of the file is for axes without a unit of their own.
+        let given = unit.cloned().unwrap_or_else(Units::si);
+        if let Some(answer) = labels.answer {
+            factor *= answer * given.length;
+        }
+        if let Some(force) = labels.force {
+            factor /= force * given.force;
+        }
+        assumed.extend(labels.words(kind));
+        if labels.answer.is_none() && unit.is_none() {
             assumed.push("the file names no units (no dataset 164): they are taken as SI".into());
+        }
+    } else {
+        let own = universal.converted_from.clone().unwrap_or_else(Units::si);
+        let labels = Labels::of(function, kind);
+        let differ =
+            |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
+        if differ(labels.answer, own.length) || differ(labels.force, own.force) {
+            assumed.push(format!(
+                "the axes are named {} and {}, which contradicts the units in dataset 164; those of \
+                 dataset 164 are taken",
+                function.axes[1].unit, function.axes[2].unit
+            ));
         }
     }
     if sign < 0.0 {
         assumed.push("force and answer are along opposite directions: the sign is turned".into());
     }
-    let (values, dropped) = values(function, factor, &wrong)?;
+    let (mut values, dropped) = values(function, factor, &wrong)?;
+    if turns_back(&values) {
+        values.iter_mut().for_each(|(_, value)| *value = value.conj());
+        assumed.push(
+            "the phase rises through the peaks, as with time as e^(-iwt): it is turned over".into(),
+        );
+    }
     if dropped > 0 {
         assumed.push(format!("{dropped} values at 0 Hz are left out"));
     }
@@ -65,7 +104,90 @@ pub fn read(path: &Path, which: Option<usize>, unit: Option<&Units>) -> Result<M
     if at.is_some() && to.is_some() {
         assumed.push("the nodes' places are taken from the knob end".to_owned());
     }
-    Ok(MeasuredResponse { source: name, kind, at, to, values, assumed })
+    let drive_point = function.reference.node == function.response.node;
+    Ok(MeasuredResponse { source: name, kind, at, to, drive_point, values, assumed })
+}
+
+/// Whether the response runs anticlockwise in the complex plane: with time as e^(+iωt) every
+/// resonance runs clockwise, whatever its sign. The area swept around 0 is twice
+/// `Σ Im(H̄ₖ Hₖ₊₁)`, which the peaks dominate.
+fn turns_back(values: &[(f64, c64)]) -> bool {
+    const CLEAR: f64 = 1e-3;
+    let pairs = || values.windows(2).map(|pair| pair[0].1.conj() * pair[1].1);
+    let swept: f64 = pairs().map(|product| product.im).sum();
+    let size: f64 = pairs().map(|product| product.norm()).sum();
+    swept > CLEAR * size
+}
+
+/// The factors to SI of the units that the axes are named by.
+struct Labels {
+    answer: Option<f64>,
+    force: Option<f64>,
+}
+
+impl Labels {
+    fn of(function: &Function, kind: Kind) -> Self {
+        let [own, below] = [1, 2].map(|k| plain(&function.axes[k].unit));
+        let force = force_unit(&below);
+        if let Some(answer) = answer_unit(&own, kind) {
+            return Self { answer: Some(answer), force };
+        }
+        // The whole unit on one axis: g/lbf, (m/s2)/N, (1/N)*(m/s^2).
+        let split = own.strip_prefix("1/").and_then(|rest| {
+            let end = rest.find("m/").or_else(|| rest.find("mm/")).or_else(|| rest.find("in/"));
+            end.map(|end| (&rest[end..], &rest[..end]))
+        });
+        if let Some((answer, per)) = split.or_else(|| own.rsplit_once('/'))
+            && let (Some(answer), Some(per)) = (answer_unit(answer, kind), force_unit(per))
+        {
+            return Self { answer: Some(answer), force: Some(per) };
+        }
+        let whole = (kind == Kind::Accelerance && own == "1/kg").then_some(1.0);
+        Self { answer: whole, force: whole.or(force) }
+    }
+
+    /// What other units than SI are taken, for people.
+    fn words(&self, kind: Kind) -> Option<String> {
+        let said = match (kind, self.answer) {
+            (Kind::Accelerance, Some(f)) if f == GRAVITY => {
+                "accelerations are taken in g".to_owned()
+            }
+            (_, Some(f)) if f != 1.0 => format!("answers are taken in units of {f} in SI"),
+            _ if self.force.is_some_and(|f| f != 1.0) => "answers are taken in SI".to_owned(),
+            _ => return None,
+        };
+        let force = self.force.filter(|f| *f != 1.0);
+        let force = force.map_or(String::new(), |f| format!(", forces in units of {f:.5} N"));
+        Some(format!("{said}{force}, as their axes are named"))
+    }
+}
+
+/// A unit without the signs that programs differ in: `(m/s²)` and `m/sec^2` are `m/s2`.
+fn plain(unit: &str) -> String {
+    let unit = unit.to_lowercase().replace('\u{b2}', "2").replace("sec", "s");
+    unit.chars().filter(|c| !"^*()[]' ".contains(*c)).collect()
+}
+
+fn answer_unit(unit: &str, kind: Kind) -> Option<f64> {
+    let gravity = ["g", "gs", "gn", "g0", "g_n", "gee"].contains(&unit);
+    if kind == Kind::Accelerance && gravity {
+        return Some(GRAVITY);
+    }
+    let length = match kind {
+        Kind::Receptance => unit,
+        Kind::Mobility => unit.strip_suffix("/s")?,
+        Kind::Accelerance => unit.strip_suffix("/s2").or_else(|| unit.strip_suffix("/s/s"))?,
+    };
+    factor(length, Quantity::Length).ok()
+}
+
+fn force_unit(unit: &str) -> Option<f64> {
+    match unit {
+        "n" | "newton" => Some(1.0),
+        "kn" => Some(1e3),
+        "lb" | "lbs" => Some(POUND_FORCE),
+        unit => factor(unit, Quantity::Force).ok(),
+    }
 }
 
 /// The function that is meant, and which dataset it is.
@@ -118,6 +240,7 @@ fn shown(dof: &Dof) -> String {
 /// directions, 8 to 10 the axes.
 fn meaning(
     function: &Function,
+    told: Option<Kind>,
     wrong: &impl Fn(usize, String, &str) -> Error,
 ) -> Result<(Kind, f64)> {
     let Function { reference, response, axes, .. } = function;
@@ -133,11 +256,15 @@ fn meaning(
         let found = format!("an abscissa of kind {abscissa}");
         return Err(wrong(8, found, "18, frequency"));
     }
-    let Some((_, kind)) = ANSWERS.into_iter().find(|(quantity, _)| *quantity == answer) else {
+    let general = [0, 1].contains(&answer);
+    let known = ANSWERS.into_iter().find(|(quantity, _)| *quantity == answer);
+    let Some(kind) = known.map(|(_, kind)| kind).or(told.filter(|_| general)) else {
         let found = format!("an answer of kind {answer}");
-        return Err(wrong(9, found, "8 (displacement), 11 (velocity) or 12 (acceleration)"));
+        let expected =
+            "8 (displacement), 11 (velocity) or 12 (acceleration); of kind 0 or 1, --kind";
+        return Err(wrong(9, found, expected));
     };
-    if !FORCES.contains(&per) {
+    if !(FORCES.contains(&per) || told.is_some() && [0, 1].contains(&per)) {
         let found = format!("an answer per data of kind {per}");
         return Err(wrong(10, found, "13 (excitation force) or 9 (reaction force)"));
     }

@@ -86,6 +86,7 @@ fn placed(universal: &Universal, file: &str, places: Option<&Places>) -> Result<
         return Err(Error::value(file, found, expected));
     }
     let mut assumed = unread(universal);
+    assumed.extend(Poles::of(universal).words());
     assumed.push(format!("the bat's axis is {}", named(axis)));
     if points.len() < moving.len() {
         let (nodes, points) = (moving.len(), points.len());
@@ -254,7 +255,8 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
         Dataset::NodalData(data) => Some(data),
         _ => None,
     });
-    let shapes: Vec<Shape> = data.filter_map(shape).collect();
+    let poles = Poles::of(universal);
+    let shapes: Vec<Shape> = data.filter_map(|data| shape(data, &poles)).collect();
     if let Some((found, expected)) = shapes.iter().find_map(Shape::complaint) {
         return Err(Error::value(file, found, expected));
     }
@@ -278,7 +280,53 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
     Ok(shapes)
 }
 
-fn shape(data: &NodalData) -> Option<Shape<'_>> {
+/// How a file writes the poles of its complex modes.
+struct Poles {
+    /// In Hz, where the format has rad/s.
+    hertz: bool,
+    /// With the opposite sign of the real part, all of them.
+    growing: bool,
+    /// Some with a positive real part and some with a negative one.
+    mixed: bool,
+}
+
+impl Poles {
+    /// By what contradicts: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
+    fn of(universal: &Universal) -> Self {
+        let poles: Vec<[f64; 4]> = universal.datasets.iter().filter_map(pole).collect();
+        let ratios: Vec<f64> = poles
+            .iter()
+            .filter(|[_, size, a, _]| *a > 0.0 && *size > 0.0)
+            .map(|[_, size, a, b]| if *b > 0.0 { b / a / size } else { 0.5 * a / size })
+            .collect();
+        let hertz = !ratios.is_empty() && ratios.iter().all(|r| (r / TAU - 1.0).abs() < 0.01);
+        let grows = poles.iter().any(|pole| pole[0] > 0.0);
+        let decays = poles.iter().any(|pole| pole[0] < 0.0);
+        Self { hertz, growing: grows && !decays, mixed: grows && decays }
+    }
+
+    /// What was taken, for people.
+    fn words(&self) -> Vec<String> {
+        let hertz = "the poles are taken as in Hz: Modal A and B are 2 pi times those of rad/s";
+        let growing =
+            "the real parts of the poles are positive, all of them: they are taken as damping";
+        let mixed = "poles with positive real parts tell no damping: it is left out";
+        let all = [(self.hertz, hertz), (self.growing, growing), (self.mixed, mixed)];
+        all.into_iter().filter(|(so, _)| *so).map(|(_, word)| word.to_owned()).collect()
+    }
+}
+
+/// Real part and size of a pole, sizes of Modal A and B.
+fn pole(dataset: &Dataset) -> Option<[f64; 4]> {
+    let Dataset::NodalData(data) = dataset else { return None };
+    let Analysis::ComplexMode { eigenvalue: [re, im], modal_a, modal_b, .. } = data.analysis else {
+        return None;
+    };
+    let size = |[re, im]: uff::Complex| re.hypot(im);
+    Some([re, size([re, im]), size(modal_a), size(modal_b)])
+}
+
+fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<Shape<'a>> {
     let known = |ratio: f64| (ratio > 0.0).then_some(ratio);
     let (number, frequency, damping_ratio) = match data.analysis {
         Analysis::NormalMode { mode, frequency, viscous, hysteretic, .. } => {
@@ -287,7 +335,8 @@ fn shape(data: &NodalData) -> Option<Shape<'_>> {
         }
         Analysis::ComplexMode { mode, eigenvalue: [re, im], .. } => {
             let size = re.hypot(im);
-            (mode, size / TAU, known(-re / size))
+            let re = if poles.growing { -re } else { re };
+            (mode, if poles.hertz { size } else { size / TAU }, known(-re / size))
         }
         _ => return None,
     };

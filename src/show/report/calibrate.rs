@@ -182,7 +182,8 @@ fn labelled(found: &Calibration) -> Vec<String> {
     let mut all = vec![];
     if let Some((told, chi2)) = &identified.told {
         let changed = |k: &usize| {
-            let name = |label: Option<usize>| label.map_or("no mode".to_owned(), |m| format!("mode {m}"));
+            let name =
+                |label: Option<usize>| label.map_or("no mode".to_owned(), |m| format!("mode {m}"));
             format!(
                 "{} Hz was told as {} and fits as {}",
                 found.readings.lines[*k].frequency.value,
@@ -199,15 +200,14 @@ fn labelled(found: &Calibration) -> Vec<String> {
             changed.join("; ")
         ));
     } else if found.readings.lines.iter().any(|line| line.mode.is_none()) {
-        all.push(format!(
-            "The lines were taken for modes {}.",
-            list(&identified.labels)
-        ));
+        all.push(format!("The lines were taken for modes {}.", list(&identified.labels)));
     }
     if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
         let unsure = match identified.is_sure() {
             true => "",
-            false => " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\").",
+            false => {
+                " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\")."
+            }
         };
         all.push(format!(
             "The next best labels are {}, with a chi2 that is {} larger.{unsure}",

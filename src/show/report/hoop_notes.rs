@@ -37,8 +37,7 @@ fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
         return Some(format!("{ball} does not meet the stretch that is modelled"));
     }
     let Ball { radius, .. } = test.ball;
-    let patch =
-        Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
+    let patch = Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
     if hoop.covers(&patch) {
         return Some(format!("{ball} meets the bat where it is solid: no wall gives way there"));
     }

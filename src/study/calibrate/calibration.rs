@@ -7,7 +7,9 @@ use serde::Serialize;
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::study::calibrate::fit::{Fit, Residual, Search};
-use crate::study::calibrate::labels::{Labelled, Labels, MOST_MODES, Told, best, contradict, strangers};
+use crate::study::calibrate::labels::{
+    Labelled, Labels, MOST_MODES, Told, best, contradict, strangers,
+};
 use crate::study::calibrate::next::{BEYOND, Proposal, proposals};
 use crate::study::calibrate::posterior::Posterior;
 use crate::study::calibrate::readings::{BatReadings, Priors, Reading};
@@ -449,8 +451,7 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
 fn taken(found: Vec<Labelled>, told: Option<(Labels, f64)>) -> Result<(Labelled, Identified)> {
     let mut found = found.into_iter();
     let Some(best) = found.next() else {
-        let expected =
-            "lines of which one at least is a bending mode of this bat, of wood from a quarter to four times as stiff";
+        let expected = "lines of which one at least is a bending mode of this bat, of wood from a quarter to four times as stiff";
         return Err(Error::value("lines", "none that may be a bending mode of this bat", expected));
     };
     let second = found.find(|second| contradict(&second.labels, &best.labels));

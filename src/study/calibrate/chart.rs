@@ -61,7 +61,8 @@ impl Chart {
             true => vec![0.0],
             // The file's own value belongs to the stretch, whatever it is.
             false => {
-                let ends = [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
+                let ends =
+                    [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
                 between(ends, SOLVED[0])
             }
         };

@@ -213,9 +213,7 @@ impl Search<'_> {
             settled = largest < SETTLED;
         }
         let [deviations, factor] = RUNAWAY;
-        let near = |k: &usize| {
-            logs[*k].abs() <= factor.ln().max(deviations * prior[*k][*k].sqrt())
-        };
+        let near = |k: &usize| logs[*k].abs() <= factor.ln().max(deviations * prior[*k][*k].sqrt());
         settled &= free.iter().all(near);
         Ok(self.ended(data, shown, (logs, here), (steps, settled)))
     }
@@ -269,5 +267,4 @@ impl Search<'_> {
         let covariance = inverse(&weights).unwrap_or_default();
         Linear { chi2, gradient, covariance }
     }
-
 }

@@ -201,9 +201,11 @@ impl Lines {
             for (last, way) in ways.iter().enumerate() {
                 let Some((price, labels)) = way else { continue };
                 let mut offer = |mode: Option<usize>, more: f64| {
-                    let told = if line.told.is_some() && line.told != mode { line.other } else { 0.0 };
+                    let told =
+                        if line.told.is_some() && line.told != mode { line.other } else { 0.0 };
                     let (to, whole) = (mode.unwrap_or(last), price + more + told);
-                    if whole.is_finite() && next[to].as_ref().is_none_or(|(best, _)| whole < *best) {
+                    if whole.is_finite() && next[to].as_ref().is_none_or(|(best, _)| whole < *best)
+                    {
                         let mut labels = labels.clone();
                         labels[line.place] = mode;
                         next[to] = Some((whole, labels));

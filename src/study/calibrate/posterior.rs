@@ -131,7 +131,8 @@ fn between(pair: &[Fit], best: f64, unknowns: usize) -> Vec<Part> {
     let at = |k: usize| {
         let share = (k as f64 + 0.5) / BETWEEN as f64;
         let mix = |a: f64, b: f64| (1.0 - share) * a + share * b;
-        let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| mix(*a, *b)).collect();
+        let row =
+            |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| mix(*a, *b)).collect();
         Part {
             weight: (-0.5 * (mix(from.chi2, to.chi2) - best)).exp(),
             mean: (0..unknowns).map(|i| mix(from.logs[i], to.logs[i])).collect(),

@@ -18,6 +18,8 @@ pub struct MeasuredResponse {
     pub at: Option<f64>,
     /// Where the answer was watched (m), likewise.
     pub to: Option<f64>,
+    /// Whether force and answer are at one node.
+    pub drive_point: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.
     pub values: Vec<(f64, c64)>,
     /// What had to be assumed to read it, one sentence each.
