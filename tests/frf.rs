@@ -164,7 +164,10 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
     assert_eq!(found.values[4].0, 140.0);
     // Inches go with the pound-force: 1 in/s per lbf is 0.0254/4.448… m/s per N.
     let text = dataset_58((11, "in/s"), 13, [(12, 2), (11, 2)], &five());
-    let found = read(&text, Some("in"));
+    let found = read(
+        &text.replace(&format!("{:<20} N", "Force"), &format!("{:<20} lbf", "Force")),
+        Some("in"),
+    );
     assert_eq!((found.kind, found.at), (Kind::Mobility, None));
     let factor = 0.0254 / 4.448_221_615_260_5;
     assert!((found.values[0].1.re / (1000.0 * factor) - 1.0).abs() < 1e-12);

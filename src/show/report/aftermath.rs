@@ -207,9 +207,9 @@ fn strength(report: &AfterHit, units: Units) -> String {
 fn beyond<'a>(mut loads: impl Iterator<Item = &'a Load>) -> String {
     match loads.any(|load| load.share > 1.0) {
         true => wrapped(
-            "  More than 100 %: by this a small clear piece of the material would break there. It does not \
-             say that the bat does: a blow of a millisecond is borne better than the slow load of the test, \
-             and pieces differ; near and above 100 % no hit is safe.",
+            "  More than 100 %: the stress is above what a small clear piece of the material bears in a slow \
+             test, so that such a piece would break there. Whether this bat does is not said: pieces differ, \
+             and so does what a short blow does.",
             4,
         ),
         false => String::new(),

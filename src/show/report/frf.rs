@@ -207,15 +207,21 @@ pub fn text(told: &Told) -> String {
     );
     out += &wrapped(&made, 2);
     if let Some((response, laid)) = measured {
-        out += &differences(response, laid);
+        out += &differences(bat, response, laid);
     }
     out
 }
 
 /// What a measured response says of the computed one: peaks, and both as a whole.
-fn differences(response: &MeasuredResponse, laid: &Laid) -> String {
+fn differences(bat: &Bat, response: &MeasuredResponse, laid: &Laid) -> String {
     let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
     let mut out = wrapped(&title, 4);
+    if !bat.lossy() && !bat.fixtures().damping() {
+        let undamped = "  The computed bat has no damping and its peaks no height: beside a measured one its level and \
+                        FRAC say nothing of the bat. Give the material a \"loss_factor\", twice the damping ratio of \
+                        the measured peaks below.";
+        out += &wrapped(undamped, 2);
+    }
     let columns = Columns::new([
         numbers(6, "mode"),
         numbers(14, "computed, Hz"),
@@ -254,6 +260,9 @@ fn differences(response: &MeasuredResponse, laid: &Laid) -> String {
         level.abs()
     );
     out += &wrapped(&whole, 2);
+    let legend = "  FRAC: 1 where both responses are alike but for a factor, 0 where they have nothing in common; peaks \
+                  that lie apart by more than their width already bring it near 0";
+    out += &wrapped(legend, 2);
     for assumed in &response.assumed {
         out += &wrapped(&format!("  {assumed}"), 2);
     }
