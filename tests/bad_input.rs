@@ -764,7 +764,7 @@ fn what_was_not_weighed_or_measured_so_is_refused() {
                 "\"dowel\"",
                 r#""", "weighed": {}"#,
                 &[
-                    r#"bat.json:3:26: weighed: found none of "mass", "balance_point", "first_bending_hz""#,
+                    r#"bat.json:3:26: weighed: found none of "mass", "balance_point", "swing_weight", "pendulum_period", "first_bending_hz""#,
                     "one of them at least",
                 ],
             ),
@@ -1756,7 +1756,8 @@ fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
         folder.write("bat.json", text);
         let run = ["modes", "bat.json", "--modes", "0", "--json", "-"];
         let (document, told) = accepted(&folder, &run);
-        assert_eq!(told, "", "{text}");
+        // A weighed kilogram on 0.7 kg of wood is a density far from the file's, which is said.
+        assert!(told.is_empty() || told.contains("must have 895.2 kg/m³"), "{text}: {told}");
         folder.write("again.json", document["bat"].to_string());
         let run = ["modes", "again.json", "--modes", "0", "--json", "-"];
         let again = accepted(&folder, &run).0;
@@ -2061,7 +2062,10 @@ fn readings_and_scatters_that_cannot_be_are_told() {
             r#""lines": [ { "hz": 170, "mode": 1 }, { "hz": 180, "mode": 1 } ]"#,
             &["lines[1]", "every mode once"],
         ),
-        (r#""lines": [ { "hz": 19000 } ]"#, &["none that may be a bending mode", "within 30 %"]),
+        (
+            r#""lines": [ { "hz": 19000 } ]"#,
+            &["none that may be a bending mode", "from a quarter to four times"],
+        ),
         (
             r#""ring_down": [ { "mode": 1, "cycles": 20, "ratio": 1.4 } ]"#,
             &["ring_down[0].ratio", "between 0 and 1"],

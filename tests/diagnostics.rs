@@ -163,19 +163,19 @@ fn cells_of_a_table_are_shown_in_their_rows() {
     let bat = bat.replace("\"radius\": [0.02, 0.03, 0.02]", "");
     folder.write(
         "t.csv",
-        "x_in, diameter_in\r\n0,1\r\n# here it goes wrong\r\n4,  1 ½\r\n8,,\r\n9,-\r\n",
+        "x_in, diameter_in\r\n0,1\r\n# here it goes wrong\r\n4,  1 ½ in\r\n8,,\r\n9,-\r\n",
     );
     assert_eq!(
         of_bat(&folder, &bat),
-        r#"error: t.csv:4:5: diameter: found "1 ½"
+        r#"error: t.csv:4:5: diameter: found "1 ½ in"
   |
-4 | 4,  1 ½
-  |     ^^^ expected a finite number (the unit stands in the header)
+4 | 4,  1 ½ in
+  |     ^^^^^^ expected a finite number (the unit stands in the header)
 
-error: t.csv:5:1: found 3 cells in this row
+error: t.csv:5:3: diameter: found ""
   |
 5 | 8,,
-  | ^^^ expected 2, as in the header
+  |   ^ expected a finite number (the unit stands in the header)
 
 error: t.csv:6:3: diameter: found "-"
   |

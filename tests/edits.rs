@@ -413,7 +413,7 @@ fn a_tapped_bat_is_tuned_before_it_is_edited() {
     };
     let first = |edits: &str| {
         let bat = Bat::from_text("bat.json", &text(edits), "".as_ref()).unwrap();
-        let theory = sweetspot::bat::theory::Theory::default();
+        let theory = sweetspot::bat::theory::Theory::EulerBernoulli;
         let bat = sweetspot::study::tuned::tuned(bat, theory, 1e-8).unwrap();
         (frequencies(&bat)[0], bat)
     };

@@ -164,10 +164,10 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
         assert!((found / (step / 12f64.sqrt()) - 1.0).abs() < 1e-9, "{diameters}: {found}");
         let screen = plain(&folder.text(&["analyze", "bat.json", "--quiet"]));
         let word =
-            if name.is_empty() { "calipers are off by 0.1 mm" } else { "diameters read to " };
+            if name.is_empty() { "calipers are off by 0.0039 in" } else { "diameters read to " };
         assert!(screen.contains(word) && screen.contains(name), "{screen}");
     }
     folder.write("bat.json", bat(fractions));
     let told = folder.text(&["analyze", "bat.json", "--quiet", "--calipers", "0.05 mm"]);
-    assert!(plain(&told).contains("calipers are off by 0.05 mm"), "{told}");
+    assert!(plain(&told).contains("calipers are off by 0.002 in"), "{told}");
 }

@@ -754,7 +754,7 @@ fn a_universal_file_without_what_is_needed_is_refused() {
     for (name, told) in [
         ("f.uff", "found 4 functions in datasets 58 and no shapes, expected shapes in datasets 55"),
         ("broken.unv", "broken.unv:"),
-        ("bat.json", "expected a file whose name ends with .csv, .uff or .unv"),
+        ("bat.json", "expected a file whose name ends with .csv, .txt, .uff or .unv"),
     ] {
         let output = folder.run(&["compare", "bat.json", "--measured", name]);
         let error = in_lines(&output.stderr);

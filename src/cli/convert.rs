@@ -92,7 +92,7 @@ impl Format {
 
 pub fn run(args: &Args) -> Result<Done> {
     check(args)?;
-    let (table, solved) = modes(&args.modes)?;
+    let Modes { table, solved, warning } = modes(&args.modes)?;
     let out = match &args.out {
         Some(out) => out.clone(),
         None => {
@@ -119,11 +119,20 @@ pub fn run(args: &Args) -> Result<Done> {
         file::write(path, contents)?;
     }
     drop(progress);
-    Ok(Done::new(said(&table, &files), 0).with(solved))
+    Ok(Done::new(solved.unwrap_or_default() + &said(&table, &files), 0).with(warning))
 }
 
-/// The modes of a file, or of a bat that is solved for them, and what is to be said of that.
-fn modes(path: &Path) -> Result<(ModeTable, Option<String>)> {
+/// The modes to be converted.
+struct Modes {
+    table: ModeTable,
+    /// What was solved for them, if they are a bat's.
+    solved: Option<String>,
+    /// A warning about that bat.
+    warning: Option<String>,
+}
+
+/// The modes of a file, or of a bat that is solved for them.
+fn modes(path: &Path) -> Result<Modes> {
     if bundled::named(path)?.is_some() {
         return of_bat(path);
     }
@@ -137,13 +146,18 @@ fn modes(path: &Path) -> Result<(ModeTable, Option<String>)> {
     }
     let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     match value["format"].as_str() {
-        Some(format) if format.starts_with("sweetspot-bat/") => of_bat(path),
-        _ => Ok((modes_file::from_text(&document.file, text)?, None)),
+        Some(format) if format.starts_with("sweetspot-bat/") && value["modes"].is_null() => {
+            of_bat(path)
+        }
+        _ => {
+            let table = modes_file::from_text(&document.file, text)?;
+            Ok(Modes { table, solved: None, warning: None })
+        }
     }
 }
 
 /// The first modes of a bat.
-fn of_bat(path: &Path) -> Result<(ModeTable, Option<String>)> {
+fn of_bat(path: &Path) -> Result<Modes> {
     const MODES: usize = 10;
     const POINTS: usize = 101;
     let (bat, _) = common::read_with_text(path, &EditArgs::default(), false)?;
@@ -153,9 +167,9 @@ fn of_bat(path: &Path) -> Result<(ModeTable, Option<String>)> {
     let solution = solve::solve(&bat, &request)?;
     let document = json::modes(&bat, &solution, ShapePoints::Even(POINTS), false);
     let table = modes_file::from_text(&path.display().to_string(), &schema::text(&document))?;
-    let said = format!("note: the bat was solved for its first {MODES} modes, within 0.01 %");
-    common::warn(&said, false);
-    Ok((table, warning))
+    let solved =
+        format!("{}: solved for its first {MODES} modes, within 0.01 %\n", printable(bat.name()));
+    Ok(Modes { table, solved: Some(solved), warning })
 }
 
 /// Options that fit the format.

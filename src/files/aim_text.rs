@@ -199,6 +199,9 @@ fn of_what(verb: Option<Verb>, rest: &str) -> Said<(Goal, String)> {
     let rest = ["the", "its", "my", "any", "of"]
         .iter()
         .fold(rest, |rest, word| after(rest, word).unwrap_or(rest));
+    // "a drop 3" and "a swing weight of …": an article before a name, none before an amount ("a millimetre").
+    let named_after = |rest: &str| CALLED.iter().any(|(called, _)| after(rest, called).is_some());
+    let rest = after(rest, "a").filter(|rest| named_after(rest)).unwrap_or(rest);
     let first = CALLED.iter().filter_map(|(called, goal)| Some((after(rest, called)?, *goal)));
     if let Some((rest, goal)) = first.min_by_key(|(rest, _)| rest.len()) {
         return Ok((goal, wish_words::figures(rest)));

@@ -6,13 +6,11 @@
 //! | file | question |
 //! |---|---|
 //! | [`survey`], [`stations`], [`plan`] | how does the wave number go along the bat; what does reaching over a station cost; which elements does a tolerance need |
-//! | `memory` | how much memory does a solve take |
 //! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
 //! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
 //! | [`certificate`], [`referee`] | how far may each be off; what do other solvers say |
 //! | [`pairs`] | the lowest motions whatever the degree of the elements |
-//! | [`request`], [`solution`], [`task`] | what is asked, what is answered, the modes on one mesh |
-//! | `refine` | the modes of a bat as it is, by one theory |
+//! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh, and of a bat as it is |
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`enclosure`] | between which numbers do frequencies lie, proven |

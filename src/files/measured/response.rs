@@ -108,15 +108,23 @@ pub fn read_as(
     Ok(MeasuredResponse { source: name, kind, at, to, drive_point, values, assumed })
 }
 
-/// Whether the response runs anticlockwise in the complex plane: with time as e^(+iωt) every
-/// resonance runs clockwise, whatever its sign. The area swept around 0 is twice
-/// `Σ Im(H̄ₖ Hₖ₊₁)`, which the peaks dominate.
+/// Whether the response runs anticlockwise in the complex plane through its highest peak: with time as e^(+iωt) every
+/// resonance runs clockwise, whatever its sign. The area swept around 0 is twice `Σ Im(H̄ₖ Hₖ₊₁)`; it is taken where the
+/// response is at least half as high as the peak, since an antiresonance runs the other way round. Without a peak in its
+/// range a response says nothing.
 fn turns_back(values: &[(f64, c64)]) -> bool {
     const CLEAR: f64 = 1e-3;
-    let pairs = || values.windows(2).map(|pair| pair[0].1.conj() * pair[1].1);
+    let size = |k: usize| values[k].1.norm();
+    let tops = (1..values.len().saturating_sub(1))
+        .filter(|k| size(*k) > size(k - 1) && size(*k) > size(k + 1));
+    let Some(top) = tops.max_by(|a, b| size(*a).total_cmp(&size(*b))) else { return false };
+    let high = |k: &usize| size(*k) >= 0.5 * size(top);
+    let from = (0..top).rev().take_while(high).last().unwrap_or(top);
+    let to = (top + 1..values.len()).take_while(high).last().unwrap_or(top);
+    let pairs = || values[from..=to].windows(2).map(|pair| pair[0].1.conj() * pair[1].1);
     let swept: f64 = pairs().map(|product| product.im).sum();
-    let size: f64 = pairs().map(|product| product.norm()).sum();
-    swept > CLEAR * size
+    let all: f64 = pairs().map(|product| product.norm()).sum();
+    swept > CLEAR * all
 }
 
 /// The factors to SI of the units that the axes are named by.

@@ -122,6 +122,7 @@ pub struct LabelsFound {
     /// Their chi2.
     pub second_chi2: Option<f64>,
     /// By how much they cost more in the search over all wood; below 8 they may be the right ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
 }
 

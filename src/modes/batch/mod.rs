@@ -76,7 +76,8 @@ pub fn each(
         // Those after it that the same theory is chosen for share its plan.
         let alike =
             |next: &Result<Prepared>| next.as_ref().is_ok_and(|next| next.request == request);
-        let mut run = vec![bat];
+        let mut run = Vec::with_capacity(bats.len() - place);
+        run.push(bat);
         while let Some(Ok(next)) = ready.next_if(alike) {
             run.push(next.bat);
         }
