@@ -286,7 +286,7 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
         }
         (None, Way::Plain(size)) if !size.is_empty() => {
             let share = size.ends_with('%');
-            if goal == Goal::Drop && !share || !share && !size.starts_with(['+', '-']) {
+            if !share && (goal == Goal::Drop || !size.starts_with(['+', '-'])) {
                 return Ok(Ask::Value(value(size, goal)?, None));
             }
             Ok(Ask::Change(change(size, goal)?, None))

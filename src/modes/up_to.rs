@@ -58,8 +58,8 @@ pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
     request.check(1)?;
     let mut ready = prepare(bat, request)?;
     let mut modes = slower_modes(&ready, limit)?;
-    while request.theory == Theory::Auto {
-        // So many modes may need another theory than those that were asked for.
+    // So many modes may need another theory than those that were asked for: at most from each to the next one.
+    for _ in Theory::ALL.iter().filter(|_| request.theory == Theory::Auto) {
         let again = prepare(bat, &Request { modes, ..*request })?;
         if again.request.theory <= ready.request.theory {
             break;
