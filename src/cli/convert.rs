@@ -167,8 +167,7 @@ fn of_bat(path: &Path) -> Result<Modes> {
     let solution = solve::solve(&bat, &request)?;
     let document = json::modes(&bat, &solution, ShapePoints::Even(POINTS), false);
     let table = modes_file::from_text(&path.display().to_string(), &schema::text(&document))?;
-    let solved =
-        format!("{}: solved for its first {MODES} modes, within 0.01 %\n", printable(bat.name()));
+    let solved = format!("solved for its first {MODES} modes, within 0.01 %\n");
     Ok(Modes { table, solved: Some(solved), warning })
 }
 

@@ -27,8 +27,8 @@ impl StationCut {
     }
 }
 
-/// A smaller change of a diameter is rounding (m).
-const LEAST: f64 = 1e-9;
+/// A smaller change of a diameter (m) is nothing to a lathe, and what straight lines between stations leave.
+const LEAST: f64 = 5e-6;
 
 /// The change at every station that changes; what is turned off in passes that take no more than `pass` off the
 /// diameter (m). The last one leaves the new diameter, the others are equally deep.
