@@ -524,7 +524,8 @@ fn a_weighed_bat_is_only_cut_unless_wood_may_be_added() {
     assert!(added["largest_added_m"].as_f64().unwrap() > 1e-5);
     let changed = added["change"].as_array().unwrap().iter();
     let changed = changed
-        .filter(|at| (at["old_m"].as_f64().unwrap() - at["new_m"].as_f64().unwrap()).abs() > 1e-9);
+        // Less than 5 μm of the diameter is nothing to a lathe.
+        .filter(|at| (at["old_m"].as_f64().unwrap() - at["new_m"].as_f64().unwrap()).abs() >= 5e-6);
     assert_eq!(changed.count(), added["cuts"].as_array().unwrap().len());
     let table = folder.text(&["aim", "mine.json", "--target", "lose an ounce"]);
     assert!(table.contains("--add") && table.contains("nothing added"), "{table}");
