@@ -1757,7 +1757,10 @@ fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
         let run = ["modes", "bat.json", "--modes", "0", "--json", "-"];
         let (document, told) = accepted(&folder, &run);
         // A weighed kilogram of this rod is a density far from the file's, which is said.
-        assert!(told.is_empty() || told.contains("to weigh so much it must have"), "{text}: {told}");
+        assert!(
+            told.is_empty() || told.contains("to weigh so much it must have"),
+            "{text}: {told}"
+        );
         folder.write("again.json", document["bat"].to_string());
         let run = ["modes", "again.json", "--modes", "0", "--json", "-"];
         let again = accepted(&folder, &run).0;

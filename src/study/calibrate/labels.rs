@@ -188,6 +188,11 @@ impl Lines {
         self.0.iter().filter(changed).map(|line| line.other).sum()
     }
 
+    /// Whether a mode is the label of a line that keeps it.
+    fn is_kept(&self, mode: usize) -> bool {
+        self.0.iter().any(|line| line.told == Some(mode) && line.other.is_infinite())
+    }
+
     /// The cheapest rising labels beside tones of these logarithms, and their price: χ² of lines within reach, of
     /// strangers, of modes that were not heard and of changed labels. From line to line the cheapest way to every
     /// last mode is kept.
@@ -221,7 +226,7 @@ impl Lines {
                 for mode in first..=count {
                     let chi2 = ((line.log - tones[mode - 1]) / line.sigma).powi(2);
                     let stays = line.told == Some(mode);
-                    if chi2 < STRANGER || stays {
+                    if stays || (chi2 < STRANGER && !self.is_kept(mode)) {
                         offer(Some(mode), chi2.min(10.0 * STRANGER) + skipped);
                     }
                     skipped += gap(mode);
