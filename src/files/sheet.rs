@@ -128,7 +128,11 @@ impl<'a> Sheet<'a> {
     pub fn error(&self, (row, cell): (&SheetRow, usize), complaint: Complaint) -> Error {
         self.document.error(self.place(row.cells[cell]), complaint)
     }
+}
 
+/// Cell by cell, for tables whose rows mean different things: those of measured modes.
+#[cfg(feature = "show")]
+impl Sheet<'_> {
     /// An error about a cell.
     pub fn wrong(
         &self,

@@ -6,7 +6,7 @@
 //! | [`ignored`] | what does a theory leave out, and what does that cost |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
 //! | [`verdict`] | how far do the answers hold, by all that is known |
-//! | [`read_to`], [`bat_changes`] | to what step were diameters read; a bat that differs in one thing |
+//! | [`read_to`], `bat_changes` | to what step were diameters read; a bat that differs in one thing |
 //! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |

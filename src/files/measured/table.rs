@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Or frequencies alone: columns `mode`, `frequency_hz` and `damping_ratio` or `damping_percent`. A
-//! [`Sheet`] says in which ways a table may be written.
+//! `Sheet` says in which ways a table may be written.
 
 use std::path::Path;
 
