@@ -79,7 +79,9 @@ pub fn shape(bytes: &[u8]) -> bool {
 /// Measured modes, in a universal file or a table.
 pub fn measured(bytes: &[u8]) -> bool {
     let universal = bytes.starts_with(b"    -1");
-    in_file(bytes, if universal { "input.uff" } else { "input.csv" }, measured::read)
+    in_file(bytes, if universal { "input.uff" } else { "input.csv" }, |path| {
+        measured::read(path, &Default::default())
+    })
 }
 
 fn text(bytes: &[u8]) -> String {

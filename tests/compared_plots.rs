@@ -128,7 +128,7 @@ fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> 
     places.enumerate().for_each(|(i, x)| row(&x.to_string(), &|k| shapes[k][i].to_string()));
     let folder = Folder::new("plots-measured");
     folder.write("measured.csv", text);
-    let measured = measured::read(&folder.0.join("measured.csv")).unwrap();
+    let measured = measured::read(&folder.0.join("measured.csv"), &Default::default()).unwrap();
     let told = Told { first: Some(End::Knob), origin: None };
     let study = Study::new(bat, measured, &Request::plain(), false, told).unwrap();
     plot::measured::pictures(Sheet::file(false), bat.name(), &study)

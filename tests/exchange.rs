@@ -87,6 +87,23 @@ fn a_universal_file_holds_the_modes() {
     }
 }
 
+/// A bat is solved and converted, which is said; a universal file is told that it is one.
+#[test]
+fn a_bat_is_solved_for_its_modes_and_a_universal_file_is_told() {
+    let folder = Folder::new("convert-bat");
+    let said = folder.text(&["convert", "r161", "--to", "uff", "--out", "r161.uff"]);
+    assert!(said.contains("solved"), "{said}");
+    let back = folder.json(&["compare", "r161", "--measured", "r161.uff", "--json", "-"]);
+    for pair in back["pairs"].as_array().unwrap() {
+        let [apart, mac] = ["frequency_difference", "mac"].map(|key| pair[key].as_f64().unwrap());
+        assert!(apart.abs() < 1e-4 && mac > 0.99, "{pair}");
+    }
+    let error = refused(&folder, &["convert", "r161.uff", "--to", "csv"]);
+    for words in ["a universal file", "compare BAT --measured", "calibrate BAT"] {
+        assert!(error.contains(words), "{words}: {error}");
+    }
+}
+
 #[test]
 fn the_same_modes_make_the_same_bytes() {
     let (folder, _) = modes("convert-same", "5");

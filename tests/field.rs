@@ -2,8 +2,10 @@
 
 use crate::common;
 
+use std::f64::consts::TAU;
+
 use common::folder::Folder;
-use serde_json::Value;
+use serde_json::{Value, json};
 use sweetspot::base::telling::nobody;
 use sweetspot::base::units::miles_per_hour;
 use sweetspot::bat::body::STANDARD_PIVOT;
@@ -79,11 +81,48 @@ fn bbcor_follows_from_the_rebound_and_the_swing_weight() {
         let r = tested.protocol.ball.mass * arm * arm / inertia;
         let bbcor = efficiency * (1.0 + r) + r;
         assert!((place.bbcor.unwrap() - bbcor).abs() < 1e-12, "{}", place.impact.x);
+        // BESR is the speed after the hit over that before it with the bat moving at half of it; BPF is BBCOR
+        // over what the ball does on a rigid wall.
+        assert!((place.besr().unwrap() - (efficiency + 0.5)).abs() < 1e-12);
+        let bpf = place.bpf(&tested.protocol).unwrap();
+        assert!((bpf * tested.protocol.cor / bbcor - 1.0).abs() < 1e-12, "{bpf}");
         assert!(place.error.unwrap() >= outcome.error);
     }
     let most = tested.most().unwrap().bbcor.unwrap();
     assert!(most < 0.5 && most > 0.48, "{most}");
     assert_eq!(tested.within(), Some(true));
+}
+
+/// A swing weight that was measured is the profile's, as such or by the period of a pendulum about any pivot,
+/// `T = 2 pi sqrt(I/(m g d))`; one that is not is told.
+#[test]
+fn a_measured_swing_weight_is_held_to_the_profile() {
+    let file: Value = serde_json::from_str(include_str!("../meshes/r161.json")).unwrap();
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let own = bat.inertia();
+    let swing = own.about(STANDARD_PIVOT);
+    let weighed = |members: Value| {
+        let mut file = file.clone();
+        file["weighed"] = members;
+        Bat::from_text("w", &file.to_string(), "".as_ref()).unwrap()
+    };
+    let period = |pivot: f64| {
+        let arm = own.balance_point - pivot;
+        TAU * (own.about(pivot) / (own.mass * 9.806_65 * arm.abs())).sqrt()
+    };
+    let mass = own.mass;
+    for (members, off) in [
+        (json!({ "mass": mass, "swing_weight": swing }), 1.0),
+        (json!({ "mass": mass, "swing_weight": 1.1 * swing }), 1.1),
+        (json!({ "mass": mass, "pendulum_period": period(STANDARD_PIVOT) }), 1.0),
+        (json!({ "mass": mass, "pendulum_pivot": 0.02, "pendulum_period": period(0.02) }), 1.0),
+        (json!({ "mass": mass, "pendulum_pivot": 0.8, "pendulum_period": period(0.8) }), 1.0),
+    ] {
+        let bat = weighed(members.clone());
+        let found = bat.measured_swing_weight().unwrap();
+        assert!((found / swing / off - 1.0).abs() < 1e-9, "{members}: {found} {swing}");
+        assert_eq!(bat.swing_weight_off().is_some(), off != 1.0, "{members}");
+    }
 }
 
 /// Of a rigid wall a ball comes back with its own restitution; a bat returns as much where it is

@@ -11,7 +11,8 @@ use faer::c64;
 use serde_json::Value;
 use sweetspot::files::measured::{response, universal};
 use sweetspot::files::uff::{Dataset, parse, parse_in};
-use sweetspot::motion::frf::Kind;
+use sweetspot::motion::frf::{Frf, Kind, Sample};
+use sweetspot::{Bat, Request};
 
 /// A dowel with a loss factor of 2 %, so that every mode has a damping ratio of 1 %.
 const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.02] },
@@ -152,7 +153,8 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
             let metre = if unit == "mm" { 1e-3 } else { 0.0254 };
             sweetspot::files::uff::Units::of_length(metre, unit)
         });
-        response::read(&path, None, units.as_ref()).unwrap()
+        let known = response::Known { unit: units, ..Default::default() };
+        response::read(&path, &known).unwrap().remove(0).1
     };
     // Accelerations in mm/s² per N, the answer against y.
     let text = nodes.clone() + &dataset_58((12, "mm/s^2"), 13, [(12, -2), (11, 2)], &five());
@@ -190,7 +192,7 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
     let folder = Folder::new("frf-wrong");
     folder.write("bat.json", LOSSY);
     let along = [(2, 2), (1, 2)];
-    let cases: [(String, &[&str], &[&str]); 7] = [
+    let cases: [(String, &[&str], &[&str]); 9] = [
         (
             dataset_58((12, "m/s2"), 13, [(2, 2), (1, 3)], &five()),
             &["--at", "0.7"],
@@ -204,9 +206,19 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
         ),
         (dataset_58((12, "m/s2"), 13, along, &five()), &[], &["no place of the force", "2411"]),
         (
+            dataset_58((12, "mV"), 13, along, &five()),
+            &["--at", "0.7"],
+            &["tap.uff:11:", "the unit \"mV\"", "g/lbf", "--unit"],
+        ),
+        (
+            dataset_58((12, "mV"), 13, along, &five()),
+            &["--at", "0.7", "--unit", "volts"],
+            &["--unit: found volts", "g/lbf"],
+        ),
+        (
             dataset_58((12, "m/s2"), 13, along, &five()).repeat(2),
             &["--at", "0.7"],
-            &["2 frequency responses", "1: from node 1 y to node 2 y", "--function 1 to 2"],
+            &["--at: found it beside 2 responses", "one of them: --function N"],
         ),
         (
             dataset_58((12, "m/s2"), 13, along, &five()),
@@ -238,6 +250,186 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
         "--to",
         "0.1",
     ]);
+}
+
+/// The answers of a lossy bat at two places to a force at a third, as accelerations in g per pound-force in
+/// files that name their units on their axes, by option, or not at all.
+#[test]
+fn a_set_of_responses_is_read_at_once_in_the_units_of_the_trade() {
+    const FREQUENCIES: usize = 1500;
+    let folder = Folder::new("frf-set");
+    folder.write("bat.json", LOSSY);
+    folder.write("undamped.json", LOSSY.replace("0.02 } }", "0 } }"));
+    assert_ne!(folder.read("undamped.json"), LOSSY);
+    let bat = Bat::from_file(folder.0.join("bat.json")).unwrap();
+    let request = Request { modes: 8, ..Request::default() };
+    let hertz: Vec<f64> = (0..FREQUENCIES).map(|k| 100.0 + k as f64).collect();
+    let places = [0.7, 0.1, 0.3];
+    let set = |unit: &str| -> String {
+        let one = |(to, at): (usize, usize)| {
+            let mut frf = Frf::new(&bat, &request, places[at], places[to]).unwrap();
+            let of = |s: &Sample| {
+                s.receptance * Kind::Accelerance.of(s.frequency) * 4.448_221_615_260_5 / 9.806_65
+            };
+            let values: Vec<c64> = frf.receptances(&hertz).unwrap().iter().map(of).collect();
+            let [to, at] = [to, at].map(|k| (k as i64 + 1, 2));
+            let text = dataset_58((12, unit), 13, [to, at], &values);
+            let text = text.replace("  1.00000E+02  1.00000E+01", "  1.00000E+02  1.00000E+00");
+            text.replace(&format!("{:<20} N ", "Force"), &format!("{:<20} lb", "Force"))
+        };
+        [(1, 0), (0, 0), (2, 1)].map(one).concat()
+    };
+    let nodes = dataset_2411(&[(1, [0.7, 0.0, 0.0]), (2, [0.1, 0.0, 0.0]), (3, [0.3, 0.0, 0.0])]);
+    folder.write("named.uff", nodes.clone() + &set("G's"));
+    folder.write("bare.uff", set("G's"));
+    folder.write("unknown.uff", nodes + &set("mV"));
+    let ask = |bat: &str, file: &str, more: &[&str]| {
+        let args = [&["frf", bat, "--measured", file, "--csv", "-"], more].concat();
+        let text = folder.text(&args);
+        let rows: Vec<Vec<f64>> = text
+            .lines()
+            .skip(1)
+            .map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
+            .collect();
+        assert_eq!(rows.len(), 3, "{text}");
+        rows
+    };
+    for (file, more) in [
+        ("named.uff", &[][..]),
+        ("bare.uff", &["--places", "1=0.7,2=0.1,3=0.3"]),
+        ("unknown.uff", &["--unit", "g/lbf"]),
+    ] {
+        for (row, (number, at, to)) in ask("bat.json", file, more).iter().zip([
+            (1.0, 0.7, 0.1),
+            (2.0, 0.7, 0.7),
+            (3.0, 0.1, 0.3),
+        ]) {
+            assert_eq!(row[..3], [number, at, to], "{file}");
+            assert!((row[3] - 1.0).abs() < 1e-8 && row[5] < 1e-3, "{file}: {row:?}");
+        }
+    }
+    // Without damping the criterion says nothing; with the measured peaks' it does.
+    for (bare, damped) in ask("undamped.json", "named.uff", &[]).iter().zip(ask(
+        "undamped.json",
+        "named.uff",
+        &["--damping", "measured"],
+    )) {
+        assert!(bare[3] < 0.5 && damped[3] > 0.99, "{bare:?} {damped:?}");
+    }
+    let said = folder.text(&["frf", "undamped.json", "--measured", "named.uff"]);
+    assert!(said.contains("no damping") && said.contains("--damping measured"), "{said}");
+    let set =
+        folder.json(&["frf", "bat.json", "--measured", "named.uff", "--json", "-", "--plots", "p"]);
+    assert_eq!(set["functions"], serde_json::json!([1, 2, 3]));
+    assert_eq!(set["responses"][2]["to_m"], 0.3);
+    assert!(folder.read_names("p").contains(&"response_3.svg".to_owned()));
+}
+
+/// Axes in g beside a dataset 164 of metres: one of them is wrong, and it is said which is taken.
+#[test]
+fn axes_that_contradict_the_files_units_are_told() {
+    let folder = Folder::new("frf-164");
+    let path = folder.0.join("tap.uff");
+    let units = "    -1\n   164\n         1SI                             2\n  1.00000000000000000D+00  \
+                 1.00000000000000000D+00  1.00000000000000000D+00\n  0.00000000000000000D+00\n    -1\n";
+    let along = [(1, 2), (1, 2)];
+    for (unit, told) in [("m/s^2", false), ("g", true), ("in/s^2", true)] {
+        let text = units.to_owned() + &dataset_58((12, unit), 13, along, &five());
+        std::fs::write(&path, text).unwrap();
+        let found = response::read(&path, &Default::default()).unwrap().remove(0).1;
+        assert_eq!(found.values[0].1, c64::new(1000.0, -20.0), "{unit}");
+        let said = found.assumed.iter().any(|words| words.contains("contradicts"));
+        assert_eq!(said, told, "{unit}: {:?}", found.assumed);
+    }
+}
+
+/// Files that write complex modes in Hz, or normal ones in rad/s: the shapes tell, or the option does.
+#[test]
+fn frequencies_in_another_unit_than_the_formats_are_known_by_the_shapes() {
+    let folder = Folder::new("frf-hertz");
+    let known = folder.json(&["modes", "r161", "-n", "4", "--shape-points", "12", "--json", "-"]);
+    let hertz: Vec<f64> = known["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|mode| mode["frequency_hz"].as_f64().unwrap())
+        .collect();
+    let shapes: Vec<Vec<f64>> = known["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|mode| list(&mode["shape"]["deflection"]))
+        .collect();
+    let places = list(&known["modes"][0]["shape"]["x_m"]);
+    let nodes: Vec<(i64, [f64; 3])> =
+        (1..).zip(&places).map(|(k, x)| (k, [*x, 0.0, 0.0])).collect();
+    let figures = |values: &[f64]| {
+        values.iter().map(|v| format!("{:>13}", fortran(*v))).collect::<String>() + "\n"
+    };
+    let ints =
+        |values: &[i64]| values.iter().map(|v| format!("{v:>10}")).collect::<String>() + "\n";
+    let file = |name: &str, complex: bool, factor: f64, mass: f64| {
+        let mut text = dataset_2411(&nodes);
+        for (k, (hz, shape)) in hertz.iter().zip(&shapes).enumerate() {
+            let (mode, w) = (k as i64 + 1, factor * hz);
+            text += "    -1\n    55\n";
+            text += &"NONE\n".repeat(5);
+            if complex {
+                text += &ints(&[1, 3, 2, 8, 5, 3]);
+                text += &ints(&[2, 6, 1, mode]);
+                // A pole, Modal A and B = -λA.
+                let pole = [-0.006 * w, w];
+                text += &figures(&[pole[0], pole[1], mass, 0.0, -mass * pole[0], -mass * pole[1]]);
+            } else {
+                text += &ints(&[1, 2, 2, 8, 2, 3]);
+                text += &ints(&[2, 4, 1, mode]);
+                text += &figures(&[w, 1.0, 0.006, 0.0]);
+            }
+            for (label, value) in (1..).zip(shape) {
+                let row = [0.0, 0.0, *value, 0.0, 0.0, 0.0];
+                let row3 = [0.0, *value, 0.0];
+                text += &ints(&[label]);
+                text += &figures(if complex { &row[..] } else { &row3[..] });
+            }
+            text += "    -1\n";
+        }
+        folder.write(name, text);
+    };
+    let tau = std::f64::consts::TAU;
+    file("by_format.uff", true, tau, 0.0);
+    file("in_hertz.uff", true, 1.0, 0.0);
+    file("normal.uff", false, 1.0, 0.0);
+    file("normal_rad.uff", false, tau, 0.0);
+    for (name, other, unit) in [
+        ("by_format.uff", None, "rad/s"),
+        ("in_hertz.uff", Some("taken as in Hz"), "Hz"),
+        ("normal.uff", None, "Hz"),
+        ("normal_rad.uff", Some("taken as in rad/s"), "rad/s"),
+    ] {
+        for told in [&[][..], &["--frequency-unit", unit]] {
+            let ask = ["compare", "r161", "--measured", name, "--json", "-"];
+            let found = folder.json(&[&ask[..], told].concat());
+            let pairs = found["pairs"].as_array().unwrap();
+            assert_eq!(pairs.len(), 4, "{name} {told:?}: {found}");
+            for pair in pairs {
+                let apart = pair["frequency_difference"].as_f64().unwrap();
+                assert!(apart.abs() < 1e-4, "{name}: {pair}");
+            }
+            let said = found["assumed"].to_string();
+            let here = other.filter(|_| told.is_empty());
+            assert_eq!(said.contains("so the shapes have"), here.is_some(), "{name}: {said}");
+            assert!(here.is_none_or(|words| said.contains(words)), "{name}: {said}");
+        }
+        let found = folder.json(&["calibrate", "r161", name, "--json", "-"]);
+        let lines = found["readings"].to_string();
+        assert!(lines.contains("174.5"), "{name}: {lines}");
+    }
+    // Modal masses that say rad/s beside shapes that say Hz.
+    file("torn.uff", true, 1.0, 1.0);
+    let output = folder.run(&["compare", "r161", "--measured", "torn.uff"]);
+    let error = in_lines(&output.stderr);
+    assert!(output.status.code() == Some(2) && error.contains("--frequency-unit"), "{error}");
+    folder.text(&["compare", "r161", "--measured", "torn.uff", "--frequency-unit", "Hz"]);
 }
 
 /// Dataset 2414 by its description, records 1 to 15, and dataset 55 of the same mode.

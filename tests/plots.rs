@@ -647,7 +647,7 @@ fn responses_and_motions_are_whole_in_every_form() {
                 let (values, peaks) = (&values[..], &peaks[..]);
                 let subject =
                     response::Subject { bat: name, kind, at, to, values, peaks, measured };
-                all.push(response::picture(sheet, &subject).unwrap());
+                all.push(response::picture(sheet, &subject, "response").unwrap());
             }
             let hit = ringing::AfterHit {
                 bat: name,

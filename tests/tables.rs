@@ -13,7 +13,15 @@ fn measured_modes_are_read_however_they_are_written() {
         mark.into_iter().chain(text.encode_utf16().flat_map(unit)).collect()
     };
     let quoted = "\"Mode\",\"FREQUENCY [Hz]\",\"Damping [%]\",\n\"1\",\"174,51\",\"0,6\",\n\"2\",\"581,26\",\"0,7\",\n,,,\n\"3\",\"1187,04\",\"0,9\",\n\"4\",\"1854,83\",\"1,1\",\n";
-    let files: [(&str, Vec<u8>); 8] = [
+    let title = "Modal survey of an R161, 3 May\nOperator: N. N.; hammer 2\n\n";
+    let columns = "Mode   Frequency (Hz)   Damping (%)\n1   174.51   0.60\n2   581.26   0.70\n3   1187.04   0.90\n4   1854.83   1.10\n";
+    let western = b"Schl\xe4ger, 3.5.\nmode;frequency_hz;damping_percent\n1;174,51;0,60\n2;581,26;0,70\n3;1187,04;0,90\n4;1854,83;1,10\n";
+    let files: [(&str, Vec<u8>); 13] = [
+        ("titled.csv", format!("{title}{pulse}").into()),
+        ("titled_european.csv", format!("Modes of R161;;\r\nDate;3.5.;\r\n{european}").into()),
+        ("columns.txt", format!("{title}{columns}").into()),
+        ("blanks.txt", columns.replace("   ", " ").into()),
+        ("western.csv", western.to_vec()),
         ("ours.csv", ours.into()),
         ("pulse.csv", pulse.into()),
         ("european.csv", european.into()),

@@ -22,7 +22,7 @@
 use crate::base::error::{Complaint, nearest};
 use crate::base::typed::{mixed, number, plain, readings, split, terms};
 
-const INCH: f64 = 0.0254;
+pub(crate) const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
 const MILE: f64 = 1609.344;
 const POUND: f64 = 0.453_592_37;

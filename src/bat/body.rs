@@ -368,6 +368,20 @@ impl Bat {
         layups.any(|layup| layup.materials().any(|material| material.loss_factor > 0.0))
     }
 
+    /// The bat with materials that lose nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::with`].
+    pub fn lossless(&self) -> Result<Self> {
+        self.with(|parts| {
+            parts.material.loss_factor = 0.0;
+            let layups = parts.fixtures.regions.iter_mut().map(|region| &mut region.layup);
+            let materials = layups.flat_map(|layup| layup.materials_mut());
+            materials.for_each(|material| material.loss_factor = 0.0);
+        })
+    }
+
     /// Whether anything damps the bat; else it rings without end after a hit.
     pub fn damped(&self) -> bool {
         self.lossy() || self.fixtures.damping()

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
+use crate::files::measured::{self, Beside};
+use crate::files::readings_file;
 use crate::files::schema;
-use crate::files::{measured, readings_file};
 use crate::modes::solve::Request;
 use crate::show::plot::calibrate as pictures_of;
 use crate::show::report::{calibrate, calibrated_bat};
@@ -16,10 +17,11 @@ use crate::study::calibrate::labels::MOST_MODES;
 use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use crate::study::calibrate::unknowns::Unknown;
 use crate::study::measured::data::Measured;
-use crate::study::measured::study::Study;
+use crate::study::measured::study::{ALIKE, Study};
 
 use crate::cli::asking::dialogue::Dialogue;
 use crate::cli::asking::readings_asked::asked;
+use crate::cli::beside::BesideArgs;
 use crate::cli::common::{Prepared, examples, prepare, printed, read_with_text, warn};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, FAILED};
@@ -57,6 +59,9 @@ pub struct Args {
     #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
           help_heading = "The bat")]
     mode: Vec<(f64, Option<usize>)>,
+
+    #[command(flatten)]
+    beside: BesideArgs,
 
     /// Read answers from standard input, one per line, even when it is not a terminal
     #[arg(long, conflicts_with = "measured", help_heading = "The bat")]
@@ -255,21 +260,24 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
         return Ok(Some(Told { readings, name: "answers".to_owned(), person: Some(person) }));
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let readings = match measured::is_table(path) || ["uff", "unv"].contains(&ending.as_str()) {
-        true => of_modes(path, bat, args.quiet)?,
+    let beside = args.beside.read()?;
+    let readings = match measured::has_modes(path) {
+        true => of_modes(measured::read(path, &beside)?, bat, args.quiet)?,
+        false if beside != Beside::default() => {
+            let expected = "a universal file (.uff, .unv): readings have their units";
+            return Err(Error::value("--unit, --places or --frequency-unit", name, expected));
+        }
         false => readings_file::from_file(path)?,
     };
     Ok(Some(Told { readings, name, person: None }))
 }
 
 /// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.
-fn of_modes(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
+fn of_modes(measured: Measured, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     /// Standard deviation of a frequency in a table (Hz).
     const WITHIN: f64 = 0.5;
-    let measured = measured::read(path)?;
+    let (measured, labels) = by_shape(bat, measured)?;
     measured.assumed.iter().for_each(|text| warn(&format!("note: {text}"), quiet));
-    let labels = by_shape(bat, &measured)?;
     let settled = labels.iter().any(Option::is_some);
     let mut readings = BatReadings::default();
     for (mode, label) in measured.modes.iter().zip(labels) {
@@ -290,19 +298,18 @@ fn of_modes(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     Ok(readings)
 }
 
-/// The number of the computed mode whose shape each measured one has; None where its shape does not tell.
-fn by_shape(bat: &Bat, measured: &Measured) -> Result<Vec<Option<usize>>> {
-    /// A MAC that leaves no doubt, at points that tell the modes apart.
-    const ALIKE: f64 = 0.8;
+/// Measured modes, and the number of the computed mode whose shape each has; None where its shape does not
+/// tell.
+fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize>>)> {
     let mut labels = vec![None; measured.modes.len()];
     if !measured.has_shapes() {
-        return Ok(labels);
+        return Ok((measured, labels));
     }
     let request = Request { modes: 10, ..Request::default() };
     let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
-    let study = Study::new(&bat, measured.clone(), &request, false, Default::default())?;
+    let study = Study::new(&bat, measured, &request, false, Default::default())?;
     for pair in study.pairs.iter().filter(|pair| pair.mac.is_some_and(|mac| mac >= ALIKE)) {
         labels[pair.measured] = Some(pair.computed + 1);
     }
-    Ok(labels)
+    Ok((study.measured, labels))
 }

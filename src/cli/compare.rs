@@ -6,8 +6,7 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::sweet_spot::FINE;
-use crate::files::measured::{self, Beside, places};
-use crate::files::uff::Units;
+use crate::files::measured;
 use crate::show::report::{self, comparison, comparison_data, comparison_screen};
 use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
@@ -16,13 +15,14 @@ use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::measured::place::{End, Told};
 use crate::study::measured::study::Study;
 
+use crate::cli::beside::BesideArgs;
 use crate::cli::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
-use crate::cli::value::{PLACE, SPACING, file_unit};
+use crate::cli::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
 ///
@@ -68,14 +68,8 @@ pub struct Args {
           value_parser = |s: &str| PLACE.read(s))]
     origin: Option<f64>,
 
-    /// Unit of length of a universal file that names no units (dataset 164), such as mm
-    #[arg(long, value_name = "UNIT", requires = "measured", value_parser = file_unit)]
-    unit: Option<Units>,
-
-    /// Where the nodes of a universal file without geometry are, from the knob end: "1=0 in, 2=3 in", or
-    /// a CSV file with the columns node,x_in
-    #[arg(long, value_name = "PLACES", requires = "measured")]
-    places: Option<String>,
+    #[command(flatten)]
+    beside: BesideArgs,
 
     /// Number of bending modes that count in a hit [default: as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
@@ -169,8 +163,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         let found = format!("{} bats beside measured modes", args.bats.len());
         return Err(Error::value("compare", found, "one bat file"));
     };
-    let places = args.places.as_deref().map(places::read).transpose()?;
-    let measured = measured::read_with(file, &Beside { unit: args.unit.clone(), places })?;
+    let measured = measured::read(file, &args.beside.read()?)?;
     let bat = read(path, &EditArgs::default(), args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;

@@ -2,23 +2,27 @@
 
 use std::path::PathBuf;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
-use crate::files::measured::response;
-use crate::files::uff::{self, Stamp, Units};
+use crate::files::measured::response::{self, Known};
+use crate::files::schema::frf::FrfSetFile;
+use crate::files::uff::{self, Stamp};
 use crate::modes::solve::Request;
-use crate::motion::frf::{Kind, Sample};
+use crate::motion::frf::{Frf, Kind, Sample};
+use crate::motion::peaks::Peak;
 use crate::show::exchange::frf_uff::{self, Measured};
-use crate::show::plot;
+use crate::show::plot::{self, picture::Picture};
 use crate::show::report::frf::{self as report, Told};
+use crate::show::report::frf_set::{self, RowOfSet};
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
+use crate::cli::beside::PlacesArgs;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
-use crate::cli::frf_grid::GridArgs;
+use crate::cli::frf_grid::{Grid, GridArgs};
 use crate::cli::pictures;
-use crate::cli::value::{PLACE, file_unit, named};
+use crate::cli::value::{PLACE, choice, file_unit, named};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///
@@ -52,21 +56,33 @@ pub struct Args {
     #[command(flatten)]
     grid: GridArgs,
 
-    /// A measured frequency response (UFF, dataset 58) to lay over the computed one
+    /// Measured frequency responses (UFF, dataset 58) to lay over the computed ones
     ///
-    /// Its places are those of its nodes (datasets 15, 2411), from the knob end, unless --at and --to
-    /// say others; its range is that of the answer.
+    /// Their places are those of their nodes (datasets 15, 2411), from the knob end, unless --at and --to
+    /// say others of one; the range is that of the answer. Of several there is a row for each.
     #[arg(long, value_name = "FILE", help_heading = "A measured response")]
     measured: Option<PathBuf>,
 
-    /// Which of the file's frequency responses, from 1 [default: the only one]
+    /// One of the file's frequency responses, from 1, with all there is to say of it [default: all]
     #[arg(long, value_name = "N", requires = "measured", help_heading = "A measured response")]
     function: Option<usize>,
 
-    /// Unit of length of a file that names no units (dataset 164), with N, or lbf for in and ft
-    #[arg(long, value_name = "UNIT", requires = "measured", help_heading = "A measured response",
-          value_parser = file_unit)]
-    unit: Option<Units>,
+    /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as
+    /// g/lbf, or of length, with N, or lbf for in and ft
+    #[arg(long, value_name = "UNIT", requires = "measured", help_heading = "A measured response")]
+    unit: Option<String>,
+
+    #[command(flatten)]
+    places: PlacesArgs,
+
+    /// Damping of the computed modes: material, or measured: that of the measured peaks, mode by mode
+    #[arg(long, value_name = "WHOSE", requires = "measured", default_value = "material",
+          help_heading = "A measured response", hide_possible_values = true,
+          value_parser = choice(&["material", "measured"], |name| match name {
+              "measured" => DampedBy::Measured,
+              _ => DampedBy::Material,
+          }))]
+    damping: DampedBy,
 
     /// Write CSV to this file (- = standard output, and no table then)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -106,57 +122,132 @@ Examples:
 
   sweetspot frf r161 --at \"28 in\" --to \"2 in\" --points 200 --uff tap.uff
   sweetspot frf r161 --measured tap.uff
-      a laboratory's universal file laid over the computed response";
+      a laboratory's universal file laid over the computed response
+
+  sweetspot frf r161 --measured taps.uff --unit g/lbf --damping measured
+      all of its responses, in units that it does not name";
+
+/// Whose damping the computed modes have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum DampedBy {
+    Material,
+    Measured,
+}
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
     let files = [("--json", &args.output.json), ("--csv", &args.csv), ("--uff", &args.uff)];
     apart(&files)?;
     let bat = args.bat.read(&args.output)?;
-    let measured = args.measured.as_ref();
-    let measured =
-        measured.map(|path| response::read_as(path, args.function, args.unit.as_ref(), args.kind));
-    let measured = measured.transpose()?;
-    let [at, to] = places(args, &bat, measured.as_ref())?;
+    let known = known(args)?;
+    let measured = args.measured.as_ref().map(|path| response::read(path, &known)).transpose()?;
+    let measured = measured.unwrap_or_default();
     args.grid.check(bat.fixtures().rigid_modes() > 0)?;
-    let asked = match &measured {
-        Some(measured) => args.grid.as_measured(&measured.values),
-        None => args.grid.clone(),
+    match measured.as_slice() {
+        [] => one(args, bat, None),
+        [(_, measured)] => one(args, bat, Some(measured)),
+        several => all(args, bat, several),
+    }
+}
+
+/// What the options say of a file of responses.
+fn known(args: &Args) -> Result<Known> {
+    let unit = args.unit.as_deref().map(|text| (file_unit(text), text));
+    let (unit, label) = match unit {
+        None => (None, None),
+        Some((Ok(unit), _)) => (Some(unit), None),
+        Some((Err(_), text)) => (None, Some(text.to_owned())),
     };
-    let kind = args.kind.or(measured.as_ref().map(|m| m.kind)).unwrap_or_default();
-    let modes = args.bat.count().max(1);
-    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
-    let Prepared { bat, request, warning } = prepared;
-    let request = Request { modes: request.modes.max(1), ..request };
-    let progress = args.output.progress("modes and answers");
-    let mut frf = asked.reaching(&bat, &request, [at, to])?;
-    let grid = asked.grid(&frf, args.uff.is_some())?;
-    // What the strains miss is looked for where it was asked; then the peaks are those of all of it.
-    frf.receptances(&grid.asked)?;
-    let samples = frf.receptances(&grid.all)?;
-    let mut rising = grid.all.clone();
-    rising.sort_by(f64::total_cmp);
-    let peaks = frf.peaks(kind, &rising);
-    let ends = [rising[0], rising[rising.len() - 1]];
-    let lay = |measured| Laid::new(&mut frf, measured, kind, (&peaks, ends));
-    let laid = measured.as_ref().map(lay).transpose()?;
-    drop(progress);
-    let told = Told {
-        bat: &bat,
-        kind,
-        places: [at, to],
-        frf: &frf,
-        samples: &samples,
-        asked: &grid.asked,
-        peaks: &peaks,
-        measured: measured.as_ref().zip(laid.as_ref()),
-    };
-    let (table, document) = (report::text(&told), report::document(&told));
-    if let Some(folder) = &args.plots {
+    let places = args.places.read()?;
+    Ok(Known { which: args.function, unit, label, kind: args.kind, places })
+}
+
+/// A response that was computed.
+struct Answered {
+    frf: Frf,
+    samples: Vec<Sample>,
+    grid: Grid,
+    /// The frequencies of the grid, rising.
+    rising: Vec<f64>,
+    peaks: Vec<Peak>,
+    laid: Option<Laid>,
+    kind: Kind,
+    places: [f64; 2],
+}
+
+impl Answered {
+    fn new(
+        args: &Args,
+        (bat, request): (&Bat, &Request),
+        measured: Option<&MeasuredResponse>,
+    ) -> Result<Self> {
+        let places = places(args, bat, measured)?;
+        let own = Self::damped(args, (bat, request), measured, (places, None))?;
+        let Some(laid) = own.laid.as_ref().filter(|_| args.damping == DampedBy::Measured) else {
+            return Ok(own);
+        };
+        let mut ratios = vec![None; own.frf.solution.modes.len()];
+        for (computed, measured) in &laid.peaks {
+            if let Some(ratio) = measured.and_then(|peak| peak.damping_ratio()) {
+                ratios[computed.mode - 1] = Some(ratio);
+            }
+        }
+        if ratios.iter().all(Option::is_none) {
+            let source = measured.map_or("--damping", |m| &m.source);
+            let found = "no measured peak whose width tells its damping";
+            return Err(Error::value(source, found, "--damping material, or finer frequencies"));
+        }
+        Self::damped(args, (&bat.lossless()?, request), measured, (places, Some(&ratios)))
+    }
+
+    /// With these damping ratios of the modes in place of the materials'.
+    fn damped(
+        args: &Args,
+        (bat, request): (&Bat, &Request),
+        measured: Option<&MeasuredResponse>,
+        (places, ratios): ([f64; 2], Option<&[Option<f64>]>),
+    ) -> Result<Self> {
+        let asked = match measured {
+            Some(measured) => args.grid.as_measured(&measured.values),
+            None => args.grid.clone(),
+        };
+        let kind = args.kind.or(measured.map(|m| m.kind)).unwrap_or_default();
+        let mut frf = asked.reaching(bat, request, places)?;
+        if let Some(ratios) = ratios {
+            frf = frf.damped_as(ratios);
+        }
+        let grid = asked.grid(&frf, args.uff.is_some())?;
+        // What the strains miss is looked for where it was asked; then the peaks are those of all of it.
+        frf.receptances(&grid.asked)?;
+        let samples = frf.receptances(&grid.all)?;
+        let mut rising = grid.all.clone();
+        rising.sort_by(f64::total_cmp);
+        let peaks = frf.peaks(kind, &rising);
+        let ends = [rising[0], rising[rising.len() - 1]];
+        let lay = |measured| Laid::new(&mut frf, measured, kind, (&peaks, ends));
+        let laid = measured.map(lay).transpose()?;
+        Ok(Self { frf, samples, grid, rising, peaks, laid, kind, places })
+    }
+
+    fn told<'a>(&'a self, bat: &'a Bat, measured: Option<&'a MeasuredResponse>) -> Told<'a> {
+        Told {
+            bat,
+            kind: self.kind,
+            places: self.places,
+            frf: &self.frf,
+            samples: &self.samples,
+            asked: &self.grid.asked,
+            peaks: &self.peaks,
+            measured: measured.zip(self.laid.as_ref()),
+        }
+    }
+
+    fn picture(&mut self, args: &Args, bat: &Bat, name: &str) -> Result<Option<Picture>> {
         // After what is said: looking at more frequencies may add to the modes.
-        let drawn = frf.receptances(&args.grid.drawn(&rising))?;
+        let drawn = self.frf.receptances(&args.grid.drawn(&self.rising))?;
+        let kind = self.kind;
         let values = drawn.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
-        let laid_at = laid.iter().flat_map(|laid| {
+        let laid_at = self.laid.iter().flat_map(|laid| {
             laid.measured.iter().zip(&laid.computed).map(|((f, _), value)| (*f, *value))
         });
         let mut values: Vec<_> = values.chain(laid_at).collect();
@@ -164,28 +255,93 @@ pub fn run(args: &Args) -> Result<Done> {
         let subject = plot::response::Subject {
             bat: bat.name(),
             kind,
-            at,
-            to,
+            at: self.places[0],
+            to: self.places[1],
             values: &values,
-            peaks: &peaks,
-            measured: laid.as_ref().map_or(&[], |laid| &laid.measured),
+            peaks: &self.peaks,
+            measured: self.laid.as_ref().map_or(&[], |laid| &laid.measured),
         };
-        let picture = plot::response::picture(args.output.sheet(&bat), &subject);
+        Ok(plot::response::picture(args.output.sheet(bat), &subject, name))
+    }
+
+    /// The exit code, after a word where an accuracy was not reached.
+    fn verdict(&self, args: &Args) -> u8 {
+        match self.frf.solution.worst() <= args.solve.tol {
+            true => 0,
+            false => args.solve.verdict(&self.frf.solution, &args.output),
+        }
+    }
+}
+
+/// One response, and a measured one laid over it.
+fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Done> {
+    let modes = args.bat.count().max(1);
+    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let request = Request { modes: request.modes.max(1), ..request };
+    let progress = args.output.progress("modes and answers");
+    let mut answered = Answered::new(args, (&bat, &request), measured)?;
+    drop(progress);
+    let told = answered.told(&bat, measured);
+    let (table, document) = (report::text(&told), report::document(&told));
+    if let Some(folder) = &args.plots {
+        let picture = answered.picture(args, &bat, "response")?;
         pictures::write(folder, picture.as_slice(), args.output.quiet)?;
     }
+    let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
     let text = args.output.deliver(table, || document)?;
-    let text = put(&args.csv, text, || Ok(report::csv(kind, &samples)))?;
+    let text = put(&args.csv, text, || Ok(report::csv(*kind, samples)))?;
     let text = put(&args.uff, text, || {
-        let measured = Measured { bat: bat.name(), kind, at, to, even: grid.even };
+        let (kind, at, to, even) = (*kind, *at, *to, grid.even);
+        let measured = Measured { bat: bat.name(), kind, at, to, even };
         let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
         let held = |s: &&Sample| grid.even.is_none() || grid.asked.contains(&s.frequency);
         let held: Vec<Sample> = samples.iter().filter(held).copied().collect();
         uff::write(&frf_uff::response(&measured, &held, &stamp))
     })?;
-    let code = match frf.solution.worst() <= args.solve.tol {
-        true => 0,
-        false => args.solve.verdict(&frf.solution, &args.output),
-    };
+    Ok(Done::new(text, answered.verdict(args)).with(warning))
+}
+
+/// Every response of a file, a row each.
+fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<Done> {
+    let of_one =
+        [("--at", args.at.is_some()), ("--to", args.to.is_some()), ("--uff", args.uff.is_some())];
+    if let Some((option, _)) = of_one.into_iter().find(|(_, given)| *given) {
+        let found = format!("it beside {} responses", measured.len());
+        return Err(Error::value(option, found, "one of them: --function N"));
+    }
+    let modes = args.bat.count().max(1);
+    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let request = Request { modes: request.modes.max(1), ..request };
+    let progress = args.output.progress("modes and answers");
+    let (mut rows, mut pictures, mut code) = (vec![], vec![], 0);
+    let mut answers = vec![];
+    for (number, measured) in measured {
+        let named = |error: Error| {
+            error.placed(|complaint| {
+                let field = format!("{}, response {number}", complaint.field);
+                Error::Value(Complaint { field, ..complaint })
+            })
+        };
+        let mut answered = Answered::new(args, (&bat, &request), Some(measured)).map_err(named)?;
+        code = code.max(answered.verdict(args));
+        let told = answered.told(&bat, Some(measured));
+        rows.extend(RowOfSet::new(*number, &told));
+        answers.push(report::document(&told));
+        if args.plots.is_some() {
+            pictures.extend(answered.picture(args, &bat, &format!("response_{number}"))?);
+        }
+    }
+    drop(progress);
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    let source = &measured[0].1.source;
+    let table = frf_set::text(&bat, source, &rows);
+    let numbers = rows.iter().map(|row| row.number).collect();
+    let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
+    let text = put(&args.csv, text, || Ok(frf_set::csv(&rows)))?;
     Ok(Done::new(text, code).with(warning))
 }
 
@@ -194,13 +350,13 @@ fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result
     let [at, to] = [measured.and_then(|m| m.at), measured.and_then(|m| m.to)];
     let Some(at) = args.at.or(at) else {
         let source = measured.map_or(String::new(), |m| m.source.clone());
-        let expected = "its node in a dataset 15 or 2411, or --at and --to";
+        let expected = "its node in a dataset 15 or 2411, or --places, or --at and --to";
         return Err(Error::value(source, "no place of the force", expected));
     };
     let here = measured.is_none_or(|m| m.drive_point);
     let Some(to) = args.to.or(to).or(here.then_some(at)) else {
         let source = measured.map_or(String::new(), |m| m.source.clone());
-        let expected = "its node in a dataset 15 or 2411, or --to";
+        let expected = "its node in a dataset 15 or 2411, or --places, or --to";
         return Err(Error::value(source, "no place of the answer", expected));
     };
     Ok([on_the_bat(bat, "--at", at)?, on_the_bat(bat, "--to", to)?])

@@ -34,6 +34,7 @@ mod ring;
 mod bbcor;
 mod hoop;
 mod analyze;
+mod beside;
 mod compare;
 mod calibrate;
 mod frf_grid;

@@ -162,7 +162,7 @@ pub fn tolerance(text: &str, goal: Goal) -> Said<Amount> {
 /// The name may stand first ("mass -1 oz"), last ("keep the balance", "lose 3 % swing weight") or be left out where a
 /// word or a unit says it: "1 oz lighter", "-1 oz"; "-3" alone is a drop.
 pub fn target(text: &str) -> Said<Target> {
-    let text = wish_words::plain(text);
+    let text = wish_words::frequencies(&wish_words::plain(text));
     let several = [", ", " and ", " but ", "; ", " with "].iter().any(|part| text.contains(*part));
     read(&text).map_err(|complaint| match complaint.hint.is_empty() || several {
         true => match wording(&text) {
@@ -479,6 +479,10 @@ mod tests {
             ("f1 180 Hz", f1, Ask::Value(si(180.0), None)),
             ("f1 +2 Hz", f1, Ask::Change(si(2.0), None)),
             ("f1 same", f1, Ask::Change(si(0.0), None)),
+            ("frequency 1 same", f1, Ask::Change(si(0.0), None)),
+            ("frequency of mode 1 +2 Hz", f1, Ask::Change(si(2.0), None)),
+            ("keep the first bending frequency", f1, Ask::Change(si(0.0), None)),
+            ("mode 1 frequency 180 Hz", f1, Ask::Value(si(180.0), None)),
             ("weight 5 % less", mass, Ask::Change(share(-0.05), None)),
             ("drop at most 3", Goal::Drop, Ask::Between(None, Some(si(3.0)))),
             ("drop at most -3", Goal::Drop, Ask::Between(None, Some(si(3.0)))),

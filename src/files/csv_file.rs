@@ -40,7 +40,11 @@ impl Csv {
     ) -> Result<Self> {
         let keys: Vec<&'static str> = columns.iter().map(|(key, ..)| *key).collect();
         let names = format!("a header of {} and their units", keys.join(", "));
-        let sheet = Sheet::new(document, &names)?;
+        let known = |names: &[String]| {
+            let one = |name: &String| keys.iter().any(|key| names_it(name, key));
+            names.iter().filter(|name| one(name)).count() > names.len() / 2
+        };
+        let sheet = Sheet::new(document, &names, known)?;
         let scales = scales(&sheet, columns)?;
         let mut filled: Vec<_> = scales.iter().map(|(key, ..)| (*key, Vec::new())).collect();
         let mut cells = Vec::with_capacity(sheet.rows.len() * scales.len());
@@ -125,6 +129,11 @@ fn read_row(
     mistakes.end(())
 }
 
+/// Whether a name is that of a column, with its unit or without.
+fn names_it(name: &str, key: &str) -> bool {
+    name.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+}
+
 /// Key, factor to SI and unit of a header cell such as `diameter_in` or `Diameter [in]`.
 fn column(
     written: &str,
@@ -132,9 +141,7 @@ fn column(
 ) -> std::result::Result<Scale, Complaint> {
     let name = sheet::normal(written);
     // Longer keys first, so that none is taken for the beginning of another.
-    let known = columns.iter().filter(|(key, ..)| {
-        name.strip_prefix(*key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
-    });
+    let known = columns.iter().filter(|(key, ..)| names_it(&name, key));
     let Some(&(key, quantity, bare)) = known.max_by_key(|(key, ..)| key.len()) else {
         let keys: Vec<&str> = columns.iter().map(|(key, ..)| *key).collect();
         let stem = name.rsplit_once('_').map_or(&*name, |(stem, _)| stem);

@@ -18,6 +18,16 @@ pub(crate) struct Document {
 impl Document {
     /// Reads a file as UTF-8, or as UTF-16 if it begins with the mark of that.
     pub fn read(path: &Path) -> Result<Self> {
+        Self::of(path, false)
+    }
+
+    /// As [`Self::read`], of a table: one that is no UTF-8 is read as Windows-1252, the way western
+    /// spreadsheets write it. Its numbers and separators are ASCII in both.
+    pub fn table(path: &Path) -> Result<Self> {
+        Self::of(path, true)
+    }
+
+    fn of(path: &Path, of_a_table: bool) -> Result<Self> {
         let bytes = file::read(path)?;
         let name = path.display().to_string();
         let wide = match bytes[..] {
@@ -39,6 +49,9 @@ impl Document {
         }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, &text)),
+            Err(error) if of_a_table && !error.as_bytes().contains(&0) => {
+                Ok(Self::new(name, &windows_1252(error.as_bytes())))
+            }
             Err(error) => {
                 let at = error.utf8_error().valid_up_to();
                 // Up to there the same, and what is wrong as a character that stands for it.
@@ -100,6 +113,22 @@ fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> (String, bool) {
         Ok(text) if bytes.len().is_multiple_of(2) => (text, true),
         _ => (String::from_utf16_lossy(&units), false),
     }
+}
+
+/// The text of Windows-1252 bytes: those from 0x80 to 0x9f stand for the characters of this list, all others
+/// for those of their own number. Source: the Unicode consortium's mapping `CP1252.TXT`; the five that it
+/// leaves undefined stand for controls.
+fn windows_1252(bytes: &[u8]) -> String {
+    const HIGH: [char; 32] = [
+        '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž',
+        '\u{8f}', '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}',
+        'ž', 'Ÿ',
+    ];
+    let of = |byte: &u8| match byte {
+        0x80..=0x9f => HIGH[usize::from(byte - 0x80)],
+        byte => char::from(*byte),
+    };
+    bytes.iter().map(of).collect()
 }
 
 /// The first byte is in line 1, column 1.

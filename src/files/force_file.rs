@@ -19,7 +19,7 @@ use crate::motion::force::ForceHistory;
 /// [`crate::base::error::Error::Read`] or [`crate::base::error::Error::Input`] with the line.
 pub fn read(path: &Path) -> Result<ForceHistory> {
     const MOST: f64 = 1e9;
-    let document = Document::read(path)?;
+    let document = Document::table(path)?;
     let columns = [("t", Quantity::Time, 1.0), ("force", Quantity::Force, 1.0)];
     let csv = Csv::read_columns(&document, &columns)?;
     let error = |row: usize, field: &str, found: String, expected: &str| -> Result<()> {

@@ -18,7 +18,7 @@ use crate::motion::shape::InitialShape;
 ///
 /// [`crate::base::error::Error::Read`] or [`crate::base::error::Error::Input`] with the line.
 pub fn read(path: &Path, length: f64) -> Result<InitialShape> {
-    let document = Document::read(path)?;
+    let document = Document::table(path)?;
     let csv = Csv::read(&document, &["x", "w"], Quantity::Length, 1.0)?;
     let error = |row: usize, found: String, expected: &str| -> Result<()> {
         Err(csv.error(&document, "x", Some(row), Complaint::new("x", found, expected)))

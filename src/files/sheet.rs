@@ -1,9 +1,9 @@
 //! The cells of a table as programs and spreadsheets write it, each with its place.
 //!
-//! Commas, semicolons or tabs between the cells (the first line may say which, as in `sep=;`), quotes
-//! around them, decimal points or commas, fractions of an inch rule, cells and rows left empty at the end.
-//! Lines that begin with `#` are comments. Names of columns in any capitals, their units after `_` or in
-//! brackets: `Frequency (Hz)` is `frequency_hz`.
+//! Commas, semicolons, tabs or blanks between the cells (the first line may say which, as in `sep=;`),
+//! quotes around them, decimal points or commas, fractions of an inch rule, cells and rows left empty at
+//! the end. Lines that begin with `#` are comments, and so are those above the header. Names of columns in
+//! any capitals, their units after `_` or in brackets: `Frequency (Hz)` is `frequency_hz`.
 
 use std::ops::Range;
 
@@ -30,10 +30,15 @@ pub(crate) struct SheetRow<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Splits the text into cells; `names` says what a header may be.
-    pub fn new(document: &'a Document, names: &str) -> Result<Self> {
+    /// Splits the text into cells; `names` says what a header may be, and `known` whether a row of
+    /// [`normal`] names is one.
+    pub fn new(
+        document: &'a Document,
+        names: &str,
+        known: impl Fn(&[String]) -> bool,
+    ) -> Result<Self> {
         let text = &document.text[..];
-        let (mut at, separator) = beginning(document)?;
+        let (mut at, separator) = beginning(document, known)?;
         let mut rows = vec![];
         while at < text.len() {
             if text[at..].starts_with('#') {
@@ -42,7 +47,7 @@ impl<'a> Sheet<'a> {
             }
             let start = at;
             let cells;
-            (cells, at) = record(text, at, separator).map_err(|quote| {
+            (cells, at) = separator.record(text, at).map_err(|quote| {
                 let field = if rows.is_empty() { "header" } else { "" };
                 let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
                 document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
@@ -71,7 +76,7 @@ impl<'a> Sheet<'a> {
             }
             let found = format!("{many} {} in this row", if many == 1 { "cell" } else { "cells" });
             let mut complaint = Complaint::new("", found, format!("{width}, as in the header"));
-            if separator == b',' && many > width {
+            if separator == Separator::Sign(b',') && many > width {
                 let hint = "commas stand between the cells here: numbers have points, or semicolons \
                             stand between the cells";
                 complaint = complaint.hinted(hint);
@@ -85,7 +90,7 @@ impl<'a> Sheet<'a> {
 
     /// The decimal sign of the table: that of its numbers that can be read in one way, or else the one that
     /// goes with the separator.
-    fn settled(&self, separator: u8) -> Result<Decimal> {
+    fn settled(&self, separator: Separator) -> Result<Decimal> {
         let mut first: Option<(Decimal, &str)> = None;
         for cell in self.rows.iter().flat_map(|row| &row.cells) {
             let Some(sign) = sheet_number::certain(cell) else { continue };
@@ -100,7 +105,8 @@ impl<'a> Sheet<'a> {
                 Some(_) => {}
             }
         }
-        let usual = if separator == b';' { Decimal::Comma } else { Decimal::Point };
+        let european = separator == Separator::Sign(b';');
+        let usual = if european { Decimal::Comma } else { Decimal::Point };
         Ok(first.map_or(usual, |(sign, _)| sign))
     }
 
@@ -230,32 +236,114 @@ pub(crate) fn normal(name: &str) -> String {
     }
 }
 
-/// Where the header may begin, and what stands between the cells.
-fn beginning(document: &Document) -> Result<(usize, u8)> {
-    let text = &document.text[..];
-    let blank = |line: &str| line.trim_matches([' ', '\r', '\n']).is_empty();
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
-        let told = line.trim_matches([' ', '"', '\r', '\n']);
-        if blank(line) || line.starts_with('#') {
-            at += line.len();
-            continue;
+/// What stands between the cells of a table.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Separator {
+    /// This sign, one between two cells.
+    Sign(u8),
+    /// So many blanks at least.
+    Blanks(usize),
+}
+
+impl Separator {
+    /// The cells of the row at `at`, and where the next one begins; or where a quote is without its end.
+    fn record(self, text: &str, at: usize) -> std::result::Result<(Vec<&str>, usize), usize> {
+        match self {
+            Self::Sign(sign) => record(text, at, sign),
+            Self::Blanks(least) => {
+                let end = text[at..].find('\n').map_or(text.len(), |end| at + end + 1);
+                Ok((in_blanks(&text[at..end], least), end))
+            }
         }
-        // Spreadsheets say so in the first line.
-        let Some(sign) =
-            told.get(..4).filter(|s| s.eq_ignore_ascii_case("sep=")).map(|_| &told[4..])
-        else {
-            return Ok((at, between(text, at)));
-        };
-        let sign = sign.bytes().next();
+    }
+}
+
+/// Where the header begins, and what stands between the cells. It is the first line that is known as one:
+/// programs write what was measured and when above it. Without one it is the first line.
+fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(usize, Separator)> {
+    /// Lines that may stand above a header.
+    const ABOVE: usize = 60;
+    let text = &document.text[..];
+    let blank = |line: &str| line.trim_matches([' ', '\t', '\r', '\n']).is_empty();
+    let mut at = 0;
+    let mut lines = vec![];
+    for line in text.split_inclusive('\n') {
+        if !blank(line) && !line.starts_with('#') {
+            lines.push(at);
+        }
+        at += line.len();
+        if lines.len() > ABOVE {
+            break;
+        }
+    }
+    let Some(&first) = lines.first() else { return Ok((at, Separator::Sign(b','))) };
+    let told = self::line(text, first);
+    let told = text[told].trim_matches([' ', '"']);
+    // Spreadsheets say so in the first line.
+    if told.get(..4).is_some_and(|begins| begins.eq_ignore_ascii_case("sep=")) {
+        let sign = told.as_bytes().get(4).copied();
         let Some(sign) = sign.filter(|sign| [b',', b';', b'\t', b'|'].contains(sign)) else {
             let expected = "a comma, a semicolon, a tab or | after sep=";
             let complaint = Complaint::new("", format!("\"{told}\""), expected);
-            return Err(document.error(at..at + line.trim_end().len(), complaint));
+            return Err(document.error(line(text, first), complaint));
         };
-        return Ok((at + line.len(), sign));
+        return Ok((lines.get(1).copied().unwrap_or(at), Separator::Sign(sign)));
     }
-    Ok((at, b','))
+    let header = |at: usize, separator: Separator| {
+        let cells = separator.record(text, at).map(|(cells, _)| cells).unwrap_or_default();
+        let names: Vec<String> = cells.iter().map(|cell| normal(cell)).collect();
+        known(&names).then_some(cells.len())
+    };
+    for (k, &at) in lines.iter().enumerate() {
+        let sign = Separator::Sign(between(text, at));
+        let signs = header(at, sign);
+        if signs.is_some_and(|count| count > 1) {
+            return Ok((at, sign));
+        }
+        // A header in blanks has rows in blanks below it.
+        for least in [2, 1] {
+            let blanks = Separator::Blanks(least);
+            let below = lines.get(k + 1).and_then(|below| blanks.record(text, *below).ok());
+            let many = header(at, blanks).filter(|count| *count > 1);
+            if many.is_some() && many == below.map(|(cells, _)| cells.len()) {
+                return Ok((at, blanks));
+            }
+        }
+        if signs.is_some() {
+            return Ok((at, sign));
+        }
+    }
+    Ok((first, Separator::Sign(between(text, first))))
+}
+
+/// The cells of a line with so many blanks at least between them; brackets belong to the name before them.
+fn in_blanks(line: &str, least: usize) -> Vec<&str> {
+    let blank = |c: char| c.is_whitespace();
+    let line = line.trim_matches(blank);
+    let mut cells = vec![];
+    let (mut start, mut depth, mut at) = (0, 0, 0);
+    while let Some(next) = line[at..].chars().next() {
+        let width = line[at..].len() - line[at..].trim_start_matches(blank).len();
+        match next {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ if blank(next) => {
+                let after = &line[at + width..];
+                let tab = line[at..at + width].contains('\t');
+                let apart = tab || line[at..at + width].chars().count() >= least;
+                if depth <= 0 && apart && !after.starts_with(['(', '[']) {
+                    cells.push(&line[start..at]);
+                    start = at + width;
+                }
+                at += width;
+                continue;
+            }
+            _ => {}
+        }
+        at += next.len_utf8();
+    }
+    cells.push(&line[start..]);
+    cells.into_iter().map(|cell| cell.trim_matches('"')).collect()
 }
 
 /// What stands between the names of a header: semicolons or tabs if there are any, or else commas.

@@ -75,7 +75,7 @@ impl<'a> StationTable<'a> {
     /// The columns of a CSV file, named and given their units by its header (`x_in,diameter_in`);
     /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
     pub fn from_csv(path: &Path, unit: f64) -> Result<StationTable<'static>> {
-        let document = Document::read(path)?;
+        let document = Document::table(path)?;
         let csv = Csv::read(&document, &COLUMNS, Quantity::Length, unit)?;
         let header = |found: String, expected: &str| {
             Err(csv.error(&document, "", None, Complaint::new("header", found, expected)))

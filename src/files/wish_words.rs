@@ -322,36 +322,71 @@ pub fn figures(text: &str) -> String {
     let of = |table: &[(&str, &'static str)], word: &str| {
         table.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)).map(|(_, said)| *said)
     };
+    /// In place of the last word.
+    fn again(out: &mut Vec<String>, word: String) {
+        out.pop();
+        out.push(word);
+    }
     let mut out: Vec<String> = vec![];
     for word in text.replace("per cent", "percent").split(' ') {
         let number = of(&NUMBERS, word);
         let last = out.last().map(String::as_str).unwrap_or_default();
         let counted = last.parse::<f64>().is_ok() || last.contains('/');
+        let figure = word.starts_with(|c: char| c.is_ascii_digit());
         match (number, last) {
             // "half an ounce", "1/2 an ounce", "quarter of an ounce".
             (Some("1"), _) if counted && word.starts_with(['a', 'A']) => {}
             (None, _) if counted && word == "of" => {}
             // "a half ounce".
-            (Some(part @ ("0.5" | "0.25")), "1") => {
-                *out.last_mut().expect("it has one") = part.to_owned()
-            }
-            (Some(number), "minus" | "-") => {
-                *out.last_mut().expect("it has one") = format!("-{number}")
-            }
-            (Some(number), "plus" | "+") => {
-                *out.last_mut().expect("it has one") = format!("+{number}")
-            }
-            (Some(number), _) => out.push(number.to_owned()),
-            (None, "minus" | "-") if word.starts_with(|c: char| c.is_ascii_digit()) => {
-                *out.last_mut().expect("it has one") = format!("-{word}");
-            }
-            (None, "plus" | "+") if word.starts_with(|c: char| c.is_ascii_digit()) => {
-                *out.last_mut().expect("it has one") = format!("+{word}");
-            }
+            (Some(part @ ("0.5" | "0.25")), "1") => again(&mut out, part.to_owned()),
+            (Some(number), "minus" | "-") => again(&mut out, format!("-{number}")),
+            (Some(number), "plus" | "+") => again(&mut out, format!("+{number}")),
+            (None, "minus" | "-") if figure => again(&mut out, format!("-{word}")),
+            (None, "plus" | "+") if figure => again(&mut out, format!("+{word}")),
             _ => out.push(of(&UNITS, word).unwrap_or(word).to_owned()),
         }
     }
     and_a_half(&mut out);
+    out.join(" ")
+}
+
+/// "frequency 2", "frequency of mode 2", "mode 2 frequency" and "second bending frequency" as `f2`.
+pub fn frequencies(text: &str) -> String {
+    const ORDINALS: [[&str; 2]; 5] = [
+        ["first", "1st"],
+        ["second", "2nd"],
+        ["third", "3rd"],
+        ["fourth", "4th"],
+        ["fifth", "5th"],
+    ];
+    let words: Vec<&str> = text.split(' ').collect();
+    let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
+    let ordinal = |word: &str| {
+        let at = ORDINALS.iter().position(|both| both.iter().any(|one| is(word, one)));
+        at.map(|k| k + 1)
+    };
+    let number = |word: &str| word.parse::<usize>().ok().filter(|k| (1..=40).contains(k));
+    let mut out: Vec<String> = vec![];
+    let mut k = 0;
+    while k < words.len() {
+        let (order, taken) = match &words[k..] {
+            [f, of, mode, n, ..] if is(f, "frequency") && is(of, "of") && is(mode, "mode") => {
+                (number(n), 4)
+            }
+            [mode, n, f, ..] if is(mode, "mode") && is(f, "frequency") => (number(n), 3),
+            [nth, bending, f, ..] if is(bending, "bending") && is(f, "frequency") => {
+                (ordinal(nth), 3)
+            }
+            [nth, f, ..] if is(f, "frequency") => (ordinal(nth), 2),
+            [f, n, ..] if is(f, "frequency") => (number(n), 2),
+            _ => (None, 1),
+        };
+        match order {
+            Some(order) => out.push(format!("f{order}")),
+            None => out.push(words[k].to_owned()),
+        }
+        k += if order.is_some() { taken } else { 1 };
+    }
     out.join(" ")
 }
 

@@ -178,6 +178,17 @@ impl Reduced {
         self.loss[k][k]
     }
 
+    /// Loss factors of the modes in place of the materials', each by itself: modal damping, as it was measured.
+    /// The strains beyond the modes have none.
+    pub fn lose(&mut self, losses: &[f64]) {
+        for (k, loss) in losses.iter().enumerate().take(self.omega.len()) {
+            let member = &mut self.members[k];
+            member.loss = member.strains.iter().map(|v| loss * v).collect();
+            self.loss[k] = vec![0.0; k + 1];
+            self.loss[k][k] = *loss;
+        }
+    }
+
     /// Damping of mode k by the dashpots, `vᵀC v` (s) for a strain energy of `½ vᵀv = ½`: its
     /// damping ratio is half of it times ω.
     pub fn mode_damping(&self, k: usize) -> f64 {

@@ -97,6 +97,8 @@ pub struct Frf {
     /// Forced and watched point.
     places: [Place; 2],
     points: [f64; 2],
+    /// Damping ratios of the modes in place of the bat's; empty where they are the bat's.
+    ratios: Vec<f64>,
 }
 
 /// The mesh of a response has its modes to that accuracy at least.
@@ -127,7 +129,24 @@ impl Frf {
             reduced.place(*x);
         });
         let places = [at, to].map(|x| reduced.place(x));
-        Ok(Self { solution, reduced, places, points: [at, to] })
+        Ok(Self { solution, reduced, places, points: [at, to], ratios: vec![] })
+    }
+
+    /// The response with these damping ratios of its modes in place of the materials' loss factors, as they
+    /// were measured; a mode without one has the mean of the others. For a bat whose materials lose nothing.
+    pub fn damped_as(mut self, ratios: &[Option<f64>]) -> Self {
+        let known: Vec<f64> = ratios.iter().flatten().copied().collect();
+        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        let ratio = |k: usize| ratios.get(k).copied().flatten().unwrap_or(mean);
+        let losses: Vec<f64> = (0..self.reduced.omega.len()).map(|k| 2.0 * ratio(k)).collect();
+        self.reduced.lose(&losses);
+        self.ratios = (0..self.solution.modes.len()).map(ratio).collect();
+        self
+    }
+
+    /// The damping ratios of [`Self::damped_as`]; empty without.
+    pub fn damping_ratios(&self) -> &[f64] {
+        &self.ratios
     }
 
     /// The deflection (m/N) under a constant force: of a held bat; of a free one that of its
@@ -165,7 +184,8 @@ impl Frf {
 
     /// Natural frequency (Hz) and damping ratio of every mode.
     fn modes(&self) -> Vec<[f64; 2]> {
-        let ratio = |k: usize| self.solution.damping.modes.get(k).map_or(0.0, |d| d.ratio);
+        let own = |k: usize| self.solution.damping.modes.get(k).map_or(0.0, |d| d.ratio);
+        let ratio = |k: usize| self.ratios.get(k).copied().unwrap_or_else(|| own(k));
         let modes = self.solution.modes.iter().enumerate();
         modes.map(|(k, mode)| [mode.frequency(), ratio(k)]).collect()
     }

@@ -12,7 +12,7 @@ use crate::files::schema::bbcor::BbcorFile;
 use crate::files::schema::calibrate::CalibrateFile;
 use crate::files::schema::compare::CompareFile;
 use crate::files::schema::document::{Document, format};
-use crate::files::schema::frf::FrfFile;
+use crate::files::schema::frf::{FrfFile, FrfSetFile};
 use crate::files::schema::hit::HitFile;
 use crate::files::schema::hoop::HoopFile;
 use crate::files::schema::lathe::LatheFile;
@@ -39,7 +39,7 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
@@ -58,6 +58,7 @@ impl FileKind {
         Self::of::<MeasuredFile>(),
         Self::of::<RingFile>(),
         Self::of::<FrfFile>(),
+        Self::of::<FrfSetFile>(),
         Self::of::<AdviceFile>(),
         Self::of::<CalibrateFile>(),
         Self::of::<ScatterResult>(),

@@ -4,7 +4,6 @@
 //! certain than another.
 
 use crate::bat::body::Bat;
-use crate::collision::figures::Figures;
 use crate::collision::hit::Scene;
 use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::Sweep;
@@ -48,15 +47,21 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The verdict on the hits of a bat and their figures.
-    pub fn of(bat: &Bat, scene: &Scene, hits: &Sweep, figures: &Figures) -> Self {
+    /// The verdict on the hits of a bat, whose wall does that at the sweet spot.
+    pub fn of(bat: &Bat, scene: &Scene, hits: &Sweep, wall: Option<WallFigures>) -> Self {
         let density = bat.density_off().map(Doubt::Density);
-        let deep = figures.wall.filter(WallFigures::is_deep);
+        let deep = wall.filter(WallFigures::is_deep);
         let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
         let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
         let unmet = hits.worst().filter(|_| !hits.met);
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
         Self { doubts: density.into_iter().chain(dent).chain(rigid).chain(unmet).collect() }
+    }
+
+    /// Whether what is known of the bat is a lower limit of what is open of it: it is not of that material, or not
+    /// of that shape.
+    pub fn bat_is_open(&self) -> bool {
+        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Density(_)))
     }
 
     /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is
@@ -66,9 +71,9 @@ impl Verdict {
     }
 }
 
-/// Why the wall of a hollow barrel is rigid in a hit that it would change; None where it gives way, and where it
+/// Why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; None where it gives way, and where it
 /// changes less than was asked for.
-fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
+pub fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
     if let HoopInHit::LeftOut(WhyRigid::Small { .. }) = scene.hoop {
         return None;
     }

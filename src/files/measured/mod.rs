@@ -11,24 +11,23 @@ use std::path::Path;
 use crate::base::error::{Error, Result};
 use crate::files::measured::places::Places;
 use crate::files::uff::Units;
-use crate::study::measured::data::Measured;
+use crate::study::measured::data::{FrequencyUnit, Measured};
 
 /// Fewer points tell no shape from another.
 const FEWEST: usize = 3;
 
 /// Whether a file is a table, by the ending of its name: what spreadsheets and modal programs call one.
 pub fn is_table(path: &Path) -> bool {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    ["csv", "txt", "tsv"].contains(&ending.as_str())
+    ["csv", "txt", "tsv"].contains(&ending(path).as_str())
 }
 
-/// Reads measured modes, by the ending of the file's name.
-///
-/// # Errors
-///
-/// [`Error::Value`] for another ending, and those of [`table::read`] and [`universal::read`].
-pub fn read(path: &Path) -> Result<Measured> {
-    read_with(path, &Beside::default())
+/// Whether a file has measured modes, by the ending of its name.
+pub fn has_modes(path: &Path) -> bool {
+    is_table(path) || ["uff", "unv"].contains(&ending(path).as_str())
+}
+
+fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 /// What is known of a universal file beside it.
@@ -38,22 +37,25 @@ pub struct Beside {
     pub unit: Option<Units>,
     /// Where the nodes of a file without geometry are.
     pub places: Option<Places>,
+    /// What its frequencies are in, where it writes them otherwise than its format says.
+    pub frequency_unit: Option<FrequencyUnit>,
 }
 
-/// As [`read`], of a file of which that is known.
+/// Reads measured modes, by the ending of the file's name.
 ///
 /// # Errors
 ///
-/// Those of [`read`]; [`Error::Value`] for a unit or places beside a CSV file, which has its own.
-pub fn read_with(path: &Path, beside: &Beside) -> Result<Measured> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match ending.as_str() {
+/// [`Error::Value`] for another ending, and what is known beside a table, which says it itself; those of
+/// [`table::read`] and [`universal::read`].
+pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
+    match ending(path).as_str() {
         _ if is_table(path) && *beside != Beside::default() => {
+            let found = path.display();
             let expected = "a universal file: a table names its units and places itself";
-            Err(Error::value("--unit or --places", path.display(), expected))
+            Err(Error::value("--unit, --places or --frequency-unit", found, expected))
         }
         _ if is_table(path) => table::read(path),
-        "uff" | "unv" => universal::read_with(path, beside),
+        "uff" | "unv" => universal::read(path, beside),
         _ => {
             let expected = "a file whose name ends with .csv, .txt, .uff or .unv";
             Err(Error::value("measured modes", path.display(), expected))

@@ -58,8 +58,9 @@ fn typed(text: &str) -> Result<Places> {
 
 fn file(path: &Path) -> Result<Places> {
     const FAR: f64 = 1e6;
-    let document = Document::read(path)?;
-    let table = Sheet::new(&document, "a header such as node,x_in")?;
+    let document = Document::table(path)?;
+    let known = |names: &[String]| names.iter().any(|name| name == "node");
+    let table = Sheet::new(&document, "a header such as node,x_in", known)?;
     if table.header.cells.len() != 2 || normal(table.header.cells[0]) != "node" {
         let expected = "two columns, node and x_in (or another unit)";
         return Err(table.strange((&table.header, 0), "header", expected));

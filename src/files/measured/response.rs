@@ -9,8 +9,9 @@ use faer::c64;
 use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::linear::dot;
-use crate::base::units::{POUND_FORCE, Quantity, factor};
+use crate::base::units::{INCH, POUND_FORCE, Quantity, factor};
 use crate::files::measured::direction::{Vector, axis};
+use crate::files::measured::places::Places;
 use crate::files::uff::{self, Dataset, Dof, Function, Units, Universal, Values, at_line};
 use crate::motion::frf::Kind;
 use crate::study::measured::response::MeasuredResponse;
@@ -25,87 +26,170 @@ const ANSWERS: [(i64, Kind); 3] =
     [(8, Kind::Receptance), (11, Kind::Mobility), (12, Kind::Accelerance)];
 const FORCES: [i64; 2] = [9, 13];
 
-/// Reads one frequency response: number `which` of those in the file, from 1, or the only one. `unit`
-/// is that of a file without dataset 164, else SI is taken.
-///
-/// # Errors
-///
-/// [`Error::Read`], those of [`uff::parse`]; [`Error::Value`] for a file without a response, with
-/// several of which none was chosen; [`Error::Input`] with the line for one that is not of a motion
-/// per force over frequency, or not along one direction.
-pub fn read(path: &Path, which: Option<usize>, unit: Option<&Units>) -> Result<MeasuredResponse> {
-    read_as(path, which, unit, None)
+/// What is known of a file of responses that it does not say.
+#[derive(Debug, Clone, Default)]
+pub struct Known {
+    /// Which of its responses, from 1; None for all of them.
+    pub which: Option<usize>,
+    /// Its units, for axes that name none of their own and a file without dataset 164; else SI is taken.
+    pub unit: Option<Units>,
+    /// The unit of the answers, with that of the force, as axes name them: `g/lbf`.
+    pub label: Option<String>,
+    /// The kind of an answer whose axis does not say it.
+    pub kind: Option<Kind>,
+    /// Where the nodes of a file without geometry are.
+    pub places: Option<Places>,
 }
 
-/// As [`read`]; `told` is the kind of an answer whose axis does not say it.
+/// Reads the frequency responses of a universal file, each with its number, from 1.
 ///
 /// # Errors
 ///
-/// Those of [`read`].
-pub fn read_as(
-    path: &Path,
-    which: Option<usize>,
-    unit: Option<&Units>,
-    told: Option<Kind>,
-) -> Result<MeasuredResponse> {
+/// [`Error::Read`], those of [`uff::parse`]; [`Error::Value`] for a file without a response, and for
+/// places beside a file that has nodes; [`Error::Input`] with the line for a response that is not of a
+/// motion per force over frequency, that is not along one direction, or whose units are not known.
+pub fn read(path: &Path, known: &Known) -> Result<Vec<(usize, MeasuredResponse)>> {
     let name = path.display().to_string();
     let bytes = file::read(path)?;
-    let universal = uff::parse_in(&name, &bytes, unit)?;
-    let (k, function) = chosen(&universal, &name, which)?;
-    let first = universal.lines.get(k).copied().unwrap_or(1);
-    let wrong = |record: usize, found: String, expected: &str| {
-        at_line(&name, &bytes, first + record, found, expected)
-    };
-    let (kind, sign) = meaning(function, told, &wrong)?;
-    let named = universal.datasets.iter().any(|dataset| matches!(dataset, Dataset::Units(_)));
-    let mut assumed = vec![];
-    let mut factor = sign;
-    if !named {
+    let universal = uff::parse_in(&name, &bytes, known.unit.as_ref())?;
+    let nodes = nodes(&universal, &name, known.places.as_ref())?;
+    let file = ResponseFile { name, bytes, universal: &universal, nodes, known };
+    let chosen = chosen(&universal, &file.name, known.which)?;
+    chosen.into_iter().map(|(n, k, function)| Ok((n, file.response(k, function)?))).collect()
+}
+
+/// A file, and what is known of it.
+struct ResponseFile<'a> {
+    name: String,
+    bytes: Vec<u8>,
+    universal: &'a Universal,
+    nodes: BTreeMap<i64, Vector>,
+    known: &'a Known,
+}
+
+impl ResponseFile<'_> {
+    /// The response in dataset k.
+    fn response(&self, k: usize, function: &Function) -> Result<MeasuredResponse> {
+        let first = self.universal.lines.get(k).copied().unwrap_or(1);
+        let wrong = |record: usize, found: String, expected: &str| {
+            at_line(&self.name, &self.bytes, first + record, found, expected)
+        };
+        let (kind, sign) = meaning(function, self.known.kind, &wrong)?;
+        let (units, mut assumed) = self.units(function, kind, &wrong)?;
+        if sign < 0.0 {
+            assumed
+                .push("force and answer are along opposite directions: the sign is turned".into());
+        }
+        let (mut values, dropped) = values(function, sign * units, &wrong)?;
+        if turns_back(&values) {
+            values.iter_mut().for_each(|(_, value)| *value = value.conj());
+            assumed.push(
+                "the phase rises through the peaks, as with time as e^(-iwt): it is turned over"
+                    .into(),
+            );
+        }
+        if dropped > 0 {
+            assumed.push(format!("{dropped} values at 0 Hz are left out"));
+        }
+        let [at, to] = self.places([&function.reference, &function.response]);
+        if at.is_some() && to.is_some() && self.known.places.is_none() {
+            assumed.push("the nodes' places are taken from the knob end".to_owned());
+        }
+        let drive_point = function.reference.node == function.response.node;
+        let source = self.name.clone();
+        Ok(MeasuredResponse { source, kind, at, to, drive_point, values, assumed })
+    }
+
+    /// The factor to SI of an answer per force, and what was taken. Record 9 has the answer's unit.
+    fn units(
+        &self,
+        function: &Function,
+        kind: Kind,
+        wrong: &impl Fn(usize, String, &str) -> Error,
+    ) -> Result<(f64, Vec<String>)> {
         let labels = Labels::of(function, kind);
-        // What was told of the file is for axes without a unit of their own.
-        let given = unit.cloned().unwrap_or_else(Units::si);
+        let [own, below] = [1, 2].map(|k| &*function.axes[k].unit);
+        let named = |dataset: &Dataset| matches!(dataset, Dataset::Units(_));
+        if self.universal.datasets.iter().any(named) {
+            let own_units = self.universal.converted_from.clone().unwrap_or_else(Units::si);
+            let differ =
+                |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
+            let contradicts =
+                differ(labels.answer, own_units.length) || differ(labels.force, own_units.force);
+            let said = format!(
+                "the axes are named {own} and {below}, which contradicts the units in dataset 164; those of \
+                 dataset 164 are taken"
+            );
+            return Ok((1.0, Vec::from_iter(contradicts.then_some(said))));
+        }
+        let mut assumed = vec![];
+        let told = self.known.label.as_deref();
+        let labels = match told {
+            Some(text) => {
+                let told = Labels::read(text, "", kind);
+                if told.answer.is_none() || told.force.is_none() {
+                    let expected = format!("a unit of {} such as {}", kind.name(), example(kind));
+                    return Err(Error::value("--unit", text, expected));
+                }
+                told
+            }
+            None => labels,
+        };
+        let given = self.known.unit.as_ref();
+        if told.is_none() && given.is_none() {
+            for (record, label, factor) in [(9, own, labels.answer), (10, below, labels.force)] {
+                if factor.is_none() && !plain(label).is_empty() {
+                    let found = format!("the unit \"{label}\"");
+                    let expected = format!("one such as {}, or --unit", example(kind));
+                    return Err(wrong(record, found, &expected));
+                }
+            }
+        }
+        let given = given.cloned().unwrap_or_else(Units::si);
+        let mut factor = 1.0;
         if let Some(answer) = labels.answer {
             factor *= answer * given.length;
         }
         if let Some(force) = labels.force {
             factor /= force * given.force;
         }
-        assumed.extend(labels.words(kind));
-        if labels.answer.is_none() && unit.is_none() {
+        let by = if told.is_some() { "as was told" } else { "as their axes are named" };
+        assumed.extend(labels.words(kind).map(|words| format!("{words}, {by}")));
+        if labels.answer.is_none() && self.known.unit.is_none() {
             assumed.push("the file names no units (no dataset 164): they are taken as SI".into());
         }
-    } else {
-        let own = universal.converted_from.clone().unwrap_or_else(Units::si);
-        let labels = Labels::of(function, kind);
-        let differ =
-            |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
-        if differ(labels.answer, own.length) || differ(labels.force, own.force) {
-            assumed.push(format!(
-                "the axes are named {} and {}, which contradicts the units in dataset 164; those of \
-                 dataset 164 are taken",
-                function.axes[1].unit, function.axes[2].unit
-            ));
-        }
+        Ok((factor, assumed))
     }
-    if sign < 0.0 {
-        assumed.push("force and answer are along opposite directions: the sign is turned".into());
+
+    /// Where these degrees of freedom are along the bat's axis, the direction in which the file's nodes
+    /// are farthest apart; None where a node has no place.
+    fn places(&self, dofs: [&Dof; 2]) -> [Option<f64>; 2] {
+        let all: Vec<Vector> = self.nodes.values().copied().collect();
+        let along = match all.iter().any(|at| Some(at) != all.first()) {
+            true => axis(&all),
+            false => [1.0, 0.0, 0.0],
+        };
+        dofs.map(|dof| self.nodes.get(&dof.node).map(|at| dot(at, &along)))
     }
-    let (mut values, dropped) = values(function, factor, &wrong)?;
-    if turns_back(&values) {
-        values.iter_mut().for_each(|(_, value)| *value = value.conj());
-        assumed.push(
-            "the phase rises through the peaks, as with time as e^(-iwt): it is turned over".into(),
-        );
+}
+
+/// The places of the nodes, or those that were told of a file without.
+fn nodes(
+    universal: &Universal,
+    file: &str,
+    places: Option<&Places>,
+) -> Result<BTreeMap<i64, Vector>> {
+    let lists = universal.datasets.iter().filter_map(|dataset| match dataset {
+        Dataset::Nodes(nodes) => Some(&nodes.nodes),
+        _ => None,
+    });
+    let nodes: BTreeMap<i64, Vector> = lists.flatten().map(|node| (node.label, node.at)).collect();
+    let Some(places) = places else { return Ok(nodes) };
+    if nodes.is_empty() {
+        return Ok(places.iter().map(|(node, x)| (*node, [*x, 0.0, 0.0])).collect());
     }
-    if dropped > 0 {
-        assumed.push(format!("{dropped} values at 0 Hz are left out"));
-    }
-    let [at, to] = places(&universal, [&function.reference, &function.response]);
-    if at.is_some() && to.is_some() {
-        assumed.push("the nodes' places are taken from the knob end".to_owned());
-    }
-    let drive_point = function.reference.node == function.response.node;
-    Ok(MeasuredResponse { source: name, kind, at, to, drive_point, values, assumed })
+    let expected = "no places beside them, or a file without";
+    Err(Error::value(file, format!("{} nodes with places", nodes.len()), expected))
 }
 
 /// Whether the response runs anticlockwise in the complex plane through its highest peak: with time as e^(+iωt) every
@@ -135,23 +219,45 @@ struct Labels {
 
 impl Labels {
     fn of(function: &Function, kind: Kind) -> Self {
-        let [own, below] = [1, 2].map(|k| plain(&function.axes[k].unit));
+        Self::read(&function.axes[1].unit, &function.axes[2].unit, kind)
+    }
+
+    fn read(own: &str, below: &str, kind: Kind) -> Self {
+        let [own, below] = [own, below].map(plain);
         let force = force_unit(&below);
         if let Some(answer) = answer_unit(&own, kind) {
             return Self { answer: Some(answer), force };
         }
-        // The whole unit on one axis: g/lbf, (m/s2)/N, (1/N)*(m/s^2).
-        let split = own.strip_prefix("1/").and_then(|rest| {
-            let end = rest.find("m/").or_else(|| rest.find("mm/")).or_else(|| rest.find("in/"));
-            end.map(|end| (&rest[end..], &rest[..end]))
-        });
-        if let Some((answer, per)) = split.or_else(|| own.rsplit_once('/'))
-            && let (Some(answer), Some(per)) = (answer_unit(answer, kind), force_unit(per))
-        {
-            return Self { answer: Some(answer), force: Some(per) };
+        if own == "1/kg" && kind == Kind::Accelerance {
+            return Self { answer: Some(1.0), force: Some(1.0) };
         }
-        let whole = (kind == Kind::Accelerance && own == "1/kg").then_some(1.0);
-        Self { answer: whole, force: whole.or(force) }
+        // The whole unit on one axis, the force at any place below a line: g/lbf, m/s2/N, 1/N*m/s2, m/Ns2.
+        let parts = |sign: &str| -> Vec<String> { own.split(sign).map(str::to_owned).collect() };
+        let slashed = parts("/");
+        let whole = (1..slashed.len()).find_map(|k| {
+            let force = force_unit(&slashed[k])?;
+            let others: Vec<&str> =
+                (0..slashed.len()).filter(|j| *j != k).map(|j| &*slashed[j]).collect();
+            Some((answer_unit(&others.join("/"), kind)?, force))
+        });
+        // 1/N times the answer's unit.
+        let times = || {
+            let rest = own.strip_prefix("1/")?;
+            let at = (1..rest.len()).filter(|at| rest.is_char_boundary(*at));
+            at.map(|at| rest.split_at(at))
+                .find_map(|(per, answer)| Some((answer_unit(answer, kind)?, force_unit(per)?)))
+        };
+        // Both below one line.
+        let below_one = || {
+            let (answer, rest) = own.split_once('/')?;
+            let seconds = ["s2", "s"].into_iter().find(|seconds| rest.ends_with(seconds))?;
+            let force = force_unit(&rest[..rest.len() - seconds.len()])?;
+            Some((answer_unit(&format!("{answer}/{seconds}"), kind)?, force))
+        };
+        match whole.or_else(times).or_else(below_one) {
+            Some((answer, force)) => Self { answer: Some(answer), force: Some(force) },
+            None => Self { answer: None, force },
+        }
     }
 
     /// What other units than SI are taken, for people.
@@ -166,74 +272,92 @@ impl Labels {
         };
         let force = self.force.filter(|f| *f != 1.0);
         let force = force.map_or(String::new(), |f| format!(", forces in units of {f:.5} N"));
-        Some(format!("{said}{force}, as their axes are named"))
+        Some(format!("{said}{force}"))
     }
 }
 
-/// A unit without the signs that programs differ in: `(m/s²)` and `m/sec^2` are `m/s2`.
+/// A unit without the signs that programs differ in: `(m/s²)`, `m/sec^2`, `m s-2` and `m/s**2` are `m/s2`.
 fn plain(unit: &str) -> String {
     let unit = unit.to_lowercase().replace('\u{b2}', "2").replace("sec", "s");
-    unit.chars().filter(|c| !"^*()[]' ".contains(*c)).collect()
+    let unit = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace('\u{2212}', "-");
+    let unit: String = unit.chars().filter(|c| !"^*()[]'\u{b7}. ".contains(*c)).collect();
+    unit.replace("s-2", "/s2").replace("s-1", "/s").replace("n-1", "/n").replace("//", "/")
+}
+
+/// How the unit of an answer per force is most often written.
+fn example(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Receptance => "m/N or in/lbf",
+        Kind::Mobility => "(m/s)/N or (in/s)/lbf",
+        Kind::Accelerance => "(m/s^2)/N or g/lbf",
+    }
 }
 
 fn answer_unit(unit: &str, kind: Kind) -> Option<f64> {
-    let gravity = ["g", "gs", "gn", "g0", "g_n", "gee"].contains(&unit);
+    let gravity = ["g", "gs", "gn", "g0", "g_n", "gee", "grav"].contains(&unit);
     if kind == Kind::Accelerance && gravity {
         return Some(GRAVITY);
     }
-    let length = match kind {
-        Kind::Receptance => unit,
-        Kind::Mobility => unit.strip_suffix("/s")?,
-        Kind::Accelerance => unit.strip_suffix("/s2").or_else(|| unit.strip_suffix("/s/s"))?,
+    let length = match (kind, unit) {
+        (Kind::Mobility, "ips") => "in",
+        (Kind::Mobility, "fps") => "ft",
+        (Kind::Accelerance, "ips2") => "in",
+        (Kind::Accelerance, "fps2") => "ft",
+        (Kind::Accelerance, "gal") => "cm",
+        (Kind::Receptance, unit) => unit,
+        (Kind::Mobility, unit) => unit.strip_suffix("/s")?,
+        (Kind::Accelerance, unit) => {
+            unit.strip_suffix("/s2").or_else(|| unit.strip_suffix("/s/s"))?
+        }
     };
-    factor(length, Quantity::Length).ok()
+    match length {
+        "mil" | "mils" => Some(1e-3 * INCH),
+        length => factor(length, Quantity::Length).ok(),
+    }
 }
 
 fn force_unit(unit: &str) -> Option<f64> {
     match unit {
-        "n" | "newton" => Some(1.0),
+        "n" | "newton" | "newtons" => Some(1.0),
         "kn" => Some(1e3),
-        "lb" | "lbs" => Some(POUND_FORCE),
+        "lb" | "lbs" | "lbsf" | "pound" | "pounds" => Some(POUND_FORCE),
+        "kip" | "kips" => Some(1e3 * POUND_FORCE),
+        "dyn" | "dyne" => Some(1e-5),
         unit => factor(unit, Quantity::Force).ok(),
     }
 }
 
-/// The function that is meant, and which dataset it is.
+/// A response: its number among them, from 1, which dataset it is, and what stands there.
+type Numbered<'a> = (usize, usize, &'a Function);
+
+/// The responses that are meant.
 fn chosen<'a>(
     universal: &'a Universal,
     file: &str,
     which: Option<usize>,
-) -> Result<(usize, &'a Function)> {
+) -> Result<Vec<Numbered<'a>>> {
     let functions =
         universal.datasets.iter().enumerate().filter_map(|(k, dataset)| match dataset {
             Dataset::Function(function) => Some((k, &**function)),
             _ => None,
         });
     let functions: Vec<_> = functions.collect();
-    let responses: Vec<_> =
-        functions.iter().filter(|(_, function)| function.kind == RESPONSE).copied().collect();
+    let responses = functions.iter().filter(|(_, function)| function.kind == RESPONSE);
+    let responses: Vec<Numbered> = (1..).zip(responses).map(|(n, (k, f))| (n, *k, *f)).collect();
     let count = responses.len();
-    match (which, &responses[..]) {
-        (_, []) => {
+    match which {
+        _ if count == 0 => {
             let found = format!("{} functions, none of type 4", functions.len());
             Err(Error::value(file, found, "a frequency response, type 4 in a dataset 58"))
         }
-        (Some(which), all) => {
-            which.checked_sub(1).and_then(|k| all.get(k)).copied().ok_or_else(|| {
+        None => Ok(responses),
+        Some(which) => match responses.get(which.wrapping_sub(1)) {
+            Some(one) => Ok(vec![*one]),
+            None => {
                 let expected = format!("1 to {count}, as many as {file} has");
-                Error::value("--function", which, expected)
-            })
-        }
-        (None, [one]) => Ok(*one),
-        (None, several) => {
-            let told = |(n, (_, f)): (usize, &(usize, &Function))| {
-                format!("{}: from {} to {}", n + 1, shown(&f.reference), shown(&f.response))
-            };
-            let all: Vec<String> = several.iter().enumerate().take(6).map(told).collect();
-            let more = if count > all.len() { ", …" } else { "" };
-            let found = format!("{count} frequency responses ({}{more})", all.join(", "));
-            Err(Error::value(file, found, format!("one: --function 1 to {count}")))
-        }
+                Err(Error::value("--function", which, expected))
+            }
+        },
     }
 }
 
@@ -312,18 +436,53 @@ fn values(
     Ok((above, dropped))
 }
 
-/// Where these degrees of freedom are along the bat's axis, the direction in which the file's nodes
-/// are farthest apart; None where a node has no place.
-fn places(universal: &Universal, dofs: [&Dof; 2]) -> [Option<f64>; 2] {
-    let lists = universal.datasets.iter().filter_map(|dataset| match dataset {
-        Dataset::Nodes(nodes) => Some(&nodes.nodes),
-        _ => None,
-    });
-    let nodes: BTreeMap<i64, Vector> = lists.flatten().map(|node| (node.label, node.at)).collect();
-    let all: Vec<Vector> = nodes.values().copied().collect();
-    let along = match all.iter().any(|at| Some(at) != all.first()) {
-        true => axis(&all),
-        false => [1.0, 0.0, 0.0],
-    };
-    dofs.map(|dof| nodes.get(&dof.node).map(|at| dot(at, &along)))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Units as laboratories' programs name them, on one axis or on two.
+    #[test]
+    fn units_are_known_in_every_usual_spelling() {
+        use Kind::{Accelerance, Mobility, Receptance};
+        let g = GRAVITY;
+        for (kind, own, below, answer, force) in [
+            (Accelerance, "g", "lbf", g, POUND_FORCE),
+            (Accelerance, "g's", "N", g, 1.0),
+            (Accelerance, "gn", "LBF", g, POUND_FORCE),
+            (Accelerance, "G", "lb", g, POUND_FORCE),
+            (Accelerance, "g/lbf", "", g, POUND_FORCE),
+            (Accelerance, "G's/lbs", "", g, POUND_FORCE),
+            (Accelerance, "(m/s\u{b2})/N", "", 1.0, 1.0),
+            (Accelerance, "m/s^2/N", "N", 1.0, 1.0),
+            (Accelerance, "m/s**2", "N", 1.0, 1.0),
+            (Accelerance, "m/(N*s^2)", "", 1.0, 1.0),
+            (Accelerance, "(1/N)*(m/s^2)", "", 1.0, 1.0),
+            (Accelerance, "m s-2", "N", 1.0, 1.0),
+            (Accelerance, "m\u{b7}s-2/N", "", 1.0, 1.0),
+            (Accelerance, "1/kg", "", 1.0, 1.0),
+            (Accelerance, "in/s^2", "lbf", 0.0254, POUND_FORCE),
+            (Accelerance, "in/sec/sec", "lbf", 0.0254, POUND_FORCE),
+            (Accelerance, "(in/sec^2)/lbf", "", 0.0254, POUND_FORCE),
+            (Accelerance, "mm/s\u{b2}", "kN", 1e-3, 1e3),
+            (Accelerance, "ft/s^2", "lbf", 0.3048, POUND_FORCE),
+            (Mobility, "in/s", "lbf", 0.0254, POUND_FORCE),
+            (Mobility, "ips", "lbf", 0.0254, POUND_FORCE),
+            (Mobility, "(mm/s)/N", "", 1e-3, 1.0),
+            (Mobility, "m/s/N", "", 1.0, 1.0),
+            (Receptance, "mils", "lbf", 0.0254e-3, POUND_FORCE),
+            (Receptance, "\u{b5}m/N", "", 1e-6, 1.0),
+            (Receptance, "in/lbf", "", 0.0254, POUND_FORCE),
+            (Receptance, "mm", "N", 1e-3, 1.0),
+        ] {
+            let found = Labels::read(own, below, kind);
+            let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a / b - 1.0).abs() < 1e-12);
+            assert!(near(found.answer, answer), "{own} {below}: {:?}", found.answer);
+            assert!(near(found.force, force), "{own} {below}: {:?}", found.force);
+        }
+        for (kind, own) in
+            [(Accelerance, "V"), (Accelerance, "m/s"), (Mobility, "g"), (Receptance, "EU")]
+        {
+            assert_eq!(Labels::read(own, "", kind).answer, None, "{own}");
+        }
+    }
 }

@@ -32,11 +32,15 @@ use crate::study::measured::data::{Measured, MeasuredMode};
 ///
 /// [`crate::base::error::Error::Read`], and [`crate::base::error::Error::Input`] with the line and the column.
 pub fn read(path: &Path) -> Result<Measured> {
-    let document = Document::read(path)?;
+    let document = Document::table(path)?;
     let names = "a header such as x_in,mode_1,mode_2 or mode,frequency_hz";
-    let table = Sheet::new(&document, names)?;
-    let first = normal(table.header.cells[0]);
-    let measured = match first.starts_with("x_") || first == "x" {
+    let of_shapes = |first: &str| first.starts_with("x_") || first == "x";
+    let known = |names: &[String]| {
+        let frequency = |name: &String| name.starts_with("frequency");
+        names.first().is_some_and(|first| of_shapes(first)) || names.iter().any(frequency)
+    };
+    let table = Sheet::new(&document, names, known)?;
+    let measured = match of_shapes(&normal(table.header.cells[0])) {
         true => shapes(&table)?,
         false => frequencies(&table)?,
     };

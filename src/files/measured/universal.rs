@@ -13,33 +13,23 @@ use crate::base::error::{Error, Result};
 use crate::base::file;
 use crate::base::linear::dot;
 use crate::files::measured::direction::{Vector, axis, named, normals, positive};
-use crate::files::measured::places::Places;
 use crate::files::measured::{Beside, FEWEST};
 use crate::files::uff::{self, Analysis, Dataset, NodalData, Node, Universal, six_digits};
-use crate::study::measured::data::{Measured, MeasuredMode};
+use crate::study::measured::data::{FrequencyUnit, Measured, MeasuredMode, Otherwise};
 
 /// What a node does.
 type Motion = [c64; 3];
 
-/// Reads measured modes.
+/// Reads measured modes, with what is known beside the file.
 ///
 /// # Errors
 ///
 /// [`Error::Read`], those of [`uff::parse`], and [`Error::Value`] for a file without shapes or without the nodes of
-/// its shapes.
-pub fn read(path: &Path) -> Result<Measured> {
-    read_with(path, &Beside::default())
-}
-
-/// As [`read`], with the units of a file that names none and the places of one without geometry.
-///
-/// # Errors
-///
-/// Those of [`read`]; [`Error::Value`] for places beside a file that has nodes.
-pub fn read_with(path: &Path, beside: &Beside) -> Result<Measured> {
+/// its shapes, and for places beside a file that has nodes.
+pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
     let name = path.display().to_string();
     let universal = uff::parse_in(&name, &file::read(path)?, beside.unit.as_ref())?;
-    Ok(placed(&universal, &name, beside.places.as_ref())?.sorted())
+    Ok(placed(&universal, &name, beside)?.sorted())
 }
 
 /// Nodes nearer than this along the axis (of the span) are one point.
@@ -51,12 +41,14 @@ const SAME: f64 = 1e-4;
 ///
 /// As [`read`].
 pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
-    placed(universal, file, None)
+    placed(universal, file, &Beside::default())
 }
 
-/// As [`of`], of a file without nodes whose places are given.
-fn placed(universal: &Universal, file: &str, places: Option<&Places>) -> Result<Measured> {
-    let shapes = shapes(universal, file)?;
+/// As [`of`], with what is known beside it.
+fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured> {
+    let places = beside.places.as_ref();
+    let poles = Poles::of(universal, beside.frequency_unit);
+    let shapes = shapes(universal, file, &poles)?;
     let mut nodes = nodes(universal);
     let [moving, still] = told(&shapes);
     let along = stillest(&shapes);
@@ -86,7 +78,7 @@ fn placed(universal: &Universal, file: &str, places: Option<&Places>) -> Result<
         return Err(Error::value(file, found, expected));
     }
     let mut assumed = unread(universal);
-    assumed.extend(Poles::of(universal).words());
+    assumed.extend(poles.words());
     assumed.push(format!("the bat's axis is {}", named(axis)));
     if points.len() < moving.len() {
         let (nodes, points) = (moving.len(), points.len());
@@ -117,7 +109,8 @@ fn placed(universal: &Universal, file: &str, places: Option<&Places>) -> Result<
     assumed.extend(said(&directions, &modes));
     let along = points.iter().map(|point| point.along).collect();
     let from_knob = places.is_some();
-    Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed })
+    let otherwise = poles.otherwise;
+    Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed, otherwise })
 }
 
 /// The axis of coordinates along which the shapes move least, the first of equal ones: that of a bat
@@ -250,13 +243,12 @@ impl Shape<'_> {
     }
 }
 
-fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
+fn shapes<'a>(universal: &'a Universal, file: &str, poles: &Poles) -> Result<Vec<Shape<'a>>> {
     let data = universal.datasets.iter().filter_map(|dataset| match dataset {
         Dataset::NodalData(data) => Some(data),
         _ => None,
     });
-    let poles = Poles::of(universal);
-    let shapes: Vec<Shape> = data.filter_map(|data| shape(data, &poles)).collect();
+    let shapes: Vec<Shape> = data.filter_map(|data| shape(data, poles)).collect();
     if let Some((found, expected)) = shapes.iter().find_map(Shape::complaint) {
         return Err(Error::value(file, found, expected));
     }
@@ -280,9 +272,15 @@ fn shapes<'a>(universal: &'a Universal, file: &str) -> Result<Vec<Shape<'a>>> {
     Ok(shapes)
 }
 
-/// How a file writes the poles of its complex modes.
+/// How a file writes its frequencies and the poles of its complex modes.
 struct Poles {
-    /// In Hz, where the format has rad/s.
+    /// What the size of a pole is in: rad/s by the format.
+    poles: FrequencyUnit,
+    /// What the frequency of a normal mode is in: Hz by the format.
+    normal: FrequencyUnit,
+    /// How else they may be meant.
+    otherwise: Option<Otherwise>,
+    /// Whether the poles are in Hz by what the file itself says.
     hertz: bool,
     /// With the opposite sign of the real part, all of them.
     growing: bool,
@@ -291,18 +289,34 @@ struct Poles {
 }
 
 impl Poles {
-    /// By what contradicts: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
-    fn of(universal: &Universal) -> Self {
+    /// As told, or else by what contradicts: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
+    fn of(universal: &Universal, told: Option<FrequencyUnit>) -> Self {
         let poles: Vec<[f64; 4]> = universal.datasets.iter().filter_map(pole).collect();
+        let both = |[_, size, a, b]: &[f64; 4]| *size > 0.0 && *a > 0.0 && *b > 0.0;
         let ratios: Vec<f64> = poles
             .iter()
             .filter(|[_, size, a, _]| *a > 0.0 && *size > 0.0)
             .map(|[_, size, a, b]| if *b > 0.0 { b / a / size } else { 0.5 * a / size })
             .collect();
-        let hertz = !ratios.is_empty() && ratios.iter().all(|r| (r / TAU - 1.0).abs() < 0.01);
+        let all_near =
+            |to: f64| !ratios.is_empty() && ratios.iter().all(|r| (r / to - 1.0).abs() < 0.01);
+        let hertz = told.is_none() && all_near(TAU);
+        let settled = hertz || (all_near(1.0) && poles.iter().all(both));
         let grows = poles.iter().any(|pole| pole[0] > 0.0);
         let decays = poles.iter().any(|pole| pole[0] < 0.0);
-        Self { hertz, growing: grows && !decays, mixed: grows && decays }
+        let by_format = if hertz { FrequencyUnit::Hertz } else { FrequencyUnit::RadPerS };
+        let (poles_in, normal) = (told.unwrap_or(by_format), told.unwrap_or(FrequencyUnit::Hertz));
+        // One reading for a file, of poles or of frequencies.
+        let others = universal.datasets.iter().any(|dataset| match dataset {
+            Dataset::NodalData(data) => matches!(data.analysis, Analysis::NormalMode { .. }),
+            _ => false,
+        });
+        let read_in = if poles.is_empty() { normal } else { poles_in };
+        let otherwise = Otherwise { read_in, settled };
+        let unsure = told.is_none() && (poles.is_empty() || !others);
+        let otherwise = unsure.then_some(otherwise);
+        let (growing, mixed) = (grows && !decays, grows && decays);
+        Self { poles: poles_in, normal, otherwise, hertz, growing, mixed }
     }
 
     /// What was taken, for people.
@@ -331,12 +345,13 @@ fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<Shape<'a>> {
     let (number, frequency, damping_ratio) = match data.analysis {
         Analysis::NormalMode { mode, frequency, viscous, hysteretic, .. } => {
             // A loss factor is twice the damping ratio.
+            let frequency = frequency * poles.normal.hertz();
             (mode, frequency, known(viscous).or(known(0.5 * hysteretic)))
         }
         Analysis::ComplexMode { mode, eigenvalue: [re, im], .. } => {
             let size = re.hypot(im);
             let re = if poles.growing { -re } else { re };
-            (mode, if poles.hertz { size } else { size / TAU }, known(-re / size))
+            (mode, size * poles.poles.hertz(), known(-re / size))
         }
         _ => return None,
     };

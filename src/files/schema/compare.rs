@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
+use crate::files::schema::analysis::Doubt;
 use crate::files::schema::document::{Document, Format, Generator};
 use crate::files::schema::hit::{Ball, Wall};
 
@@ -95,6 +96,10 @@ pub struct ComparedBat {
     pub tolerance_met: bool,
     /// Effects that were left out, and what they do.
     pub ignored: Vec<String>,
+    /// Why the answers of a hit are less certain than they are computed; left out where nothing is known against
+    /// them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<Doubt>,
     /// Figures by their names, the unit at the end of each; null where this bat has none.
     #[serde(serialize_with = "in_order")]
     #[schemars(with = "BTreeMap<String, Option<Figure>>")]
@@ -127,6 +132,10 @@ pub struct Figure {
     /// Whether the difference is larger than its error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_errors: Option<bool>,
+    /// One standard deviation of the difference between two pieces of wood, this bat's and the first one's; left
+    /// out where it is not known, and where both are one piece.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub between_pieces: Option<f64>,
 }
 
 /// A stretch of the barrel where one of two bats hits harder, or neither.

@@ -48,12 +48,41 @@ pub struct FrfFile {
     /// A measured response beside it, where one was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<MeasuredAnswer>,
+    /// Damping ratio of every mode, where they are those of the measured peaks; left out elsewhere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub damping_ratios_as_measured: Vec<f64>,
     /// Largest relative error of a mode's frequency.
     pub frequencies_within: f64,
 }
 
 impl Document for FrfFile {
     const NAME: &'static str = "frf";
+}
+
+/// The measured frequency responses of one file, each laid over the computed one. Later versions of the same
+/// number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Set of frequency responses of sweetspot, sweetspot-frf-set/1")]
+pub struct FrfSetFile {
+    /// Name of the format and its version: sweetspot-frf-set/1.
+    pub format: Format<FrfSetFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// Number of every response in its file, from 1.
+    pub functions: Vec<usize>,
+    /// The responses in the same order.
+    pub responses: Vec<FrfFile>,
+}
+
+impl Document for FrfSetFile {
+    const NAME: &'static str = "frf-set";
+}
+
+impl FrfSetFile {
+    /// These responses with their numbers.
+    pub fn new(functions: Vec<usize>, responses: Vec<FrfFile>) -> Self {
+        Self { format: Format::new(), generator: Generator::this(), functions, responses }
+    }
 }
 
 /// The answer at every frequency, in the unit of its kind.

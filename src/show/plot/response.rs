@@ -41,8 +41,8 @@ pub struct Subject<'a> {
     pub measured: &'a [(f64, c64)],
 }
 
-/// Size and phase against frequency; picture `response`. None without two frequencies.
-pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
+/// Size and phase against frequency; a picture of that name. None without two frequencies.
+pub fn picture(sheet: Sheet, subject: &Subject, name: &str) -> Option<Picture> {
     let Subject { bat, kind, at, to, values, peaks, measured } = *subject;
     let (low, high) = (values.first()?.0, values.last()?.0);
     if low >= high {
@@ -95,7 +95,7 @@ pub fn picture(sheet: Sheet, subject: &Subject) -> Option<Picture> {
     let told: Vec<String> = told.collect();
     let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
     let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
-    Some(Picture::new("response", &title, &alt, svg))
+    Some(Picture::new(name, &title, &alt, svg))
 }
 
 fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Series {

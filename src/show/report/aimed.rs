@@ -316,7 +316,10 @@ pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::
         outputs: outputs(outcome),
         change: outcome.stations.iter().map(station).collect(),
         cuts: cuts(&outcome.stations, pass).into_iter().map(of_cut).collect(),
-        warnings: warning(outcome, rules, us).into_iter().collect(),
+        warnings: warning(outcome, rules, us)
+            .into_iter()
+            .chain(outcome.rigid_wall.clone())
+            .collect(),
         new_bat: resolved(&outcome.bat, &source(outcome)),
     }
 }

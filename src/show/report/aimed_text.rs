@@ -37,6 +37,11 @@ pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> 
     out
 }
 
+/// The norm of a change (mm), in the maker's unit.
+fn norm(value: f64, us: bool) -> String {
+    if us { format!("{:.4} in", inches(1e-3 * value)) } else { format!("{value:.3} mm") }
+}
+
 /// A diameter, in the maker's unit.
 fn across(value: f64, us: bool) -> String {
     if us { format!("{:.3} in", inches(value)) } else { format!("{:.2} mm", 1e3 * value) }
@@ -71,15 +76,18 @@ fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
         "nothing added".into()
     };
     let line = format!(
-        "of its diameter at most {} off, {added}; norm of the change {:.3} mm; {}, {}",
+        "of its diameter at most {} off, {added}; norm of the change {}; {}, {}",
         across(cut, us),
-        outcome.norm,
+        norm(outcome.norm, us),
         counted(outcome.iterations, "step"),
         counted(outcome.bats, "bat")
     );
     out += &wrapped(&line, 2);
     if let Some(line) = warning(outcome, rules, us) {
         out += &wrapped(&format!("Warning: {line}"), 2);
+    }
+    if let Some(why) = &outcome.rigid_wall {
+        out += &wrapped(&format!("Left out: {why}"), 2);
     }
     if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
         let line = "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a \
@@ -88,8 +96,11 @@ fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
     }
     if outcome.finer > 1.0 {
         let line = format!(
-            "stations are rounded to {} mm: coarser ones would miss a target",
-            shortest(rounded(1e3 * outcome.grid.round, 9))
+            "stations are rounded to {}: coarser ones would miss a target",
+            match us {
+                true => format!("{} in", significant(inches(outcome.grid.round), 2)),
+                false => format!("{} mm", shortest(rounded(1e3 * outcome.grid.round, 9))),
+            }
         );
         out += &wrapped(&line, 2);
     }
@@ -103,7 +114,11 @@ fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
         out += &wrapped(&line, 2);
     }
     if outcome.broken > KEPT {
-        let line = format!("a limit of the diameter is broken by {:.4} mm", 1e3 * outcome.broken);
+        let by = match us {
+            true => format!("{:.5} in", inches(outcome.broken)),
+            false => format!("{:.4} mm", 1e3 * outcome.broken),
+        };
+        let line = format!("a limit of the diameter is broken by {by}");
         out += &wrapped(&line, 2);
     }
     if let Some(slope) = outcome.slope {
@@ -115,8 +130,11 @@ fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
     }
     if outcome.kept_within > 5e-8 {
         let line = format!(
-            "where the bat is kept, the curve through its stations moves by {:.1} μm at most",
-            1e6 * outcome.kept_within
+            "where the bat is kept, the curve through its stations moves by {} at most",
+            match us {
+                true => format!("{} in", significant(inches(outcome.kept_within), 2)),
+                false => format!("{:.1} μm", 1e6 * outcome.kept_within),
+            }
         );
         out += &wrapped(&line, 2);
     }
@@ -183,8 +201,11 @@ fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
         ("", _) => (0.1, "0.1".to_owned()),
         (unit, _) => (1.0, format!("1 {unit}")),
     };
-    let cost = significant(price * step, 2);
-    Some(format!("{words} more of the {} changes the norm by {cost} mm", called(band.goal)))
+    let cost = match us {
+        true => format!("{} in", significant(inches(1e-3 * price * step), 2)),
+        false => format!("{} mm", significant(price * step, 2)),
+    };
+    Some(format!("{words} more of the {} changes the norm by {cost}", called(band.goal)))
 }
 
 fn before_and_after(outcome: &Outcome, us: bool) -> String {

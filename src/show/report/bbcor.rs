@@ -121,6 +121,14 @@ fn verdict(tested: &Tested, units: Units) -> String {
         "Largest {bbcor:.4}, {place} from the tip: {against} ({LIMIT_SOURCE}). It rises with the \
          ball's cor by about as much; a laboratory's ball and limit decide, not this."
     );
+    let deep = tested.wall.as_ref().filter(|wall| wall.is_deep()).map(|wall| {
+        let [low, high] = wall.bbcor.range;
+        let text = format!(
+            "The wall is dented by more than half of its thickness there, where the theory of it ends: the \
+             figure is rough, {low:.3} to {high:.3} by what balls squeezed twice to half as much do."
+        );
+        wrapped(&text, 0)
+    });
     let figures = most.besr().zip(most.bpf(&tested.protocol)).map(|(besr, bpf)| {
         let text = format!(
             "There BESR, e_A + 1/2, is {besr:.4}, and BPF, BBCOR over the ball's cor, {bpf:.3} \
@@ -128,7 +136,8 @@ fn verdict(tested: &Tested, units: Units) -> String {
         );
         wrapped(&text, 0)
     });
-    format!("\n{}{}", wrapped(&text, 0), figures.unwrap_or_default())
+    let [deep, figures] = [deep, figures].map(Option::unwrap_or_default);
+    format!("\n{}{deep}{figures}", wrapped(&text, 0))
 }
 
 /// A line for each place, SI.

@@ -9,6 +9,7 @@ use crate::files::schema::document::{BatName, Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
+use crate::show::report::units::in_trade;
 use crate::study::calibrate::calibration::{Calibration, Estimated, Property, Verdict};
 use crate::study::calibrate::fit::{Kind, Residual};
 use crate::study::calibrate::next::Proposal;
@@ -17,7 +18,7 @@ use crate::study::calibrate::next::Proposal;
 pub fn text(bat: &Bat, found: &Calibration) -> String {
     let mut out = format!("What the wood of {} is\n", bat.name());
     out += &parameters(&found.parameters);
-    out += &data(found);
+    out += &data(found, bat.inches());
     for tone in &found.readings.ring_down {
         let _ = writeln!(
             out,
@@ -64,7 +65,7 @@ fn within(one: &Estimated) -> String {
     }
 }
 
-fn data(found: &Calibration) -> String {
+fn data(found: &Calibration, us: bool) -> String {
     let columns = Columns::new([
         first(18, "reading"),
         numbers(10, "measured"),
@@ -82,10 +83,19 @@ fn data(found: &Calibration) -> String {
     for one in &found.fit.residuals {
         let sd = |value: f64| format!("{value:+.1} sd");
         let flag = if one.is_outlier() { "does not fit" } else { "" };
+        let name = one.datum.kind.name();
+        let ending = ["_kg_m2", "_kg", "_m"].into_iter().find(|ending| name.ends_with(ending));
+        let (name, per) = match ending.filter(|_| us) {
+            None => (name, 1.0),
+            Some(ending) => {
+                let (unit, per) = in_trade(&ending[1..], us);
+                (format!("{}, {unit}", name.trim_end_matches(ending)), per)
+            }
+        };
         out += &columns.row([
-            one.datum.kind.name(),
-            significant(one.datum.reading.value, 5),
-            significant(one.computed, 5),
+            name,
+            significant(per * one.datum.reading.value, 5),
+            significant(per * one.computed, 5),
             sd(one.deviations),
             sd(one.left_out),
             flag.to_owned(),

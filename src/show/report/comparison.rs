@@ -6,6 +6,7 @@ use crate::collision::hit::Scene;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::edits;
 use crate::show::report::text::wrapped;
+use crate::show::report::trust::doubts;
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
 use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
@@ -366,6 +367,10 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
     }
     if !energies_compare(&comparison.bats) {
         all.push(NO_ENERGIES.to_owned());
+    }
+    for contender in &comparison.bats {
+        let of = |text| format!("{}: {text}", contender.bat.name());
+        all.extend(doubts(&contender.verdict, units).into_iter().map(of));
     }
     all
 }

@@ -5,6 +5,7 @@ use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
 use crate::show::report::comparison::{letter, words};
 use crate::show::report::hit_json::{scene_out, seen_from};
+use crate::show::report::trust::in_file;
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
@@ -64,6 +65,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
             difference: difference.map(|difference| difference.by),
             difference_error: difference.map(|difference| difference.within),
             beyond_errors: difference.map(|difference| difference.is_real()),
+            between_pieces: comparison.between_pieces(&row.key, k).filter(|_| k > 0),
         })
     };
     let figures = comparison.figures.iter();
@@ -78,6 +80,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
         modes: bat.sweep.solution.modes.len(),
         tolerance_met: bat.sweep.met,
         ignored: in_hit(&bat.bat, &bat.scene),
+        doubts: in_file(&bat.verdict),
         figures: figures
             .map(|row| (format!("{}{}", row.key, row.unit.suffix()), figure(row)))
             .collect(),
@@ -110,6 +113,7 @@ pub fn csv(comparison: &Comparison) -> String {
         "difference",
         "difference_error",
         "beyond_errors",
+        "between_pieces",
     ]);
     let mut add = |name: &str, distance: Option<f64>, row: &ComparedFigure| {
         for (k, figure) in row.values.iter().enumerate() {
@@ -124,6 +128,10 @@ pub fn csv(comparison: &Comparison) -> String {
                 difference.map(|d| d.by).into(),
                 difference.map(|d| d.within).into(),
                 difference.map(|d| d.is_real()).into(),
+                comparison
+                    .between_pieces(&row.key, k)
+                    .filter(|_| k > 0 && distance.is_none())
+                    .into(),
             ]);
         }
     };

@@ -4,7 +4,9 @@ use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
 use crate::show::report::edits;
 use crate::show::report::text::wrapped;
+use crate::show::report::trust::doubts;
 use crate::show::report::units::Units;
+use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::table::Comparison;
 use crate::study::ignored::thinnest_wall;
@@ -40,11 +42,20 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
         out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    out + &beside_pieces(comparison, one) + MORE
+    out + &doubted(comparison, one) + &beside_pieces(comparison, one) + MORE
 }
 
 /// Figures whose scatter is told.
 const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
+
+/// What there is to doubt of each bat's hits.
+pub fn doubted(comparison: &Comparison, units: Units) -> String {
+    let of = |(k, bat): (usize, &Contender)| {
+        let all = doubts(&bat.verdict, units).into_iter();
+        all.map(|text| wrapped(&format!("Trust, {}: {text}", letter(k)), 7)).collect::<String>()
+    };
+    comparison.bats.iter().enumerate().map(of).collect()
+}
 
 /// The differences beside what two pieces of one wood differ by; of one piece that this cancels.
 fn beside_pieces(comparison: &Comparison, units: Units) -> String {

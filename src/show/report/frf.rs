@@ -62,6 +62,7 @@ pub fn document(told: &Told) -> FrfFile {
         },
         peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
         measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
+        damping_ratios_as_measured: frf.damping_ratios().to_vec(),
         frequencies_within: frf.solution.worst(),
     }
 }
@@ -207,21 +208,41 @@ pub fn text(told: &Told) -> String {
     );
     out += &wrapped(&made, 2);
     if let Some((response, laid)) = measured {
-        out += &differences(bat, response, laid);
+        out += &differences(bat, frf, response, laid);
     }
     out
 }
 
+/// What the criterion means.
+pub const FRAC: &str = "  FRAC: 1 where both responses are alike but for a factor, 0 where they have nothing in common; peaks \
+    that lie apart by more than their width already bring it near 0";
+
+/// A word about damping as measured, or a bat without any beside a measured one; empty for another.
+pub fn damping(bat: &Bat, frf: &Frf) -> String {
+    if !frf.damping_ratios().is_empty() {
+        let all = frf.damping_ratios().iter().map(|ratio| format!("{:.2}", 100.0 * ratio));
+        let all: Vec<String> = all.collect();
+        let said = format!(
+            "  The computed modes are damped as the measured ones, {} %; those without a measured peak have the \
+             mean of the others",
+            all.join(", ")
+        );
+        return wrapped(&said, 2);
+    }
+    if bat.damped() {
+        return String::new();
+    }
+    let undamped = "  The computed bat has no damping and its peaks no height: beside a measured one its level and \
+                    FRAC say nothing of the bat. Take the damping of the measured peaks, --damping measured, or give \
+                    the material a \"loss_factor\", twice their damping ratio.";
+    wrapped(undamped, 2)
+}
+
 /// What a measured response says of the computed one: peaks, and both as a whole.
-fn differences(bat: &Bat, response: &MeasuredResponse, laid: &Laid) -> String {
+fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -> String {
     let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
     let mut out = wrapped(&title, 4);
-    if !bat.lossy() && !bat.fixtures().damping() {
-        let undamped = "  The computed bat has no damping and its peaks no height: beside a measured one its level and \
-                        FRAC say nothing of the bat. Give the material a \"loss_factor\", twice the damping ratio of \
-                        the measured peaks below.";
-        out += &wrapped(undamped, 2);
-    }
+    out += &damping(bat, frf);
     let columns = Columns::new([
         numbers(6, "mode"),
         numbers(14, "computed, Hz"),
@@ -260,9 +281,7 @@ fn differences(bat: &Bat, response: &MeasuredResponse, laid: &Laid) -> String {
         level.abs()
     );
     out += &wrapped(&whole, 2);
-    let legend = "  FRAC: 1 where both responses are alike but for a factor, 0 where they have nothing in common; peaks \
-                  that lie apart by more than their width already bring it near 0";
-    out += &wrapped(legend, 2);
+    out += &wrapped(FRAC, 2);
     for assumed in &response.assumed {
         out += &wrapped(&format!("  {assumed}"), 2);
     }

@@ -13,6 +13,7 @@ pub mod edits;
 pub mod text;
 pub mod proven;
 pub mod frf;
+pub mod frf_set;
 pub mod sketch;
 pub mod wall_text;
 pub mod hit_text;

@@ -9,6 +9,7 @@ use crate::files::schema::scatter as file;
 use crate::show::csv::{Cell, Csv};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::text::wrapped;
+use crate::show::report::units::in_trade;
 use crate::study::many::indices::{Indices, Share};
 use crate::study::scatter::rows::{Output, ScatterRows};
 use crate::study::scatter::scattered::{OutputSpread, Percentile, SHARES, Scattered};
@@ -28,7 +29,7 @@ pub fn text(rows: &ScatterRows, found: &Scattered) -> String {
         out += &wrapped(&format!("  {count}: {why}"), 4);
     }
     for output in &found.outputs {
-        out += &spread(output);
+        out += &spread(output, rows.bat.inches());
     }
     for output in &found.outputs {
         if let Some(indices) = &output.indices {
@@ -40,8 +41,9 @@ pub fn text(rows: &ScatterRows, found: &Scattered) -> String {
     out
 }
 
-fn spread(output: &OutputSpread) -> String {
-    let unit = if output.unit.is_empty() { String::new() } else { format!(" ({})", output.unit) };
+fn spread(output: &OutputSpread, us: bool) -> String {
+    let (unit, per) = in_trade(output.unit, us);
+    let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
     let heads = SHARES.map(|share| numbers(10, format!("{} %", significant(100.0 * share, 2))));
     let columns = Columns::new(std::iter::once(first(8, "")).chain(heads));
     let mut out = format!("{}{unit}\n", output.name);
@@ -54,12 +56,12 @@ fn spread(output: &OutputSpread) -> String {
             .chain(output.percentiles.iter().map(of))
             .collect::<Vec<_>>()
     };
-    out += &columns.row(row("", &|one| significant(one.value, 5)));
+    out += &columns.row(row("", &|one| significant(per * one.value, 5)));
     let error = |one: &Percentile| match one.error {
         None => "-".to_owned(),
         // Rounding of an output that does not vary.
         Some(error) if error <= 1e-12 * one.value.abs() => "0".to_owned(),
-        Some(error) => significant(error, 2),
+        Some(error) => significant(per * error, 2),
     };
     out + &columns.row(row("  ±", &error))
 }

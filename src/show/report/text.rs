@@ -180,3 +180,24 @@ pub fn wrapped(text: &str, indent: usize) -> String {
     let _ = writeln!(out, "{:lead$}{rest}", "");
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As many digits as are known and fit: never fewer than two decimals, never one that is wrong.
+    #[test]
+    fn a_frequency_has_the_digits_that_are_known() {
+        for (frequency, error, shown) in [
+            (174.508_543_21, 1e-5, "174.51"),
+            (174.508_543_21, 1e-10, "174.50854"),
+            (0.320_123_456_7, 7e-14, "0.3201235"),
+            (0.320_123_456_7, 1e-2, "0.32"),
+            (1_854.825_6, 1e-12, "1854.8256"),
+            (123_456_789.0, 1e-12, "123456789.00"),
+            (0.0, 1e-4, "0.00"),
+        ] {
+            assert_eq!(as_known(frequency, error), shown, "{frequency} {error}");
+        }
+    }
+}

@@ -243,13 +243,15 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
 }
 
 /// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
-/// does has more to it where the wall is beyond its theory or left out.
+/// does has more to it where the wall is beyond its theory or left out, and everything where the bat is not what its
+/// file says.
 pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String> {
     let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
     let of_ball = [Answer::BestPlace, Answer::ExitSpeed, Answer::ZoneFrom, Answer::ZoneTo];
-    let more = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
+    let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
+    let more = ball || analysis.verdict.bat_is_open();
     let over = if more { "over " } else { "" };
     Some(format!("{over}± {}", Kind::of(answer).about(units, deviation)))
 }
@@ -433,13 +435,6 @@ pub const IN_ANALYZE: &str =
 /// The member `open` of the `sweetspot-analysis/1` document.
 pub fn open(analysis: &Analysis) -> file::Open {
     let Analysis { spread, verdict, .. } = analysis;
-    let doubt = |doubt: &Doubt| file::Doubt {
-        about: doubt.about(),
-        text: match doubt {
-            Doubt::RigidWall(why) => why.clone(),
-            other => doubted(other, Units::Si),
-        },
-    };
     let source = |source: &Source| file::Source {
         input: source.input.name(),
         material: source.material.clone(),
@@ -455,8 +450,20 @@ pub fn open(analysis: &Analysis) -> file::Open {
         sources: spread.sources.iter().map(source).collect(),
         answers: spread.estimates.iter().map(answer).collect(),
         left_out: spread.left_out.clone(),
-        doubts: verdict.doubts.iter().map(doubt).collect(),
+        doubts: in_file(verdict),
     }
+}
+
+/// What there is to doubt of a hit, as documents have it.
+pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
+    let doubt = |doubt: &Doubt| file::Doubt {
+        about: doubt.about(),
+        text: match doubt {
+            Doubt::RigidWall(why) => why.clone(),
+            other => doubted(other, Units::Si),
+        },
+    };
+    verdict.doubts.iter().map(doubt).collect()
 }
 
 /// The name of an answer in JSON, its unit at the end.

@@ -120,3 +120,15 @@ impl Units {
         self.pick(si, us)
     }
 }
+
+/// The unit of the trade for one of SI, and how many of it one is; of a bat in inches, if `us`, and else as it
+/// is.
+pub fn in_trade(unit: &str, us: bool) -> (&str, f64) {
+    match unit {
+        "m" if us => ("in", inches(1.0)),
+        "kg" if us => ("oz", ounces(1.0)),
+        "kg m²" | "kg_m2" if us => ("oz in²", ounce_square_inches(1.0)),
+        "m/s" if us => ("mph", miles_per_hour(1.0)),
+        unit => (unit, 1.0),
+    }
+}

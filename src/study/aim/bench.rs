@@ -10,12 +10,14 @@ use crate::bat::fixtures::{Attachment, Fixtures};
 use crate::bat::profile::SAME_PLACE;
 use crate::bat::turned::DiameterChange;
 use crate::collision::figures::SwingLaw;
+use crate::collision::hit::Scene;
 use crate::modes::solve::Request;
 use crate::study::aim::limits::Limits;
 use crate::study::aim::spline::Splines;
 use crate::study::aim::wish::{FreeChoice, Goal, Wish};
 use crate::study::lathe::workpiece::{Care, HitTerms, Workpiece};
 use crate::study::many::answers::Answer;
+use crate::study::verdict::rigid_wall;
 
 /// How bats are computed: modes, hit, and the law by which a batter swings another bat.
 #[derive(Debug, Clone)]
@@ -243,6 +245,12 @@ impl Bench {
     fn workpiece(&self, bat: &Bat, answers: &[Answer], stretch: f64) -> Result<Workpiece> {
         let borders: Vec<f64> = self.splines.knots().iter().map(|x| x * stretch).collect();
         Workpiece::new(bat, &borders, &self.terms.request, Some(&self.swung(bat)), answers)
+    }
+
+    /// Why the wall of a hollow barrel is rigid in the hits of that bat; None where it would change little.
+    pub fn rigid_wall(&self, bat: &Bat) -> Option<String> {
+        let scene = &self.terms.hit.scene;
+        rigid_wall(bat, &Scene { hoop: scene.hoop.left_out(), ..scene.clone() })
     }
 
     /// How that bat is swung.

@@ -69,6 +69,8 @@ pub struct Outcome {
     pub answers: Vec<(Answer, [Option<f64>; 2])>,
     /// The rules, with what the bat has, and whether it keeps them.
     pub rules: Vec<Ruled>,
+    /// Why the wall of a hollow barrel is rigid in the hits; None where it matters to none.
+    pub rigid_wall: Option<String>,
 }
 
 /// What is told of every bat before and after.
@@ -304,6 +306,7 @@ impl Writing<'_> {
             start: self.bat.clone(),
             answers: told(&bench, self.bat, &bat)?,
             rules: rules(self.wish, &bat, &bench)?,
+            rigid_wall: bench.rigid_wall(&bat),
             bat,
             stations: draft.stations,
             grid,

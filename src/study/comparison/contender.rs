@@ -24,6 +24,7 @@ use crate::collision::strike::Glance;
 use crate::collision::sweep::{Sweep, Trial, sweep};
 use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
 use crate::modes::solve::Request;
+use crate::study::verdict::Verdict;
 
 /// A value and how far it may be off, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,6 +98,8 @@ pub struct Contender {
     pub least_vibration: Option<Figure>,
     /// The largest BBCOR of the outer half, of the free bat and of one held at the standard pivot.
     pub bbcor: [Option<Figure>; 2],
+    /// What there is to doubt of its hits.
+    pub verdict: Verdict,
 }
 
 /// Places of one bat (m from the knob end), rising: every so far from its tip, a quarter of that
@@ -156,6 +159,8 @@ impl Contender {
         let zone = zone.map(|(peak, zone)| zone.map(|edge| sought.edge(peak, edge)));
         let least = spot.vibration_min.map(|peak| sought.least(peak));
         let bbcor = [1, 2].map(|k| sought.bbcor(k));
+        let wall = spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x));
+        let verdict = Verdict::of(&bat, &scene, &sweep, wall);
         Ok(Self {
             inertia: bat.inertia(),
             best_speed: best.map(|best| best[0]),
@@ -165,6 +170,7 @@ impl Contender {
             least_place: least.map(|least| least[0]),
             least_vibration: least.map(|least| least[1]),
             bbcor,
+            verdict,
             bat,
             law,
             spot,

@@ -16,6 +16,63 @@ pub struct Measured {
     pub from_knob: bool,
     /// What had to be assumed to read them, one sentence each.
     pub assumed: Vec<String>,
+    /// What the frequencies are if the file writes them in the other of Hz and rad/s; None where that is
+    /// known.
+    pub otherwise: Option<Otherwise>,
+}
+
+/// What a file counts its frequencies in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrequencyUnit {
+    /// Cycles a second.
+    Hertz,
+    /// Radians a second.
+    RadPerS,
+}
+
+impl FrequencyUnit {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Hertz, Self::RadPerS];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hertz => "Hz",
+            Self::RadPerS => "rad/s",
+        }
+    }
+
+    /// How many Hz it is.
+    pub fn hertz(self) -> f64 {
+        match self {
+            Self::Hertz => 1.0,
+            Self::RadPerS => 1.0 / std::f64::consts::TAU,
+        }
+    }
+
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Hertz => Self::RadPerS,
+            Self::RadPerS => Self::Hertz,
+        }
+    }
+}
+
+/// How a file's frequencies may be meant, beside how they were read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Otherwise {
+    /// What they were read in.
+    pub read_in: FrequencyUnit,
+    /// Whether the file itself says so, beyond its format.
+    pub settled: bool,
+}
+
+impl Otherwise {
+    /// What the frequencies are times, read in the other unit.
+    pub fn factor(&self) -> f64 {
+        self.read_in.other().hertz() / self.read_in.hertz()
+    }
 }
 
 /// One measured mode.
@@ -37,6 +94,17 @@ impl Measured {
     /// Whether there are shapes and not only frequencies.
     pub fn has_shapes(&self) -> bool {
         !self.along.is_empty()
+    }
+
+    /// The same with its frequencies read in the other unit, which is then known.
+    pub fn read_otherwise(mut self) -> Self {
+        if let Some(otherwise) = self.otherwise.take() {
+            self.modes.iter_mut().for_each(|mode| mode.frequency *= otherwise.factor());
+            let unit = otherwise.read_in.other().name();
+            let so = "so the shapes have the frequencies of modes like them";
+            self.assumed.push(format!("the file's frequencies are taken as in {unit}: {so}"));
+        }
+        self
     }
 
     /// Sorts the points along the axis, and the modes by frequency.

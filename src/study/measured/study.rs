@@ -90,6 +90,8 @@ pub struct Shapes {
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
+/// A MAC that leaves no doubt, at points that tell the modes apart.
+pub const ALIKE: f64 = 0.8;
 /// A measured mode below this share of the first bending frequency does not bend the bat, if its
 /// shape is no farther than that from a straight line.
 const RIGID_BELOW: f64 = 0.5;
@@ -103,12 +105,52 @@ const MANY: usize = 400;
 
 impl Study {
     /// Solves the bat, for the request's modes if `exactly` so many are wanted, else for as many as
-    /// reach beyond the measured frequencies; pairs the modes and looks at the measured shapes.
+    /// reach beyond the measured frequencies; pairs the modes and looks at the measured shapes. Shapes whose
+    /// frequencies are those of modes like them only in the other of Hz and rad/s are read so.
     ///
     /// # Errors
     ///
-    /// As [`solve`], and [`Error::Value`] for points that are not on the bat.
+    /// As [`solve`], and [`Error::Value`] for points that are not on the bat, and for shapes that contradict
+    /// what their file says its frequencies are in.
     pub fn new(
+        bat: &Bat,
+        measured: Measured,
+        request: &Request,
+        exactly: bool,
+        told: Told,
+    ) -> Result<Self> {
+        let Some(otherwise) = measured.otherwise else {
+            return Self::as_read(bat, measured, request, exactly, told);
+        };
+        let own = Self::as_read(bat, measured.clone(), request, exactly, told)?;
+        if 2 * own.alike() >= own.bending.len().max(1) {
+            return Ok(own);
+        }
+        let other = Self::as_read(bat, measured.read_otherwise(), request, exactly, told)?;
+        match other.alike() {
+            none if none <= own.alike() => Ok(own),
+            _ if otherwise.settled => {
+                let [found, expected] = [otherwise.read_in, otherwise.read_in.other()];
+                let [found, expected] = [found.name(), expected.name()];
+                let found = format!(
+                    "frequencies in {found} by its modal masses, and in {expected} by its shapes"
+                );
+                let expected =
+                    format!("--frequency-unit, {expected} or {}", otherwise.read_in.name());
+                Err(Error::value(&own.measured.source, found, expected))
+            }
+            _ => Ok(other),
+        }
+    }
+
+    /// How many measured modes have a computed one whose shape leaves no doubt.
+    fn alike(&self) -> usize {
+        let sure = |pair: &&Pair| pair.mac.is_some_and(|mac| mac >= ALIKE);
+        self.pairs.iter().filter(sure).count()
+    }
+
+    /// As [`Self::new`], with the frequencies as they were read.
+    fn as_read(
         bat: &Bat,
         measured: Measured,
         request: &Request,
