@@ -15,7 +15,7 @@ use crate::base::units::{ounce_square_inches, shown_length};
 use crate::bat::edit::{Change, Edit};
 use crate::bat::fixtures::Fixtures;
 use crate::bat::layup::{Layup, Worth};
-use crate::bat::material::Material;
+use crate::bat::material::{Material, UNTOLD_DENSITY};
 use crate::bat::part::Part as _;
 use crate::bat::profile::{Piece, Profile, Radii, Section};
 use crate::bat::weighed::Weighed;
@@ -509,6 +509,10 @@ impl Bat {
         let before = self.unedited();
         let (material, factor) = (before.material(), before.factors[0]);
         let own = Material { density: material.density / factor, ..material.clone() };
+        // A material without a density of its own has the one that it weighs.
+        if (own.density / UNTOLD_DENSITY - 1.0).abs() < 1e-9 {
+            return None;
+        }
         // A tap sets the stiffness; the file's is the material's own.
         let own = Material { youngs_modulus: own.youngs_modulus / before.factors[1], ..own };
         let usual = if own.is_metal() { 0.9..1.1 } else { 0.8..1.25 };

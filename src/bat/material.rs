@@ -76,6 +76,10 @@ pub struct PoissonRatios {
     pub around_across: f64,
 }
 
+/// The density (kg/m³) of a material whose file leaves it to the scale, before it is weighed: far below that of
+/// anything solid.
+pub(crate) const UNTOLD_DENSITY: f64 = 1.0;
+
 impl Material {
     /// A material known by density (kg/m³) and Young's modulus (Pa) alone.
     ///

@@ -122,10 +122,7 @@ Examples:
 
   sweetspot frf r161 --at \"28 in\" --to \"2 in\" --points 200 --uff tap.uff
   sweetspot frf r161 --measured tap.uff
-      a laboratory's universal file laid over the computed response
-
-  sweetspot frf r161 --measured taps.uff --unit g/lbf --damping measured
-      all of its responses, in units that it does not name";
+      a laboratory's universal file laid over the computed response";
 
 /// Whose damping the computed modes have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

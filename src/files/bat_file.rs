@@ -11,7 +11,7 @@ use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
 use crate::bat::formula::Formula;
-use crate::bat::material::Material;
+use crate::bat::material::{Material, UNTOLD_DENSITY};
 use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
 use crate::bat::weighed::Weighed;
 use crate::files::document::Document;
@@ -227,7 +227,7 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
         (Some(None), _) => Err("\"density\" here or \"mass\" in \"weighed\""),
         (Some(Some(_)), true) => Err("\"density\": the weighed mass is one factor for all regions"),
         // The weighed mass will set it; any positive number is as good.
-        (Some(Some(_)), false) | (None, _) => Ok(1.0),
+        (Some(Some(_)), false) | (None, _) => Ok(UNTOLD_DENSITY),
     };
     let without_modulus = match (weighed.map(|weighed| weighed.first_bending), regions) {
         (Some(None), _) => {

@@ -341,6 +341,7 @@ pub fn figures(text: &str) -> String {
             (Some(part @ ("0.5" | "0.25")), "1") => again(&mut out, part.to_owned()),
             (Some(number), "minus" | "-") => again(&mut out, format!("-{number}")),
             (Some(number), "plus" | "+") => again(&mut out, format!("+{number}")),
+            (Some(number), _) => out.push(number.to_owned()),
             (None, "minus" | "-") if figure => again(&mut out, format!("-{word}")),
             (None, "plus" | "+") if figure => again(&mut out, format!("+{word}")),
             _ => out.push(of(&UNITS, word).unwrap_or(word).to_owned()),

@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 23] = [
+pub const WRITTEN: [Written; 24] = [
     (
         "modes",
         "modes",
@@ -110,6 +110,12 @@ pub const WRITTEN: [Written; 23] = [
         Numbers::Rough,
     ),
     (
+        "frf-set",
+        "frf-set",
+        "frf lossy.json --measured taps.uff --points 3 -n 3 --tol 1e-8",
+        Numbers::Rough,
+    ),
+    (
         "aimed",
         "aimed",
         "aim r161.json aim-1.json --tol 1e-3 --swing-speed 50 --pitch 40.2336",
@@ -145,7 +151,10 @@ pub fn folder(test: &str) -> Folder {
     folder.write("r161.json", include_str!("../../meshes/r161.json"));
     folder.write("lab.csv", MEASURED);
     folder.write("lossy.json", LOSSY);
-    folder.write("tap.uff", include_str!("../golden/tap.uff"));
+    let tap = include_str!("../golden/tap.uff");
+    folder.write("tap.uff", tap);
+    let begins = tap.rfind("    -1\n    58\n").unwrap();
+    folder.write("taps.uff", tap.to_owned() + &tap[begins..]);
     folder.write("aim-1.json", include_str!("../golden/aim-1.json"));
     folder.write("readings-1.json", include_str!("../golden/readings-1.json"));
     folder.write("scatter-1.json", include_str!("../golden/scatter-1.json"));
