@@ -325,6 +325,42 @@ fn a_set_of_responses_is_read_at_once_in_the_units_of_the_trade() {
     assert!(folder.read_names("p").contains(&"response_3.svg".to_owned()));
 }
 
+/// A force has a kink where it bends the bat: two places inside one element answer alike whatever the number of
+/// modes, with damped hands and without. The last is by an independent program.
+#[test]
+fn places_close_to_each_other_answer_alike_with_any_number_of_modes() {
+    let tube = r#"{ "format": "sweetspot-bat/1", "material": { "density": 700, "youngs_modulus": 15e9,
+        "shear_modulus": 1e9 }, "profile": { "interpolation": "constant", "x": [0, 0.84],
+        "radius": [0.02799977022069449, 0.02799977022069449] },
+        "absorbers": [{ "x": 0, "mass": 0.001, "frequency": 170, "damping": 0.5 }] }"#;
+    let tube = Bat::from_text("tube", tube, "".as_ref()).unwrap();
+    let held = LOSSY.replace(
+        "\"profile\"",
+        r#""grip": { "from": 0, "to": 0.2, "stiffness": 1e5, "damping": 900 }, "profile""#,
+    );
+    let held = Bat::from_text("held", &held, "".as_ref()).unwrap();
+    let lossy = Bat::from_text("lossy", LOSSY, "".as_ref()).unwrap();
+    let theory = sweetspot::Theory::Timoshenko;
+    for (bat, at, to, hertz, known) in [
+        (&lossy, 0.31, 0.3101, 1300.0, None),
+        (&held, 0.31, 0.3101, 1300.0, None),
+        (&held, 0.05, 0.057, 90.0, None),
+        (&tube, 0.578, 0.585, 544.511_623_568_944_1, Some(1.242_546_182_013_181_8e-8)),
+    ] {
+        let answer = |modes: usize| {
+            let request = Request { modes, theory, ..Request::default() };
+            let mut frf = Frf::new(bat, &request, at, to).unwrap();
+            frf.receptances(&[hertz]).unwrap()[0].receptance
+        };
+        let many = answer(20);
+        for modes in [1, 2, 3, 5] {
+            let off = (answer(modes) - many).norm() / many.norm();
+            assert!(off < 1e-7, "{at} {modes}: {off:e}");
+        }
+        assert!(known.is_none_or(|known| (many.norm() / known - 1.0).abs() < 1e-9), "{many}");
+    }
+}
+
 /// Axes in g beside a dataset 164 of metres: one of them is wrong, and it is said which is taken.
 #[test]
 fn axes_that_contradict_the_files_units_are_told() {

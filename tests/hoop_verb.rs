@@ -439,3 +439,19 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     assert!(folder.read("bat.md").contains("## How the barrel rings"));
     assert!(folder.read_names("bat_pictures").contains(&"hoop.svg".to_owned()));
 }
+
+/// A tube that is widest at the knob has no handle: all of it is its barrel. And a rough tolerance leaves BBCOR the
+/// three digits that are said.
+#[test]
+fn a_tube_that_tapers_to_its_tip_rings_whole() {
+    let folder = Folder::new("hoop-narrowing");
+    folder.write(
+        "tube.json",
+        r#"{ "format": "sweetspot-bat/1", "material": { "density": 2700, "youngs_modulus": 70e9,
+            "poisson_ratio": 0.33 }, "profile": { "interpolation": "linear", "x": [0, 0.3829],
+            "radius": [0.03, 0.02], "inner_radius": [0.028, 0.018] } }"#,
+    );
+    let found = folder.json(&["hoop", "tube.json", "--tol", "1e-3", "--json", "-"]);
+    assert_eq!(found["tolerance_met"], true);
+    assert_eq!(found["from_m"].as_f64(), Some(0.0));
+}

@@ -13,7 +13,7 @@
  * every mode is its own exact cosine, and the next touch is looked for in strides in which, by a
  * bound on the second derivative, there can be none; the ball is gone when all amplitudes together
  * do not reach it. A ball that left is round again: a later touch begins on the first branch. One that
- * has flown for 110 times as long as it takes to be compressed, and would be met again, is gone, since
+ * has flown for 110 times as long as it takes to be compressed and for 20 ms, and would be met again, is gone, since
  * a swung bat has turned away by then; near that time there is no answer.
  *
  * Source of the law and of the equations: A. M. Nathan, Am. J. Phys. 68, 979 (2000). Series:
@@ -40,6 +40,7 @@ typedef double Part; /* of a mode, which adds little to what it is added to */
 enum { ORDER = 26, LOOKS = 24, MOST = 4096 };
 static const Real TINY = 1e-17L;  /* what a step may be off by, relative */
 static const Real GONE = 110;      /* times the ball's own, which are a flight without end */
+static const Real LATE = 0.02L;   /* s, before which none is */
 static const Real FIRST = 1e-11L; /* s, in which a ball that is hardly touched does not push */
 
 static int count;
@@ -201,7 +202,7 @@ static Real next_touch(Real *nearest) {
         bend += size * square[n];
     }
     Real t = FIRST, v;
-    while (t < 3 * GONE * scale / speed) {
+    while (t < 3 * fmaxl(GONE * scale / speed, LATE)) {
         Real at = flight(t, &v);
         if (at > 0) return t + FIRST;
         if (z[1] < 0 && z[0] + z[1] * t + far < 0) return -1;
@@ -292,7 +293,7 @@ int main(void) {
             z[0] = -total(y[0]);
             Real nearest, t = next_touch(&nearest);
             slack = fminl(slack, nearest / scale);
-            Real limit = GONE * scale / speed;
+            Real limit = fmaxl(GONE * scale / speed, LATE);
             if (t > limit / 2 && t < limit * 2) ends = 2;
             else if (t < 0 || t >= limit) ends = 1;
             else {

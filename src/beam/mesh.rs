@@ -5,6 +5,7 @@
 use serde::Serialize;
 
 use crate::bat::body::Bat;
+use crate::bat::profile::SAME_PLACE;
 
 /// One element: a stretch of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -122,6 +123,26 @@ impl Mesh {
     pub fn between(bat: &Bat, borders: &[(usize, f64)]) -> Self {
         let elements = borders.windows(2).map(|pair| Element::between(bat, [pair[0], pair[1]]));
         Self { elements: elements.collect() }
+    }
+
+    /// This mesh with an element's end at each of these places (m), as near as round-off tells; stations of the bat
+    /// stand there, at which its elements over stations are cut.
+    pub fn with_nodes(&self, bat: &Bat, places: &[f64]) -> Self {
+        let mut elements = Vec::with_capacity(self.len() + places.len());
+        for e in &self.elements {
+            let inner = (e.piece + 1..=e.last).filter(|k| {
+                let start = bat.profile().pieces[*k].start;
+                places.iter().any(|x| (x - start).abs() <= SAME_PLACE * bat.length())
+            });
+            let ends: Vec<(usize, f64)> =
+                [(e.piece, e.from)].into_iter().chain(inner.map(|k| (k, 0.0))).collect();
+            let ends: Vec<(usize, f64)> = ends.into_iter().chain([(e.last, e.to)]).collect();
+            match ends.len() {
+                2 => elements.push(*e),
+                _ => elements.extend(Self::between(bat, &ends).elements),
+            }
+        }
+        Self { elements }
     }
 
     /// A finer mesh: this one with element `k` cut into `parts(k)` equal parts.

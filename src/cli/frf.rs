@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
+use crate::bat::theory::Theory;
 use crate::files::measured::response::{self, Known};
 use crate::files::schema::frf::FrfSetFile;
 use crate::files::uff::{self, Stamp};
@@ -204,12 +205,9 @@ impl Answered {
         measured: Option<&MeasuredResponse>,
         (places, ratios): ([f64; 2], Option<&[Option<f64>]>),
     ) -> Result<Self> {
-        let asked = match measured {
-            Some(measured) => args.grid.as_measured(&measured.values),
-            None => args.grid.clone(),
-        };
+        let asked = asked(args, measured);
         let kind = args.kind.or(measured.map(|m| m.kind)).unwrap_or_default();
-        let mut frf = asked.reaching(bat, request, places)?;
+        let mut frf = Frf::new(bat, request, places[0], places[1])?;
         if let Some(ratios) = ratios {
             frf = frf.damped_as(ratios);
         }
@@ -270,12 +268,38 @@ impl Answered {
     }
 }
 
+/// The frequencies that are asked for, those of a measured response where nothing else is said.
+fn asked(args: &Args, measured: Option<&MeasuredResponse>) -> GridArgs {
+    match measured {
+        Some(measured) => args.grid.as_measured(&measured.values),
+        None => args.grid.clone(),
+    }
+}
+
+/// The bat and what is asked of it, with modes up to the highest frequency of any response, and the theory that
+/// those need.
+fn prepared(args: &Args, bat: Bat, measured: &[&MeasuredResponse]) -> Result<Prepared> {
+    let prepare = |modes| args.bat.prepare(bat.clone(), modes, &args.solve, &args.output);
+    let mut modes = args.bat.count().max(1);
+    // Another theory has other frequencies: the number stays after as many rounds as there are theories.
+    for _ in 0..Theory::ALL.len() {
+        let Prepared { bat, request, warning } = prepare(modes)?;
+        let request = Request { modes: request.modes.max(1), ..request };
+        let grids = measured.iter().map(|measured| asked(args, Some(measured)));
+        let own = measured.is_empty().then(|| asked(args, None));
+        let reached = grids.chain(own).map(|grid| grid.reaching(&bat, &request));
+        let reached = reached.collect::<Result<Vec<_>>>()?.into_iter().max().unwrap_or(modes);
+        if reached <= modes {
+            return Ok(Prepared { bat, request, warning });
+        }
+        modes = reached;
+    }
+    prepare(modes)
+}
+
 /// One response, and a measured one laid over it.
 fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Done> {
-    let modes = args.bat.count().max(1);
-    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
-    let Prepared { bat, request, warning } = prepared;
-    let request = Request { modes: request.modes.max(1), ..request };
+    let Prepared { bat, request, warning } = prepared(args, bat, measured.as_slice())?;
     let progress = args.output.progress("modes and answers");
     let mut answered = Answered::new(args, (&bat, &request), measured)?;
     drop(progress);
@@ -307,10 +331,8 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
         let found = format!("it beside {} responses", measured.len());
         return Err(Error::value(option, found, "one of them: --function N"));
     }
-    let modes = args.bat.count().max(1);
-    let prepared = args.bat.prepare(bat, modes, &args.solve, &args.output)?;
-    let Prepared { bat, request, warning } = prepared;
-    let request = Request { modes: request.modes.max(1), ..request };
+    let responses: Vec<&MeasuredResponse> = measured.iter().map(|(_, measured)| measured).collect();
+    let Prepared { bat, request, warning } = prepared(args, bat, &responses)?;
     let progress = args.output.progress("modes and answers");
     let (mut rows, mut pictures, mut code) = (vec![], vec![], 0);
     let mut answers = vec![];

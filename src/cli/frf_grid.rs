@@ -90,8 +90,8 @@ impl GridArgs {
         Self { from_hz: or(self.from_hz, first), to_hz: or(self.to_hz, last), ..self.clone() }
     }
 
-    /// The response with modes up to the highest frequency.
-    pub fn reaching(&self, bat: &Bat, request: &Request, [at, to]: [f64; 2]) -> Result<Frf> {
+    /// How many modes there are up to the highest frequency, those of the request at least.
+    pub fn reaching(&self, bat: &Bat, request: &Request) -> Result<usize> {
         const MOST: usize = 200;
         let listed = self.frequencies.iter().copied().reduce(f64::max);
         let mut request = *request;
@@ -109,7 +109,7 @@ impl GridArgs {
                 request.modes = (2 * request.modes).min(MOST);
             }
         }
-        Frf::new(bat, &request, at, to)
+        Ok(request.modes)
     }
 
     /// The frequencies; `in_file` where a universal file will hold them, which has six digits and

@@ -150,13 +150,11 @@ pub fn run(args: &Args) -> Result<Done> {
         args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
     let text = put(&args.csv, text, || Ok(hoop_json::csv(&bat, &barrel)))?;
     let text = exchanged(args, &bat, &barrel, text)?;
-    let code = if barrel.met() { 0 } else { NOT_REACHED };
-    if code != 0 {
-        args.output.warn(&format!(
-            "accuracy not reached: asked {:e}; the error beside every frequency says how far it is known",
-            args.tol
-        ));
+    let unmet = barrel.unmet();
+    if let Some(unmet) = &unmet {
+        args.output.warn(&format!("accuracy not reached: {unmet}"));
     }
+    let code = if unmet.is_none() { 0 } else { NOT_REACHED };
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -139,7 +139,8 @@ impl Hitter<'_> {
         };
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
-        let answered = Answered { met: &met, count, accuracy, rebound, of_ball: mass / ball };
+        let (of_ball, slow) = (mass / ball, self.slow_modes());
+        let answered = Answered { met: &met, count, accuracy, rebound, of_ball, slow };
         let shears = self.solution.theory.shears();
         let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =

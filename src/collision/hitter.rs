@@ -15,6 +15,7 @@ use crate::collision::contact::touch::Felt;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
 use crate::collision::hoop_wall::{HoopWall, WallFelt};
 use crate::collision::rigid::{RigidBat, RigidVelocity};
+use crate::collision::stated::QUICK;
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
 use crate::modes::solve::Solution;
@@ -153,6 +154,22 @@ impl<'a> Hitter<'a> {
             Model::Rigid => 0,
             _ => self.solution.modes.len(),
         }
+    }
+
+    /// How many of the modes are slow beside the contact.
+    pub(super) fn slow_modes(&self) -> usize {
+        self.modes.iter().take_while(|[omega, _]| omega * self.pressed < QUICK).count()
+    }
+
+    /// How many modes make the last one quick beside the contact, more or less; None where it is.
+    pub(super) fn modes_for_contact(&self) -> Option<usize> {
+        /// More than that times as many are not taken at once.
+        const AT_ONCE: f64 = 4.0;
+        let [last, _] = *self.modes.last()?;
+        // Frequencies rise as the square of the number, and slower with shear: then once more.
+        let more = (QUICK / (last * self.pressed)).sqrt();
+        let count = self.modes.len() as f64 * more.clamp(1.2, AT_ONCE);
+        (self.collider.is_some() && more > 1.0).then_some(count.ceil() as usize)
     }
 
     /// `e_A` of a ball that leaves from `x` with that speed (m/s), and from it the BBCOR of the free

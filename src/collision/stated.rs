@@ -47,7 +47,14 @@ pub struct Answered<'a> {
     pub rebound: f64,
     /// μ/m: the ball's part in a change of that.
     pub of_ball: f64,
+    /// How many modes are slow beside the contact ([`QUICK`]): as long as some of those are missing, an error does
+    /// not fall with their number as it does beyond.
+    pub slow: usize,
 }
+
+/// A mode is quick beside a contact if its ω times the time for which the ball is pressed is that large: a half-wave
+/// of the force then has about four of its periods. The error falls as a power of the number of modes only beyond.
+pub const QUICK: f64 = 8.0;
 
 impl Answered<'_> {
     /// Whether a small change may be magnified: the ball was pressed anew, or met again.
@@ -60,9 +67,11 @@ impl Answered<'_> {
     pub fn left_out(&self, shears: bool, apart: impl Iterator<Item = (usize, f64)>) -> f64 {
         let [near, far] = FALLS[usize::from(shears)];
         let stated = apart.map(|(few, apart)| {
+            /// What a change by fewer modes shows at least, where all of them are slow.
+            const LEAST: f64 = 0.3;
             let rate = if 2 * few < self.count + 2 { far } else { near };
-            let fall = (self.count as f64 / few as f64).powf(rate) - 1.0;
-            LEFT_OUT * apart / fall
+            let fall = (self.count as f64 / few.max(self.slow) as f64).powf(rate) - 1.0;
+            LEFT_OUT * apart / fall.max(LEAST)
         });
         stated.fold(0.0, greater)
     }
@@ -117,7 +126,7 @@ mod tests {
     use super::*;
 
     fn answered(met: &Encounter) -> Answered<'_> {
-        Answered { met, count: 10, accuracy: 1e-6, rebound: 0.5, of_ball: 0.8 }
+        Answered { met, count: 10, accuracy: 1e-6, rebound: 0.5, of_ball: 0.8, slow: 0 }
     }
 
     /// An error that falls as `n^−6` (`n^−3` with shear) is stated within four times, of any number of

@@ -236,6 +236,14 @@ impl Round {
         let mut before = [f64::INFINITY; 2];
         loop {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
+            // A mode that is slow beside the contact must not be among those that are left out.
+            let more = hitter.modes_for_contact().filter(|_| planned && request.elements.is_none());
+            if let Some(more) = more.filter(|_| now.request.modes < MOST) {
+                drop(hitter);
+                now.request.modes = more.min(MOST);
+                solution = solve(bat, &now.request)?;
+                continue;
+            }
             let open = open(&impacts, request.tolerance, places.len());
             let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
             let struck = strikes(&hitter, bat.length(), &struck, tell);

@@ -21,6 +21,7 @@ use serde::{Serialize, Serializer};
 use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
+use crate::beam::degree::Elements;
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::reduced::{Answer, Place, Reduced};
 use crate::modes::solve::{Request, Solution, solve};
@@ -124,7 +125,10 @@ impl Frf {
         let bat = bat.with(|parts| parts.profile.cut([at, to]))?;
         let request = Request { tolerance: request.tolerance.min(MESH), ..request };
         let solution = solve(&bat, &request)?;
-        let mut reduced = Reduced::new(&bat, solution.elements(), solution.modes.len())?;
+        // A force bends the bat with a kink, which no polynomial inside an element has.
+        let mesh = solution.mesh.with_nodes(&bat, &[at, to]);
+        let elements = Elements { mesh: &mesh, ..solution.elements() };
+        let mut reduced = Reduced::new(&bat, elements, solution.modes.len())?;
         [at, to].iter().for_each(|x| {
             reduced.place(*x);
         });

@@ -99,7 +99,10 @@ impl Extent {
                 (piece.start + s * piece.length, piece.at(s).outer)
             })
         });
-        let places: Vec<(f64, f64)> = places.collect();
+        // Beyond the widest place a tube may taper too, and that is no handle.
+        let mut places: Vec<(f64, f64)> = places.collect();
+        let widest = (0..places.len()).rev().max_by(|a, b| places[*a].1.total_cmp(&places[*b].1));
+        places.truncate(widest.map_or(0, |widest| widest + 1));
         let least = places.iter().map(|place| place.1).fold(f64::INFINITY, f64::min);
         let most = places.iter().map(|place| place.1).fold(0.0, f64::max);
         let to = bat.length();

@@ -29,9 +29,10 @@ pub struct Collider {
 
 /// Touches that are followed; what more could give is part of the error.
 const MOST_TOUCHES: usize = 64;
-/// A ball that has flown for so many times the longest step, about a hundred times as long as it was
-/// pressed, is gone: by then a swung bat has turned away, and hands that would bring it back have moved.
-const LONGEST_FLIGHT: f64 = 100.0;
+/// A ball that has flown for so long (s), or for so many times the longest step, about a hundred times as long as it
+/// was pressed, is gone: by then a swung bat has turned away, and hands that would bring it back have moved.
+const LONGEST_FLIGHT: f64 = 0.02;
+const FLIGHT_IN_STEPS: f64 = 100.0;
 
 impl Collider {
     /// Modes with those ω (rad/s) and damping ratios below 1, for hits that compress a ball for
@@ -197,7 +198,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             tangents: means.others.iter().map(|other| self.tangent(other)).collect(),
         };
         run.level = self.first_level(&run.now, means.longest);
-        let longest = LONGEST_FLIGHT * means.longest;
+        let longest = LONGEST_FLIGHT.max(FLIGHT_IN_STEPS * means.longest);
         let mut began = 0.0;
         loop {
             if !self.press(&mut run, &mut means, &mut met) {
