@@ -453,5 +453,5 @@ fn a_tube_that_tapers_to_its_tip_rings_whole() {
     );
     let found = folder.json(&["hoop", "tube.json", "--tol", "1e-3", "--json", "-"]);
     assert_eq!(found["tolerance_met"], true);
-    assert_eq!(found["from_m"].as_f64(), Some(0.0));
+    assert_eq!(found["model"]["from_m"].as_f64(), Some(0.0));
 }

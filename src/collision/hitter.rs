@@ -15,7 +15,7 @@ use crate::collision::contact::touch::Felt;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
 use crate::collision::hoop_wall::{HoopWall, WallFelt};
 use crate::collision::rigid::{RigidBat, RigidVelocity};
-use crate::collision::stated::QUICK;
+use crate::collision::stated::{QUICK, SLOW};
 use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
 use crate::modes::solve::Solution;
@@ -156,9 +156,9 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// How many of the modes are slow beside the contact.
+    /// How many of the modes are slow beside the contact: not two thirds as quick as the last one has to be.
     pub(super) fn slow_modes(&self) -> usize {
-        self.modes.iter().take_while(|[omega, _]| omega * self.pressed < QUICK).count()
+        self.modes.iter().take_while(|[omega, _]| omega * self.pressed < SLOW * QUICK).count()
     }
 
     /// How many modes make the last one quick beside the contact, more or less; None where it is.

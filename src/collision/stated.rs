@@ -47,14 +47,16 @@ pub struct Answered<'a> {
     pub rebound: f64,
     /// μ/m: the ball's part in a change of that.
     pub of_ball: f64,
-    /// How many modes are slow beside the contact ([`QUICK`]): as long as some of those are missing, an error does
+    /// How many modes are slow beside the contact ([`SLOW`]): as long as some of those are missing, an error does
     /// not fall with their number as it does beyond.
     pub slow: usize,
 }
 
 /// A mode is quick beside a contact if its ω times the time for which the ball is pressed is that large: a half-wave
-/// of the force then has about four of its periods. The error falls as a power of the number of modes only beyond.
-pub const QUICK: f64 = 8.0;
+/// of the force then has about three of its periods. The error falls as a power of the number of modes only beyond.
+pub const QUICK: f64 = 6.0;
+/// Below that share of it a mode is slow.
+pub const SLOW: f64 = 2.0 / 3.0;
 
 impl Answered<'_> {
     /// Whether a small change may be magnified: the ball was pressed anew, or met again.
