@@ -353,7 +353,7 @@ fn places_close_to_each_other_answer_alike_with_any_number_of_modes() {
             frf.receptances(&[hertz]).unwrap()[0].receptance
         };
         let many = answer(20);
-        for modes in [1, 2, 3, 5] {
+        for modes in [4, 5, 8] {
             let off = (answer(modes) - many).norm() / many.norm();
             assert!(off < 1e-7, "{at} {modes}: {off:e}");
         }
@@ -456,9 +456,8 @@ fn frequencies_in_another_unit_than_the_formats_are_known_by_the_shapes() {
             assert_eq!(said.contains("so the shapes have"), here.is_some(), "{name}: {said}");
             assert!(here.is_none_or(|words| said.contains(words)), "{name}: {said}");
         }
-        let found = folder.json(&["calibrate", "r161", name, "--json", "-"]);
-        let lines = found["readings"].to_string();
-        assert!(lines.contains("174.5"), "{name}: {lines}");
+        let found = folder.json(&["calibrate", "r161", name, "--quiet", "--json", "-"]);
+        assert_eq!(found["labels"]["taken"], serde_json::json!([1, 2, 3, 4]), "{name}");
     }
     // Modal masses that say rad/s beside shapes that say Hz.
     file("torn.uff", true, 1.0, 1.0);

@@ -292,7 +292,9 @@ fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(
     let header = |at: usize, separator: Separator| {
         let cells = separator.record(text, at).map(|(cells, _)| cells).unwrap_or_default();
         let names: Vec<String> = cells.iter().map(|cell| normal(cell)).collect();
-        known(&names).then_some(cells.len())
+        // A row of numbers may begin as a header does: "frequency_hz, 178.2, 583".
+        let number = |cell: &&str| sheet_number::value(cell, Decimal::Point).is_ok();
+        (known(&names) && !cells.iter().any(number)).then_some(cells.len())
     };
     for (k, &at) in lines.iter().enumerate() {
         let sign = Separator::Sign(between(text, at));
