@@ -192,7 +192,7 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
     let folder = Folder::new("frf-wrong");
     folder.write("bat.json", LOSSY);
     let along = [(2, 2), (1, 2)];
-    let cases: [(String, &[&str], &[&str]); 9] = [
+    let cases: [(String, &[&str], &[&str]); 11] = [
         (
             dataset_58((12, "m/s2"), 13, [(2, 2), (1, 3)], &five()),
             &["--at", "0.7"],
@@ -224,6 +224,16 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
             dataset_58((12, "m/s2"), 13, along, &five()),
             &["--at", "0.7", "--function", "3"],
             &["--function: found 3", "1 to 1"],
+        ),
+        (
+            dataset_58((12, "m/s2"), 13, along, &[c64::new(0.0, 0.0); 5]),
+            &["--at", "0.7"],
+            &["tap.uff:9:", "nothing but 0"],
+        ),
+        (
+            dataset_58((12, "m/s2"), 13, along, &five()).replace(" Hz ", " orders "),
+            &["--at", "0.7"],
+            &["tap.uff:10:", "frequencies in \"orders\"", "rad/s"],
         ),
         ("    -1\n   164\n".to_owned(), &["--at", "0.7"], &["tap.uff:3:"]),
     ];
@@ -358,6 +368,21 @@ fn places_close_to_each_other_answer_alike_with_any_number_of_modes() {
             assert!(off < 1e-7, "{at} {modes}: {off:e}");
         }
         assert!(known.is_none_or(|known| (many.norm() / known - 1.0).abs() < 1e-9), "{many}");
+    }
+}
+
+/// Frequencies are in the unit by which their axis is named.
+#[test]
+fn frequencies_are_in_the_unit_of_their_axis() {
+    let folder = Folder::new("frf-axis");
+    let path = folder.0.join("tap.uff");
+    let plain = dataset_58((12, "m/s^2"), 13, [(1, 2), (1, 2)], &five());
+    for (unit, hertz) in [("Hz", 1.0), ("rad/s", 1.0 / TAU), ("kHz", 1e3), ("RPM", 1.0 / 60.0)] {
+        std::fs::write(&path, plain.replace("Hz   ", &format!("{unit:<5}"))).unwrap();
+        let found = response::read(&path, &Default::default()).unwrap().remove(0).1;
+        assert!((found.values[0].0 / (100.0 * hertz) - 1.0).abs() < 1e-12, "{unit}");
+        let said = found.assumed.iter().any(|words| words.contains("frequencies are taken in"));
+        assert_eq!(said, unit != "Hz", "{unit}: {:?}", found.assumed);
     }
 }
 

@@ -224,7 +224,12 @@ impl Answered {
         Ok(Self { frf, samples, grid, rising, peaks, laid, kind, places })
     }
 
-    fn told<'a>(&'a self, bat: &'a Bat, measured: Option<&'a MeasuredResponse>) -> Told<'a> {
+    fn told<'a>(
+        &'a self,
+        args: &Args,
+        bat: &'a Bat,
+        measured: Option<&'a MeasuredResponse>,
+    ) -> Told<'a> {
         Told {
             bat,
             kind: self.kind,
@@ -234,6 +239,7 @@ impl Answered {
             asked: &self.grid.asked,
             peaks: &self.peaks,
             measured: measured.zip(self.laid.as_ref()),
+            units: args.output.units(bat),
         }
     }
 
@@ -303,7 +309,7 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     let progress = args.output.progress("modes and answers");
     let mut answered = Answered::new(args, (&bat, &request), measured)?;
     drop(progress);
-    let told = answered.told(&bat, measured);
+    let told = answered.told(args, &bat, measured);
     let (table, document) = (report::text(&told), report::document(&told));
     if let Some(folder) = &args.plots {
         let picture = answered.picture(args, &bat, "response")?;
@@ -345,7 +351,7 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
         };
         let mut answered = Answered::new(args, (&bat, &request), Some(measured)).map_err(named)?;
         code = code.max(answered.verdict(args));
-        let told = answered.told(&bat, Some(measured));
+        let told = answered.told(args, &bat, Some(measured));
         rows.extend(RowOfSet::new(*number, &told));
         answers.push(report::document(&told));
         if args.plots.is_some() {
@@ -357,7 +363,7 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     let source = &measured[0].1.source;
-    let table = frf_set::text(&bat, source, &rows);
+    let table = frf_set::text(&bat, source, &rows, args.output.units(&bat));
     let numbers = rows.iter().map(|row| row.number).collect();
     let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
     let text = put(&args.csv, text, || Ok(frf_set::csv(&rows)))?;
@@ -378,5 +384,16 @@ fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result
         let expected = "its node in a dataset 15 or 2411, or --places, or --to";
         return Err(Error::value(source, "no place of the answer", expected));
     };
-    Ok([on_the_bat(bat, "--at", at)?, on_the_bat(bat, "--to", to)?])
+    // A place of the file's own is told as that.
+    let named = |option: Option<f64>, name: &str, what: &str| match (option, measured) {
+        (None, Some(measured)) => {
+            format!("{}: {what}, in its unit of length (--unit)", measured.source)
+        }
+        _ => name.to_owned(),
+    };
+    let [force, answer] = [
+        named(args.at, "--at", "place of the force"),
+        named(args.to, "--to", "place of the answer"),
+    ];
+    Ok([on_the_bat(bat, &force, at)?, on_the_bat(bat, &answer, to)?])
 }

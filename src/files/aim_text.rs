@@ -73,6 +73,17 @@ pub fn goal(name: &str) -> Said<Goal> {
     })
 }
 
+/// The most that a bat has of it (SI), where a bare number may be meant in another unit.
+fn most_of_a_bat(goal: Goal) -> Option<f64> {
+    match goal.quantity()? {
+        Quantity::Mass => Some(3.0),
+        Quantity::Inertia => Some(1.5),
+        Quantity::Length => Some(1.5),
+        Quantity::Speed => Some(80.0),
+        _ => None,
+    }
+}
+
 /// A number with its unit, a share, or a place from the tip.
 pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
     let text = typed::plain(text);
@@ -80,6 +91,15 @@ pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
         let share =
             typed::number(share).ok_or_else(|| wrong(&text, "a percentage, such as 97 %"))?;
         return Ok(Amount::Share(0.01 * share));
+    }
+    // A bare number in SI that no bat has was meant in another unit.
+    if let Some((number, most)) =
+        typed::number(&text).zip(most_of_a_bat(goal)).filter(|(n, m)| n.abs() > *m)
+    {
+        let example = goal.quantity().map_or("", Quantity::example);
+        let unit = goal.unit();
+        let hint = format!("{number} {unit} is no bat's, {most} {unit} at most: write the unit");
+        return Err(wrong(&text, &format!("its unit, such as \"{example}\"")).hinted(hint));
     }
     let Some(quantity) = goal.quantity() else {
         let number = typed::number(&text);
@@ -492,6 +512,18 @@ mod tests {
         let node = target("node 1 6.5 in from the tip within 0.01 in").unwrap();
         let Ask::Value(Amount::FromTip(x), Some(_)) = node.ask else { panic!("{node:?}") };
         assert!((x - 6.5 * 0.0254).abs() < 1e-15);
+    }
+
+    /// A bare number in SI that no bat has was meant in another unit, which is asked for.
+    #[test]
+    fn bare_numbers_that_no_bat_has_ask_for_their_unit() {
+        for text in ["mass 30", "mass at most 30", "swing weight at most 9000", "best ball 100"] {
+            let said = target(text).unwrap_err().to_string();
+            assert!(said.contains("expected its unit"), "{text}: {said}");
+        }
+        for text in ["mass 0.85", "mass at most 30 oz", "swing weight 0.19", "best ball 48"] {
+            assert!(target(text).is_ok(), "{text}");
+        }
     }
 
     #[test]

@@ -24,6 +24,9 @@ fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {
     }
 }
 
+/// How what there is to say of shear begins.
+pub(crate) const SHEAR: &str = "shear: ";
+
 /// What the model leaves out and what it costs, a sentence each.
 pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     let bat = solution.of(bat);
@@ -40,9 +43,9 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     if !modes.is_empty() && !solution.theory.shears() {
         let change = percents(&shifts, |shift| shift.shear.unwrap_or(0.0));
         ignored.push(match bat.knows_shear() {
-            true => format!("shear: would change {change}"),
+            true => format!("{SHEAR}would change {change}"),
             false => format!(
-                "shear: not known, a material has no shear modulus; with the G/E of its kind ({}) \
+                "{SHEAR}not known, a material has no shear modulus; with the G/E of its kind ({}) \
                  it would change {change}",
                 typical_shear(bat.material()).to_string().chars().take(5).collect::<String>()
             ),

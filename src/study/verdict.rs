@@ -8,7 +8,7 @@ use crate::collision::hit::Scene;
 use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::Sweep;
 use crate::collision::wall_figures::WallFigures;
-use crate::study::ignored::{in_hit, thinnest_wall};
+use crate::study::ignored::{SHEAR, ignored, in_hit, thinnest_wall};
 
 /// Why the answers of a hit are less certain than they are computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +16,8 @@ use crate::study::ignored::{in_hit, thinnest_wall};
 pub enum Doubt {
     /// The density that the mass asks for is not that of the material.
     Density(String),
+    /// Shear is left out for want of a shear modulus, in a sentence that says what it would change.
+    Shear(String),
     /// The wall of the barrel is dented deeper than half of it, where the theory of it ends.
     Dent(Box<WallFigures>),
     /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
@@ -32,6 +34,7 @@ impl Doubt {
     pub fn about(&self) -> &'static str {
         match self {
             Self::Density(_) => "density",
+            Self::Shear(_) => "shear",
             Self::Dent(_) => "dent",
             Self::RigidWall(_) => "rigid_wall",
             Self::ExitSpeeds { .. } => "exit_speeds",
@@ -50,18 +53,34 @@ impl Verdict {
     /// The verdict on the hits of a bat, whose wall does that at the sweet spot.
     pub fn of(bat: &Bat, scene: &Scene, hits: &Sweep, wall: Option<WallFigures>) -> Self {
         let density = bat.density_off().map(Doubt::Density);
+        let said = ignored(bat, &hits.solution).into_iter().filter(|_| !bat.knows_shear());
+        let shear = said.filter_map(|text| Some(text.strip_prefix(SHEAR)?.to_owned())).next();
+        let shear = shear.map(Doubt::Shear);
         let deep = wall.filter(WallFigures::is_deep);
         let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
         let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
         let unmet = hits.worst().filter(|_| !hits.met);
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
-        Self { doubts: density.into_iter().chain(dent).chain(rigid).chain(unmet).collect() }
+        Self {
+            doubts: density
+                .into_iter()
+                .chain(shear)
+                .chain(dent)
+                .chain(rigid)
+                .chain(unmet)
+                .collect(),
+        }
     }
 
     /// Whether what is known of the bat is a lower limit of what is open of it: it is not of that material, or not
     /// of that shape.
     pub fn bat_is_open(&self) -> bool {
         self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Density(_)))
+    }
+
+    /// Whether it bends otherwise than is computed: shear is left out.
+    pub fn bending_is_open(&self) -> bool {
+        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Shear(_)))
     }
 
     /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is

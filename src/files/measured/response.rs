@@ -80,7 +80,12 @@ impl ResponseFile<'_> {
             assumed
                 .push("force and answer are along opposite directions: the sign is turned".into());
         }
-        let (mut values, dropped) = values(function, sign * units, &wrong)?;
+        let hertz = frequency_unit(function, &wrong)?;
+        let (mut values, dropped) = values(function, [hertz, sign * units], &wrong)?;
+        if hertz != 1.0 {
+            let unit = &function.axes[0].unit;
+            assumed.push(format!("frequencies are taken in {unit}, as their axis is named"));
+        }
         if turns_back(&values) {
             values.iter_mut().for_each(|(_, value)| *value = value.conj());
             assumed.push(
@@ -114,8 +119,16 @@ impl ResponseFile<'_> {
             let own_units = self.universal.converted_from.clone().unwrap_or_else(Units::si);
             let differ =
                 |label: Option<f64>, own: f64| label.is_some_and(|l| (l * own - 1.0).abs() > 1e-3);
-            let contradicts =
-                differ(labels.answer, own_units.length) || differ(labels.force, own_units.force);
+            if self.known.label.is_some() {
+                let expected = "no unit given beside it";
+                return Err(Error::value(&self.name, "its own units, in a dataset 164", expected));
+            }
+            let strange =
+                |label: &str, read: Option<f64>| read.is_none() && !plain(label).is_empty();
+            let contradicts = differ(labels.answer, own_units.length)
+                || differ(labels.force, own_units.force)
+                || strange(own, labels.answer)
+                || labels.torn;
             let said = format!(
                 "the axes are named {own} and {below}, which contradicts the units in dataset 164; those of \
                  dataset 164 are taken"
@@ -124,6 +137,11 @@ impl ResponseFile<'_> {
         }
         let mut assumed = vec![];
         let told = self.known.label.as_deref();
+        if labels.torn && told.is_none() {
+            let said =
+                "the answer's axis names another unit of force than the force's: its own is taken";
+            assumed.push(said.to_owned());
+        }
         let labels = match told {
             Some(text) => {
                 let told = Labels::read(text, "", kind);
@@ -215,6 +233,8 @@ fn turns_back(values: &[(f64, c64)]) -> bool {
 struct Labels {
     answer: Option<f64>,
     force: Option<f64>,
+    /// Whether the answer's axis has another unit of force than the force's own.
+    torn: bool,
 }
 
 impl Labels {
@@ -226,10 +246,10 @@ impl Labels {
         let [own, below] = [own, below].map(plain);
         let force = force_unit(&below);
         if let Some(answer) = answer_unit(&own, kind) {
-            return Self { answer: Some(answer), force };
+            return Self { answer: Some(answer), force, torn: false };
         }
         if own == "1/kg" && kind == Kind::Accelerance {
-            return Self { answer: Some(1.0), force: Some(1.0) };
+            return Self { answer: Some(1.0), force: Some(1.0), torn: false };
         }
         // The whole unit on one axis, the force at any place below a line: g/lbf, m/s2/N, 1/N*m/s2, m/Ns2.
         let parts = |sign: &str| -> Vec<String> { own.split(sign).map(str::to_owned).collect() };
@@ -255,8 +275,11 @@ impl Labels {
             Some((answer_unit(&format!("{answer}/{seconds}"), kind)?, force))
         };
         match whole.or_else(times).or_else(below_one) {
-            Some((answer, force)) => Self { answer: Some(answer), force: Some(force) },
-            None => Self { answer: None, force },
+            Some((answer, per)) => {
+                let torn = force.is_some_and(|force| (force / per - 1.0).abs() > 1e-3);
+                Self { answer: Some(answer), force: Some(per), torn }
+            }
+            None => Self { answer: None, force, torn: false },
         }
     }
 
@@ -266,7 +289,10 @@ impl Labels {
             (Kind::Accelerance, Some(f)) if f == GRAVITY => {
                 "accelerations are taken in g".to_owned()
             }
-            (_, Some(f)) if f != 1.0 => format!("answers are taken in units of {f} in SI"),
+            (_, Some(f)) if f != 1.0 => {
+                let unit = ["m", "m/s", "m/s²"][kind as usize];
+                format!("answers are taken in units of {f} {unit}")
+            }
             _ if self.force.is_some_and(|f| f != 1.0) => "answers are taken in SI".to_owned(),
             _ => return None,
         };
@@ -404,10 +430,29 @@ fn meaning(
     Ok((kind, if opposite { -1.0 } else { 1.0 }))
 }
 
+/// How many Hz the unit of the frequencies is. Record 8 has it.
+fn frequency_unit(
+    function: &Function,
+    wrong: &impl Fn(usize, String, &str) -> Error,
+) -> Result<f64> {
+    const TAU: f64 = std::f64::consts::TAU;
+    let label = &function.axes[0].unit;
+    match plain(label).as_str() {
+        "" | "hz" | "hertz" | "1/s" | "cps" | "none" => Ok(1.0),
+        "khz" => Ok(1e3),
+        "rad/s" | "rads" => Ok(1.0 / TAU),
+        "rpm" | "cpm" | "1/min" => Ok(1.0 / 60.0),
+        _ => {
+            let found = format!("frequencies in \"{label}\"");
+            Err(wrong(8, found, "Hz, kHz, rad/s or rpm"))
+        }
+    }
+}
+
 /// Frequencies and values in SI, and how many were at 0 Hz. Record 7 says how they are stored.
 fn values(
     function: &Function,
-    factor: f64,
+    [hertz, factor]: [f64; 2],
     wrong: &impl Fn(usize, String, &str) -> Error,
 ) -> Result<(Vec<(f64, c64)>, usize)> {
     let Values::Complex(values) = &function.values else {
@@ -415,7 +460,7 @@ fn values(
         return Err(wrong(7, found, "complex ones, data type 5 or 6"));
     };
     let at = |(k, [re, im]): (usize, &[f64; 2])| {
-        (function.abscissa.at(k), c64::new(factor * re, factor * im))
+        (hertz * function.abscissa.at(k), c64::new(factor * re, factor * im))
     };
     let all: Vec<(f64, c64)> = values.iter().enumerate().map(at).collect();
     if let Some(pair) =
@@ -429,6 +474,9 @@ fn values(
     }
     if let Some((f, value)) = all.iter().find(|(f, v)| !(f.is_finite() && v.norm() < 1e100)) {
         return Err(wrong(7, format!("{} at {f} Hz", value.norm()), "a finite answer"));
+    }
+    if all.iter().all(|(_, value)| value.norm() == 0.0) {
+        return Err(wrong(7, "nothing but 0".to_owned(), "an answer: was the channel on?"));
     }
     let count = all.len();
     let above: Vec<(f64, c64)> = all.into_iter().filter(|(f, _)| *f > 0.0).collect();

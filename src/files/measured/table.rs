@@ -172,7 +172,11 @@ fn frequencies(table: &Sheet) -> Result<Measured> {
     };
     if let Some(k) = names.iter().position(|name| !known(name)) {
         let found = format!("column \"{}\"", written[k]);
-        let expected = "x_in and modes for shapes, or mode, frequency_hz, damping_ratio";
+        let expected = match names[k].as_str() {
+            "frequency" => "its unit too, as in frequency_hz or Frequency (Hz)",
+            "damping" => "its unit too: damping_ratio, damping_percent or Damping (%)",
+            _ => "x_in and modes for shapes, or mode, frequency_hz, damping_ratio",
+        };
         return Err(table.wrong((&table.header, k), "header", &found, expected));
     }
     let stem = |name: &str| name.split('_').next().unwrap_or_default().to_owned();

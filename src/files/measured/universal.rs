@@ -32,6 +32,8 @@ pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
     Ok(placed(&universal, &name, beside)?.sorted())
 }
 
+/// A damping ratio above this is none of a bat.
+const MUCH: f64 = 0.2;
 /// Nodes nearer than this along the axis (of the span) are one point.
 const SAME: f64 = 1e-4;
 
@@ -103,6 +105,13 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
         };
         directions.push((direction, share));
         let mode = shape.mode(k, values, &modes);
+        if let Some(ratio) = mode.damping_ratio.filter(|ratio| *ratio > MUCH) {
+            let percent = 100.0 * ratio;
+            assumed.push(format!(
+                "{} has a damping ratio of {ratio}, {percent:.0} % of critical damping: in per cent it would be a hundredth",
+                mode.name
+            ));
+        }
         assumed.extend(gaps(&mode.name, shape.data, &moving));
         modes.push(mode);
     }
@@ -226,6 +235,14 @@ impl Shape<'_> {
             _ if !known => Some((
                 format!("a shape of characteristic {kind} with {count} values per node"),
                 "1 value, 3 translations, or these and 3 rotations",
+            )),
+            _ if ![0, 1, 8, 11, 12].contains(&self.data.quantity) => Some((
+                format!("a shape of data type {}", self.data.quantity),
+                "8 (displacement), 11 (velocity) or 12 (acceleration)",
+            )),
+            _ if self.damping_ratio.is_some_and(|ratio| ratio > 1.0) => Some((
+                format!("a damping ratio of {}", self.damping_ratio.unwrap_or_default()),
+                "a share of critical damping, at most 1: 0.006 for 0.6 %",
             )),
             _ if !(frequency >= 0.0 && frequency.is_finite()) => {
                 Some((format!("a shape at {frequency} Hz"), "a frequency of 0 or more"))

@@ -62,11 +62,13 @@ fn place(x: f64, us: bool) -> String {
 fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
     let limits = outcome.broken > KEPT || outcome.steeper > KEPT;
     let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
-        (true, false, false) => "every target is met by the bat as it is written",
-        (true, true, _) => "every target is met by the bat as it is written, but a rule is broken",
-        (true, _, true) => "every target is met by the bat as it is written, but a limit is broken",
-        _ if outcome.conflict.is_some() => "the targets cannot all be had; this bat comes nearest",
-        _ => "not every target is met by the bat as it is written; this one comes nearest",
+        (true, false, false) => "the new bat meets every target",
+        (true, true, _) => "the new bat meets every target, but breaks a rule",
+        (true, _, true) => "the new bat meets every target, but breaks a limit",
+        _ if outcome.conflict.is_some() => {
+            "the targets cannot all be had; the new bat comes nearest"
+        }
+        _ => "the new bat does not meet every target; it comes nearest",
     };
     let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
     let [cut, added] = outcome.largest();

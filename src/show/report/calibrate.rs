@@ -210,7 +210,11 @@ fn labelled(found: &Calibration) -> Vec<String> {
             changed.join("; ")
         ));
     } else if found.readings.lines.iter().any(|line| line.mode.is_none()) {
-        all.push(format!("The lines were taken for modes {}.", list(&identified.labels)));
+        let taken = match identified.labels.len() {
+            1 => "line was taken for mode",
+            _ => "lines were taken for modes",
+        };
+        all.push(format!("The {taken} {}.", list(&identified.labels)));
     }
     if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
         let unsure = match identified.is_sure() {

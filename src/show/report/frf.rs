@@ -31,6 +31,8 @@ pub struct Told<'a> {
     pub asked: &'a [f64],
     /// The peaks of the answer.
     pub peaks: &'a [Peak],
+    /// In which units places are said.
+    pub units: Units,
     /// A measured response, laid over it.
     pub measured: Option<(&'a MeasuredResponse, &'a Laid)>,
 }
@@ -141,8 +143,7 @@ pub fn csv(kind: Kind, samples: &[Sample]) -> String {
     table.text()
 }
 
-fn place(x: f64, bat: &Bat) -> String {
-    let units = Units::Both.of(bat);
+fn place(x: f64, units: Units) -> String {
     units.inline(units.length(x))
 }
 
@@ -163,14 +164,14 @@ pub fn unit(kind: Kind) -> &'static str {
 
 /// The answer at the asked frequencies, the peaks, and what it was made of.
 pub fn text(told: &Told) -> String {
-    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks, measured } = *told;
+    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } = *told;
     let name = kind.name();
     let title = format!(
         "Frequency response: {name} from a force at {} to {}",
-        place(at, bat),
-        place(to, bat)
+        place(at, units),
+        place(to, units)
     );
-    let mut out = wrapped(&title, 4) + &edited(bat, Units::Both);
+    let mut out = wrapped(&title, 4) + &edited(bat, units);
     let columns = Columns::new([
         numbers(16, "frequency, Hz"),
         numbers(19, format!("size, {}", unit(kind))),

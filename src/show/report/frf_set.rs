@@ -52,10 +52,10 @@ impl RowOfSet {
 }
 
 /// The rows for people.
-pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet]) -> String {
-    let units = Units::Both.of(bat).first();
+pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], units: Units) -> String {
+    let units = units.first();
     let title = format!("Measured frequency responses of {source} beside {}", bat.name());
-    let mut out = wrapped(&title, 4) + &edited(bat, Units::Both);
+    let mut out = wrapped(&title, 4) + &edited(bat, units);
     out += &rows.first().map_or(String::new(), |row| row.damping.clone());
     let columns = Columns::new([
         numbers(4, "no."),

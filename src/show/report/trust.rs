@@ -215,6 +215,7 @@ pub fn doubts(verdict: &Verdict, units: Units) -> Vec<String> {
 fn doubted(doubt: &Doubt, units: Units) -> String {
     match doubt {
         Doubt::Density(text) => format!("Look at the file: {text}"),
+        Doubt::Shear(text) => format!("Shear is left out: {text}."),
         Doubt::Dent(wall) => {
             let deep = |length: f64| match units {
                 Units::Us => format!("{:.2}", inches(length)),
@@ -251,8 +252,11 @@ pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String
     let deviation = spread.of(answer)?.deviation?;
     let of_ball = [Answer::BestPlace, Answer::ExitSpeed, Answer::ZoneFrom, Answer::ZoneTo];
     let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
-    let more = ball || analysis.verdict.bat_is_open();
-    let over = if more { "over " } else { "" };
+    let stiff = [Answer::Mass, Answer::BalancePoint, Answer::SwingWeight].contains(&answer);
+    let bent = analysis.verdict.bending_is_open() && !stiff;
+    let more = ball || bent || analysis.verdict.bat_is_open();
+    // Of what is a lower limit one unit is enough.
+    let (over, units) = if more { ("over ", units.first()) } else { ("", units) };
     Some(format!("{over}± {}", Kind::of(answer).about(units, deviation)))
 }
 

@@ -96,7 +96,14 @@ impl Laid {
         let apart = mean(levels.iter().map(|level| level.abs()).sum());
         let scale = (own * other).max(f64::MIN_POSITIVE);
         let peaks = beside(peaks, &measured);
-        Ok(Self { frac: common.norm_sqr() / scale, measured, computed, level, apart, peaks })
+        Ok(Self {
+            frac: (common.norm_sqr() / scale).min(1.0),
+            measured,
+            computed,
+            level,
+            apart,
+            peaks,
+        })
     }
 }
 
