@@ -238,10 +238,13 @@ impl Round {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
             // A mode that is slow beside the contact must not be among those that are left out.
             let more = hitter.modes_for_contact().filter(|_| planned && request.elements.is_none());
-            if let Some(more) = more.filter(|_| now.request.modes < MOST) {
+            let more = more.map(|more| Request { modes: more.min(MOST), ..now.request });
+            let more = more.filter(|more| more.modes > now.request.modes);
+            // Where more cannot be had, these stand.
+            if let Some((more, found)) = more.and_then(|more| Some((more, solve(bat, &more).ok()?)))
+            {
                 drop(hitter);
-                now.request.modes = more.min(MOST);
-                solution = solve(bat, &now.request)?;
+                (solution, now.request) = (found, more);
                 continue;
             }
             let open = open(&impacts, request.tolerance, places.len());
