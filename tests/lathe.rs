@@ -14,6 +14,8 @@ use sweetspot::bat::turned::DiameterChange;
 use sweetspot::collision::{Model, Scene};
 use sweetspot::modes::solve::Solution;
 use sweetspot::study::comparison::contender::Figure;
+use sweetspot::study::lathe::map::{LatheMap, LatheTerms, bands};
+use sweetspot::study::lathe::recipe::least_wood;
 use sweetspot::study::lathe::samples::{SectionSlopes, by_added_mass};
 use sweetspot::study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
 use sweetspot::study::many::answers::Answer;
@@ -572,5 +574,39 @@ fn the_sweet_spot_s_place_has_an_error_that_holds() {
         assert!(rough.error > 0.0 && fine.error > 0.0, "{rough:?} {fine:?}");
         assert!((rough.value - fine.value).abs() <= rough.error + fine.error, "{rough:?} {fine:?}");
         assert!(fine.error < 0.1 * rough.error, "{rough:?} {fine:?}");
+    }
+}
+
+/// A derivative tells of a shallow cut: none of the least wood is deeper than a tenth of the bat, and none is nothing.
+#[test]
+fn the_least_wood_can_be_turned_off() {
+    for name in ["northwestern_wood", "r161", "torpedo", "house"] {
+        let bat = mesh(name);
+        let shear = bat.material().shear_modulus.is_some();
+        let theory = if shear { Theory::Timoshenko } else { Theory::EulerBernoulli };
+        let request = Request { theory, ..timoshenko(1e-4) };
+        let bands = bands(bat.length(), 0.0254);
+        let answers = vec![Answer::Inertia, Answer::Frequency(1), Answer::ExitSpeedPlace];
+        let terms = LatheTerms { bands, cut: 5e-4, exponent: 0.0, answers };
+        let map = LatheMap::new(&bat, &request, Some(&scene()), terms).unwrap();
+        let most = 0.01 * bat.inertia().about(STANDARD_PIVOT);
+        let wishes = [
+            (Answer::Frequency(1), 1.0),
+            (Answer::ExitSpeedPlace, 1e-3),
+            (Answer::ExitSpeedPlace, -1e-3),
+        ];
+        for wish in wishes {
+            let cuts = least_wood(&map, wish, most).unwrap_or_default();
+            let deepest = cuts.iter().fold(0.0_f64, |most, cut| most.max(cut.depth));
+            for cut in &cuts {
+                let thinnest = map
+                    .bands
+                    .iter()
+                    .filter(|band| band.ends[0] >= cut.ends[0] && band.ends[1] <= cut.ends[1]);
+                let thinnest = thinnest.fold(f64::INFINITY, |least, band| least.min(band.diameter));
+                assert!(cut.depth <= 0.1 * thinnest, "{name} {wish:?} {cut:?}");
+                assert!(cut.depth >= 0.1 * deepest, "{name} {wish:?} {cut:?} of {deepest}");
+            }
+        }
     }
 }

@@ -418,11 +418,52 @@ fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {
     };
     assert_eq!(
         wrong(&[0.0, 420.0, 840.0], None),
-        "m.uff: found points that span 840.0000 m, expected at most the bat's 0.8382 m: is the unit \
+        "m.uff: found 3 points that span 840 m, expected at most the bat's 0.8382 m: is the unit \
          right?"
+    );
+    assert_eq!(
+        wrong(&[0.0, 4.2e-4, 8.4e-4], None),
+        "m.uff: found 3 points that span 8.4e-4 m, expected at least a twentieth of the bat's 0.8382 m: is the \
+         unit right?"
     );
     let error = wrong(&[0.0, 0.4, 0.8], Some(0.5));
     assert!(error.contains("found one at 0.9000 m from the knob end"), "{error}");
+}
+
+/// Modes 2, 3 and 4 of an R161 with the numbers 1, 2 and 3.
+#[test]
+fn numbers_that_do_not_fit_the_frequencies_are_doubted() {
+    let folder = Folder::new("measured_numbers");
+    let said = |table: &str| {
+        folder.write("m.csv", table);
+        let text = folder.text(&["compare", "r161", "--measured", "m.csv"]);
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let shifted = said("mode,frequency_hz\n1,581.3\n2,1187\n3,1854.8\n");
+    assert!(shifted.contains("with every number one higher it would be 0 %"), "{shifted}");
+    let missing = said("mode,frequency_hz\n1,174.5\n2,1187\n3,1854.8\n");
+    assert!(missing.contains("a number may be wrong, or the bat is another one"), "{missing}");
+    let right = said("mode,frequency_hz\n1,170.5\n2,581.3\n3,1187\n");
+    assert!(!right.contains("paired by their numbers, and"), "{right}");
+}
+
+/// The shapes of a whip's modes are not those of a bat, whatever their frequencies.
+#[test]
+fn shapes_that_are_like_no_mode_are_no_readings_of_the_wood() {
+    let folder = Folder::new("measured_unlike");
+    let x = points(12);
+    let wild = |k: usize, n: usize| if (k * k * (n + 3)) % 7 < 3 { 1.0 } else { -1.0 };
+    let mut table = String::from("x_m,a,b,c,d\nfrequency_hz,174.5,581.3,1187,1854.8\n");
+    for (k, place) in x.iter().enumerate() {
+        let values: Vec<String> = (0..4).map(|n| wild(k, n).to_string()).collect();
+        table += &format!("{place},{}\n", values.join(","));
+    }
+    folder.write("m.csv", table);
+    let found = folder.run(&["calibrate", "r161", "m.csv"]);
+    let text =
+        String::from_utf8_lossy(&found.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(found.status.code(), Some(1), "{text}");
+    assert!(text.contains("Half of what was measured or more is no bending mode"), "{text}");
 }
 
 #[test]
@@ -544,7 +585,7 @@ fn a_bad_table_is_refused_with_the_place() {
         (good.replace("1\n", "0\n").replace("1,-1", "1,0"), "b: found nothing but 0"),
         (
             swap("0.8", "1.8"),
-            "m.csv: found points that span 1.8000 m, expected at most the bat's 0.8382 m",
+            "m.csv: found 3 points that span 1.8 m, expected at most the bat's 0.8382 m",
         ),
         ("mode,hz\n1,100\n".into(), "m.csv:1:6: header: found column \"hz\""),
         ("mode,damping_ratio\n1,0.1\n".into(), "m.csv:1:1: header: found no frequency_hz"),

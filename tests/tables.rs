@@ -73,3 +73,21 @@ fn a_profile_is_read_however_its_table_is_written() {
     assert_eq!(modes("rule.csv"), modes("ours.csv"));
     assert_eq!(modes("comma.txt"), modes("ours.csv"));
 }
+
+/// Channel lists of a program make a long text above the header; one that is not there at all is what is told, not
+/// the short rows below.
+#[test]
+fn a_header_is_found_below_a_long_text_and_missed_where_there_is_none() {
+    let folder = Folder::new("tables_long");
+    let above: String =
+        (0..75).map(|k| format!("Channel {k}, accelerometer, {k} mV/g\n")).collect();
+    let rows = "1,174.51\n2,581.26\n3,1187.04\n";
+    folder.write("long.csv", format!("{above}Mode,Frequency [Hz]\n{rows}"));
+    let found = folder.json(&["calibrate", "r161", "long.csv", "--json", "-"]);
+    assert_eq!(found["labels"]["taken"], serde_json::json!([1, 2, 3]));
+    folder.write("none.csv", format!("{above}{rows}"));
+    let error = folder.run(&["calibrate", "r161", "none.csv"]);
+    let error = String::from_utf8_lossy(&error.stderr);
+    assert!(error.contains("none.csv:1") && error.contains("mode"), "{error}");
+    assert!(!error.contains("in this row"), "{error}");
+}

@@ -34,7 +34,7 @@ pub const FOOT_POUND: f64 = FOOT * POUND_FORCE;
 /// One pound-force per foot per second squared.
 const SLUG: f64 = POUND_FORCE / FOOT;
 /// Pound-force per square inch, rounded once from the exact quotient.
-const PSI: f64 = 6_894.757_293_168_361;
+pub const PSI: f64 = 6_894.757_293_168_361;
 
 /// Powers of length, mass, time and angle.
 type Dimension = [i8; 4];

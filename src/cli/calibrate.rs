@@ -17,7 +17,8 @@ use crate::study::calibrate::labels::MOST_MODES;
 use crate::study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use crate::study::calibrate::unknowns::Unknown;
 use crate::study::measured::data::Measured;
-use crate::study::measured::study::{ALIKE, Study};
+use crate::study::measured::pairing::LEAST;
+use crate::study::measured::study::{ALIKE, Shapes, Study};
 
 use crate::cli::asking::dialogue::Dialogue;
 use crate::cli::asking::readings_asked::asked;
@@ -276,10 +277,10 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
 fn of_modes(measured: Measured, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     /// Standard deviation of a frequency in a table (Hz).
     const WITHIN: f64 = 0.5;
-    let (measured, labels) = by_shape(bat, measured)?;
+    let (measured, labels, unlike) = by_shape(bat, measured)?;
     measured.assumed.iter().for_each(|text| warn(&format!("note: {text}"), quiet));
     let settled = labels.iter().any(Option::is_some);
-    let mut readings = BatReadings::default();
+    let mut readings = BatReadings { unlike, ..BatReadings::default() };
     for (mode, label) in measured.modes.iter().zip(labels) {
         if settled && label.is_none() {
             let text = "is like no bending mode of this bat, or another is more so: left out";
@@ -298,12 +299,12 @@ fn of_modes(measured: Measured, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     Ok(readings)
 }
 
-/// Measured modes, and the number of the computed mode whose shape each has; None where its shape does not
-/// tell.
-fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize>>)> {
+/// Measured modes, the number of the computed mode whose shape each has, None where its shape does not tell; and how
+/// many have a shape that is like no mode's.
+fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize>>, usize)> {
     let mut labels = vec![None; measured.modes.len()];
     if !measured.has_shapes() {
-        return Ok((measured, labels));
+        return Ok((measured, labels, 0));
     }
     let request = Request { modes: 10, ..Request::default() };
     let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
@@ -311,5 +312,8 @@ fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize
     for pair in study.pairs.iter().filter(|pair| pair.mac.is_some_and(|mac| mac >= ALIKE)) {
         labels[pair.measured] = Some(pair.computed + 1);
     }
-    Ok((study.measured, labels))
+    let best = |row: &Vec<f64>| row.iter().fold(0.0_f64, |most, mac| most.max(*mac));
+    let unlike = |shapes: &Shapes| shapes.mac.iter().filter(|row| best(row) < LEAST).count();
+    let unlike = study.shapes.as_ref().map_or(0, unlike);
+    Ok((study.measured, labels, unlike))
 }

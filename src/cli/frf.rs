@@ -157,7 +157,8 @@ fn known(args: &Args) -> Result<Known> {
         Some((Err(_), text)) => (None, Some(text.to_owned())),
     };
     let places = args.places.read()?;
-    Ok(Known { which: args.function, unit, label, kind: args.kind, places })
+    let told = [args.at.is_some(), args.to.is_some()];
+    Ok(Known { which: args.function, unit, label, kind: args.kind, places, told })
 }
 
 /// A response that was computed.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::error::Result;
 use crate::base::file;
+use crate::base::units::PSI;
 use crate::bat::material::{BUILT_IN, BuiltIn};
 use crate::files::schema;
 use crate::files::schema::materials::MaterialsFile;
@@ -45,7 +46,7 @@ the grain.";
 
 const POUND_PER_CUBIC_INCH: f64 = 0.453_592_37 / (0.0254 * 0.0254 * 0.0254);
 /// A million pound-force per square inch (Pa).
-const MPSI: f64 = 6.894_757_293_168_361e9;
+const MPSI: f64 = 1e6 * PSI;
 
 pub fn run(args: &Args) -> Result<Done> {
     let table = || style::table(&table(args.units));
@@ -94,10 +95,7 @@ fn table(units: Units) -> String {
 
 /// Where it breaks, if that is known.
 fn strength(material: &BuiltIn, units: Units) -> String {
-    let stress = material.strength.map(|stress| {
-        let us = format!("{:.0} psi", 1e6 * stress / MPSI);
-        format!("breaks at {}", units.inline(units.show(format!("{:.0} MPa", 1e-6 * stress), us)))
-    });
+    let stress = material.strength.map(|stress| format!("breaks at {}", units.stress(stress, 0)));
     let strain = material.strain_to_failure.map(|e| format!("at a strain of {:.2} %", 100.0 * e));
     let known: Vec<String> = stress.into_iter().chain(strain).collect();
     match known.is_empty() {

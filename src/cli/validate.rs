@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
+use crate::base::number::significant;
 use crate::base::telling::Tell;
 use crate::proof::bundled::CASES;
 use crate::proof::hit_promise;
@@ -155,8 +156,8 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<bool> {
             let [rows, missed] = [rows.len(), missed].map(|count| count.to_string());
             *out += &of_cases().row([name.to_string(), rows, missed, format!("{worst:.3}")]);
         } else {
-            let _ = writeln!(out, "{} ({name})", case.name);
-            *out += "  quantity                expected            got     error  tolerance\n";
+            *out += &wrapped(&format!("{} ({name})", case.name), 2);
+            *out += "  quantity                expected            got    error tolerance\n";
             rows.iter().for_each(|row| line(row, out));
             out.push('\n');
         }
@@ -179,19 +180,13 @@ fn of_cases() -> Columns {
 }
 
 fn line(row: &KnownNumber, out: &mut String) {
-    let (expected, found) = (significant(row.expected), significant(row.found));
-    let _ = write!(out, "  {:<18} {expected:>13} {found:>14}  {:>8.1e}", row.quantity, row.error);
+    let (expected, found) = (significant(row.expected, 9), significant(row.found, 9));
+    let _ = write!(out, "  {:<17} {expected:>14} {found:>14} {:>8.1e}", row.quantity, row.error);
     let _ = if row.information {
-        writeln!(out, "            for information")
+        writeln!(out, "  for information")
     } else {
         let sense = if row.relative { "rel" } else { "abs" };
         let verdict = if row.passes() { "ok" } else { "MISSED" };
-        writeln!(out, "  {:>8.1e} {sense}  {verdict}", row.tolerance)
+        writeln!(out, " {:>8.1e} {sense}  {verdict}", row.tolerance)
     };
-}
-
-/// The number with about nine significant digits.
-fn significant(value: f64) -> String {
-    let digits = 8 - value.abs().log10().floor().clamp(-8.0, 8.0) as i32;
-    format!("{value:.*}", digits.max(0) as usize)
 }

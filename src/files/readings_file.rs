@@ -95,7 +95,17 @@ fn from_document(document: &Document) -> Result<BatReadings> {
     if let Some(node) = root.get("lines") {
         mistakes.note(each_mode_once(node, &lines));
     }
-    mistakes.end(BatReadings { mass, balance_point, pendulum, lines, ring_down, model, priors })
+    let unlike = 0;
+    mistakes.end(BatReadings {
+        mass,
+        balance_point,
+        pendulum,
+        lines,
+        unlike,
+        ring_down,
+        model,
+        priors,
+    })
 }
 
 fn listed<T>(root: &Object, key: &str, one: impl Fn(&Node) -> Result<T>) -> Result<Vec<T>> {

@@ -38,7 +38,7 @@ impl<'a> Sheet<'a> {
         known: impl Fn(&[String]) -> bool,
     ) -> Result<Self> {
         let text = &document.text[..];
-        let (mut at, separator) = beginning(document, known)?;
+        let (mut at, separator, found) = beginning(document, known)?;
         let mut rows = vec![];
         while at < text.len() {
             if text[at..].starts_with('#') {
@@ -73,6 +73,11 @@ impl<'a> Sheet<'a> {
             let many = row.cells.len();
             if many == width {
                 return Ok(());
+            }
+            if !found {
+                let first = format!("\"{}\" first", text[line(text, header.start)].trim());
+                let complaint = Complaint::new("header", first, names);
+                return Err(document.error(line(text, header.start), complaint));
             }
             let found = format!("{many} {} in this row", if many == 1 { "cell" } else { "cells" });
             let mut complaint = Complaint::new("", found, format!("{width}, as in the header"));
@@ -258,11 +263,14 @@ impl Separator {
     }
 }
 
-/// Where the header begins, and what stands between the cells. It is the first line that is known as one:
-/// programs write what was measured and when above it. Without one it is the first line.
-fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(usize, Separator)> {
+/// Where the header begins, what stands between the cells, and whether the header is known as one. It is the first
+/// line that is: programs write what was measured and when above it. Without one it is the first line.
+fn beginning(
+    document: &Document,
+    known: impl Fn(&[String]) -> bool,
+) -> Result<(usize, Separator, bool)> {
     /// Lines that may stand above a header.
-    const ABOVE: usize = 60;
+    const ABOVE: usize = 1000;
     let text = &document.text[..];
     let blank = |line: &str| line.trim_matches([' ', '\t', '\r', '\n']).is_empty();
     let mut at = 0;
@@ -276,7 +284,7 @@ fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(
             break;
         }
     }
-    let Some(&first) = lines.first() else { return Ok((at, Separator::Sign(b','))) };
+    let Some(&first) = lines.first() else { return Ok((at, Separator::Sign(b','), false)) };
     let told = self::line(text, first);
     let told = text[told].trim_matches([' ', '"']);
     // Spreadsheets say so in the first line.
@@ -287,7 +295,7 @@ fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(
             let complaint = Complaint::new("", format!("\"{told}\""), expected);
             return Err(document.error(line(text, first), complaint));
         };
-        return Ok((lines.get(1).copied().unwrap_or(at), Separator::Sign(sign)));
+        return Ok((lines.get(1).copied().unwrap_or(at), Separator::Sign(sign), true));
     }
     let header = |at: usize, separator: Separator| {
         let cells = separator.record(text, at).map(|(cells, _)| cells).unwrap_or_default();
@@ -300,7 +308,7 @@ fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(
         let sign = Separator::Sign(between(text, at));
         let signs = header(at, sign);
         if signs.is_some_and(|count| count > 1) {
-            return Ok((at, sign));
+            return Ok((at, sign, true));
         }
         // A header in blanks has rows in blanks below it.
         for least in [2, 1] {
@@ -308,14 +316,14 @@ fn beginning(document: &Document, known: impl Fn(&[String]) -> bool) -> Result<(
             let below = lines.get(k + 1).and_then(|below| blanks.record(text, *below).ok());
             let many = header(at, blanks).filter(|count| *count > 1);
             if many.is_some() && many == below.map(|(cells, _)| cells.len()) {
-                return Ok((at, blanks));
+                return Ok((at, blanks, true));
             }
         }
         if signs.is_some() {
-            return Ok((at, sign));
+            return Ok((at, sign, true));
         }
     }
-    Ok((first, Separator::Sign(between(text, first))))
+    Ok((first, Separator::Sign(between(text, first)), false))
 }
 
 /// The cells of a line with so many blanks at least between them; brackets belong to the name before them.

@@ -39,6 +39,8 @@ pub struct Known {
     pub kind: Option<Kind>,
     /// Where the nodes of a file without geometry are.
     pub places: Option<Places>,
+    /// Whether the places of the force and of the answer are given beside the file.
+    pub told: [bool; 2],
 }
 
 /// Reads the frequency responses of a universal file, each with its number, from 1.
@@ -97,7 +99,9 @@ impl ResponseFile<'_> {
             assumed.push(format!("{dropped} values at 0 Hz are left out"));
         }
         let [at, to] = self.places([&function.reference, &function.response]);
-        if at.is_some() && to.is_some() && self.known.places.is_none() {
+        let taken =
+            [at, to].into_iter().zip(self.known.told).any(|(place, told)| place.is_some() && !told);
+        if taken && self.known.places.is_none() {
             assumed.push("the nodes' places are taken from the knob end".to_owned());
         }
         let drive_point = function.reference.node == function.response.node;

@@ -147,9 +147,9 @@ fn strains(report: &AfterHit, units: Units) -> String {
     for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
         let _ = writeln!(
             out,
-            "  {what:<24} {:.3} %, {:.1} MPa at {}, {:.2} ms",
+            "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
             100.0 * worst.strain,
-            1e-6 * worst.stress,
+            units.stress(worst.stress, 1),
             place(worst.x, units),
             1e3 * worst.time
         );
@@ -162,8 +162,10 @@ fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
     let place = place(x, units);
     let mut out =
         format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
+    let us = units.us_first();
+    let (length, velocity) = if us { ("in", "mph") } else { ("mm", "m/s") };
     let columns = Columns::new(
-        [numbers(9, "Hz"), numbers(10, "mm"), numbers(10, "m/s")]
+        [numbers(9, "Hz"), numbers(10, length), numbers(10, velocity)]
             .into_iter()
             .chain(damped.then(|| numbers(10, "g"))),
     );
@@ -171,11 +173,11 @@ fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
     let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
     for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
         let [moved, speed, acceleration] = line.amplitude;
-        let cells = [
-            format!("{:.1}", line.frequency),
-            format!("{:.3}", 1e3 * moved),
-            format!("{speed:.3}"),
-        ];
+        let [moved, speed] = match us {
+            true => [format!("{:.4}", inches(moved)), format!("{:.3}", miles_per_hour(speed))],
+            false => [format!("{:.3}", 1e3 * moved), format!("{speed:.3}")],
+        };
+        let cells = [format!("{:.1}", line.frequency), moved, speed];
         let shaken = damped.then(|| format!("{:.0}", gravities(acceleration)));
         out += &columns.row(cells.into_iter().chain(shaken));
     }
@@ -188,8 +190,8 @@ fn strength(report: &AfterHit, units: Units) -> String {
     let every = (report.envelope.len() / 10).max(1);
     for at in report.envelope.iter().step_by(every) {
         let place = format!("at {}", place(at.x, units));
-        let _ =
-            writeln!(out, "  {place:<24} {:.3} %, {:.1} MPa", 100.0 * at.strain, 1e-6 * at.stress);
+        let stress = units.stress(at.stress, 1);
+        let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
     out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";
     if report.loads.is_empty() {
@@ -220,8 +222,8 @@ fn beyond<'a>(mut loads: impl Iterator<Item = &'a Load>) -> String {
 pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
     let (bears, most, test) = match load.limit {
         Limit::Stress => (
-            format!("{:.0} MPa", 1e-6 * load.bears),
-            format!("{:.1} MPa", 1e-6 * load.at.stress),
+            units.stress(load.bears, 0),
+            units.stress(load.at.stress, 1),
             "published for slow bending (how much more a blow bears is not known)",
         ),
         Limit::Strain => (

@@ -231,7 +231,7 @@ fn labelled(found: &Calibration) -> Vec<String> {
     }
     if identified.is_mostly_discarded() {
         all.push(
-            "Half of the lines or more are no bending mode of this bat, of wood from a quarter to four times \
+            "Half of what was measured or more is no bending mode of this bat, of wood from a quarter to four times \
              as stiff as the file's: the wood above rests on what is left, and may be wrong. The profile, the \
              readings or their unit are others than was told."
                 .to_owned(),

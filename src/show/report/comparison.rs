@@ -75,7 +75,8 @@ impl Scale {
             return "none".to_owned();
         }
         let by = difference.by * self.factor;
-        let decimals = (self.decimals..=MOST_DECIMALS).map(|decimals| format!("{by:+.decimals$}"));
+        let decimals = (self.decimals..=self.decimals.max(MOST_DECIMALS))
+            .map(|decimals| format!("{by:+.decimals$}"));
         let shows = |text: &String| text.bytes().any(|b| (b'1'..=b'9').contains(&b));
         decimals.into_iter().find(shows).unwrap_or_else(|| format!("{by:+.0e}"))
     }

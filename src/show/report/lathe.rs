@@ -152,7 +152,10 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
         let kept = "keep the swing weight within 1 %";
         Some(match least_wood(map, (*answer, *by), most) {
             Some(found) => format!("To {what} and {kept}, the least wood: {}.", cuts(&found)),
-            None => format!("To {what} and {kept}: not by taking wood off these bands."),
+            None => {
+                let how = "not by cuts that leave nine tenths of the diameter";
+                format!("To {what} and {kept}: {how}.")
+            }
         })
     };
     wishes.iter().filter_map(one).collect()

@@ -225,7 +225,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
-                 rough, BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                 rough, BBCOR {:.3} of the free bat ({:.3} stiff; {low:.3} to {high:.3}).",
                 deep(wall.dent),
                 deep(wall.thickness),
                 wall.bbcor.with,
@@ -256,8 +256,8 @@ pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String
     let bent = analysis.verdict.bending_is_open() && !stiff;
     let more = ball || bent || analysis.verdict.bat_is_open();
     // Of what is a lower limit one unit is enough.
-    let (over, units) = if more { ("over ", units.first()) } else { ("", units) };
-    Some(format!("{over}± {}", Kind::of(answer).about(units, deviation)))
+    let (more, units) = if more { (" or more", units.first()) } else { ("", units) };
+    Some(format!("± {}{more}", Kind::of(answer).about(units, deviation)))
 }
 
 /// What is open of the bat, and what that makes of its first frequency.

@@ -1,7 +1,7 @@
 //! In which units are numbers said?
 
 use crate::base::number::rounded;
-use crate::base::units::{FOOT_POUND, inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::base::units::{FOOT_POUND, PSI, inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::bat::body::Bat;
 
 /// Which units the tables are in.
@@ -66,6 +66,12 @@ impl Units {
             [first, second] => format!("{first} ({second})"),
             one => one.concat(),
         }
+    }
+
+    /// A stress, given in Pa, in MPa to so many decimals and in whole psi.
+    pub fn stress(self, pascals: f64, decimals: usize) -> String {
+        let psi = format!("{:.0} psi", pascals / PSI);
+        self.beside(format!("{:.decimals$} MPa", 1e-6 * pascals), psi)
     }
 
     /// A length, given in metres.

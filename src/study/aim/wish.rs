@@ -4,7 +4,8 @@
 //! shape. [`Wish::bands`] makes of its targets what each answer may be, in SI, of the bat in hand.
 
 use crate::base::error::{Complaint, Error, Result};
-use crate::base::units::{self, Quantity};
+use crate::base::number::significant;
+use crate::base::units::{self, Quantity, inches, ounces};
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
 use crate::bat::weighed::Weighed;
@@ -396,9 +397,14 @@ impl Wish {
     }
 }
 
-/// A value with its unit.
+/// A value with its unit, and in the trade's.
 fn shown(goal: Goal, value: f64) -> String {
-    format!("{} {}", crate::base::number::significant(value, 7), goal.unit()).trim_end().to_owned()
+    let said = significant(value, 7);
+    match goal.unit() {
+        "kg" => format!("{said} kg ({} oz)", significant(ounces(value), 5)),
+        "m" => format!("{said} m ({} in)", significant(inches(value), 5)),
+        unit => format!("{said} {unit}").trim_end().to_owned(),
+    }
 }
 
 /// What a band allows, in words.

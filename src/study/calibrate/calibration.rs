@@ -180,6 +180,8 @@ pub struct Identified {
     pub told: Option<(Labels, f64)>,
     /// Labels that were taken.
     pub labels: Labels,
+    /// Measured modes whose shapes are like no bending mode.
+    pub unlike: usize,
     /// χ² of the labels that were taken, strangers included.
     pub chi2: f64,
     /// The best labels that contradict these and their χ², if others were looked at.
@@ -194,10 +196,10 @@ impl Identified {
         self.margin.is_none_or(|margin| margin >= SURE)
     }
 
-    /// Whether half of several lines or more are no bending mode.
+    /// Whether half of several lines or more are no bending mode, by their frequencies or their shapes.
     pub fn is_mostly_discarded(&self) -> bool {
-        let all = self.labels.len();
-        all > 1 && 2 * strangers(&self.labels) >= all
+        let all = self.labels.len() + self.unlike;
+        all > 1 && 2 * (strangers(&self.labels) + self.unlike) >= all
     }
 
     /// Lines whose label was told and is another, by their places.
@@ -433,22 +435,26 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     let fits = |one: &Labelled| is_near(&one.fit) && 2 * strangers(&one.labels) < told.len().max(2);
     let nothing_told = told.iter().all(Option::is_none);
     if kept.first().is_some_and(fits) || told.is_empty() || nothing_told {
-        return taken(kept, None);
+        return taken(search, kept, None);
     }
     let other = best(search, Told::Changes(&told), searched)?;
     match (kept.first(), other.first()) {
         // Other labels are taken only where they explain what was measured, and nearly all of it.
-        (None, Some(_)) => taken(other, None),
+        (None, Some(_)) => taken(search, other, None),
         (Some(as_told), Some(found)) if fits(found) && found.chi2 + EXPLAINS < as_told.chi2 => {
             let as_told = (told, as_told.chi2);
-            taken(other, Some(as_told))
+            taken(search, other, Some(as_told))
         }
-        _ => taken(kept, None),
+        _ => taken(search, kept, None),
     }
 }
 
 /// The first of these labellings, and the next that contradicts it.
-fn taken(found: Vec<Labelled>, told: Option<(Labels, f64)>) -> Result<(Labelled, Identified)> {
+fn taken(
+    search: &Search,
+    found: Vec<Labelled>,
+    told: Option<(Labels, f64)>,
+) -> Result<(Labelled, Identified)> {
     let mut found = found.into_iter();
     let Some(best) = found.next() else {
         let expected = "lines of which one at least is a bending mode of this bat, of wood from a quarter to four times as stiff";
@@ -458,6 +464,7 @@ fn taken(found: Vec<Labelled>, told: Option<(Labels, f64)>) -> Result<(Labelled,
     let identified = Identified {
         told,
         labels: best.labels.clone(),
+        unlike: search.readings.unlike,
         chi2: best.chi2,
         margin: second.as_ref().map(|second| second.price - best.price),
         second: second.map(|second| (second.labels, second.chi2)),

@@ -107,6 +107,9 @@ pub struct BatReadings {
     pub pendulum: Option<Pendulum>,
     /// Lines in the spectrum of a tap.
     pub lines: Vec<SpectralLine>,
+    /// Measured modes whose shapes are like no bending mode of the bat.
+    #[serde(skip)]
+    pub unlike: usize,
     /// Tones that died out.
     pub ring_down: Vec<RingDown>,
     /// How far the model may be off in a frequency, relative, one standard deviation.
@@ -127,6 +130,7 @@ impl Default for BatReadings {
             balance_point: None,
             pendulum: None,
             lines: vec![],
+            unlike: 0,
             ring_down: vec![],
             model: Self::MODEL,
             priors: Priors::default(),

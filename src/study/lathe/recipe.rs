@@ -23,9 +23,12 @@ pub struct RecipeCut {
     pub depth: f64,
 }
 
+/// A cut deeper than this share of the diameter is more than a derivative tells of.
+const DEEPEST: f64 = 0.1;
+
 /// The least wood off the bat that changes an answer by `by` (in its unit) and lowers the swing weight by no more
 /// than `most` (kg m²), for the same swing, to first order; stretches from the knob on. None where taking wood
-/// off does not do it, or the answers are not known.
+/// off does not do it with cuts of at most a tenth of the diameter, or the answers are not known.
 pub fn least_wood(
     map: &LatheMap,
     (answer, by): (Answer, f64),
@@ -39,7 +42,15 @@ pub fn least_wood(
         let row = [slopes.same_swing[first]?.value, slopes.inertia, width];
         Some(Stretch { ends: band.ends, row })
     };
-    recipe(&map.bands.iter().filter_map(of_band).collect::<Vec<_>>(), by, most)
+    let found = recipe(&map.bands.iter().filter_map(of_band).collect::<Vec<_>>(), by, most)?;
+    let within = |cut: &RecipeCut| {
+        let own = map
+            .bands
+            .iter()
+            .filter(|band| band.ends[0] < cut.ends[1] && band.ends[1] > cut.ends[0]);
+        own.map(|band| band.diameter).all(|diameter| cut.depth <= DEEPEST * diameter)
+    };
+    found.iter().all(within).then_some(found)
 }
 
 /// The least cuts of bands: one depth for all of a stretch of neighbours where that does it, else one for each.
@@ -54,8 +65,8 @@ fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
             None => merged.push(*band),
         }
     }
-    let each = || cut().map(|(band, depth)| RecipeCut { ends: band.ends, depth: *depth }).collect();
-    cuts(merged, by, most).or_else(|| Some(each())).filter(|cuts: &Vec<_>| !cuts.is_empty())
+    let each = || cuts(cut().map(|(band, _)| *band).collect(), by, most);
+    cuts(merged, by, most).or_else(each).filter(|cuts: &Vec<_>| !cuts.is_empty())
 }
 
 /// The least cuts of those stretches that do all of it, one depth for each, without what is too little to be told.

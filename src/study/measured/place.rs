@@ -8,6 +8,7 @@
 use faer::c64;
 
 use crate::base::error::{Error, Result};
+use crate::base::number::significant;
 use crate::study::measured::data::Measured;
 
 /// An end of the bat.
@@ -166,14 +167,21 @@ fn places(measured: &Measured, length: f64, origin: Option<f64>, first: End) -> 
     (from(&|s| turned(s - low + before)), how)
 }
 
-/// Points that are farther apart than the bat is long fit on it no way.
+/// Points that span less of a bat than this share are in another unit: an inch is a fortieth of a metre.
+const LEAST_SPAN: f64 = 0.05;
+
+/// Points that are farther apart than the bat is long do not fit on it; several within a twentieth of it tell no
+/// shape.
 fn fits_on(measured: &Measured, length: f64) -> Result<()> {
-    let span = measured.along[measured.along.len() - 1] - measured.along[0];
-    if span <= length * (1.0 + 2.0 * BEYOND) {
+    let many = measured.along.len();
+    let span = measured.along[many - 1] - measured.along[0];
+    let least = if many > 1 { LEAST_SPAN * length } else { 0.0 };
+    if (least..=length * (1.0 + 2.0 * BEYOND)).contains(&span) {
         return Ok(());
     }
-    let found = format!("points that span {span:.4} m");
-    let expected = format!("at most the bat's {length:.4} m: is the unit right?");
+    let found = format!("{many} points that span {} m", significant(span, 3));
+    let limit = if span < least { "at least a twentieth of" } else { "at most" };
+    let expected = format!("{limit} the bat's {length:.4} m: is the unit right?");
     Err(Error::value(&measured.source, found, expected))
 }
 

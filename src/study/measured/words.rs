@@ -1,11 +1,13 @@
 //! What measured modes beside computed ones come to, a sentence each.
 
-use crate::study::measured::study::{RigidMode, Shapes, Study};
+use crate::study::measured::study::{Pair, RigidMode, Shapes, Study};
 
 /// A MAC below this between two shapes that should be equal is reported.
 const ALIKE: f64 = 0.9;
 /// Frequencies that differ by less are the same, as far as a laboratory can tell.
 const SAME: f64 = 5e-4;
+/// Ratios of frequencies that are farther than this from their mean are not of one bat and its modes.
+const MISNUMBERED: f64 = 0.1;
 /// MAC above which two computed shapes, which should differ, are taken as alike, if it is more than
 /// twice the MAC at many points: in a plain sum over points even smooth shapes have a MAC above 0.
 const CONFUSED: f64 = 0.1;
@@ -43,8 +45,7 @@ fn frequencies(study: &Study) -> Vec<String> {
     if logs.is_empty() {
         return vec!["No measured mode is paired with a computed one.".to_owned()];
     }
-    let mean = logs.iter().sum::<f64>() / logs.len() as f64;
-    let left = logs.iter().map(|log| (log - mean).exp_m1().abs()).fold(0.0, f64::max);
+    let (mean, left) = common_factor(&logs);
     if mean.abs().max(left) < SAME {
         return vec![format!(
             "The computed frequencies are the measured ones to {:.0e}.",
@@ -66,7 +67,41 @@ fn frequencies(study: &Study) -> Vec<String> {
             percent(left)
         );
     }
-    vec![text + "."]
+    let mut all = vec![text + "."];
+    if study.shapes.is_none() && left > MISNUMBERED {
+        all.push(numbers(study, left));
+    }
+    all
+}
+
+/// The mean of the logarithms of the ratios, and how far the ratios are from it at most.
+fn common_factor(logs: &[f64]) -> (f64, f64) {
+    let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+    (mean, logs.iter().map(|log| (log - mean).exp_m1().abs()).fold(0.0, f64::max))
+}
+
+/// What says that modes without shapes are paired wrongly, and whether other numbers would fit.
+fn numbers(study: &Study, left: f64) -> String {
+    let shifted = |by: isize| {
+        let log = |pair: &Pair| {
+            let other = study.solution.modes.get(pair.computed.checked_add_signed(by)?)?;
+            Some((other.frequency() / study.measured.modes[pair.measured].frequency).ln())
+        };
+        let logs: Vec<f64> = study.pairs.iter().map(log).collect::<Option<_>>()?;
+        let (_, left) = common_factor(&logs);
+        Some((by, left)).filter(|(_, left)| left.is_finite())
+    };
+    let best = [-1, 1].into_iter().filter_map(shifted).min_by(|a, b| a.1.total_cmp(&b.1));
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let told = "Without shapes the modes are paired by their numbers, and their ratios differ by";
+    let told = format!("{told} up to {}", percent(left));
+    match best.filter(|(_, other)| 2.0 * other < left) {
+        Some((by, other)) => {
+            let way = if by < 0 { "lower" } else { "higher" };
+            format!("{told}: with every number one {way} it would be {}.", percent(other))
+        }
+        None => format!("{told}: a number may be wrong, or the bat is another one."),
+    }
 }
 
 /// Rigid motions that are not straight.
