@@ -156,7 +156,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     drop(progress);
     let units = args.output.units(&bat);
-    let known = Verdict::of(&bat, &scene, &sweep, figures.wall);
+    let known = Verdict::of((&bat, &scene), &sweep, figures.best.as_ref(), figures.wall);
     let doubts = trust::doubts(&known, units);
     let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
     let table = format!(

@@ -1,5 +1,8 @@
 //! What each model says of a hit: one function a model.
 
+use std::cell::Cell;
+
+use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::LEAST_RESTITUTION;
 use crate::collision::contact::touch::Felt;
 use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
@@ -8,6 +11,11 @@ use crate::collision::hitter::Hitter;
 use crate::collision::pulse::Pulse;
 use crate::collision::stated::{Answered, fewer};
 use crate::modes::mode::Mode;
+
+/// Beyond these a ball's law was not measured: the longest contact (s) is that at 1 m/s of A. M. Nathan, Am. J. Phys.
+/// 68, 979 (2000), the least restitution the common softball's.
+const LONGEST_MEASURED: f64 = 2e-3;
+const LEAST_MEASURED: f64 = 0.44;
 
 /// What a model says.
 pub(super) struct Answer {
@@ -130,12 +138,22 @@ impl Hitter<'_> {
             self.meet_beside(x, &felt, &others, closing, accuracy)
         };
         let (met, accuracy) = beside(if known.is_none() { &few } else { &[] }, accuracy)?;
-        let from_other = |felt: &Felt, accuracy: f64, faster: f64| {
+        // How far another answer is from this one in the end, and when the ball leaves for the first time.
+        let both = |felt: &Felt, accuracy: f64, faster: f64| {
             let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
-            other.map_or(1.0, |(other, _)| {
-                (other.impulse / faster - met.impulse).abs() / (ball * closing)
+            other.map_or([1.0; 2], |(other, _)| {
+                let apart = |other: f64, own: f64| (other / faster - own).abs() / (ball * closing);
+                let first = apart(other.first_impulse, met.first_impulse);
+                [apart(other.impulse, met.impulse), first]
             })
+        };
+        let from_other = |felt: &Felt, accuracy: f64, faster: f64| both(felt, accuracy, faster)[0];
+        let first_error = Cell::new(0.0);
+        let counted = |felt: &Felt, accuracy: f64, share: f64| {
+            let [all, first] = both(felt, accuracy, 1.0);
+            first_error.set(first_error.get() + share * first);
+            share * all
         };
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
@@ -146,7 +164,11 @@ impl Hitter<'_> {
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
                 let again = known.and_then(|_| beside(&few, accuracy));
-                let changes = &again.as_ref().map_or(&met, |(again, _)| again).changes;
+                let Encounter { changes, first_changes, .. } =
+                    again.as_ref().map_or(&met, |(again, _)| again);
+                let in_first = |(few, by): (&usize, &f64)| (*few, by.abs() / (ball * closing));
+                let in_first = few.iter().zip(first_changes).map(in_first);
+                first_error.set(answered.left_out(shears, in_first));
                 /// Change of the exit speed, relative to the closing speed, up to which a ball that is met again
                 /// takes it as its first order says.
                 const SMALL: f64 = 0.1;
@@ -156,14 +178,14 @@ impl Hitter<'_> {
                     (*few, if large { from_other(&of(*few), accuracy, 1.0) } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let steps = answered.steps(left_out, |accuracy| from_other(&felt, accuracy, 1.0));
+                let steps = answered.steps(left_out, |accuracy| counted(&felt, accuracy, 1.0));
                 /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
                 const FEWER: f64 = 0.5;
                 // A wall of fewer modes, and one softer by all that may be missing.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let fewer = under.fewer.before(self.bent(x, modes.clone(), beyond));
                     let softer = Felt { rest: felt.rest + under.unsure, ..felt.clone() };
-                    FEWER * from_other(&fewer, accuracy, 1.0) + from_other(&softer, accuracy, 1.0)
+                    counted(&fewer, accuracy, FEWER) + counted(&softer, accuracy, 1.0)
                 });
                 [left_out, steps, wall]
             });
@@ -181,16 +203,27 @@ impl Hitter<'_> {
             let turns = omega * push / std::f64::consts::PI;
             let change = doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
             answer.error += magnified * change;
+            first_error.set(first_error.get() + change);
         }
+        let beyond = met.time > LONGEST_MEASURED || cor < LEAST_MEASURED;
         let flags = [
             (met.reloads > 0, "reload"),
             (met.late, "late_contact"),
             (met.again(), "second_contact"),
+            (beyond, "ball_law_beyond"),
         ];
         answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         answer.contact_time = Some(met.time);
         let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
-        answer.first_separation = Some(Separation { time: met.first_end, exit_speed });
+        // A ball that leaves once has left then.
+        let own = first_error.get() + self.wall_error;
+        let error = match met.again() {
+            false => answer.error,
+            // What is magnified may be so in the first touch.
+            true if met.late || met.reloads > 0 => own.max(answer.error),
+            true => own,
+        };
+        answer.first_separation = Some(Separation { time: met.first_end, exit_speed, error });
         answer.peak_force = Some(met.peak_force);
         answer.peak_compression = Some(met.compression);
         let walls = met.in_modes.len() - count;

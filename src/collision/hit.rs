@@ -222,6 +222,8 @@ pub struct Separation {
     pub time: f64,
     /// Speed of the ball at that moment (m/s).
     pub exit_speed: f64,
+    /// How far that may be off, relative to the closing speed.
+    pub error: f64,
 }
 
 /// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.

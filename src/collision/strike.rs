@@ -14,6 +14,12 @@ pub struct Glance {
     pub x: f64,
     /// Exit speed of the ball (m/s).
     pub exit_speed: f64,
+    /// Speed of the ball when it leaves for the first time (m/s).
+    pub first_exit: f64,
+    /// Whether the bat caught up with the ball as it was leaving.
+    pub late: bool,
+    /// Whether it caught up with it then or after it had left.
+    pub later: bool,
     /// Energy left in vibration (J); None for a model without.
     pub vibration: Option<f64>,
     /// What the hands feel once the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat
@@ -39,15 +45,16 @@ impl Hitter<'_> {
         if touches && self.profile.at(x).outer < POINTED * largest {
             return None;
         }
-        let (impulse, in_modes) = match self.model {
+        let (impulse, first, [late, again], in_modes) = match self.model {
             Model::Contact => {
                 let closing = self.closing(x)?;
                 let (met, _) = self.meet(x, &self.felt(x), closing, SMOOTH)?;
-                (met.impulse, met.in_modes)
+                let later = [met.late, met.again()];
+                (met.impulse, met.first_impulse, later, met.in_modes)
             }
             _ => {
                 let answer = self.answer(x, None)?;
-                (answer.impulse, answer.in_modes)
+                (answer.impulse, answer.impulse, [false; 2], answer.in_modes)
             }
         };
         let in_modes = &in_modes[in_modes.len() - self.modes_used()..];
@@ -60,9 +67,13 @@ impl Hitter<'_> {
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
+        let exit = |impulse: f64| impulse / self.scene.ball.mass - self.scene.ball_speed;
         Some(Glance {
             x,
-            exit_speed: impulse / self.scene.ball.mass - self.scene.ball_speed,
+            exit_speed: exit(impulse),
+            first_exit: exit(first),
+            late,
+            later: late || again,
             vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
             hands: [velocity.sqrt(), acceleration.sqrt()],
         })

@@ -22,6 +22,9 @@ pub struct Peak {
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,
+    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as it
+    /// is leaving: elsewhere than [`Self::exit_speed_max`] only where that lives on a later contact.
+    pub first_separation_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).
@@ -47,6 +50,9 @@ pub const FINE: (usize, f64) = (128, 1e-6);
 pub const FEW: (usize, f64) = (32, 2e-5);
 /// Steps of a closer look between two places of the first.
 const BETWEEN: usize = 4;
+/// Steps between two places of the first look where the bat catches up with the ball late or again: touches come and
+/// go there within a millimetre, and with them the exit speed.
+const BETWEEN_LATER: usize = 8;
 const INCH: f64 = 0.0254;
 
 impl SweetSpot {
@@ -92,6 +98,8 @@ impl SweetSpot {
             zone: exit_speed_max.map(|peak| looked.zone(peak)),
             inch_off: exit_speed_max.map(|peak| [off(peak, -INCH), off(peak, INCH)]),
             exit_speed_max,
+            first_separation_max: looked
+                .greatest(|glance| (!glance.late).then_some(glance.first_exit)),
             vibration_min: looked.least_vibration(),
             hands_velocity_min: looked.least_felt(0),
             hands_acceleration_min: looked.least_felt(1),
@@ -108,6 +116,8 @@ pub struct Looked<'a> {
     /// How exactly places are located (m).
     width: f64,
     hitter: &'a Hitter<'a>,
+    /// Places (m), rising, and the hits there.
+    places: Vec<f64>,
     seen: Vec<Option<Glance>>,
 }
 
@@ -120,12 +130,23 @@ impl<'a> Looked<'a> {
 
     /// Looks along a stretch (m) in so many steps, and locates places to that share of it: fewer steps do where
     /// the best places are known to be near others, and a wider share where only their distance from others is
-    /// told.
+    /// told. Where the bat catches up with the ball late or again the steps are finer.
     pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = ends[1] - ends[0];
-        let place = |k: usize| ends[0] + length * k as f64 / steps as f64;
-        let seen = threads::map(steps + 1, |k| hitter.glance(place(k)));
-        Self { ends, width: share * length, hitter, seen }
+        let parts = steps * BETWEEN_LATER;
+        let place = |part: usize| ends[0] + length * part as f64 / parts as f64;
+        let look = |parts: &[usize]| threads::map(parts.len(), |k| hitter.glance(place(parts[k])));
+        let first: Vec<usize> = (0..=steps).map(|k| k * BETWEEN_LATER).collect();
+        let mut seen: Vec<(usize, Option<Glance>)> =
+            first.iter().copied().zip(look(&first)).collect();
+        let later = |glance: &Option<Glance>| glance.is_some_and(|glance| glance.later);
+        let unsettled = seen.windows(2).filter(|pair| later(&pair[0].1) || later(&pair[1].1));
+        let between: Vec<usize> = unsettled.flat_map(|pair| pair[0].0 + 1..pair[1].0).collect();
+        seen.extend(between.iter().copied().zip(look(&between)));
+        seen.sort_by_key(|(part, _)| *part);
+        let (parts, seen): (Vec<usize>, _) = seen.into_iter().unzip();
+        let places = parts.into_iter().map(place).collect();
+        Self { ends, width: share * length, hitter, places, seen }
     }
 
     /// The last place's number.
@@ -135,8 +156,7 @@ impl<'a> Looked<'a> {
 
     /// The k-th place.
     fn place(&self, k: usize) -> f64 {
-        let [from, to] = self.ends;
-        from + (to - from) * k as f64 / self.last() as f64
+        self.places[k]
     }
 
     /// Where the ball leaves fastest (m/s).
@@ -187,7 +207,7 @@ impl<'a> Looked<'a> {
         let mut here = (Peak { x: self.place(best), value: seen }, [low, high]);
         let seen: Vec<f64> = self.seen.iter().map(of).collect();
         for k in (0..self.last()).filter(|k| k + 1 < best || *k > best) {
-            if highest_between(&seen, k) <= here.0.value {
+            if highest_between(&self.places, &seen, k) <= here.0.value {
                 continue;
             }
             let step = (self.place(k + 1) - self.place(k)) / BETWEEN as f64;
@@ -226,9 +246,14 @@ impl<'a> Looked<'a> {
 
 /// How high values may be between place k and the next: above the higher of both by the larger second difference
 /// there, which is eight times as far as a parabola rises. Where a neighbour has no value anything may be.
-fn highest_between(seen: &[f64], k: usize) -> f64 {
-    let bent = |at: usize| match seen.get(at.wrapping_sub(1)..at + 2) {
-        Some(&[a, b, c]) => (a - 2.0 * b + c).abs(),
+fn highest_between(places: &[f64], seen: &[f64], k: usize) -> f64 {
+    let step = places[k + 1] - places[k];
+    let bent = |at: usize| match (seen.get(at.wrapping_sub(1)..at + 2), at) {
+        (Some(&[a, b, c]), 1..) => {
+            let [before, after] = [places[at] - places[at - 1], places[at + 1] - places[at]];
+            let slopes = (c - b) / after - (b - a) / before;
+            (2.0 * slopes / (before + after) * step * step).abs()
+        }
         _ => 0.0,
     };
     let bent = [bent(k), bent(k + 1)].map(|by| if by.is_nan() { f64::INFINITY } else { by });

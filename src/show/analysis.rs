@@ -125,7 +125,7 @@ impl Analysis {
             0..=MOST_PIECES => Spread::new(&analysed, &task.readings),
             _ => Spread::uncounted(&analysed),
         };
-        let verdict = Verdict::of(&bat, scene, &hits, figures.wall);
+        let verdict = Verdict::of((&bat, scene), &hits, figures.best.as_ref(), figures.wall);
         tell(0.9, "what the model needs");
         let mut failed = vec![];
         let advice = found(advice(&bat, task.hits.tolerance), "what the model needs", &mut failed);

@@ -4,7 +4,7 @@
 //! certain than another.
 
 use crate::bat::body::Bat;
-use crate::collision::hit::Scene;
+use crate::collision::hit::{Impact, Scene};
 use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::Sweep;
 use crate::collision::wall_figures::WallFigures;
@@ -22,6 +22,10 @@ pub enum Doubt {
     Dent(Box<WallFigures>),
     /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
     RigidWall(String),
+    /// The fastest place lives on a later contact of bat and ball.
+    LaterContact,
+    /// The ball's law was not measured for such a hit.
+    BallLaw,
     /// Exit speeds are less accurate than was asked.
     ExitSpeeds {
         /// The largest error, over the closing speed.
@@ -37,6 +41,8 @@ impl Doubt {
             Self::Shear(_) => "shear",
             Self::Dent(_) => "dent",
             Self::RigidWall(_) => "rigid_wall",
+            Self::LaterContact => "later_contact",
+            Self::BallLaw => "ball_law",
             Self::ExitSpeeds { .. } => "exit_speeds",
         }
     }
@@ -50,8 +56,13 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The verdict on the hits of a bat, whose wall does that at the sweet spot.
-    pub fn of(bat: &Bat, scene: &Scene, hits: &Sweep, wall: Option<WallFigures>) -> Self {
+    /// The verdict on the hits of a bat, of which the fastest is `best` and dents the wall so.
+    pub fn of(
+        (bat, scene): (&Bat, &Scene),
+        hits: &Sweep,
+        best: Option<&Impact>,
+        wall: Option<WallFigures>,
+    ) -> Self {
         let density = bat.density_off().map(Doubt::Density);
         let said = ignored(bat, &hits.solution).into_iter().filter(|_| !bat.knows_shear());
         let shear = said.filter_map(|text| Some(text.strip_prefix(SHEAR)?.to_owned())).next();
@@ -59,6 +70,10 @@ impl Verdict {
         let deep = wall.filter(WallFigures::is_deep);
         let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
         let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
+        let flagged =
+            |flags: &[&str]| best.is_some_and(|best| best.flags.iter().any(|f| flags.contains(f)));
+        let later = flagged(&["late_contact", "second_contact"]).then_some(Doubt::LaterContact);
+        let law = flagged(&["ball_law_beyond"]).then_some(Doubt::BallLaw);
         let unmet = hits.worst().filter(|_| !hits.met);
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
         Self {
@@ -67,6 +82,8 @@ impl Verdict {
                 .chain(shear)
                 .chain(dent)
                 .chain(rigid)
+                .chain(later)
+                .chain(law)
                 .chain(unmet)
                 .collect(),
         }
@@ -84,9 +101,13 @@ impl Verdict {
     }
 
     /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is
-    /// beyond its theory, or left out.
+    /// beyond its theory or left out, the ball beyond its law or struck again.
     pub fn ball_is_open(&self) -> bool {
-        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Dent(_) | Doubt::RigidWall(_)))
+        let open = |doubt: &Doubt| {
+            use Doubt::{BallLaw, Dent, LaterContact, RigidWall};
+            matches!(doubt, Dent(_) | RigidWall(_) | LaterContact | BallLaw)
+        };
+        self.doubts.iter().any(open)
     }
 }
 

@@ -248,11 +248,12 @@ impl<L: ForceLaw> Touch<'_, L> {
         met.compression = top.map_or(0.0, |top| top.compression).max(met.compression);
         (now.compression, now.force, *top) = (0.0, 0.0, None);
         (met.impulse, met.end) = (now.impulse, now.time);
-        if met.touches == 1 {
-            (met.first_impulse, met.first_end) = (met.impulse, met.end);
-        }
         met.changes.clear();
         met.changes.extend(tangents.iter_mut().map(Tangent::part));
+        if met.touches == 1 {
+            (met.first_impulse, met.first_end) = (met.impulse, met.end);
+            met.first_changes.clone_from(&met.changes);
+        }
         (met.lost_in_ball, met.lost_in_bat) = (now.spent, now.lost);
         met.in_modes = (0..self.felt.gains.len()).map(|n| self.in_mode(now, n)).collect();
     }

@@ -69,6 +69,8 @@ pub struct Encounter {
     pub steps: usize,
     /// Change of the impulse (N s) for each bat beside this one, to first order.
     pub changes: Vec<f64>,
+    /// Change of the first touch's impulse (N s) for each bat beside this one, to first order.
+    pub first_changes: Vec<f64>,
     /// The steps came to no end.
     pub endless: bool,
 }

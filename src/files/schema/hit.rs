@@ -157,7 +157,8 @@ pub struct Impact {
     /// came to no end, or the energies do not close). Or what makes it delicate: reload (the ball was
     /// pressed further after it had begun to spring back), late_contact (the bat caught up when the
     /// force had almost gone), second_contact (the bat caught the ball again after it left; it is
-    /// followed). Later versions may have more.
+    /// followed); or that the ball's law was not measured for such a hit (ball_law_beyond). Later versions may have
+    /// more.
     pub flags: Vec<String>,
     /// Where the energy went; null without an outcome.
     pub energy_j: Option<Energy>,
@@ -172,6 +173,8 @@ pub struct FirstSeparation {
     pub time_s: f64,
     /// Speed of the ball at that moment (m/s).
     pub exit_speed_m_s: f64,
+    /// How far that may be off, relative to the closing speed.
+    pub exit_speed_error: f64,
 }
 
 /// Energies (J): the initial one is the sum of all others, each computed on its own.
@@ -236,6 +239,9 @@ pub struct Peak {
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,
+    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
+    /// it is leaving; another place than `exit_speed_max` where that lives on a later contact.
+    pub first_separation_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).

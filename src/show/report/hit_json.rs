@@ -91,6 +91,7 @@ pub fn ball_out(ball: &Ball) -> file::Ball {
 fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
     file::SweetSpot {
         exit_speed_max: spot.exit_speed_max.map(peak),
+        first_separation_max: spot.first_separation_max.map(peak),
         vibration_min: spot.vibration_min.map(peak),
         node_mode_1_m: spot.node_mode_1,
         node_mode_2_m: spot.node_mode_2,
@@ -174,7 +175,11 @@ pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
 }
 
 fn separation(first: Separation) -> file::FirstSeparation {
-    file::FirstSeparation { time_s: first.time, exit_speed_m_s: first.exit_speed }
+    file::FirstSeparation {
+        time_s: first.time,
+        exit_speed_m_s: first.exit_speed,
+        exit_speed_error: first.error,
+    }
 }
 
 fn energy_out(energy: &Energy) -> file::Energy {

@@ -18,10 +18,11 @@ use crate::show::report::wall_text::{wall_lines, wall_words};
 use crate::study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.
-const FLAGS: [(&str, char, &str); 7] = [
+const FLAGS: [(&str, char, &str); 8] = [
     ("reload", 'r', "pressed again while it was springing back"),
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
     ("second_contact", 's', "hit again after it left; the speed is that in the end"),
+    ("ball_law_beyond", 'b', "the ball's law was not measured for such a hit (docs/limits.md)"),
     ("no_contact", 'n', "the bat runs away from the ball"),
     ("no_section", 'p', "the bat ends in a point"),
     ("no_real_solution", 'i', "the model has no real solution"),
@@ -135,6 +136,9 @@ pub fn why(figures: &Figures, units: Units) -> String {
     let (Some(peak), Some(rigid)) = (figures.spot.exit_speed_max, figures.rigid_best) else {
         return String::new();
     };
+    if let Some(text) = lives_on_later(figures, units) {
+        return wrapped(&text, 0);
+    }
     let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
         let text = "Why there: further out the bat gives way more than its speed makes up for.";
@@ -156,6 +160,24 @@ pub fn why(figures: &Figures, units: Units) -> String {
         place((peak.x - rigid.x).abs())
     );
     wrapped(&text, 0)
+}
+
+/// What a best place is that is best because the bat catches up with the ball late or again; None of any other.
+pub fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
+    let best = figures.best.as_ref()?;
+    let has = |flag: &str| best.flags.contains(&flag);
+    let (again, late) = (has("second_contact"), has("late_contact"));
+    let how = match (again, late) {
+        (false, false) => return None,
+        (true, _) => "hits it again after it has left",
+        (false, true) => "pushes it again as it is leaving",
+    };
+    let first = figures.spot.first_separation_max.map_or(String::new(), |first| {
+        let place = units.inline(units.show(centimetres(first.x), in_inches(first.x)));
+        let speed = units.inline(units.speed(first.value));
+        format!(" By its first contact alone the ball leaves fastest at {place}, with {speed}.")
+    });
+    Some(format!("The fastest ball is so fast because the bat's vibration {how}.{first}"))
 }
 
 fn centimetres(x: f64) -> String {
@@ -221,6 +243,9 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     };
     let speed = |v: f64| units.inline(units.speed(v));
     peak("fastest ball", spot.exit_speed_max, &speed);
+    let first =
+        spot.first_separation_max.filter(|_| spot.exit_speed_max != spot.first_separation_max);
+    peak("first contact", first, &speed);
     peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
     let slow = |v: f64| match units.us_first() {
         true => format!("{:.1} mph", miles_per_hour(v)),

@@ -237,6 +237,15 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
                                 faster (why: hit, or --full)."
                 .to_owned()
         }
+        Doubt::LaterContact => {
+            "The fastest place lives on a later contact of bat and ball: small changes of either move it far."
+                .to_owned()
+        }
+        Doubt::BallLaw => {
+            "The ball's law was not measured for such a hit: it touches for more than 2 ms or returns less than \
+             0.44 of its speed."
+                .to_owned()
+        }
         Doubt::ExitSpeeds { error } => format!(
             "Exit speeds are less accurate than was asked: the worst within {error:.0e} of the closing speed."
         ),

@@ -160,7 +160,8 @@ impl Contender {
         let least = spot.vibration_min.map(|peak| sought.least(peak));
         let bbcor = [1, 2].map(|k| sought.bbcor(k));
         let wall = spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x));
-        let verdict = Verdict::of(&bat, &scene, &sweep, wall);
+        let fastest = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
+        let verdict = Verdict::of((&bat, &scene), &sweep, fastest.as_ref(), wall);
         Ok(Self {
             inertia: bat.inertia(),
             best_speed: best.map(|best| best[0]),
