@@ -12,6 +12,9 @@ use crate::collision::pulse::Pulse;
 use crate::collision::stated::{Answered, fewer};
 use crate::modes::mode::Mode;
 
+/// The flags of a ball that the bat caught up with late or again.
+pub const LATER: [&str; 2] = ["late_contact", "second_contact"];
+
 /// Beyond these a ball's law was not measured: the longest contact (s) is that at 1 m/s of A. M. Nathan, Am. J. Phys.
 /// 68, 979 (2000), the least restitution the common softball's.
 const LONGEST_MEASURED: f64 = 2e-3;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::base::error::Result;
 use crate::base::threads;
 use crate::bat::body::{Bat, STANDARD_PIVOT};
+use crate::collision::answer::LATER;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::{FEW, FINE, Looked, Peak, SweetSpot};
@@ -96,7 +97,8 @@ pub struct Figures {
     pub wall: Option<WallFigures>,
     /// Swings of one batter with this bat, by several laws; empty where no reference bat was given.
     pub swings: Vec<Swung>,
-    /// The sweet spot of other scenes, each with what is different.
+    /// The sweet spot of other scenes, each with what is different; empty where the fastest place lives on a later
+    /// contact, and small changes move it far.
     pub moves: Vec<(String, SweetSpot)>,
 }
 
@@ -128,11 +130,14 @@ impl Figures {
             }
         }
         let spot = SweetSpot::within(&looked);
-        let changes = changes(scene);
+        let best = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
+        // How a place moves that lives on a later contact, no small change tells.
+        let later = |best: &Impact| LATER.iter().any(|flag| best.flags.contains(flag));
+        let changes = if best.as_ref().is_some_and(later) { vec![] } else { changes(scene) };
         let moved = threads::map(changes.len(), |k| find(&changes[k].1));
         let moves = changes.into_iter().zip(moved).map(|((what, _), spot)| Ok((what, spot?)));
         Ok(Self {
-            best: spot.exit_speed_max.map(|peak| hitter.strike(peak.x)),
+            best,
             wall: spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x)),
             vibration_at_rigid_best: rigid_best.and_then(|peak| hitter.glance(peak.x)?.vibration),
             rigid_best,

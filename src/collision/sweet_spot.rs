@@ -53,6 +53,8 @@ const BETWEEN: usize = 4;
 /// Steps between two places of the first look where the bat catches up with the ball late or again: touches come and
 /// go there within a millimetre, and with them the exit speed.
 const BETWEEN_LATER: usize = 8;
+/// Stretches between such places that are looked at more closely still.
+const CLOSER_LATER: usize = 8;
 const INCH: f64 = 0.0254;
 
 impl SweetSpot {
@@ -98,8 +100,7 @@ impl SweetSpot {
             zone: exit_speed_max.map(|peak| looked.zone(peak)),
             inch_off: exit_speed_max.map(|peak| [off(peak, -INCH), off(peak, INCH)]),
             exit_speed_max,
-            first_separation_max: looked
-                .greatest(|glance| (!glance.late).then_some(glance.first_exit)),
+            first_separation_max: looked.first_separation(exit_speed_max),
             vibration_min: looked.least_vibration(),
             hands_velocity_min: looked.least_felt(0),
             hands_acceleration_min: looked.least_felt(1),
@@ -116,6 +117,8 @@ pub struct Looked<'a> {
     /// How exactly places are located (m).
     width: f64,
     hitter: &'a Hitter<'a>,
+    /// Steps of the first look.
+    steps: usize,
     /// Places (m), rising, and the hits there.
     places: Vec<f64>,
     seen: Vec<Option<Glance>>,
@@ -146,7 +149,7 @@ impl<'a> Looked<'a> {
         seen.sort_by_key(|(part, _)| *part);
         let (parts, seen): (Vec<usize>, _) = seen.into_iter().unzip();
         let places = parts.into_iter().map(place).collect();
-        Self { ends, width: share * length, hitter, places, seen }
+        Self { ends, width: share * length, hitter, steps, places, seen }
     }
 
     /// The last place's number.
@@ -162,6 +165,15 @@ impl<'a> Looked<'a> {
     /// Where the ball leaves fastest (m/s).
     pub fn fastest(&self) -> Option<Peak> {
         self.greatest(|glance| Some(glance.exit_speed))
+    }
+
+    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
+    /// it is leaving: where it leaves fastest, if the bat catches up with it nowhere.
+    fn first_separation(&self, fastest: Option<Peak>) -> Option<Peak> {
+        match self.seen.iter().flatten().any(|glance| glance.later) {
+            true => self.greatest(|glance| (!glance.late).then_some(glance.first_exit)),
+            false => fastest,
+        }
     }
 
     /// Where the least energy stays in vibration (J).
@@ -206,8 +218,20 @@ impl<'a> Looked<'a> {
         let high = self.place((best + 1).min(self.last()));
         let mut here = (Peak { x: self.place(best), value: seen }, [low, high]);
         let seen: Vec<f64> = self.seen.iter().map(of).collect();
-        for k in (0..self.last()).filter(|k| k + 1 < best || *k > best) {
-            if highest_between(&self.places, &seen, k) <= here.0.value {
+        let mut closer: Vec<(usize, f64)> = (0..self.last())
+            .filter(|k| k + 1 < best || *k > best)
+            .map(|k| (k, highest_between(&self.places, &seen, k)))
+            .collect();
+        closer.retain(|(_, highest)| *highest > here.0.value);
+        // Where touches come and go the whole stretch was looked at closely: the most promising places there will do.
+        let first = (self.places[self.last()] - self.places[0]) / self.steps as f64;
+        let (mut settled, mut later): (Vec<_>, Vec<_>) =
+            closer.into_iter().partition(|(k, _)| self.place(k + 1) - self.place(*k) > 0.5 * first);
+        later.sort_by(|a, b| b.1.total_cmp(&a.1));
+        later.truncate(CLOSER_LATER);
+        settled.append(&mut later);
+        for (k, highest) in settled {
+            if highest <= here.0.value {
                 continue;
             }
             let step = (self.place(k + 1) - self.place(k)) / BETWEEN as f64;

@@ -4,6 +4,7 @@
 //! certain than another.
 
 use crate::bat::body::Bat;
+use crate::collision::answer::LATER;
 use crate::collision::hit::{Impact, Scene};
 use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::Sweep;
@@ -72,7 +73,7 @@ impl Verdict {
         let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
         let flagged =
             |flags: &[&str]| best.is_some_and(|best| best.flags.iter().any(|f| flags.contains(f)));
-        let later = flagged(&["late_contact", "second_contact"]).then_some(Doubt::LaterContact);
+        let later = flagged(&LATER).then_some(Doubt::LaterContact);
         let law = flagged(&["ball_law_beyond"]).then_some(Doubt::BallLaw);
         let unmet = hits.worst().filter(|_| !hits.met);
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });

@@ -286,7 +286,8 @@ pub struct Figures {
     pub wall: Option<WallUnderBall>,
     /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
-    /// The sweet spot of scenes that differ in one thing each.
+    /// The sweet spot of scenes that differ in one thing each; empty where the fastest place lives on a later
+    /// contact, and small changes move it far.
     pub moves: Vec<Moved>,
 }
 

@@ -318,7 +318,7 @@ pub fn figures(figures: &Figures, units: Units) -> String {
 
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
 pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
-    if figures.spot.exit_speed_max.is_none() {
+    if figures.spot.exit_speed_max.is_none() || figures.moves.is_empty() {
         return String::new();
     }
     let damped = bat.damped();
