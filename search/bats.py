@@ -13,10 +13,12 @@ with python-flint and numpy from PyPI.
 import argparse
 import json
 import os
+import resource
 import subprocess
 import sys
 import time
 from pathlib import Path
+from statistics import median
 
 HERE = Path(__file__).resolve().parent
 ALWAYS, MOSTLY, VISIBLE = 3.0, 30.0, 1e-13
@@ -55,12 +57,13 @@ def solved(program, bat, case):
 
 
 def false_statements(answer, code, case, bat):
-    """What is false, as sentences; the pairs of true and stated errors; the worst ratios."""
+    """What is false, as sentences; the pairs of true and stated errors of frequencies and of nodes; the
+    worst ratios."""
     from random_bats import exact
-    said, pairs, worst = [], [], {"frequency": 0.0, "mass": 0.0, "nodes": 0.0}
+    said, pairs, near, worst = [], [], [], {"frequency": 0.0, "mass": 0.0, "nodes": 0.0}
     modes, rigid = answer["modes"], answer["rigid_modes"]
     if not modes:
-        return said, pairs, worst
+        return said, pairs, near, worst
     reference = exact(bat, 1.3 * (2 * 3.141592653589793 * modes[-1]["frequency_hz"]) ** 2,
                       case["theory"])
     slowest = (2 * 3.141592653589793 * modes[0]["frequency_hz"]) ** 2
@@ -70,6 +73,8 @@ def false_statements(answer, code, case, bat):
         rigid = found
     length = reference.borders[-1]
     for k, mode in enumerate(modes, 1):
+        if None in mode["error"].values():
+            continue        # said to be unknown
         stated = mode["error"]["discretization"] + mode["error"]["round_off"]
         omega2 = (2 * 3.141592653589793 * mode["frequency_hz"]) ** 2
         off = ALWAYS * stated + 3e-16
@@ -99,13 +104,28 @@ def false_statements(answer, code, case, bat):
         if off > ALWAYS * own + 1e-13:
             said.append(f"mode {k}: modal mass {mode['modal_mass_kg']} within {own:.1e}, is "
                         f"{truth['mass']}: {off / own if own else 0:.1f} times")
-        own, off = mode["error"]["nodes_m"], apart(mode["nodes_m"], truth["nodes"], length)
+        told = untold(mode, truth["nodes"])
+        own, off = mode["error"]["nodes_m"], apart(mode["nodes_m"], told, length)
+        near.append((off, own))
         worst["nodes"] = max(worst["nodes"], (off - 1e-12) / own if own else 0.0)
         if off > ALWAYS * own + 1e-12:
-            nodes = [round(float(x), 9) for x in truth["nodes"]]
+            nodes = [round(float(x), 9) for x in told]
             said.append(f"mode {k}: nodes {[round(x, 9) for x in mode['nodes_m']]} within "
                         f"{own:.1e} m, are {nodes}: {off:.1e} m off")
-    return said, pairs, worst
+    return said, pairs, near, worst
+
+
+def untold(mode, true):
+    """The true nodes, less those that the mode says it cannot tell and does not list."""
+    left = [float(x) for x in true]
+    stretches = mode.get("nodes_untold_m", [])
+    spare = [x for x in left if any(a <= x <= b for a, b in stretches)]
+    for x in mode["nodes_m"]:
+        if not left:
+            break
+        nearest = min(left, key=lambda y: abs(x - y))
+        left.remove(nearest)
+    return sorted(x for x in true if not (x in left and x in spare))
 
 
 def apart(own, true, length):
@@ -127,20 +147,23 @@ def main():
     parser.add_argument("--minutes", type=float, default=1.0)
     parser.add_argument("--program", default=str(HERE.parent / "target" / "debug" / "sweetspot"))
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kind", help="only bats of this kind")
+    parser.add_argument("--cases", type=int, default=10**9, help="as many bats at most")
+    parser.add_argument("--kind", help="only bats of this kind; \"hard\": of all that are hard")
     parser.add_argument("-v", "--verbose", action="store_true")
     asked = parser.parse_args()
     with_libraries()
     sys.path.insert(0, str(HERE))
     from random_bats import random_case
     started, count, false, refused, broken = time.time(), 0, 0, 0, 0
-    pairs, worst = [], {"frequency": 0.0, "mass": 0.0, "nodes": 0.0}
-    seed = asked.seed
-    while time.time() - started < 60 * asked.minutes:
+    pairs, near, worst = [], [], {"frequency": 0.0, "mass": 0.0, "nodes": 0.0}
+    seed, used = asked.seed, 0.0
+    while time.time() - started < 60 * asked.minutes and count < asked.cases:
         bat, case = random_case(seed, asked.kind, lambda bat, case: solved(asked.program, bat, case))
         name, seed = f"bat {seed} ({case['kind']}, {case['theory']}, {case['modes']} modes, " \
                      f"{case.get('tolerance', case.get('elements'))})", seed + 1
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         answer, code, complaint = solved(asked.program, bat, case)
+        used += resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         count += 1
         if answer is None or code == 3:
             refused += 1
@@ -148,11 +171,11 @@ def main():
             if answer is None:
                 continue
         try:
-            said, own, ratios = false_statements(answer, code, case, bat)
+            said, own, around, ratios = false_statements(answer, code, case, bat)
         except ArithmeticError as error:
             print(f"{name}: no reference, {error}")
             continue
-        pairs += own
+        pairs, near = pairs + own, near + around
         for key, ratio in ratios.items():
             worst[key] = max(worst[key], ratio)
         if asked.verbose:
@@ -164,10 +187,14 @@ def main():
     visible = [(error, stated) for error, stated in pairs if error > VISIBLE]
     close = sum(stated <= MOSTLY * error for error, stated in visible)
     print(f"{count} bats, {len(pairs)} modes: {false} bats with {broken} false statements, "
-          f"{refused} not solved to the tolerance")
+          f"{refused} not solved to the tolerance, {used:.1f} s of processor time")
     print("largest true over stated error: " +
           ", ".join(f"{key} {ratio:.2f}" for key, ratio in worst.items()))
     print(f"stated within 30 times the true error: {close} of {len(visible)} frequencies")
+    usual = [stated / error for error, stated in visible]
+    nodes = [stated / off for off, stated in near if stated and off > 1e-12]
+    print(f"median of stated over true error: frequencies {median(usual or [0]):.3g}, "
+          f"nodes {median(nodes or [0]):.3g}")
     return 1 if false else 0
 
 

@@ -9,19 +9,24 @@ from reference import PI, Bat
 THEORIES = ["euler-bernoulli", "rayleigh", "timoshenko"]
 KINDS = ["plain", "hollow", "steps", "formula", "whips", "three whips", "absorber", "absorbers",
          "held", "loaded", "grip", "joint", "split"]
+# Bats at the border of what arithmetic and meshes can tell; only by name, or all by "hard".
+HARD = ["stiff springs", "thin hinges", "pointed", "far weights", "cylinders"]
 FORMULAS = [
     ("{a} + {b}*x^2", lambda x, a, b: x * x * b + a),
     ("{a} + {b}*sin(4*x)^2", lambda x, a, b: (x * 4).sin() * (x * 4).sin() * b + a),
     ("{a}*exp({b}*40*x)", lambda x, a, b: (x * arb(b) * 40).exp() * a),
     ("{a} + {b}/(1 + exp(12 - 24*x))", lambda x, a, b: 1 / ((12 - x * 24).exp() + 1) * b + a),
     ("sqrt({a}^2 + {b}^2*x)", lambda x, a, b: (x * arb(b) ** 2 + arb(a) ** 2).sqrt()),
+    ("{a}*x^{b}", lambda x, a, b: (x.log() * arb(b)).exp() * arb(a)),
+    ("{a}*(0.84-x)^{b}", lambda x, a, b: ((arb(0.84) - x).log() * arb(b)).exp() * arb(a)),
 ]
+ORDINARY = FORMULAS[:5]
 
 
 def random_case(seed, kind, solve):
     """A bat and what is asked of it."""
     rng = random.Random(seed)
-    kind = kind or rng.choice(KINDS)
+    kind = rng.choice(HARD) if kind == "hard" else kind or rng.choice(KINDS)
     case = {"kind": kind, "theory": rng.choice(THEORIES), "modes": rng.randint(1, 8)}
     if rng.random() < 0.15:
         case["elements"], case["degree"] = rng.randint(4, 30), rng.randint(3, 8)
@@ -41,6 +46,20 @@ def random_case(seed, kind, solve):
         bat.update(whipped(rng, whips))
     elif kind == "formula":
         bat["profile"] = {"pieces": pieces(rng)}
+    elif kind == "pointed":
+        # What the reference leaves off the point is below these tolerances.
+        case.pop("elements", None), case.pop("degree", None)
+        case["tolerance"] = 10 ** rng.uniform(-6, -2)
+        text = rng.choice(["{a}*x^{b}", "{a}*(0.84-x)^{b}"])
+        values = {"a": repr(round(rng.uniform(0.02, 0.04), 6)), "b": repr(round(rng.uniform(0.6, 1.5), 3))}
+        bat["profile"] = {"pieces": [{"from": 0.0, "to": 0.84, "formula": text.format(**values)}]}
+    elif kind in ("stiff springs", "thin hinges"):
+        case["modes"] = rng.randint(1, 10)
+        bat["profile"] = uneven(rng)
+    elif kind == "cylinders":
+        if "tolerance" in case:
+            case["tolerance"] = 10 ** rng.uniform(-13.5, -9)
+        bat["profile"] = chain(rng)
     else:
         bat["profile"] = columns(rng, kind)
     length = end(bat)
@@ -63,12 +82,55 @@ def random_case(seed, kind, solve):
     elif kind == "joint":
         bat["joints"] = [{"x": x, "rotational_stiffness": 10 ** rng.uniform(2, 5)}
                          for x in places(rng.randint(1, 2))]
+    elif kind == "stiff springs":
+        bat["attachments"] = [stiff(rng, x) for x in places(rng.randint(1, 4))]
+        if rng.random() < 0.5:
+            bat["joints"] = [{"x": x, "rotational_stiffness": 10 ** rng.uniform(-3, 7)}
+                             for x in places(rng.randint(1, 2))]
+    elif kind == "thin hinges":
+        if rng.random() < 0.3:
+            bat["attachments"] = [stiff(rng, x) for x in places(1)]
+    elif kind == "far weights":
+        bat["attachments"] = [{"x": x, "mass": 10 ** rng.uniform(-1, 4), "offset": rng.uniform(-0.5, 0.5),
+                               "rotary_inertia": 10 ** rng.uniform(-6, -2)}
+                              for x in rng.sample([0.0, length, 0.5 * length], rng.randint(1, 2))]
     elif kind == "split":
         # A clamp in the middle parts the bat into two that know nothing of each other.
         bat["profile"] = twins(rng)
         case["modes"] = rng.randint(1, 4)
         bat["supports"] = [{"x": 0.5 * end(bat), "type": "clamped"}]
     return bat, case
+
+
+def uneven(rng):
+    """Radii from 5 to 140 mm, in steps or nearly so: thin hinges between thick parts."""
+    count, length = rng.randint(4, 40), rng.uniform(0.7, 1.0)
+    inner = sorted(rng.uniform(0.0, 1.0) for _ in range(count - 2))
+    x = [0.0] + [length * v for v in inner] + [length]
+    if any(b - a < 1e-4 for a, b in zip(x, x[1:])):
+        x = [length * k / (count - 1) for k in range(count)]
+    interpolation = rng.choice(["linear", "constant"])
+    r = [10 ** rng.uniform(-2.3, -0.86) for _ in x]
+    if interpolation == "constant":
+        r[-1] = r[-2]
+    return {"interpolation": interpolation, "x": x, "radius": r}
+
+
+def chain(rng):
+    """Cylinders one after the other, as slices of a lathe's table."""
+    count, length = rng.choice([1, 2, 10, 30, 84, 150]), rng.uniform(0.7, 0.9)
+    x = [length * k / count for k in range(count + 1)]
+    wide = rng.uniform(0.0, 0.6)
+    r = [0.02 * (1 + wide * rng.uniform(-1, 1)) for _ in x]
+    r[-1] = r[-2]
+    return {"interpolation": "constant", "x": x, "radius": r}
+
+
+def stiff(rng, x):
+    found = {"x": x, "stiffness": 10 ** rng.uniform(-2, 12)}
+    if rng.random() < 0.5:
+        found["rotational_stiffness"] = 10 ** rng.uniform(0, 8)
+    return found
 
 
 def attachment(rng, x):
@@ -186,7 +248,7 @@ def pieces(rng):
     borders = [0.0] + sorted(rng.uniform(0.1, 0.9) * length for _ in range(count - 1)) + [length]
     made = []
     for a, b in zip(borders, borders[1:]):
-        text, _ = rng.choice(FORMULAS)
+        text, _ = rng.choice(ORDINARY)
         values = {"a": repr(round(rng.uniform(0.012, 0.02), 6)), "b": repr(round(rng.uniform(0.004, 0.015), 6))}
         made.append({"from": a, "to": b, "formula": text.format(**values)})
     return made
@@ -260,6 +322,9 @@ def fixtures(bat):
 
 def radii(profile):
     """(from, to, outer, inner) of every smooth piece; the radii take a power series."""
+    if "pieces" in profile and "^" in (text := profile["pieces"][0]["formula"]) \
+            and (" " not in text and "exp" not in text):
+        return pointed(profile["pieces"][0], text)
     if "pieces" in profile:
         return [(p["from"], p["to"], formula(p["formula"]), None) for p in profile["pieces"]]
     x = profile["x"]
@@ -271,6 +336,17 @@ def radii(profile):
             inner = polynomial(x[k], curves[1][k]) if len(curves) > 1 else None
             made.append((x[k], x[k + 1], polynomial(x[k], curves[0][k]), inner))
     return made
+
+
+def pointed(piece, text):
+    """A bat with a pointed end, less the last 1e-10 of it, in pieces that grow away from the point."""
+    end, at = piece["to"], formula(text)
+    away = [end * 1e-10 * 4.0 ** k for k in range(16)] + [0.5 * end, end]
+    mirrored = "-" in text
+    places = sorted(end - d for d in away) if mirrored else away
+    if mirrored:
+        places[0] = 0.0
+    return [(a, b, at, None) for a, b in zip(places, places[1:])]
 
 
 def polynomial(start, coefficients):

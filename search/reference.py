@@ -334,8 +334,10 @@ class Bat:
                     u = np.clip(u - value(slope, u) / value(bend, u), -1, 1)
                 most = max(most, abs(value(w, u)))
             middle = 0.5 * (s.a + s.b)
+            # Round-off of the sum is no sign; nor is what 256 bits leave of a part at rest.
+            least = max(1e-14 * float(np.sum(np.abs(w))), 1e-30 * biggest)
             for u, here in zip(grid, samples):
-                if abs(here) < 1e-14 * biggest:
+                if abs(here) < least:
                     continue
                 if previous is not None and previous[1] * here < 0:
                     nodes.append(self.zero(previous, (k, u), w, here, middle, half))

@@ -17,6 +17,7 @@ mod held;
 mod invariances;
 mod measured;
 mod near_twins;
+mod nodes;
 mod over_stations;
 mod promise;
 mod sections;

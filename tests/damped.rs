@@ -541,3 +541,42 @@ fn damped_motions_are_as_accurate_as_they_say() {
         }
     }
 }
+
+/// Two motions that coalesce: an absorber at the knob end of a rod whose two slowest damped motions differ by 3e-8 of
+/// themselves, and so go with the root of every error. Then hands that are soft and damp much, below which every
+/// other mode is a million times as stiff. The poles are those of the transfer matrices, to 60 digits.
+#[test]
+fn damped_motions_that_coalesce_and_those_on_soft_hands_are_as_accurate_as_they_say() {
+    let solved = |text: &str, modes: usize, tolerance: f64| {
+        let bat = Bat::from_text("bat.json", text, std::path::Path::new("")).unwrap();
+        let request = Request { modes, tolerance, theory: Theory::Timoshenko, ..Request::plain() };
+        solve(&bat, &request).unwrap().damping.modes
+    };
+    let near = |damped: &sweetspot::modes::damping::Damped, poles: &[[f64; 2]]| {
+        let s = c64::new(-damped.decay, damped.swinging());
+        let off = |[re, hertz]: &[f64; 2]| (s - c64::new(*re, TAU * hertz)).norm() / s.norm();
+        let off = poles.iter().map(off).fold(f64::INFINITY, f64::min);
+        assert!(off <= 3.0 * damped.error, "{off:.1e} {:.1e} {damped:?}", damped.error);
+    };
+    let rod = r#"{ "format": "sweetspot-bat/1", "name": "ep", "material": { "density": 700, "youngs_modulus": 15e9,
+        "shear_modulus": 1e9 }, "profile": { "interpolation": "constant", "x": [0.0, 0.84], "radius": [0.02, 0.02] },
+        "absorbers": [ { "x": 0.0, "mass": 0.02, "frequency": 200.01991447146875, "damping": 14.527916735491484 } ] }"#;
+    let twins =
+        [[-213.890702170333219, 216.601384338077636], [-213.890696249789296, 216.601385100450731]];
+    let soft = r#"{ "format": "sweetspot-bat/1", "name": "d", "material": { "density": 700, "youngs_modulus": 15e9,
+        "shear_modulus": 1e9 }, "profile": { "interpolation": "constant", "x": [0.0, 0.134, 0.508, 0.84],
+        "radius": [0.025680785139291375, 0.017669074919590726, 0.02910520255933864, 0.02910520255933864] },
+        "absorbers": [ { "x": 0.84, "mass": 0.001203269908401631, "frequency": 34.608537902720705,
+        "damping": 0.0041354236090741636 } ],
+        "grip": { "from": 0, "to": 0.15, "stiffness": 129.53218794042908, "damping": 42.44480512322181 } }"#;
+    let poles = [
+        [-1.72888942205527001, 34.6625143249529714],
+        [-3.84573814402683412, 175.160016841758311],
+        [-2.83928678453244107, 576.258396688811974],
+        [-3.05387225952746868, 1209.94859469678055],
+    ];
+    for tolerance in [1e-6, 1e-9, 1e-10, 1e-12] {
+        solved(rod, 2, tolerance).iter().for_each(|damped| near(damped, &twins));
+        solved(soft, 6, tolerance)[2..].iter().for_each(|damped| near(damped, &poles));
+    }
+}

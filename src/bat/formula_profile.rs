@@ -23,6 +23,9 @@ const ROUND_OFF: f64 = 1e-15;
 const SMOOTH: f64 = 1e-3;
 /// Round-off of a section, relative, beyond which a formula has lost its digits.
 const LOST: f64 = 1e-8;
+/// The share of a bat at either end on which digits may be lost, for ε of its length is there `LOST` of a distance
+/// from the end, in four factors of the radius and some more: it neither weighs nor bends.
+pub(crate) const LAST: f64 = 32.0 * f64::EPSILON / LOST;
 /// Halvings of a stretch: the last ones are as short as two corners may lie apart.
 const MOST_HALVINGS: usize = 30;
 /// Sections on so short a stretch may vary by this share, whatever they do there.
@@ -245,8 +248,11 @@ impl Named<'_> {
         let short = halvings == 0;
         // The last of a point neither weighs nor bends.
         let at_end = from == 0.0 || to == self.length;
+        // Beside the tip a distance from the tip has fewer digits than one from the knob beside the knob, and the bat
+        // turned end for end is the same bat.
+        let last = to <= LAST * self.length || from >= (1.0 - LAST) * self.length;
         let smooth = |bounds: &Bounds| {
-            bounds.missed(0.0) <= SMOOTH && bounds.round_off() <= LOST
+            bounds.missed(0.0) <= SMOOTH && (bounds.round_off() <= LOST || last)
                 || short && (at_end || bounds.variation(0.0) <= MOST_VARIATION)
         };
         if bounds.as_ref().is_some_and(|bounds| possible(bounds) && smooth(bounds)) {

@@ -55,6 +55,11 @@ impl Element {
         };
     }
 
+    /// Whether all of it is within that share of the bat's length of one of the ends.
+    pub fn ends_within(&self, share: f64, length: f64) -> bool {
+        self.start + self.length <= share * length || self.start >= (1.0 - share) * length
+    }
+
     /// Whether there are stations inside.
     #[inline(always)]
     pub fn over_stations(&self) -> bool {

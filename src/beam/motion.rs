@@ -50,6 +50,12 @@ pub struct Motion<R> {
     pub(super) strain: R,
     /// `A q`, then `q − ω² A q`; nothing where the eigenvalue is known.
     pub image: Vec<R>,
+    /// How far the deflection is from what the springs and pins that hold it say (m), at the worst of them: round-off
+    /// of the shape, for they are one.
+    pub slack: R,
+    /// `Σ m w² + J θ²` of the point masses with the root at rest (kg m²), before the rigid motions are taken out: how
+    /// much of it cancels in [`Self::kinetic`] of a far or heavy one.
+    pub carried: R,
     /// Inertia of the point masses and reactions of the contacts.
     pub(crate) forces: Vec<[R; 2]>,
     pub(super) reactions: Vec<R>,
@@ -93,6 +99,7 @@ impl<R: Real> Motion<R> {
         }
         self.omega = (self.strain * view.energy_unit / self.kinetic).sqrt();
         self.make_room(view);
+        (self.slack, self.carried) = (R::default(), R::default());
         for side in [0, 1] {
             self.outwards(view, q, rigid.on_side(side), side);
         }
@@ -153,9 +160,11 @@ impl<R: Real> Motion<R> {
             turn: [zero; MOST_TERMS],
             values: [zero; MOST_POINTS],
         };
+        let mut arm = None;
         for Run { cells, stop } in view.runs(side) {
             for k in cells {
                 let at = view.at(k);
+                arm = Some(at.cell.arm + at.cell.length);
                 let (cell, q) = (&at.cell, &q[at.strains.clone()]);
                 cell.strains(q, view.terms - 2, &mut room.strains[..view.strains]);
                 room.inner_end = [w.value(), theta.value()];
@@ -171,10 +180,19 @@ impl<R: Real> Motion<R> {
                 Some(What::PointMass(k)) => {
                     let point = &placed.points[k];
                     let [moved, turned] = point.displaced(w.value(), theta.value(), q);
+                    let own = moved * moved * point.mass + turned * turned * point.inertia;
+                    self.carried += own;
                     let lift = rigid.deflection(point.arm + point.offset);
                     self.points[k] = [moved - lift, turned - rigid.turn];
                 }
-                Some(What::Contact(_)) | None => {}
+                Some(What::Contact(k)) => {
+                    let contact = &placed.contacts[k];
+                    let (false, Some(arm)) = (contact.turning, arm) else { continue };
+                    let given = contact.spring.map(|s| q[s.place] * s.softness).unwrap_or_default();
+                    let off = w.value() - rigid.deflection(arm) - given;
+                    self.slack = self.slack.max(off.abs());
+                }
+                None => {}
             }
         }
     }

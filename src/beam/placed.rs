@@ -25,6 +25,8 @@ pub struct Placed<S> {
     pub springs: usize,
     /// Where the bat is clamped (m).
     pub clamps: Vec<f64>,
+    /// Where it is pinned (m).
+    pub pins: Vec<f64>,
     /// The first contact of the bed under a cell; empty without a bed.
     beds: Vec<Option<usize>>,
 }
@@ -34,9 +36,12 @@ impl<S: Real> Placed<S> {
     /// masses alone, as many on each and at the same nodes.
     pub fn new(bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) -> Self {
         let bat = bats[0];
-        let clamped = bat.fixtures().supports.iter().filter(|s| s.kind == Held::Clamped);
-        let clamps = clamped.map(|support| support.x).collect();
-        let mut placed = Self { clamps, ..Self::default() };
+        let held = |kind: Held| {
+            let supports = bat.fixtures().supports.iter().filter(|support| support.kind == kind);
+            supports.map(|support| support.x).collect()
+        };
+        let [clamps, pins] = [held(Held::Clamped), held(Held::Pinned)];
+        let mut placed = Self { clamps, pins, ..Self::default() };
         placed.add_joints(bare, bat, mesh);
         placed.add_points(bare, bats, mesh);
         placed.add_holds(bare, bat, mesh);

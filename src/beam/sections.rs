@@ -6,6 +6,7 @@ use crate::base::lanes::{Lanes, WIDTH};
 use crate::base::quadrature::gauss;
 use crate::base::real::Real;
 use crate::bat::body::Bat;
+use crate::bat::formula_profile::LAST;
 use crate::bat::layup::{Layup, Worth};
 use crate::bat::profile::{Cubics, Radii, Section};
 use crate::bat::theory::Theory;
@@ -266,7 +267,8 @@ pub fn missed_on(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory) -> f64 {
 }
 
 /// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
-/// two radii, and what evaluating a formula costs.
+/// two radii, and what evaluating a formula costs; of the last of either end, which neither weighs nor bends, not
+/// that: a formula of the distance from a pointed tip has few digits there.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
     let of = |e: &Element, piece: usize| match &bat.profile().pieces[piece].radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,
@@ -276,6 +278,7 @@ pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
                 walls.map(|(outer, inner)| Section { outer: *outer, inner: *inner }.thinness());
             f64::EPSILON * thinness.fold(0.0, f64::max)
         }
+        Radii::Formula(_) if e.ends_within(LAST, bat.length()) => 0.0,
         Radii::Formula(curves) => {
             curves.bounds(e.from, e.to).map_or(0.0, |bounds| bounds.round_off().min(1.0))
         }

@@ -2,6 +2,7 @@
 //!
 //! [`crate::solve()`] calls these; what they find is in [`crate::modes::mode::ModeError`].
 
+use crate::modes::certainty::{Doubt, Share};
 use crate::modes::mode::Mode;
 
 /// Relative round-off of a frequency by the running sums.
@@ -45,8 +46,13 @@ pub fn account(
 }
 
 /// What round-off of a frequency, relative, is worth in the shape, the nodes and the modal mass.
+///
+/// The shape's is a share of its largest deflection, so that where it is flat, between stiff springs or in a thick
+/// part beside a thin one, the slope tells how far a node goes with it.
 fn blur(mode: &mut Mode, sums: f64) {
-    mode.error.nodes += 10.0 * sums * mode.shape.length() / mode.nodes.len().max(1) as f64;
+    let usual = 10.0 * mode.shape.length() / mode.nodes.len().max(1) as f64;
+    mode.error.nodes += sums * usual.max(LOCAL * mode.doubt.flattest);
+    mode.doubt.rounding += LOCAL * sums;
     mode.error.modal_mass += 10.0 * sums;
     mode.error.shape += 10.0 * sums;
 }
@@ -56,6 +62,9 @@ pub fn add_round_off(mode: &mut Mode, relative: f64) {
     mode.error.round_off += relative;
     blur(mode, relative);
 }
+
+/// Round-off of a deflection, of which the largest is 1, over that of the frequency.
+const LOCAL: f64 = 3.0;
 
 /// A faster motion's η may be this many times its estimate, or have made as much of the gap to it. This and
 /// the two below are chosen on near twins: `search/bats.py --kind whips` prints the largest ratios of true
@@ -165,6 +174,8 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
     let omegas: Vec<f64> = all.iter().map(|known| known.omega).collect();
     let mut errors: Vec<f64> = all.iter().map(|known| known.error).collect();
     share(&omegas, &mut errors);
+    let doubts: Vec<Doubt> = modes.iter_mut().map(|mode| std::mem::take(&mut mode.doubt)).collect();
+    let all_of_them = Doubt::envelope(&doubts);
     for k in 0..modes.len() {
         // The residual of a factored `K` is its round-off, in the fastest modes.
         let residual = if factored { 0.0 } else { modes[k].error.residual };
@@ -186,6 +197,12 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let nodes = modes[k].shape.slopes(&modes[k].nodes);
         let shift = |part: &Part| part.share * modes[part.other].shape.shift(&nodes);
         let moved: f64 = near.map(shift).sum();
+        let known = |part: &Part| (part.share, doubts.get(part.other));
+        let mut shares: Vec<Share> = parts.iter().map(known).collect();
+        // A mode beyond the list moves nowhere more than all of those in it: where the bat is held.
+        let unknown = shares.iter_mut().filter(|(_, doubt)| doubt.is_none());
+        unknown.for_each(|(_, doubt)| *doubt = Some(&all_of_them));
+        let told = doubts[k].tell(&modes[k].shape, &modes[k].nodes, &shares);
         let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
         let mode = &mut modes[k];
         let length = mode.shape.length();
@@ -197,6 +214,7 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         mode.error.shape += (mixed * beside).min(1.0);
         let spread = (mixed * length / mode.nodes.len().max(1) as f64).max(2.0 * moved);
         let shifted = if lost < UNKNOWN { spread * beside } else { length };
-        mode.error.nodes += shifted.min(length);
+        mode.error.nodes = (mode.error.nodes + shifted.min(length)).max(told.error).min(length);
+        (mode.nodes, mode.untold) = (told.nodes, told.untold);
     }
 }

@@ -5,7 +5,7 @@ use faer::{Mat, Side, c64};
 
 use crate::base::error::{Error, Result};
 use crate::base::linear::{dot, solve_two};
-use crate::modes::pole::{FreeMotions, Pole, grouped, possible};
+use crate::modes::pole::{FreeMotions, Group, Pole, grouped, possible};
 use crate::modes::reduced::Reduced;
 
 impl Reduced {
@@ -39,10 +39,11 @@ impl Reduced {
                 let residual = self.residual(pole.s, false, &pole.rigid, &pole.parts);
                 let square: f64 = residual.iter().map(|r| dot(r, r)).sum();
                 let norm = pole.norm / self.flexible.energy_unit;
-                pole.error = square / (pole.s * norm).norm();
-                if pole.error > tolerance {
+                let condition = 1.0 / (pole.s * norm).norm();
+                if square * condition > tolerance {
                     missing.extend(residual);
                 }
+                pole.error = (square + self.round_off(&mass, &damping, pole)) * condition;
             }
             let full = round == MOST_ROUNDS || self.len() >= MOST_MEMBERS;
             let before = self.len();
@@ -55,12 +56,32 @@ impl Reduced {
                 let mut rigid = rigid;
                 let rest = rigid.iter_mut().chain(&mut others);
                 rest.for_each(|pole| self.polish(&mass, &damping, pole));
+                near_others(&mut groups, &others);
                 let all = groups.iter().flat_map(|group| &group.poles).chain(&rigid);
                 possible(all)?;
                 return Ok(FreeMotions { groups, rigid, others });
             }
             round += 1;
         }
+    }
+
+    /// Round-off of `vᵀ Z(s) v`: each of its terms is known to ε of itself; and as far as dashpots couple the
+    /// motion with others, `|s| |C v|` and 1 at most, the inertia of them all to ε of the slowest mode's.
+    fn round_off(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &Pole) -> f64 {
+        let r = self.rigid_unknowns();
+        let sizes: Vec<f64> = pole.rigid.iter().chain(&pole.parts).map(|v| v.norm()).collect();
+        let s = pole.s.norm();
+        let of = |matrix: &Mat<f64>, i: usize| -> f64 {
+            sizes.iter().enumerate().map(|(j, v)| v * matrix[(i, j)].abs()).sum()
+        };
+        let form = |matrix: &Mat<f64>| -> f64 {
+            sizes.iter().enumerate().map(|(i, v)| v * of(matrix, i)).sum()
+        };
+        let strained: f64 = sizes[r..].iter().map(|v| v * v).sum();
+        let pulled = (r..sizes.len()).map(|i| of(damping, i).powi(2)).sum::<f64>().sqrt();
+        let slowest = self.omega.first().map_or(0.0, |omega| omega.powi(-2));
+        let coupled = slowest * strained * (s * pulled).min(1.0);
+        f64::EPSILON * (s * s * (form(mass) + coupled) + s * form(damping) + strained)
     }
 
     /// Makes an eigenvalue and its vector as good as arithmetic allows: inverse iteration
@@ -106,6 +127,22 @@ impl Reduced {
         }
         let norm = pole.s * form(mass, &v) * 2.0 + form(damping, &v);
         pole.norm = norm * self.flexible.energy_unit;
+    }
+}
+
+/// Makes the first-order error e of every pole, `|vᵀ δZ v|/|s vᵀZ′v|`, one that holds beside another pole at the
+/// relative distance g too: `δ (δ + g) = e g`, for `vᵀZ′v` goes to zero as they meet, and s goes as the root of what
+/// is wrong in Z.
+fn near_others(groups: &mut [Group], others: &[Pole]) {
+    let all: Vec<c64> =
+        groups.iter().flat_map(|group| &group.poles).chain(others).map(|p| p.s).collect();
+    for (k, pole) in groups.iter_mut().flat_map(|group| &mut group.poles).enumerate() {
+        let apart = |s: c64| (s - pole.s).norm() / pole.s.norm();
+        let beside =
+            all.iter().enumerate().filter(|(j, _)| *j != k).flat_map(|(_, s)| [*s, s.conj()]);
+        let own = Some(pole.s.conj()).filter(|s| s.im != 0.0);
+        let gap = beside.chain(own).map(apart).fold(f64::INFINITY, f64::min);
+        pole.error *= 2.0 / (1.0 + (1.0 + 4.0 * pole.error / gap.max(f64::EPSILON)).sqrt());
     }
 }
 

@@ -37,6 +37,23 @@ impl Track {
         Self { samples, changes, ends, xi }
     }
 
+    /// Place (m), deflection and change of the knob end, the points of elements of those middles and lengths,
+    /// and the tip, so many times as large.
+    pub(super) fn places(&self, stretches: &[(f64, f64)], scale: f64) -> Vec<[f64; 3]> {
+        let end = |x: f64, [w, change]: [f64; 2]| [x, scale * w, scale * change];
+        let (middle, length) = stretches.last().copied().unwrap_or_default();
+        let mut places = Vec::with_capacity(self.samples.len() + 2);
+        places.push(end(0.0, self.ends[0]));
+        let mut both = self.samples.iter().zip(&self.changes);
+        for (middle, length) in stretches {
+            for (xi, (w, change)) in self.xi.iter().zip(both.by_ref()) {
+                places.push(end(middle + 0.5 * length * xi, [*w, *change]));
+            }
+        }
+        places.push(end(middle + 0.5 * length, self.ends[1]));
+        places
+    }
+
     /// The greatest distance of two places beside each other, ends among them, as ξ.
     fn widest(&self) -> f64 {
         let (first, last) = (self.xi.first().unwrap_or(&1.0), self.xi.last().unwrap_or(&-1.0));
@@ -152,8 +169,10 @@ impl Shape {
     /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of
     /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
     /// where the deflection comes nearest to zero beyond it.
-    pub(super) fn zeros(&self, track: &Track, rest: f64) -> Vec<f64> {
-        let mut zeros = Vec::new();
+    ///
+    /// Beside them the places (m) where it comes nearest to zero without crossing it, and how near.
+    pub(super) fn zeros(&self, track: &Track, rest: f64) -> (Vec<f64>, Vec<[f64; 2]>) {
+        let (mut zeros, mut dips) = (Vec::new(), Vec::new());
         let mut places = Vec::with_capacity(track.xi.len() + 2);
         // The sign that the deflection had last, and its value at the end of the last element.
         let (mut before, mut border) = (0.0, None);
@@ -199,15 +218,18 @@ impl Shape {
                     add(self.zero(k, left, right, a, b));
                 } else if 8.0 * a.abs().min(b.abs()) <= bend * (right - left).powi(2)
                     && let Some((xi, w)) = self.dip(k, &places, j)
-                    && w * first < 0.0
                 {
-                    add(self.zero(k, left, xi, a, w));
-                    add(self.zero(k, xi, right, w, b));
+                    if w * first < 0.0 {
+                        add(self.zero(k, left, xi, a, w));
+                        add(self.zero(k, xi, right, w, b));
+                    } else {
+                        dips.push([middle + 0.5 * length * xi, w]);
+                    }
                 }
                 before = if signs[1] == 0.0 { first } else { signs[1] };
             }
         }
-        zeros
+        (zeros, dips)
     }
 
     /// The first place on the way from one to another of element `k`, halving it, where the
@@ -312,8 +334,9 @@ impl Shape {
         xi
     }
 
-    /// How far nodes may be off (m): the change of the deflection around each over its slope.
-    pub(super) fn node_error(&self, nodes: &[f64], track: &Track) -> f64 {
+    /// How far nodes may be off (m): the change of the deflection around each over its slope; and the greatest
+    /// of 1/slope (m per unit of deflection).
+    pub(super) fn node_error(&self, nodes: &[f64], track: &Track) -> [f64; 2] {
         let points = track.xi.len();
         let error = |x: &f64| {
             let (k, xi) = self.locate(*x);
@@ -321,9 +344,11 @@ impl Shape {
             let near = track.xi.partition_point(|at| *at < xi);
             let around = [near.saturating_sub(1), near.min(points - 1)];
             let change = around.map(|i| track.changes[k * points + i].abs());
-            0.5 * self.stretches[k].1 * f64::max(change[0], change[1]) / slope.abs()
+            let flat = 0.5 * self.stretches[k].1 / slope.abs();
+            [flat * f64::max(change[0], change[1]), flat]
         };
-        nodes.iter().map(error).fold(0.0, f64::max)
+        let worst = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a.max(c), b.max(d)];
+        nodes.iter().map(error).fold([0.0; 2], worst)
     }
 }
 
@@ -345,7 +370,7 @@ mod tests {
     }
 
     fn zeros(shape: &Shape) -> Vec<f64> {
-        shape.zeros(&track(shape), 1e-15)
+        shape.zeros(&track(shape), 1e-15).0
     }
 
     /// A shape of those Legendre coefficients on two elements, from 0 to 1 and on to 2.

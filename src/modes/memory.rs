@@ -61,7 +61,8 @@ impl Work {
         let one = shape + motions * self.points + 2 * strains + width + 1;
         let motion = self.together * one + 2 * self.points;
         let (basis, vectors) = (self.steps() * strains, self.modes * strains);
-        let looked_at = self.modes * shape + motion;
+        // Place, deflection and change at every point, until nodes are told.
+        let looked_at = self.modes * (shape + 3 * self.points) + motion;
         // Places, lengths and defects of a mesh and of the one before.
         const MESH: usize = 24;
         let matrices = if self.solver == Solver::Statics { 0 } else { 20 * width * width };

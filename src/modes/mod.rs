@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`survey`], [`stations`], [`plan`] | how does the wave number go along the bat; what does reaching over a station cost; which elements does a tolerance need |
 //! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
-//! | [`shape`], `landmarks`, [`mode`] | a deflection at a place, its zeros and peaks; frequency, nodes and modal mass of a mode |
+//! | [`shape`], `landmarks`, `certainty`, [`mode`] | a deflection at a place, its zeros and peaks, and which zeros are certain; frequency, nodes and modal mass of a mode |
 //! | [`certificate`], [`referee`] | how far may each be off; what do other solvers say |
 //! | [`pairs`] | the lowest motions whatever the degree of the elements |
 //! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh, and of a bat as it is |
@@ -20,6 +20,7 @@
 
 pub mod shape;
 pub(crate) mod landmarks;
+pub(crate) mod certainty;
 pub mod mode;
 #[doc(hidden)]
 pub mod eigenpairs;

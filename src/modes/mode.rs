@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::base::real::{Over, Real};
 use crate::beam::motion::Motion;
 use crate::beam::view::View;
+use crate::modes::certainty::{BESIDE_CLAMP, Doubt, RESTING};
 use crate::modes::landmarks::Track;
 
 pub use crate::modes::shape::Shape;
@@ -25,12 +26,18 @@ pub struct Mode {
     pub omega: f64,
     /// Modal mass `∫ρA φ² dx`, with rotary inertia and what is attached, for a largest |φ| of 1 (kg).
     pub modal_mass: f64,
-    /// Where the deflection is zero, from the knob end (m).
+    /// Where the deflection is zero, from the knob end (m): the nodes that are certainly there.
     pub nodes: Vec<f64>,
+    /// From where to where (m) the deflection is below its own error, so that other nodes than [`Self::nodes`]
+    /// cannot be told.
+    pub untold: Vec<[f64; 2]>,
     /// Deflection φ, largest |φ| = 1, the barrel end positive.
     pub shape: Shape,
     /// How far these numbers may be off.
     pub error: ModeError,
+    /// What may be off in the deflection, until the nodes are told.
+    #[serde(skip)]
+    pub(super) doubt: Doubt,
 }
 
 /// How far a mode's numbers may be off.
@@ -43,7 +50,7 @@ pub struct ModeError {
     pub round_off: f64,
     /// `‖u − λ K⁻¹ M u‖ / ‖u‖` of the computed pair, in the strain energy norm.
     pub residual: f64,
-    /// Error of the node positions (m).
+    /// Error of the positions of [`Mode::nodes`] (m).
     pub nodes: f64,
     /// Relative error of the modal mass.
     pub modal_mass: f64,
@@ -93,15 +100,29 @@ impl Mode {
         };
         let sign = if leading < 0.0 { -1.0 } else { 1.0 };
         let scale = sign / largest;
-        let rest = if view.fixed.is_some() { STILL * largest } else { 0.0 };
-        let mut nodes = shape.zeros(&track, rest);
+        let slack = motion.slack.lane(lane);
+        let rest = if view.fixed.is_some() { (STILL * largest).max(2.0 * slack) } else { 0.0 };
+        let (mut nodes, mut dips) = shape.zeros(&track, rest);
         if let Some(fixed) = view.fixed {
             // Where a clamp holds the bat its deflection has more than a zero.
-            let near = STILL.cbrt() * shape.length();
+            let near = BESIDE_CLAMP * shape.length();
             nodes.retain(|x| fixed.placed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
             shape.leave_still(&mut nodes, &fixed.placed.clamps, &track, RESTING * largest);
         }
-        let node_error = shape.node_error(&nodes, &track);
+        let [node_error, flattest] = shape.node_error(&nodes, &track);
+        let node_error = node_error + slack * flattest;
+        dips.iter_mut().for_each(|dip| dip[1] *= scale);
+        let held =
+            view.fixed.map(|fixed| [&fixed.placed.clamps, &fixed.placed.pins].map(Vec::clone));
+        let doubt = Doubt {
+            places: track.places(&shape.stretches, scale),
+            dips,
+            rest: rest / largest,
+            held: held.unwrap_or_default(),
+            flattest: flattest * largest,
+            rounding: slack / largest,
+            cancelled: motion.carried.lane(lane) / motion.kinetic.lane(lane),
+        };
         shape.scale(scale);
         let kinetic = motion.kinetic.lane(lane);
         let off = |(w, change): (f64, f64), at: f64| (change - at * w).abs() / largest;
@@ -119,12 +140,11 @@ impl Mode {
             shape: worst,
         };
         let modal_mass = kinetic * scale * scale;
-        Self { order, omega: motion.omega.lane(lane), modal_mass, nodes, shape, error }
+        let (omega, untold) = (motion.omega.lane(lane), vec![]);
+        Self { order, omega, modal_mass, nodes, untold, shape, error, doubt }
     }
 }
 
-/// Where something holds the bat, a deflection below this share of the largest counts as 0.
-const STILL: f64 = 1e-12;
-/// Clamps part a bat into stretches that know nothing of each other: one that moves less than this
-/// share of another is at rest but for what the iteration left.
-const RESTING: f64 = 1e-3;
+/// Where something holds the bat, a deflection below this share of the largest counts as 0: its round-off. Between stiff
+/// springs a bat moves by 1e-12 of its largest deflection and has nodes all the same.
+const STILL: f64 = 4.0 * f64::EPSILON;

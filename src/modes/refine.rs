@@ -45,6 +45,27 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
     damped(bat, request, refined(bat, request, plan, timing)?)
 }
 
+/// Why not one mode could be had: of a bat whose thinnest part gives way so much more than the rest that no number
+/// holds both, as the point of `x^1.75`, that.
+fn beyond_numbers(bat: &Bat, error: Error) -> Error {
+    let Error::NotConverged { converged: 0, .. } = error else { return error };
+    let stations = &bat.profile().stations;
+    let radii = stations.outer.iter().copied();
+    let (thin, thick) = radii.fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(r), b.max(r)));
+    /// Of radii this far apart the fourth powers are 16 digits apart.
+    const APART: f64 = 1e-4;
+    if thin > APART * thick {
+        return error;
+    }
+    let thin = if thin > 0.0 { format!("{thin:.1e} m thin") } else { "a point".to_owned() };
+    let found = format!(
+        "a bat that is {thin} at its thinnest and {thick:.1e} m elsewhere: what the one gives way and the \
+         other does not hold in one number"
+    );
+    let expected = "a point that is cut off, or one of a shape nearer to a cone";
+    Error::value("profile", found, expected)
+}
+
 /// The solution with how its motions die out.
 pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result<Solution> {
     best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
@@ -73,7 +94,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
                 best.stopped = Some(error.to_string());
                 break;
             }
-            (Err(error), None) => return Err(error),
+            (Err(error), None) => return Err(beyond_numbers(bat, error)),
         };
         let again = request.solver == Solver::Statics && residual > CONVERGED;
         if again && answer.none_missing != Some(true) {

@@ -59,6 +59,13 @@ impl Shape {
         self.derivatives(k, xi)[0]
     }
 
+    /// Deflection, slope (1/m) and its derivative (1/m²) at `x`.
+    pub(super) fn derivatives_at(&self, x: f64) -> [f64; 3] {
+        let (k, xi) = self.locate(x);
+        let ([w, slope, bend], scale) = (self.derivatives(k, xi), 2.0 / self.stretches[k].1);
+        [w, slope * scale, bend * scale * scale]
+    }
+
     /// Rotation θ of the section at `x` (rad per m of largest deflection): the slope `dφ/dx`, less
     /// the shear strain of a beam that shears.
     pub fn rotation(&self, x: f64) -> f64 {

@@ -138,8 +138,12 @@ pub struct Mode {
     pub damping_ratio: f64,
     /// Modal mass (kg) under the shape's scaling.
     pub modal_mass_kg: f64,
-    /// Isolated interior zeros of the deflection (m), from the knob.
+    /// Isolated interior zeros of the deflection (m), from the knob: those that are certainly there.
     pub nodes_m: Vec<f64>,
+    /// Stretches (m), from the knob, where the deflection is below its own error, so that no node beside those of
+    /// `nodes_m` can be told there; only of a mode that has such a stretch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nodes_untold_m: Option<Vec<[f64; 2]>>,
     /// Between which numbers the exact beam's frequency lies; only of a mode of which that was asked and is
     /// proven.
     #[serde(skip_serializing_if = "Option::is_none")]

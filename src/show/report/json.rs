@@ -66,6 +66,7 @@ fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {
         damping_ratio: solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
         modal_mass_kg: mode.modal_mass,
         nodes_m: mode.nodes.clone(),
+        nodes_untold_m: (!mode.untold.is_empty()).then(|| mode.untold.clone()),
         proven: None,
         proven_nodes_m: None,
         proven_within: None,

@@ -111,13 +111,22 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
         let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
         let mut label = format!("mode {}", mode.order);
-        if mode.nodes.is_empty() {
+        if mode.nodes.is_empty() && mode.untold.is_empty() {
             let _ = writeln!(out, "  {label:<8} none");
             continue;
         }
-        for (end, places) in [("from knob", &mode.nodes), ("from tip", &from_tip)] {
+        let sides = [("from knob", &mode.nodes), ("from tip", &from_tip)];
+        for (end, places) in sides.into_iter().filter(|(_, places)| !places.is_empty()) {
             for line in units.positions(places) {
                 let line = format!("  {label:<8} {end:<9}  {line}");
+                out += &wrapped(&line, 22);
+                label.clear();
+            }
+        }
+        for stretch in &mode.untold {
+            for line in units.positions(stretch) {
+                let line =
+                    format!("  {label:<8} from knob  {line}: between these no other can be told");
                 out += &wrapped(&line, 22);
                 label.clear();
             }
